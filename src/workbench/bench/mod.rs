@@ -36,8 +36,10 @@ pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
+pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod signals;
+pub(crate) mod source_file;
 pub(crate) mod sources;
 pub(crate) mod task;
 pub(crate) mod tool;
@@ -274,7 +276,7 @@ impl Bench {
         self.transient.mute_solo = mute_solo::MuteSolo::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
-        self.transient.collection.leave_library();
+        self.transient.selection = selection::Selection::default();
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
         self.workspace.camera = crate::tools::workspace::camera::Camera::default();
@@ -338,7 +340,7 @@ impl Bench {
             &self.transient.mute_solo,
             self.transient.reference_db,
         );
-        view.picked = Arc::clone(&self.transient.collection.selected);
+        view.picked = Arc::clone(&self.transient.selection.0);
         view.marks = Marks {
             cloth: self.workspace.cloth,
             hovered: self.transient.hovered,

@@ -19,13 +19,11 @@ impl Bench {
         self.poll_kept();
         self.poll_clips();
         self.poll_sources();
-        self.poll_lab();
         self.transient.ports.poll();
         if let Some(failure) = self.transient.folders.poll() {
             self.transient.notices.give(failure);
         }
         self.poll_prepared();
-        self.transient.picturing.poll();
         self.transient.analysing.poll();
         self.take_notices();
         self.take_snapshot(ctx);

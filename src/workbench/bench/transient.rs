@@ -12,6 +12,7 @@ use crate::bench::notices::Notices;
 use crate::bench::opening::Opened;
 use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
+use crate::bench::selection::Selection;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::view::{BridgeView, Hovered, Live};
@@ -20,12 +21,7 @@ use crate::tools::analysis::view::section::Looks as AnalysisLooks;
 use crate::tools::bridge::actuators::PlantPeek;
 use crate::tools::bridge::fault_bench::FaultBench;
 use crate::tools::bridge::ports::Ports;
-use crate::tools::collection::Collection;
 use crate::tools::experiment::Experiment;
-use crate::tools::lab::Lab;
-use crate::tools::lab::view::pictures::LabPictures;
-use crate::tools::picture::Picturing;
-use crate::tools::picture::view::cards::PictureTextures;
 use crate::tools::timeline::TransportState;
 use crate::tools::workspace::maps::Maps;
 use crate::tools::workspace::overlay::lattice::Lattice;
@@ -41,8 +37,6 @@ pub(crate) struct Transient {
     pub ports: Ports,
     /// What is typed in the field for a port.
     pub port: String,
-    /// What is typed in the field that searches the library.
-    pub search: String,
     /// What the link was last opened to.
     pub target: Option<String>,
     /// Folders that the desktop is asked to show.
@@ -65,28 +59,20 @@ pub(crate) struct Transient {
     pub(crate) trail: Trail,
     /// The last seconds.
     pub(crate) history: History,
-    /// The library as a whole.
-    pub collection: Collection,
+    /// The textiles of the library that are selected.
+    pub(crate) selection: Selection,
     /// Experiments and the session that is held.
     pub experiment: Experiment,
     /// Logs that are analysed.
     pub analysing: Analysing,
     /// Tables and figures of an analysis as they are laid out.
     pub(crate) analysis_looks: AnalysisLooks,
-    /// A picture of a cloth on its way to a textile.
-    pub(crate) picturing: Picturing,
-    /// Its stages as textures.
-    pub(crate) picture_textures: PictureTextures,
     /// Maps of the textiles at the chosen velocity.
     pub maps: Maps,
     /// Pictures of the points 1 mm apart.
     pub lattice: Lattice,
     /// What the contactors read and how they move, while that is drawn.
     pub readings: Vec<ContactorReading>,
-    /// The textile lab.
-    pub lab: Lab,
-    /// What the lab pictures, as it was drawn last.
-    pub(crate) lab_pictures: LabPictures,
     /// What the pointer rests on.
     pub hovered: Hovered,
     /// What the timeline remembers.

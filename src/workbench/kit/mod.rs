@@ -2,6 +2,7 @@
 //!
 //! Knows nothing of scenes, engines or tools.
 
+pub(crate) mod drop;
 pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod spectrogram;

@@ -89,12 +89,11 @@ fn kind(command: &Command) -> &'static str {
         Command::AllOff => "From anywhere",
         Command::Edit(_) | Command::Undo | Command::Redo | Command::Chosen(_) => "Scene",
         Command::Device(_) => "Device",
-        Command::File(_) | Command::Picture(_) | Command::Keep(_) => "Files",
+        Command::File(_) | Command::Keep(_) => "Files",
         Command::Play(_) | Command::Source(_) => "Play and record",
         Command::Show(_)
         | Command::Lab(_)
         | Command::Render(_)
-        | Command::Collection(_)
         | Command::Experiment(_)
         | Command::Analysis(_)
         | Command::Dismiss

@@ -25,9 +25,6 @@ impl Workbench {
             Some(Answer::NoPortal(purpose)) => self.show_field(purpose),
             Some(Answer::Cancelled) | None => {}
         }
-        if !self.bench.shows(Pane::Collection) {
-            self.bench.rest_collection();
-        }
         for tool in self.tools.iter_mut() {
             tool.logic(&mut self.bench);
         }

@@ -8,8 +8,11 @@ use crate::bench::pane::Pane;
 use crate::bench::view::{BridgePhase, Source};
 use crate::shell::window::Workbench;
 use crate::tools::accuracy::Accuracy;
+use crate::tools::collection::Collection;
 use crate::tools::compare::Compare;
 use crate::tools::import::Import;
+use crate::tools::lab::Lab;
+use crate::tools::picture::Picture;
 use crate::tools::response::Response;
 use crate::tools::spectra::contact::ContactSpectrum;
 use crate::tools::spectra::drive::DriveSpectrum;
@@ -132,23 +135,18 @@ impl Workbench {
 
     /// Previews of recipes that were begun in the textile lab.
     pub fn previews_computed(&self) -> u64 {
-        self.bench.transient.lab.n_computed
+        self.tools.get::<Lab>().map_or(0, |lab| lab.n_computed)
     }
 
     /// The textiles of the library that are selected, by their ids in order.
     pub fn selected_textiles(&self) -> Vec<String> {
-        self.bench
-            .transient
-            .collection
-            .selected
-            .iter()
-            .cloned()
-            .collect()
+        self.bench.transient.selection.0.iter().cloned().collect()
     }
 
     /// Textiles of the library measured so far, at whichever speed.
     pub fn n_textiles_measured(&self) -> u64 {
-        self.bench.transient.collection.measurements.n_measured()
+        let collection = self.tools.get::<Collection>();
+        collection.map_or(0, |collection| collection.measurements.n_measured())
     }
 
     /// The scene's name.
@@ -200,12 +198,12 @@ impl Workbench {
 
     /// Runs of the stages from a picture to a textile that were begun.
     pub fn n_pictures_worked_out(&self) -> u64 {
-        self.bench.transient.picturing.n_begun()
+        self.tools.get::<Picture>().map_or(0, Picture::n_begun)
     }
 
     /// The lattice vectors found on the picture, px: x right, y down.
     pub fn picture_lattice(&self) -> Option<[[f64; 2]; 2]> {
-        let found = self.bench.transient.picturing.found()?;
+        let found = self.tools.get::<Picture>()?.found()?;
         let cloth = found.cloth.as_ref()?;
         let lattice = cloth.found.as_ref().ok()?.lattice;
         Some([lattice.p1_px, lattice.p2_px])

@@ -6,16 +6,18 @@ use eframe::egui::{
 };
 
 use crate::bench::command::edit::Edit;
+use crate::bench::command::lab::Beginning;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
-use crate::bench::library_view::LibraryView;
+use crate::bench::library_view::LibraryItem;
 use crate::bench::mute_solo::MuteSolo;
+use crate::bench::pane::Pane;
+use crate::bench::selection::Joining;
+use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::{Cloth, ClothPicture, SceneView, ShelfItem};
+use crate::kit::pane::framed;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{paint_line, row, toggle};
 use crate::kit::{swatch, theme};
-use crate::tools::collection::{CollectionCommand, Joining};
-use crate::tools::lab::command::{Beginning, LabCommand};
-use crate::tools::workspace::drop::LibraryItem;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
 
@@ -34,16 +36,26 @@ const MOST_LETTERS: usize = 3;
 /// Most rows of the scene that are in sight at once.
 const SCENE_ROWS: usize = 6;
 
+/// The library, to take textiles from.
+#[derive(Debug, Default)]
+pub(crate) struct Library {
+    /// What is typed in the field that searches it.
+    search: String,
+}
+
+impl Tool for Library {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Library]
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 10, |ui| show(ui, &mut self.search, context));
+    }
+}
+
 /// Shows the pane. `search` is what is typed in its field.
-pub(crate) fn show(
-    ui: &mut Ui,
-    library_view: &mut LibraryView,
-    scene: &SceneView,
-    (mute_solo, selected): (&MuteSolo, Option<usize>),
-    search: &mut String,
-    commands: &mut Commands,
-) {
-    let n_rows = scene.cloths.len().clamp(2, SCENE_ROWS);
+fn show(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
+    let n_rows = context.scene.cloths.len().clamp(2, SCENE_ROWS);
     let lower = n_rows as f32 * (theme::ROW + STEP) + 28.0;
     let whole = ui.max_rect();
     let edge = (whole.bottom() - lower)
@@ -51,29 +63,23 @@ pub(crate) fn show(
         .round();
     let (above, below) = whole.split_top_bottom_at_y(edge);
     ui.scope_builder(UiBuilder::new().max_rect(above), |ui| {
-        show_shelf(ui, library_view, scene, search, commands);
+        show_shelf(ui, search, context);
     });
     let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
     ui.painter().hline(whole.x_range(), edge + 1.0, line);
     let below = below.with_min_y(edge + STEP);
     ui.scope_builder(UiBuilder::new().max_rect(below), |ui| {
-        show_placed(ui, scene, mute_solo, selected, commands);
+        show_placed(ui, context);
     });
 }
 
 /// The library, as much of it as matches the search.
-fn show_shelf(
-    ui: &mut Ui,
-    library_view: &mut LibraryView,
-    scene: &SceneView,
-    search: &mut String,
-    commands: &mut Commands,
-) {
+fn show_shelf(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
     show_search(ui, search);
-    let items = library_view.shared_items();
+    let items = context.bench.library_view.shared_items();
     let matching: Vec<&ShelfItem> = items.iter().filter(|item| item.matches(search)).collect();
     if matching.is_empty() {
-        let words = if library_view.items().is_empty() {
+        let words = if items.is_empty() {
             "This library holds no textiles: put some into its folder, then open the scene again"
         } else {
             "Nothing by that name: clear the field to see all"
@@ -87,9 +93,10 @@ fn show_shelf(
         matching.len(),
         |ui, range| {
             for item in &matching[range] {
+                let library_view = &mut context.bench.library_view;
                 library_view.want(&item.id);
                 let picture = library_view.picture(&item.id);
-                show_item(ui, item, picture, scene, commands);
+                show_item(ui, item, picture, context);
             }
         },
     );
@@ -110,9 +117,9 @@ fn show_item(
     ui: &mut Ui,
     item: &ShelfItem,
     picture: Option<ClothPicture>,
-    scene: &SceneView,
-    commands: &mut Commands,
+    context: &mut PaneContext<'_>,
 ) {
+    let scene = context.scene;
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), ROW - ui.spacing().item_spacing.y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -125,7 +132,8 @@ fn show_item(
         )
     });
     if let Some(index) = scene.placed(&item.id).filter(|_| response.hovered()) {
-        commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
+        let hover = ShowCommand::Hover(Part::Cloth(index));
+        context.commands.push(hover.into());
     }
     let is_lit = response.hovered() || response.has_focus() || scene.is_marked_id(&item.id);
     if is_usable && is_lit {
@@ -152,32 +160,29 @@ fn show_item(
         .font(theme::small())
         .color(palette.dim);
     paint_line(ui, pos2(left, rect.center().y + 8.0), room, second);
-    answer_item(ui, response, item, scene, commands);
+    answer_item(ui, response, item, context);
 }
 
-fn answer_item(
-    ui: &Ui,
-    response: Response,
-    item: &ShelfItem,
-    scene: &SceneView,
-    commands: &mut Commands,
-) {
+fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut PaneContext<'_>) {
+    let scene = context.scene;
     if let Some(flaw) = &item.flaw {
         response.on_hover_text(flaw);
         return;
     }
     let is_entered = response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if response.double_clicked() || is_entered {
-        commands.push(added(item, scene));
+        context.commands.push(added(item, scene));
     } else if response.clicked() {
         let joining = if ui.input(|input| input.modifiers.command) {
             Joining::Toggled
         } else {
             Joining::Alone
         };
-        commands.push(CollectionCommand::Select(vec![item.id.clone()], joining).into());
+        let selection = &mut context.bench.transient.selection;
+        selection.select(vec![item.id.clone()], joining);
+        ui.ctx().request_repaint();
     }
-    response.context_menu(|ui| show_item_menu(ui, item, scene, commands));
+    response.context_menu(|ui| show_item_menu(ui, item, scene, context.commands));
     if response.drag_started() {
         let id = item.id.clone();
         DragAndDrop::set_payload(ui.ctx(), LibraryItem { id });
@@ -209,13 +214,10 @@ fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, commands: &m
     let id = || item.id.clone();
     let acts = [
         ("Add to the scene", added(item, scene)),
-        (
-            "Vary a copy in the lab",
-            LabCommand::Begin(Beginning::Copy(id())).into(),
-        ),
+        ("Vary a copy in the lab", Beginning::Copy(id()).into()),
         (
             "Restore in the lab from what repeats",
-            LabCommand::Begin(Beginning::Restore(id())).into(),
+            Beginning::Restore(id()).into(),
         ),
     ];
     for (words, act) in acts {
@@ -236,13 +238,10 @@ fn paint_focus(ui: &Ui, response: &Response) {
 }
 
 /// The textiles of the scene, topmost first as they lie.
-fn show_placed(
-    ui: &mut Ui,
-    scene: &SceneView,
-    mute_solo: &MuteSolo,
-    selected: Option<usize>,
-    commands: &mut Commands,
-) {
+fn show_placed(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let (scene, commands) = (context.scene, &mut *context.commands);
+    let mute_solo = &context.bench.transient.mute_solo;
+    let selected = context.bench.workspace.cloth;
     row(ui, "In the scene", |ui| {
         if mute_solo.is_any() && toggle(ui, "feel all", false, "End every mute and solo (H)") {
             commands.push(ShowCommand::HearAll.into());

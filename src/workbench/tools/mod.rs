@@ -34,5 +34,9 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(spectra::wave::DriveWave::default()),
         Box::new(spectra::spatial::SpatialSpectra::default()),
         Box::new(why::Why::default()),
+        Box::new(picture::Picture::default()),
+        Box::new(lab::Lab::default()),
+        Box::new(collection::Collection::default()),
+        Box::new(library::Library::default()),
     ]
 }

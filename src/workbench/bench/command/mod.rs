@@ -6,6 +6,7 @@
 pub(crate) mod array;
 pub(crate) mod device;
 pub(crate) mod edit;
+pub(crate) mod lab;
 
 pub(crate) use crate::bench::command::array::ArrayCommand;
 pub(crate) use crate::bench::command::device::DeviceCommand;
@@ -24,10 +25,7 @@ use crate::bench::rendering::Rendering;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::collection::CollectionCommand;
 use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::lab::command::LabCommand;
-use crate::tools::picture::PictureCommand;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
@@ -57,14 +55,10 @@ pub(crate) enum Command {
     Source(SourceCommand),
     /// Render scenes so from now on.
     Render(Rendering),
-    /// Change what is shown or selected of the library as a whole.
-    Collection(CollectionCommand),
-    /// Make a textile of a picture.
-    Picture(PictureCommand),
     /// Keep new textiles in the library.
     Keep(Keep),
-    /// Do something in the textile lab.
-    Lab(LabCommand),
+    /// Begin a recipe in the textile lab.
+    Lab(lab::Beginning),
     /// Run an experiment.
     Experiment(ExperimentCommand),
     /// Analyse the logs of experiments.
@@ -97,12 +91,6 @@ impl From<FileCommand> for Command {
     }
 }
 
-impl From<PictureCommand> for Command {
-    fn from(command: PictureCommand) -> Self {
-        Self::Picture(command)
-    }
-}
-
 impl From<Keep> for Command {
     fn from(command: Keep) -> Self {
         Self::Keep(command)
@@ -118,12 +106,6 @@ impl From<PlayCommand> for Command {
 impl From<SourceCommand> for Command {
     fn from(command: SourceCommand) -> Self {
         Self::Source(command)
-    }
-}
-
-impl From<LabCommand> for Command {
-    fn from(command: LabCommand) -> Self {
-        Self::Lab(command)
     }
 }
 

@@ -19,10 +19,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
     match pane {
         Pane::Heatmaps => Some(Bench::gather_heatmaps),
         Pane::Tuning => Some(Bench::gather_compression),
-        Pane::Lab => Some(Bench::gather_lab),
-        Pane::Picture => Some(Bench::gather_picture),
         Pane::Workspace => Some(Bench::gather_maps),
-        Pane::Collection => Some(Bench::gather_collection),
         Pane::Bridge => Some(Bench::gather_link),
         _ => None,
     }
@@ -104,21 +101,6 @@ impl Bench {
         Ok(crate::tools::timeline::export::strips(&timeline, origin))
     }
 
-    fn gather_lab(&mut self) -> Result<Exported, &'static str> {
-        let lab = &self.transient.lab;
-        let preview = lab.preview.as_ref().ok_or(
-            "There is nothing to export yet: the surface is being made in the textile lab",
-        )?;
-        let scene = self.document.scene();
-        let origin = Origin::of(scene, &self.document.tuning(), None);
-        Ok(crate::tools::lab::export::curves(
-            lab,
-            preview,
-            self.workspace.scale,
-            origin,
-        ))
-    }
-
     fn gather_link(&mut self) -> Result<Exported, &'static str> {
         let bridge = self.transient.live.bridge.as_ref();
         let exported = bridge.and_then(|bridge| {
@@ -143,25 +125,6 @@ impl Bench {
         crate::tools::workspace::export::maps(shown.collect(), self.workspace.probe, origin).ok_or(
             "There is nothing to export yet: the maps are being computed, or no textile is felt",
         )
-    }
-
-    fn gather_collection(&mut self) -> Result<Exported, &'static str> {
-        let (scene, origin) = (self.plain_scene_view(), self.origin());
-        let (items, shown) = (self.library_view.shared_items(), &self.transient.collection);
-        let view = shown.view(&items, &scene, &shown.search);
-        if view.entries.iter().all(|one| one.figures.is_none()) {
-            return Err(
-                "There is nothing to export yet: the library is measured while the Collection \
-                 pane is in sight",
-            );
-        }
-        Ok(crate::tools::collection::export::scatter(&view, origin))
-    }
-
-    fn gather_picture(&mut self) -> Result<Exported, &'static str> {
-        let found = self.transient.picturing.found();
-        let exported = found.and_then(|found| crate::tools::picture::export::directions(found));
-        exported.ok_or("There is nothing to export yet: open a picture in the Picture pane")
     }
 
     fn gather_analysed(&mut self) -> Result<Exported, &'static str> {

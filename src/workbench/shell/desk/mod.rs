@@ -12,8 +12,6 @@ use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
 use crate::kit::pane::{framed, scrolled};
 use crate::shell::tab_row::TabRow;
-use crate::tools::collection::measuring::Asked;
-use crate::tools::collection::view::Typed as CollectionTyped;
 use crate::tools::contactors::HeatmapStyle;
 use crate::tools::workspace;
 
@@ -42,7 +40,6 @@ impl Desk<'_> {
         }
         match pane {
             Pane::Workspace => self.show_workspace(ui),
-            Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
             Pane::Tuning => scrolled(ui, pane.title(), |ui| {
                 let bench = &mut *self.context.bench;
                 let mute_solo = &bench.transient.mute_solo;
@@ -59,9 +56,6 @@ impl Desk<'_> {
                 self.context.bench.show_bridge(ui, self.context.commands);
             }),
             Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
-            Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
-            Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
-            Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
@@ -74,46 +68,7 @@ impl Desk<'_> {
             | Pane::DriveSpectrum
             | Pane::DriveWave
             | Pane::SpatialSpectra => {}
-        }
-    }
-
-    fn show_library(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.context.bench;
-        let chosen = (&bench.transient.mute_solo, bench.workspace.cloth);
-        let search = &mut bench.transient.search;
-        crate::tools::library::show(
-            ui,
-            &mut bench.library_view,
-            self.context.scene,
-            chosen,
-            search,
-            self.context.commands,
-        );
-    }
-
-    fn show_collection(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.context.bench;
-        bench.measure_collection(ui.ctx());
-        let items = bench.library_view.shared_items();
-        let collection = &mut bench.transient.collection;
-        let mut search = std::mem::take(&mut collection.search);
-        let mut pointed = None;
-        let view = collection.view(&items, self.context.scene, &search);
-        let mut typed = CollectionTyped {
-            search: &mut search,
-            pointed: &mut pointed,
-        };
-        crate::tools::collection::view::show(
-            ui,
-            &mut bench.library_view,
-            &view,
-            &mut typed,
-            self.context.commands,
-        );
-        collection.search = search;
-        if collection.pointed != pointed {
-            collection.pointed = pointed;
-            ui.ctx().request_repaint();
+            Pane::Import | Pane::Picture | Pane::Lab | Pane::Collection | Pane::Library => {}
         }
     }
 
@@ -130,64 +85,8 @@ impl Desk<'_> {
     }
 }
 
-/// A recipe and what becomes of it.
-impl Desk<'_> {
-    fn show_lab(&mut self, ui: &mut Ui) {
-        let bench = &mut *self.context.bench;
-        bench.follow_lab(ui.ctx());
-        let lab = &mut bench.transient.lab;
-        let mut hands = crate::tools::lab::view::LabHands {
-            keep: std::mem::take(&mut lab.fields),
-            plan: std::mem::take(&mut lab.plan),
-        };
-        let view = crate::tools::lab::view::LabView {
-            lab,
-            items: bench.library_view.items(),
-            ids: bench.loaded.library().ids(),
-            map: bench.settings.preferences.colour_map,
-            scale: bench.workspace.scale,
-        };
-        let pictures = &mut bench.transient.lab_pictures;
-        crate::tools::lab::view::show(ui, &view, (&mut hands, pictures), self.context.commands);
-        let lab = &mut bench.transient.lab;
-        (lab.fields, lab.plan) = (hands.keep, hands.plan);
-    }
-}
-
-/// Measurements.
-impl Desk<'_> {
-    fn show_picture(&mut self, ui: &mut Ui) {
-        self.context.bench.follow_picture(ui.ctx());
-        let transient = &mut self.context.bench.transient;
-        let hands = (&mut transient.picturing, &mut transient.picture_textures);
-        crate::tools::picture::view::show(ui, hands, self.context.commands);
-    }
-}
-
 /// Views that are drawn and exported.
 impl Bench {
-    /// Has the library measured as the pane shows it.
-    fn measure_collection(&mut self, ctx: &egui::Context) {
-        let collection = &mut self.transient.collection;
-        let asked = Asked {
-            speed_mm_per_s: collection.choice.speed_mm_per_s,
-            filters: self.document.scene().filters,
-        };
-        let items = self.library_view.items().iter();
-        let usable = items.filter(|item| item.flaw.is_none());
-        let ids = usable.map(|item| item.id.clone());
-        let library = self.library_view.library();
-        collection.measurements.catch_up(ctx, library, asked, ids);
-        for flaw in self.transient.collection.measurements.take_flaws() {
-            self.transient.notices.give(flaw);
-        }
-    }
-
-    /// Lets the measurements of the library rest while nobody looks at them.
-    pub(crate) fn rest_collection(&mut self) {
-        self.transient.collection.measurements.rest();
-    }
-
     /// How the heatmaps are drawn.
     pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
         HeatmapStyle {

@@ -12,7 +12,6 @@ use crate::shell::window::Workbench;
 use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::form::Chosen;
-use crate::tools::picture::PictureCommand;
 
 impl Workbench {
     /// Does something with files.
@@ -51,11 +50,13 @@ impl Workbench {
             Purpose::OpenRecording => bench.open_recording(path),
             Purpose::SaveRecording => bench.save_recording(path),
             Purpose::Clip(kind) => bench.write_clip_to(kind, &path),
-            Purpose::OpenPicture => bench.commands.push(PictureCommand::Open(path).into()),
             Purpose::OpenDesign => bench.commands.push(ExperimentCommand::Open(path).into()),
             Purpose::OpenLogs => bench.commands.push(AnalysisCommand::Open(path).into()),
             Purpose::WriteReport => bench.commands.push(AnalysisCommand::Write(path).into()),
-            Purpose::SaveScene | Purpose::Export(_) | Purpose::ImportFiles => {}
+            Purpose::SaveScene
+            | Purpose::Export(_)
+            | Purpose::ImportFiles
+            | Purpose::OpenPicture => {}
         }
     }
 
@@ -82,10 +83,6 @@ impl Workbench {
             Purpose::OpenScene | Purpose::SaveScene => bench.document.path().cloned(),
             Purpose::Export(what) => Some(self.export_path(what)),
             Purpose::Clip(kind) => Some(bench.clip_path(kind)),
-            Purpose::OpenPicture => {
-                let chosen = bench.transient.picturing.draft.source.as_ref();
-                chosen.map(|chosen| chosen.file().path().to_owned())
-            }
             Purpose::OpenDesign => match &bench.transient.experiment.form.chosen {
                 Chosen::File(path) => Some(path.clone()),
                 Chosen::Shipped(_) => None,
@@ -96,7 +93,7 @@ impl Workbench {
                 let take = bench.take.as_ref()?;
                 take.file().map(Path::to_owned)
             }
-            Purpose::ImportFiles => None,
+            Purpose::ImportFiles | Purpose::OpenPicture => None,
         }
     }
 

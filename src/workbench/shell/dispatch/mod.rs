@@ -111,16 +111,17 @@ impl Bench {
                 self.settings.preferences.rendering = rendering.in_bounds();
                 self.render_as_chosen();
             }
-            Command::Collection(command) => self.dispatch_collection(command),
-            Command::Picture(command) => self.dispatch_picture(command),
             Command::Keep(keep) => self.keep(keep),
-            Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Experiment(command) => self.dispatch_experiment(ctx, command),
             Command::Analysis(command) => self.dispatch_analysis(ctx, command),
             Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.transient.notices.dismiss(number),
             // Windows and tools have done these.
-            Command::AllOff | Command::Dismiss | Command::File(_) | Command::Show(_) => {}
+            Command::AllOff
+            | Command::Dismiss
+            | Command::File(_)
+            | Command::Show(_)
+            | Command::Lab(_) => {}
         }
     }
 

@@ -4,7 +4,7 @@ use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
 use crate::bench::view::ShelfItem;
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::{CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
 use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style, Tone, Weight, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;

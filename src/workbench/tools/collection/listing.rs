@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use crate::bench::view::ShelfItem;
-use crate::tools::collection::Entry;
 use crate::tools::collection::measure::Measure;
+use crate::tools::collection::state::Entry;
 use selvedge_textile::tactile::Band;
 
 /// Which textiles are shown.

@@ -1,5 +1,6 @@
 //! What the collection shows, selects and measures, in a window without a display.
 
+use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
@@ -8,10 +9,14 @@ use eframe::egui::vec2;
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::bench::command::edit::Edit;
-use crate::bench::pane::Pane;
+use crate::bench::selection::Joining;
 use crate::shell::headless::Headless;
+use crate::tools::collection::listing::SortBy;
+use crate::tools::collection::listing::{Only, Sort};
+use crate::tools::collection::measure::Measure;
+use crate::tools::collection::state::{Choice, Entry};
 use selvedge_foundation::quantity::level_db;
-use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::tactile::{Band, Filters, Levels};
 
 fn window() -> Headless {
     Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap()
@@ -41,15 +46,18 @@ fn measure(window: &mut Headless, n_measured: u64) {
 fn shown<T>(window: &mut Headless, of: impl Fn(&Entry<'_>) -> T) -> Vec<T> {
     let scene = window.workbench.bench.scene_view();
     let items = window.workbench.bench.library_view.shared_items();
-    let collection = &window.workbench.bench.transient.collection;
-    let view = collection.view(&items, &scene, &collection.search);
+    let selection = &window.workbench.bench.transient.selection;
+    let collection: &Collection = window.workbench.tools.get().unwrap();
+    let view = collection.view(&items, &scene, selection);
     view.entries.iter().map(of).collect()
 }
 
+fn collection(window: &mut Headless) -> &mut Collection {
+    window.workbench.tools.get_mut().unwrap()
+}
+
 fn choose(window: &mut Headless, change: impl FnOnce(&mut Choice)) {
-    let mut choice = window.workbench.bench.transient.collection.choice.clone();
-    change(&mut choice);
-    window.dispatch(CollectionCommand::Choose(choice));
+    change(&mut collection(window).choice);
 }
 
 #[test]
@@ -135,14 +143,14 @@ fn nothing_is_measured_behind_other_panes_and_work_ends_when_nobody_looks() {
 fn measuring_stops_when_told_and_goes_on_when_told() {
     let mut window = in_front();
     measure(&mut window, 1);
-    window.dispatch(CollectionCommand::Stop);
+    collection(&mut window).measurements.halt();
     window.pass(2);
     let n_measured = window.workbench.n_textiles_measured();
     assert!(n_measured < 16, "{n_measured}: stopped in time");
     thread::sleep(Duration::from_millis(100));
     window.pass(5);
     assert_eq!(window.workbench.n_textiles_measured(), n_measured);
-    window.dispatch(CollectionCommand::GoOn);
+    collection(&mut window).measurements.go_on();
     measure(&mut window, 16);
 }
 
@@ -150,7 +158,7 @@ fn measuring_stops_when_told_and_goes_on_when_told() {
 fn search_kind_and_order_work_together() {
     let mut window = in_front();
     measure(&mut window, 16);
-    window.workbench.bench.transient.collection.search = "polyester".to_owned();
+    collection(&mut window).search = "polyester".to_owned();
     choose(&mut window, |choice| {
         choice.only = Only::Construction("knitted");
         choice.sort = Sort {
@@ -220,7 +228,8 @@ fn what_is_selected_joins_toggles_and_is_marked_in_the_library() {
         ),
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
     ] {
-        window.dispatch(CollectionCommand::Select(chosen, joining));
+        let selection = &mut window.workbench.bench.transient.selection;
+        selection.select(chosen, joining);
         assert_eq!(
             window.workbench.selected_textiles(),
             expected,
@@ -239,7 +248,7 @@ fn a_speed_that_makes_no_sense_is_kept_within_what_can_be_chosen() {
             speed_mm_per_s: asked,
             ..collection.choice.clone()
         };
-        collection.choose(choice);
+        collection.choice.take(choice);
         assert_eq!(collection.choice.speed_mm_per_s, chosen, "{asked}");
     }
 }

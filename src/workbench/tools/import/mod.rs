@@ -24,7 +24,6 @@ pub(crate) use crate::tools::import::draft::Draft;
 pub(crate) use crate::tools::import::draft::DraftFile;
 pub(crate) use crate::tools::import::draft::HeightsDraft;
 pub(crate) use crate::tools::import::draft::Looked;
-pub(crate) use crate::tools::import::draft::SourceFile;
 pub(crate) use crate::tools::import::draft::StrokesDraft;
 pub(crate) use crate::tools::import::failure::Failure;
 #[cfg(test)]
@@ -44,6 +43,7 @@ use crate::bench::follower::{Follower, Standing};
 use crate::bench::job::Job;
 use crate::bench::keep::NewTextile;
 use crate::bench::pane::Pane;
+use crate::bench::source_file::SourceFile;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::kit::widgets::relief::{Relief, ReliefPicture};

@@ -3,8 +3,8 @@
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
-use crate::tools::lab::Lab;
 use crate::tools::lab::preview::{Felt, Preview, speeds_mm_per_s};
+use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::curves::chart as lab_chart;
 use selvedge_chart::{Axis, Chart, Row, Series, Style, Weight};
 

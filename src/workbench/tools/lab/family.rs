@@ -1,7 +1,6 @@
 //! A family: recipes that differ in one parameter, and what is felt of each.
 
 use crate::kit::widgets::axis::round_step;
-use crate::tools::lab::command::Plan;
 use crate::tools::lab::preview::{Felt, Preview};
 use selvedge_foundation::files::KeyValue;
 use selvedge_foundation::progress::Progress;
@@ -68,6 +67,32 @@ impl FamilyFields {
             ends: [first, last],
             n: n.ok_or("Make 2 to 12 textiles")?,
         })
+    }
+}
+
+/// A family: one parameter over several values, evenly apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plan {
+    /// The parameter.
+    pub place: Place,
+    /// Its first and its last value.
+    pub ends: [f64; 2],
+    /// How many values.
+    pub n: u8,
+}
+
+impl Plan {
+    /// Most textiles of a family.
+    pub(crate) const MOST: u8 = 12;
+
+    /// The values, evenly apart from end to end.
+    pub(crate) fn values(&self) -> Vec<f64> {
+        let n = self.n.clamp(2, Self::MOST);
+        let [first, last] = self.ends;
+        let share = |i: u8| f64::from(i) / f64::from(n - 1);
+        let value = |i: u8| first + (last - first) * share(i);
+        // Ten digits: what is evenly apart is as short in files as when it is typed.
+        (0..n).map(|i| (value(i) * 1e9).round() / 1e9).collect()
     }
 }
 

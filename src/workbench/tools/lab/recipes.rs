@@ -1,9 +1,9 @@
 //! The recipes of a lab, one after the other: a beginning can be taken back like any other step.
 
-use crate::tools::lab::Lab;
 use crate::tools::lab::family::FamilyFields;
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::preview::Compared;
+use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
 use selvedge_textile::Parent;
 

@@ -3,10 +3,16 @@
 use std::path::Path;
 
 use super::*;
+use crate::bench::command::lab::Beginning;
+use crate::tools::lab::family::{Family, Member, Plan};
+use crate::tools::lab::preview::Preview;
+use crate::tools::lab::state::Begun;
+use crate::tools::lab::work::{begin, built};
 use selvedge_foundation::progress::unheard;
 use selvedge_scratch::ScratchFolder;
-use selvedge_textile::Place;
 use selvedge_textile::surface::Direction;
+use selvedge_textile::tactile::Filters;
+use selvedge_textile::{Library, Manifest, Place};
 
 const HURST: Place = Place {
     table: "source",

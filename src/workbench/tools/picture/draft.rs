@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::tools::import::draft::SourceFile;
+use crate::bench::source_file::SourceFile;
 use selvedge_textile::picture::shading::{Light, Method};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{HeightScale, id_of};

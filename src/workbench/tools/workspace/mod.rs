@@ -28,8 +28,6 @@ pub(crate) mod tools;
 pub(crate) mod trail;
 
 use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
-#[cfg(test)]
-pub(crate) use crate::tools::workspace::drop::LibraryItem;
 pub(crate) use crate::tools::workspace::overlay::Layers;
 #[cfg(test)]
 pub(crate) use crate::tools::workspace::overlay::lattice::Lattice;

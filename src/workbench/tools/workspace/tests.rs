@@ -8,6 +8,7 @@ use eframe::egui::{
 use super::*;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Look, PlayCommand, ShowCommand};
+use crate::bench::library_view::LibraryItem;
 use crate::bench::view::{Cloth, Dot};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::workspace::maps::Maps;

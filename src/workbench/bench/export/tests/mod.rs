@@ -12,11 +12,12 @@ use std::{fs, thread};
 use eframe::egui::vec2;
 
 use super::*;
+use crate::bench::command::lab::Beginning;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::shell::headless::Headless;
 use crate::tools::accuracy::Accuracy;
 use crate::tools::compare::comparison::{Compare, Standing};
-use crate::tools::lab::command::{Beginning, LabCommand};
+use crate::tools::lab::Lab;
 use crate::tools::response::Response;
 use crate::tools::workspace::overlay::Overlay;
 use selvedge_foundation::files::{self, Table};
@@ -59,8 +60,10 @@ impl Headless {
         desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
-        desk.dispatch(LabCommand::Begin(Beginning::Example("brownian")));
-        desk.workbench.bench.follow_lab(&desk.ctx);
+        desk.dispatch(Beginning::Example("brownian"));
+        let window = &mut desk.workbench;
+        let lab: &mut Lab = window.tools.get_mut().unwrap();
+        lab.follow(&window.bench);
         let panes = [Pane::Response, Pane::Accuracy, Pane::Compare];
         for pane in panes {
             desk.dispatch(ShowCommand::Pane(pane));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::tools::import::Import;
 use crate::tools::import::tests::export;
-use crate::tools::picture::PictureCommand;
+use crate::tools::picture::Picture;
 
 impl Headless {
     /// Reads strokes of the tester.
@@ -32,7 +32,8 @@ impl Headless {
             texts: Vec::new(),
         };
         fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
-        self.dispatch(PictureCommand::Open(path));
-        self.workbench.bench.follow_picture(&self.ctx);
+        self.dispatch(FileCommand::Use(Purpose::OpenPicture, path));
+        let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
+        picture.follow(&self.ctx, true);
     }
 }

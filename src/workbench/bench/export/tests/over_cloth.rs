@@ -1,7 +1,7 @@
 //! Exports of what textiles give all over: maps over the cloth, and the library as a whole.
 
 use super::*;
-use crate::tools::collection::{CollectionCommand, Joining};
+use crate::bench::selection::Joining;
 use selvedge_textile::tactile::{Band, Filters, Levels};
 
 #[test]
@@ -50,7 +50,8 @@ fn without_a_map_the_entry_says_how_to_show_one() {
 fn the_collection_holds_the_levels_of_every_textile() {
     let mut desk = Headless::collected(4);
     let chosen = vec!["silk-crepe".to_owned()];
-    desk.dispatch(CollectionCommand::Select(chosen, Joining::Alone));
+    let selection = &mut desk.workbench.bench.transient.selection;
+    selection.select(chosen, Joining::Alone);
     let exported = desk.exported(Exportable::Pane(Pane::Collection));
     let table = table_of(&exported);
     let ids = table.text("textile").unwrap();

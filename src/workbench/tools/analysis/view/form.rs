@@ -6,12 +6,12 @@ use eframe::egui::{Align, Layout, ProgressBar, Role, Ui, WidgetInfo, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{LINE, Need, Tone, note, row_of, text};
 use crate::kit::widgets::fold;
 use crate::kit::widgets::text::{button, toggle};
 use crate::tools::analysis::AnalysisView;
 use crate::tools::analysis::asked::{Choice, Effort, Fields};
 use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::import::view::fields::{LINE, Need, Tone, note, row_of, text};
 
 /// Width of a row's name, points.
 const NAME: f32 = 44.0;

@@ -14,14 +14,14 @@ pub(crate) mod words;
 use eframe::egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use crate::bench::command::Commands;
+use crate::kit::pane::{inside, scrolled_column as scrolled};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::button;
 use crate::tools::analysis::AnalysisView;
 use crate::tools::analysis::asked::Fields;
 use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::import::view::fields::{Tone, note};
-use crate::tools::import::view::{inside, scrolled};
 use selvedge_chart::Paper;
 
 pub(crate) use crate::tools::analysis::view::section::Looks;

@@ -4,14 +4,12 @@ use eframe::egui::{
     self, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
-use crate::bench::library_view::LibraryView;
 use crate::bench::view::ClothPicture;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
 use crate::kit::{swatch, theme};
-use crate::tools::collection::view::{answer, paint_focus};
-use crate::tools::collection::{CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 
 /// Side of a piece of cloth, points.
 const SIDE: f32 = 112.0;
@@ -23,13 +21,7 @@ const GAP: f32 = 12.0;
 const WORDS: f32 = 44.0;
 
 /// Shows the pieces in rows.
-pub(crate) fn show(
-    ui: &mut Ui,
-    library_view: &mut LibraryView,
-    view: &CollectionView<'_>,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let room = ui.available_width() - 12.0;
     #[expect(
         clippy::cast_possible_truncation,
@@ -44,22 +36,17 @@ pub(crate) fn show(
         for row in &rows[range] {
             ui.horizontal(|ui| {
                 for entry in *row {
+                    let library_view = &mut hand.bench.library_view;
                     library_view.want(&entry.item.id);
                     let picture = library_view.picture(&entry.item.id);
-                    show_piece(ui, entry, picture, pointed, commands);
+                    show_piece(ui, entry, picture, hand);
                 }
             });
         }
     });
 }
 
-fn show_piece(
-    ui: &mut Ui,
-    entry: &Entry<'_>,
-    picture: Option<ClothPicture>,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+fn show_piece(ui: &mut Ui, entry: &Entry<'_>, picture: Option<ClothPicture>, hand: &mut Hand<'_>) {
     let palette = Palette::in_ui(ui);
     let (rect, response) =
         ui.allocate_exact_size(vec2(SIDE, SIDE + WORDS), Sense::click_and_drag());
@@ -105,7 +92,7 @@ fn show_piece(
         let at = pos2(square.left(), square.bottom() + below);
         paint_line(ui, at, SIDE, line);
     }
-    answer(ui, &response, entry, pointed, commands);
+    answer(ui, &response, entry, hand);
     response.on_hover_ui(|ui| {
         let flaw = entry.item.flaw.as_deref();
         let tip = "Click to select it, double click to add it, drag it into the workspace";

@@ -2,7 +2,6 @@
 
 use eframe::egui::{self, Align, Layout, RichText, TextEdit, Ui, vec2};
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::list;
@@ -11,7 +10,8 @@ use crate::kit::widgets::slider::slider_row;
 use crate::kit::widgets::text::toggle;
 use crate::tools::collection::listing::{Only, Sort, SortBy};
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::{Choice, CollectionCommand, CollectionView, Mode, SPEEDS_MM_PER_S};
+use crate::tools::collection::state::{Choice, CollectionView, Mode, SPEEDS_MM_PER_S};
+use crate::tools::collection::view::hand::Hand;
 use selvedge_textile::tactile::{Band, LEVEL_SPEED_MM_PER_S};
 
 /// Widths of the field and of the lists, points.
@@ -30,26 +30,18 @@ const ORDERS: [(SortBy, &str); 7] = [
 ];
 
 /// Shows both rows.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &CollectionView<'_>,
-    search: &mut String,
-    commands: &mut Commands,
-) {
-    let mut choice = view.choice.clone();
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
+    let choice = &mut hand.choice;
     line(ui, |ui| {
-        show_modes(ui, &mut choice);
-        show_search(ui, search);
-        show_kinds(ui, &mut choice, view);
+        show_modes(ui, choice);
+        show_search(ui, &mut hand.search);
+        show_kinds(ui, choice, view);
         if choice.mode == Mode::Cloths {
-            show_orders(ui, &mut choice);
+            show_orders(ui, choice);
         }
     });
     if choice.mode == Mode::Plot {
-        line(ui, |ui| show_axes(ui, &mut choice, view));
-    }
-    if choice != *view.choice {
-        commands.push(CollectionCommand::Choose(choice).into());
+        line(ui, |ui| show_axes(ui, choice, view));
     }
 }
 

@@ -5,16 +5,15 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-use crate::bench::command::Commands;
-use crate::bench::library_view::LibraryView;
+use crate::bench::selection::Joining;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};
 use crate::kit::{swatch, theme};
 use crate::tools::collection::measure::Measure;
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 use crate::tools::collection::view::points::{Placed, Plot};
-use crate::tools::collection::view::{answer, names, paint_focus};
-use crate::tools::collection::{CollectionCommand, CollectionView, Entry, Joining};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
 
@@ -28,17 +27,13 @@ const MANY: usize = 32;
 const SHOWN_MM: f32 = 9.0;
 /// The most height of the plot over its width.
 const TALLEST: f32 = 1.1;
+/// From a point to its name, points.
+const AWAY: f32 = 4.0;
 /// Contactors that are taken to sound when it is asked what is just noticed.
 const N_ACTIVE: usize = 24;
 
 /// Shows the plot in the space that there is.
-pub(crate) fn show(
-    ui: &mut Ui,
-    library_view: &mut LibraryView,
-    view: &CollectionView<'_>,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     let [left, top, right, bottom] = ROOM;
     let area = Rect::from_min_max(rect.min + vec2(left, top), rect.max - vec2(right, bottom));
@@ -58,7 +53,7 @@ pub(crate) fn show(
     paint_axes(ui.painter(), &plot, view);
     let placed = plot.placed(view);
     let side = SIDES[usize::from(placed.len() > MANY)];
-    let framed = frame_selecting(ui, &response, &placed, commands);
+    let framed = frame_selecting(ui, &response, &placed, hand);
     paint_tuning(ui, &placed);
     let marked = placed.iter().find(|one| one.entry.is_marked);
     if let Some(marked) = marked.filter(|_| x.is_log() && y.is_log()) {
@@ -66,8 +61,9 @@ pub(crate) fn show(
     }
     let palette = Palette::in_ui(ui);
     let inks = [palette.dim, palette.text];
-    names::paint(ui.painter(), area, (&placed, side), inks);
+    paint_names(ui.painter(), area, (&placed, side), inks);
     for one in in_order(&placed) {
+        let library_view = &mut hand.bench.library_view;
         library_view.want(&one.entry.item.id);
         let picture = library_view.picture(&one.entry.item.id);
         let square = Rect::from_center_size(one.at, vec2(side, side));
@@ -88,7 +84,7 @@ pub(crate) fn show(
         let is_framed = framed.is_some_and(|frame| frame.contains(one.at));
         paint_state(ui.painter(), square, &one.entry, is_framed);
         paint_focus(ui, &response);
-        answer(ui, &response, &one.entry, pointed, commands);
+        answer(ui, &response, &one.entry, hand);
         response.on_hover_text(words_of(&one.entry, view));
     }
     if let Some(frame) = framed {
@@ -112,10 +108,10 @@ fn frame_selecting(
     ui: &Ui,
     response: &Response,
     placed: &[Placed<'_>],
-    commands: &mut Commands,
+    hand: &mut Hand<'_>,
 ) -> Option<Rect> {
     if response.clicked() {
-        commands.push(CollectionCommand::Select(Vec::new(), Joining::Alone).into());
+        hand.select(Vec::new(), Joining::Alone);
     }
     if !(response.dragged() || response.drag_stopped()) {
         return None;
@@ -149,7 +145,7 @@ fn frame_selecting(
     } else {
         Joining::Alone
     };
-    commands.push(CollectionCommand::Select(ids, joining).into());
+    hand.select(ids, joining);
     None
 }
 
@@ -195,6 +191,43 @@ fn paint_tuning(ui: &Ui, placed: &[Placed<'_>]) {
         ui.painter()
             .line_segment([raw, one.at], Stroke::new(1.0, ink));
         ui.painter().circle_filled(raw, 1.5, ink);
+    }
+}
+
+/// Writes names right or left of their points where they touch no point and no other name; those
+/// that are selected or marked first.
+fn paint_names(
+    painter: &Painter,
+    area: Rect,
+    (placed, side): (&[Placed<'_>], f32),
+    inks: [Color32; 2],
+) {
+    let square = |one: &Placed<'_>| Rect::from_center_size(one.at, vec2(side, side));
+    let mut taken: Vec<Rect> = placed.iter().map(square).collect();
+    let is_first = |one: &&Placed<'_>| one.entry.is_selected || one.entry.is_marked;
+    let (first, rest): (Vec<&Placed<'_>>, Vec<&Placed<'_>>) = placed.iter().partition(is_first);
+    let first = first.into_iter().map(|one| (one, inks[1]));
+    let rest = rest.into_iter().map(|one| (one, inks[0]));
+    for (one, ink) in first.chain(rest) {
+        let name = one.entry.item.name.clone();
+        let galley = painter.layout_no_wrap(name, theme::small(), ink);
+        let size = galley.size();
+        let out = 0.5 * side + AWAY;
+        let places = [
+            one.at + vec2(out, -0.5 * size.y),
+            one.at + vec2(-out - size.x, -0.5 * size.y),
+            one.at + vec2(-0.5 * size.x, out - 2.0),
+            one.at + vec2(-0.5 * size.x, -out - size.y + 2.0),
+        ];
+        let is_free = |rect: &Rect| {
+            let is_inside = area.contains_rect(*rect);
+            is_inside && taken.iter().all(|other| !other.intersects(*rect))
+        };
+        let rects = places.map(|corner| Rect::from_min_size(corner, size));
+        if let Some(rect) = rects.into_iter().find(|rect| is_free(rect)) {
+            painter.galley(rect.min, galley, ink);
+            taken.push(rect);
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use eframe::egui::{Pos2, Rect, pos2};
 
 use crate::kit::widgets::axis::Axis;
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::{CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
 
 /// Axes end on steps of this part of a decade, so that points that come later rarely move others.
 const STEPS_A_DECADE: f64 = 8.0;

@@ -5,14 +5,13 @@ use eframe::egui::{
     vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::paint_line;
 use crate::tools::collection::listing::{Sort, SortBy, smd_um};
 use crate::tools::collection::measure::Measure;
-use crate::tools::collection::view::{answer, paint_focus};
-use crate::tools::collection::{Choice, CollectionCommand, CollectionView, Entry};
+use crate::tools::collection::state::{CollectionView, Entry};
+use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -34,15 +33,10 @@ const COLUMNS: [(SortBy, &str, &str, usize); 6] = [
 ];
 
 /// Shows the table.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &CollectionView<'_>,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let (head, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
     for (column, cell) in (0..).zip(cells(head)) {
-        show_heading(ui, cell, column, view.choice, commands);
+        show_heading(ui, cell, column, &mut hand.choice.sort);
     }
     let palette = Palette::in_ui(ui);
     let line = Stroke::new(1.0, palette.hairline);
@@ -54,7 +48,7 @@ pub(crate) fn show(
         .auto_shrink(false);
     rows.show_rows(ui, LINE, listed.len(), |ui, range| {
         for entry in &listed[range] {
-            show_row(ui, entry, view.choice.is_tuned, pointed, commands);
+            show_row(ui, entry, view.choice.is_tuned, hand);
         }
     });
 }
@@ -76,11 +70,11 @@ fn cells(row: Rect) -> [Rect; 6] {
 }
 
 /// A heading: a click sorts by it.
-fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, commands: &mut Commands) {
+fn show_heading(ui: &Ui, cell: Rect, column: usize, sort: &mut Sort) {
     let (by, name, unit, decimals) = COLUMNS[column];
     let palette = Palette::in_ui(ui);
     let response = ui.interact(cell, ui.scope_id().with(("sort", column)), Sense::click());
-    let is_sorted = choice.sort.by == by;
+    let is_sorted = sort.by == by;
     let label = format!("Sort by {name}");
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_sorted, &label));
     let ink = match by {
@@ -110,15 +104,11 @@ fn show_heading(ui: &Ui, cell: Rect, column: usize, choice: &Choice, commands: &
             },
             middle,
         );
-        paint_arrow(ui, at, choice.sort, palette.text);
+        paint_arrow(ui, at, *sort, palette.text);
     }
     paint_focus(ui, &response);
     if response.clicked() {
-        let choice = Choice {
-            sort: choice.sort.after(by),
-            ..choice.clone()
-        };
-        commands.push(CollectionCommand::Choose(choice).into());
+        *sort = sort.after(by);
     }
     response.on_hover_text(label);
 }
@@ -135,13 +125,7 @@ fn paint_arrow(ui: &Ui, at: egui::Pos2, sort: Sort, ink: Color32) {
         .add(Shape::convex_polygon(corners, ink, Stroke::NONE));
 }
 
-fn show_row(
-    ui: &mut Ui,
-    entry: &Entry<'_>,
-    is_tuned: bool,
-    pointed: &mut Option<String>,
-    commands: &mut Commands,
-) {
+fn show_row(ui: &mut Ui, entry: &Entry<'_>, is_tuned: bool, hand: &mut Hand<'_>) {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE);
     let (row, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -175,7 +159,7 @@ fn show_row(
         let at = pos2(cell.left() + indent, cell.center().y);
         paint_line(ui, at, cell.width() - indent, text);
     }
-    answer(ui, &response, entry, pointed, commands);
+    answer(ui, &response, entry, hand);
 }
 
 /// What stands in a cell.

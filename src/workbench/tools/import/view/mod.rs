@@ -4,7 +4,6 @@
 //! what was found.
 
 pub(crate) mod curves;
-pub(crate) mod fields;
 pub(crate) mod files;
 pub(crate) mod heights;
 pub(crate) mod keep;
@@ -13,16 +12,18 @@ pub(crate) mod meaning;
 pub(crate) mod section;
 pub(crate) mod table;
 
-use eframe::egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+use eframe::egui::{RichText, Ui, vec2};
 
 use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
 use crate::bench::tool::PaneContext;
+use crate::kit::drop::dropped;
+use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Tone, note, step_title};
 use crate::tools::import::Import;
 use crate::tools::import::failure::{Failure, Step};
-use crate::tools::import::view::fields::{show_failure, step_title};
 use crate::tools::import::work::{Body, Found};
 use selvedge_textile::Measurement;
 
@@ -36,7 +37,7 @@ const KEEP: f32 = 164.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    let dropped = files::dropped(ui);
+    let dropped = dropped(ui);
     if !dropped.is_empty() {
         importing.take_files(dropped, context.bench);
         ui.ctx().request_repaint();
@@ -53,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         ui.painter()
             .vline(left.right(), whole.y_range(), (1.0, hairline));
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
-            scrolled(ui, "import-left", |ui| {
+            scrolled_column(ui, "import-left", |ui| {
                 show_left(ui, importing, context.commands)
             });
         });
@@ -66,12 +67,12 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         ui.painter()
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
         inside(ui, keep, |ui| {
-            scrolled(ui, "import-keep", |ui| {
+            scrolled_column(ui, "import-keep", |ui| {
                 keep::show(ui, importing, context.bench);
             });
         });
     } else {
-        scrolled(ui, "import", |ui| {
+        scrolled_column(ui, "import", |ui| {
             show_left(ui, importing, context.commands);
             let size = vec2(ui.available_width(), 0.8 * whole.height().max(300.0));
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
@@ -86,26 +87,6 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         importing.forget_after(&before);
         ui.ctx().request_repaint();
     }
-}
-
-pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
-    child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
-    content(&mut child);
-}
-
-pub(crate) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical()
-        .id_salt(id)
-        .auto_shrink(false)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = STEP;
-            // Room for the edge of a field that is asked for.
-            let margin = eframe::egui::Margin::symmetric(4, 0);
-            eframe::egui::Frame::new()
-                .inner_margin(margin)
-                .show(ui, content);
-        });
 }
 
 /// Files, and what they mean.
@@ -137,6 +118,13 @@ fn failure_of<'a>(importing: &Import, found: Option<&'a Found>) -> Option<&'a Fa
     found
         .filter(|_| !is_past)
         .and_then(|found| found.failure.as_ref())
+}
+
+/// The line that says what is wrong at a step, if something is.
+fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
+    if let Some(failure) = failure.filter(|failure| failure.step == step) {
+        note(ui, &failure.line, Tone::Wrong);
+    }
 }
 
 /// What was read, before anything is saved.

@@ -2,56 +2,60 @@
 
 use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
+use crate::bench::command::lab::Beginning;
 use crate::bench::view::ShelfItem;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::button;
-use crate::tools::lab::Lab;
-use crate::tools::lab::command::{Beginning, LabCommand, Page};
+use crate::tools::lab::state::{Lab, Page};
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::{LabHands, LabView, family, keep, recipe};
+use crate::tools::lab::view::{family, keep, parts, recipe};
 use selvedge_textile::RECIPES;
 
 /// Height of a list of textiles in a menu, points.
 const LIST: f32 = 320.0;
 
 /// Shows the controls.
-pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, hands: &mut LabHands, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     let line = Layout::left_to_right(Align::Center);
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, line, |ui| {
-        show_beginnings(ui, view.items, commands);
+        if let Some(beginning) = show_beginnings(ui, bench.library_view.items()) {
+            lab.begin_with(bench, beginning);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_steps(ui, view.lab, commands);
+            show_steps(ui, lab)
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, view.lab.page, commands));
+    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, &mut lab.page));
     ui.add_space(STEP);
-    let Some(steps) = &view.lab.steps else {
+    if lab.steps.is_none() {
         return;
-    };
+    }
     let area = ScrollArea::vertical()
-        .id_salt(("lab controls", view.lab.page as usize))
+        .id_salt(("lab controls", lab.page as usize))
         .auto_shrink(false);
     area.show(ui, |ui| {
         // The bar of the scroll has room of its own: nothing lies under it.
         ui.set_max_width(ui.available_width() - 10.0);
-        match view.lab.page {
-            Page::Recipe => recipe::show(ui, steps, commands),
-            Page::Family => {
-                let own = (&mut hands.plan, &mut hands.keep);
-                family::show(ui, (view, steps), own, commands);
+        match lab.page {
+            Page::Recipe => {
+                for (place, value) in recipe::show(ui, lab) {
+                    lab.set(ui.ctx(), place, value);
+                }
             }
-            Page::Keep => keep::show(ui, view, &mut hands.keep, commands),
+            Page::Family => family::show(ui, lab, bench),
+            Page::Keep => keep::show(ui, lab, bench),
         }
         ui.add_space(2.0 * STEP);
     });
 }
 
-fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], commands: &mut Commands) {
+/// What a recipe can begin with; says what was chosen.
+fn show_beginnings(ui: &mut Ui, items: &[ShelfItem]) -> Option<Beginning> {
+    let mut chosen = None;
     let mut begin = |ui: &mut Ui, beginning: Beginning| {
-        commands.push(LabCommand::Begin(beginning).into());
+        chosen = Some(beginning);
         ui.close();
     };
     let menu = ui.menu_button("Begin with", |ui| {
@@ -76,6 +80,7 @@ fn show_beginnings(ui: &mut Ui, items: &[ShelfItem], commands: &mut Commands) {
     menu.response.on_hover_text(
         "An example, a copy of a textile of the library, or what repeats in its profiles",
     );
+    chosen
 }
 
 /// The textiles of the library that can be read; says which one was chosen.
@@ -93,24 +98,19 @@ fn list(ui: &mut Ui, salt: &str, items: &[ShelfItem]) -> Option<String> {
     chosen
 }
 
-fn show_steps(ui: &mut Ui, lab: &Lab, commands: &mut Commands) {
+fn show_steps(ui: &mut Ui, lab: &mut Lab) {
     let [back, forth] = lab.can_step();
     let is_changed = lab
         .steps
         .as_ref()
         .is_some_and(|steps| steps.now() != steps.first());
     // From the right.
-    let all = [
-        (
-            "Start",
-            "Back to the start",
-            is_changed,
-            LabCommand::Restart,
-        ),
-        ("Redo", "Redo in the lab", forth, LabCommand::Redo),
-        ("Undo", "Undo in the lab", back, LabCommand::Undo),
+    let all: [(&str, &str, bool, fn(&mut Lab)); 3] = [
+        ("Start", "Back to the start", is_changed, Lab::restart),
+        ("Redo", "Redo in the lab", forth, Lab::redo),
+        ("Undo", "Undo in the lab", back, Lab::undo),
     ];
-    for (sign, name, can, command) in all {
+    for (sign, name, can, act) in all {
         let refusal = (!can).then_some("Nothing has changed");
         let response = ui.add_enabled(can, egui::Button::new(sign).min_size(vec2(26.0, ROW)));
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, name));
@@ -119,7 +119,7 @@ fn show_steps(ui: &mut Ui, lab: &Lab, commands: &mut Commands) {
             None => response.on_hover_text(name),
         };
         if response.clicked() {
-            commands.push(command.into());
+            act(lab);
         }
     }
 }
@@ -131,16 +131,16 @@ pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
     };
     let kind = manifest.source.kind();
     let words = format!("{} · {kind}", manifest.name);
-    let text = super::small(&words, Palette::in_ui(ui).text);
+    let text = parts::small(&words, Palette::in_ui(ui).text);
     let tip = "What the recipe began with";
     ui.label(text).on_hover_text(tip);
     ui.add_space(2.0 * STEP);
 }
 
-fn show_pages(ui: &mut Ui, shown: Page, commands: &mut Commands) {
+fn show_pages(ui: &mut Ui, shown: &mut Page) {
     let palette = Palette::in_ui(ui);
     for (page, title) in Page::ALL {
-        let is_shown = page == shown;
+        let is_shown = page == *shown;
         let ink = if is_shown { palette.text } else { palette.dim };
         let text = RichText::new(title).font(theme::body()).color(ink);
         let tab = egui::Button::new(text).frame_when_inactive(false);
@@ -154,60 +154,42 @@ fn show_pages(ui: &mut Ui, shown: Page, commands: &mut Commands) {
                 .hline(response.rect.x_range().shrink(6.0), foot, line);
         }
         if response.clicked() {
-            commands.push(LabCommand::Show(page).into());
+            *shown = page;
         }
     }
 }
 
 /// What the recipe is compared with.
-pub(crate) fn show_compared(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
+pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let palette = Palette::in_ui(ui);
-    ui.label(super::small("compare with", palette.dim));
-    let compared = view.lab.compared.as_ref();
+    ui.label(parts::small("compare with", palette.dim));
+    let compared = lab.compared.as_ref();
     let name = compared.map_or("nothing", |compared| compared.name.as_str());
     let combo = ComboBox::from_id_salt("lab compared")
         .width(170.0)
         .truncate();
+    let (mut is_none_wanted, mut wanted) = (false, None);
     let response = combo
         .selected_text(RichText::new(name).font(theme::small()))
         .show_ui(ui, |ui| {
-            if ui.selectable_label(compared.is_none(), "nothing").clicked() {
-                commands.push(LabCommand::Compare(None).into());
-            }
-            for item in view.items.iter().filter(|item| item.flaw.is_none()) {
+            is_none_wanted = ui.selectable_label(compared.is_none(), "nothing").clicked();
+            let items = bench.library_view.items().iter();
+            for item in items.filter(|item| item.flaw.is_none()) {
                 let is_chosen = compared.is_some_and(|compared| compared.id == item.id);
                 if ui.selectable_label(is_chosen, &item.name).clicked() {
-                    let command = LabCommand::Compare(Some(item.id.clone()));
-                    commands.push(command.into());
+                    wanted = Some(item.id.clone());
                 }
             }
         })
         .response;
+    if is_none_wanted {
+        lab.compared = None;
+    }
+    if let Some(id) = wanted {
+        lab.compare_with(bench, id);
+    }
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_label("Compared with"));
     let tip = "A textile of the library, drawn as a thin grey curve";
     response.on_hover_text(tip);
-}
-
-/// A sentence that says what is wrong, marked by a bar before it.
-pub(crate) fn complaint(ui: &mut Ui, words: &str) {
-    let palette = Palette::in_ui(ui);
-    let text = super::small(words, palette.text);
-    let margin = egui::Margin {
-        left: 8,
-        ..egui::Margin::default()
-    };
-    let response = egui::Frame::new()
-        .inner_margin(margin)
-        .show(ui, |ui| ui.add(egui::Label::new(text).wrap()))
-        .response;
-    let x = response.rect.left() + 2.0;
-    let bar = egui::Stroke::new(2.0, palette.selection);
-    ui.painter().vline(x, response.rect.y_range(), bar);
-}
-
-/// A button as wide as the controls.
-pub(crate) fn wide_button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
-    ui.vertical_centered_justified(|ui| button(ui, text, tip, refusal))
-        .inner
 }

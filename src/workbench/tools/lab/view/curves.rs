@@ -8,11 +8,10 @@ use crate::bench::export::ink;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::widgets::axis::Tick;
-use crate::tools::lab::Lab;
-use crate::tools::lab::command::Page;
 use crate::tools::lab::family::Family;
 use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
-use crate::tools::lab::view::{LabView, title};
+use crate::tools::lab::state::{Lab, Page};
+use crate::tools::lab::view::parts::title;
 use selvedge_chart::{Axis, Band as Area, Chart, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
@@ -23,10 +22,10 @@ use selvedge_textile::tactile::Band;
 const FAINTEST: f32 = 0.7;
 
 /// Shows the plot.
-pub(crate) fn show(ui: &Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
-    let direction = view.lab.look.direction;
-    let family = view.lab.family.as_ref();
-    let family = family.filter(|_| view.lab.page == Page::Family);
+pub(crate) fn show(ui: &Ui, rect: Rect, (lab, preview): (&Lab, &Preview), scale: AmplitudeScale) {
+    let direction = lab.look.direction;
+    let family = lab.family.as_ref();
+    let family = family.filter(|_| lab.page == Page::Family);
     let words = match family {
         Some(family) => format!(
             "amplitudes, {}: {} from {} (faint) to {}",
@@ -52,11 +51,11 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &LabView<'_>, preview: &Preview) {
         ..Setting::default()
     };
     let chart = match family {
-        Some(family) => family_chart(view, family),
-        None => chart(view.lab, preview, view.scale),
+        Some(family) => family_chart(lab, family, scale),
+        None => chart(lab, preview, scale),
     };
     if let Some(shown) = plot::show(ui, below, &chart, &setting) {
-        describe(&shown, view, preview);
+        describe(&shown, lab, preview);
     }
 }
 
@@ -90,8 +89,8 @@ pub(crate) fn chart(lab: &Lab, preview: &Preview, scale: AmplitudeScale) -> Char
 }
 
 /// The same of a family, from faint (its first) to full (its last).
-fn family_chart(view: &LabView<'_>, family: &Family) -> Chart {
-    let direction = view.lab.look.direction;
+fn family_chart(lab: &Lab, family: &Family, scale: AmplitudeScale) -> Chart {
+    let direction = lab.look.direction;
     let last = family.members.len().saturating_sub(1).max(1) as f32;
     let members = family.members.iter().enumerate().flat_map(|(nth, member)| {
         let is_last = nth + 1 == family.members.len();
@@ -105,8 +104,8 @@ fn family_chart(view: &LabView<'_>, family: &Family) -> Chart {
         })
     });
     Chart {
-        series: compared(view.lab).into_iter().chain(members).collect(),
-        ..axes(view.scale)
+        series: compared(lab).into_iter().chain(members).collect(),
+        ..axes(scale)
     }
 }
 
@@ -159,12 +158,12 @@ fn ends_of(family: &Family) -> [String; 2] {
     })
 }
 
-fn describe(shown: &Shown, view: &LabView<'_>, preview: &Preview) {
+fn describe(shown: &Shown, lab: &Lab, preview: &Preview) {
     let Some(at) = shown.pointer().filter(|_| !shown.response.dragged()) else {
         return;
     };
     let [pointed_mm_per_s, _] = shown.values_at(at);
-    let direction = view.lab.look.direction;
+    let direction = lab.look.direction;
     let distance = |speed: f64| (speed / pointed_mm_per_s).ln().abs();
     let all = speeds_mm_per_s().enumerate();
     let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
@@ -181,13 +180,9 @@ fn describe(shown: &Shown, view: &LabView<'_>, preview: &Preview) {
         });
         band_words.join("   ")
     };
-    let compared = view
-        .lab
-        .compared
-        .as_ref()
-        .map_or_else(String::new, |compared| {
-            format!("\n{}: {}", compared.name, words_of(&compared.felt))
-        });
+    let compared = lab.compared.as_ref().map_or_else(String::new, |compared| {
+        format!("\n{}: {}", compared.name, words_of(&compared.felt))
+    });
     let decimals = usize::from(speed_mm_per_s < 9.95);
     shown.response.clone().on_hover_text_at_pointer(format!(
         "{}\n{}{compared}\nRoot mean square over all points, re 1 µm peak, before gains; the \

@@ -2,31 +2,31 @@
 
 use eframe::egui::{ComboBox, RichText, Ui};
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::row;
-use crate::tools::lab::command::LabCommand;
 use crate::tools::lab::family::FamilyFields;
 use crate::tools::lab::fields::KeepFields;
+use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::controls::{complaint, wide_button};
 use crate::tools::lab::view::keep::{refusal, show_fields};
-use crate::tools::lab::view::{LabView, rows};
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::{complaint, wide_button};
+use crate::tools::lab::view::rows;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 use selvedge_textile::{Parameter, ParameterKind, groups};
 
 /// Shows the page.
-pub(crate) fn show(
-    ui: &mut Ui,
-    (view, steps): (&LabView<'_>, &Steps),
-    (plan, keep): (&mut FamilyFields, &mut KeepFields),
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
+    let Some(steps) = &lab.steps else {
+        return;
+    };
+    let plan = &mut lab.plan;
     let palette = Palette::in_ui(ui);
     let words = "Several textiles that differ in one parameter, evenly apart";
-    ui.label(super::small(words, palette.dim));
+    ui.label(parts::small(words, palette.dim));
     ui.add_space(STEP);
     let unit = show_parameters(ui, steps, plan);
     rows::short_field(ui, ("First value", unit), &mut plan.ends[0]);
@@ -34,7 +34,7 @@ pub(crate) fn show(
     rows::short_field(ui, ("Textiles", ""), &mut plan.n);
     ui.add_space(STEP);
     let asked = plan.plan();
-    let busy = refusal(view);
+    let busy = refusal(lab);
     let no = busy.as_deref().or_else(|| asked.err());
     if wide_button(
         ui,
@@ -43,11 +43,12 @@ pub(crate) fn show(
         no,
     ) && let Ok(plan) = asked
     {
-        commands.push(LabCommand::TryFamily(plan).into());
+        lab.try_family(bench, plan);
     }
-    let Some(family) = &view.lab.family else {
+    let Some(family) = &lab.family else {
         return;
     };
+    let keep = &mut lab.fields;
     ui.add_space(STEP);
     show_members(ui, family);
     ui.add_space(STEP);
@@ -55,19 +56,19 @@ pub(crate) fn show(
     ui.add_space(STEP);
     let n = family.members.len();
     let last = format!("{}-1 … {}-{n}", keep.id.trim(), keep.id.trim());
-    ui.label(super::small(&last, palette.dim));
+    ui.label(parts::small(&last, palette.dim));
     let numbered = KeepFields {
         id: format!("{}-1", keep.id.trim()),
         ..keep.clone()
     };
-    let wrong = numbered.refusal(view.ids);
+    let wrong = numbered.refusal(bench.loaded.library().ids());
     if let Some(words) = &wrong {
         complaint(ui, words);
     }
     let no = busy.or(wrong);
     let tip = "Keep every textile of the family in the library of the scene";
     if wide_button(ui, &format!("Keep all {n}"), tip, no.as_deref()) {
-        commands.push(LabCommand::KeepFamily.into());
+        lab.keep_family(bench);
     }
 }
 
@@ -128,7 +129,7 @@ fn show_members(ui: &mut Ui, family: &crate::tools::lab::family::Family) {
         });
         let name = format!("{nth}  {}", member.label);
         row(ui, &name, |ui| {
-            ui.label(super::small("dB", palette.dim));
+            ui.label(parts::small("dB", palette.dim));
             for (band, words) in db.iter().rev() {
                 let text = RichText::new(words).font(theme::number());
                 ui.label(text.color(palette.band(*band)));

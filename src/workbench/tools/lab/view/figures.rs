@@ -5,7 +5,8 @@ use eframe::egui::{Align, Layout, RichText, ScrollArea, Ui, vec2};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::preview::{Preview, Shown};
-use crate::tools::lab::view::LabView;
+use crate::tools::lab::state::Lab;
+use crate::tools::lab::view::parts;
 use selvedge_foundation::quantity;
 
 /// Height of a row, points.
@@ -16,15 +17,15 @@ const UNIT: f32 = 26.0;
 const NUMBER: f32 = 62.0;
 
 /// Shows the figures.
-pub(crate) fn show(ui: &mut Ui, view: &LabView<'_>, preview: &Preview) {
+pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
     let palette = Palette::in_ui(ui);
-    let compared = view.lab.compared.as_ref();
+    let compared = lab.compared.as_ref();
     let others = compared.map(|compared| compared.felt.figures());
     let head = compared.map_or_else(
         || "figures".to_owned(),
         |compared| format!("figures · grey: {}", compared.name),
     );
-    ui.add(eframe::egui::Label::new(super::small(&head, palette.dim)).truncate());
+    ui.add(eframe::egui::Label::new(parts::small(&head, palette.dim)).truncate());
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::vertical()
         .id_salt("lab figures")
@@ -58,9 +59,9 @@ fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<S
     let line = Layout::left_to_right(Align::Center);
     let response = ui.allocate_ui_with_layout(size, line, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        ui.label(super::small(shown.name, palette.dim));
+        ui.label(parts::small(shown.name, palette.dim));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            cell(ui, UNIT, Align::Min, super::small(shown.unit, palette.dim));
+            cell(ui, UNIT, Align::Min, parts::small(shown.unit, palette.dim));
             let number = |value: f64| {
                 let digits = quantity::fixed(value, shown.decimals);
                 RichText::new(digits).font(theme::number())
@@ -72,7 +73,7 @@ fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<S
             let value = number(shown.value).color(palette.text);
             cell(ui, NUMBER, Align::Max, value);
             if let Some(note) = note {
-                ui.label(super::small(&note, palette.dim));
+                ui.label(parts::small(&note, palette.dim));
             }
         });
     });

@@ -2,23 +2,18 @@
 
 use eframe::egui::Ui;
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::lab::command::LabCommand;
 use crate::tools::lab::fields::KeepFields;
-use crate::tools::lab::view::controls::{complaint, wide_button};
-use crate::tools::lab::view::{LabView, rows};
+use crate::tools::lab::state::Lab;
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::{complaint, wide_button};
+use crate::tools::lab::view::rows;
 
 /// Shows the fields and the buttons.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &LabView<'_>,
-    fields: &mut KeepFields,
-    commands: &mut Commands,
-) {
-    show_fields(ui, fields);
+pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
+    show_fields(ui, &mut lab.fields);
     ui.add_space(STEP);
-    let lab = view.lab;
     let palette = Palette::in_ui(ui);
     let from = lab.parent.as_ref().map_or_else(
         || "Made from nothing but its recipe".to_owned(),
@@ -31,22 +26,22 @@ pub(crate) fn show(
         },
     );
     let tip = "The manifest names the textile that this one was made from, and the program";
-    ui.label(super::small(&from, palette.dim))
+    ui.label(parts::small(&from, palette.dim))
         .on_hover_text(tip);
     ui.add_space(2.0 * STEP);
-    let wrong = fields.refusal(view.ids);
+    let wrong = lab.fields.refusal(bench.loaded.library().ids());
     if let Some(words) = &wrong {
         complaint(ui, words);
     }
-    let refusal = refusal(view).or(wrong);
+    let refusal = refusal(lab).or(wrong);
     let refusal = refusal.as_deref();
     let tip = "Keep it in the library of the scene: its profiles, its picture and its recipe";
     if wide_button(ui, "Keep", tip, refusal) {
-        commands.push(LabCommand::Keep { feels: false }.into());
+        lab.keep(bench, false);
     }
     let tip = "Keep it and lay it under the display";
     if wide_button(ui, "Keep and feel", tip, refusal) {
-        commands.push(LabCommand::Keep { feels: true }.into());
+        lab.keep(bench, true);
     }
 }
 
@@ -62,8 +57,7 @@ pub(crate) fn show_fields(ui: &mut Ui, fields: &mut KeepFields) {
 }
 
 /// Why nothing can be kept now.
-pub(crate) fn refusal(view: &LabView<'_>) -> Option<String> {
-    let lab = view.lab;
+pub(crate) fn refusal(lab: &Lab) -> Option<String> {
     if lab.share().is_some() {
         return Some("Wait until it is computed, or stop that".to_owned());
     }

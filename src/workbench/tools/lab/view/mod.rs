@@ -8,29 +8,24 @@ pub(crate) mod curves;
 pub(crate) mod family;
 pub(crate) mod figures;
 pub(crate) mod keep;
+pub(crate) mod parts;
 pub(crate) mod pictures;
 pub(crate) mod profile;
 pub(crate) mod recipe;
 pub(crate) mod rows;
 pub(crate) mod weave;
 
-pub(crate) use crate::tools::lab::view::pictures::LabPictures;
+use std::sync::Arc;
 
-use eframe::egui::{
-    self, Align, Layout, ProgressBar, Rect, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2,
-};
+use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
 
-use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::Commands;
-use crate::bench::view::ShelfItem;
+use crate::bench::Bench;
 use crate::kit::spectrogram::paint_sentence;
-use crate::kit::theme;
-use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
-use crate::tools::lab::Lab;
-use crate::tools::lab::command::LabCommand;
 use crate::tools::lab::preview::Preview;
+use crate::tools::lab::state::Lab;
+use crate::tools::lab::view::parts::{small, within};
 
 /// Width of the parameters, points.
 const CONTROLS: f32 = 330.0;
@@ -45,37 +40,8 @@ const GAP: f32 = 10.0;
 /// How dim a preview is that is not of the recipe as it is.
 const STALE: f32 = 0.45;
 
-/// What the pane shows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LabView<'a> {
-    /// The lab.
-    pub lab: &'a Lab,
-    /// The textiles of the library.
-    pub items: &'a [ShelfItem],
-    /// Their ids as the library has them now.
-    pub ids: &'a [String],
-    /// The colours that stand for numbers.
-    pub map: ColourMap,
-    /// The scale of amplitudes.
-    pub scale: AmplitudeScale,
-}
-
-/// What is typed in the pane.
-#[derive(Debug, Default)]
-pub(crate) struct LabHands {
-    /// How the textile is called.
-    pub keep: crate::tools::lab::fields::KeepFields,
-    /// How a family is planned.
-    pub plan: crate::tools::lab::family::FamilyFields,
-}
-
 /// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &LabView<'_>,
-    (hands, pictures): (&mut LabHands, &mut LabPictures),
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     let whole = ui.max_rect();
     let is_wide = whole.width() >= WIDE;
     let (controls, plots) = if is_wide {
@@ -91,37 +57,24 @@ pub(crate) fn show(
         ui.painter().hline(whole.x_range(), edge, line);
         (below.with_min_y(edge + STEP), above.with_max_y(edge - STEP))
     };
-    within(ui, controls, |ui| controls::show(ui, view, hands, commands));
+    within(ui, controls, |ui| controls::show(ui, lab, bench));
     within(ui, plots, |ui| {
-        show_standing(ui, view, commands);
-        show_plots(ui, view, pictures, commands);
+        show_standing(ui, lab, bench);
+        show_plots(ui, lab, bench);
     });
 }
 
-/// Shows something in a part of the pane.
-fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
-    let builder = UiBuilder::new()
-        .max_rect(rect)
-        .layout(Layout::top_down(Align::Min));
-    ui.scope_builder(builder, |ui| {
-        ui.set_clip_rect(ui.clip_rect().intersect(rect.expand(2.0)));
-        content(ui)
-    })
-    .inner
-}
-
 /// The line over the plots: what is shown, how it stands to the recipe, what it is compared with.
-fn show_standing(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
+fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let palette = Palette::in_ui(ui);
-    let lab = view.lab;
     let size = vec2(ui.available_width(), LINE);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         controls::show_name(ui, lab.steps.as_ref());
-        controls::show_compared(ui, view, commands);
+        controls::show_compared(ui, lab, bench);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(share) = lab.share() {
                 if button(ui, "Stop", "Stop what is being computed", None) {
-                    commands.push(LabCommand::Stop.into());
+                    lab.stop();
                 }
                 let bar = ProgressBar::new(share)
                     .desired_width(72.0)
@@ -132,7 +85,7 @@ fn show_standing(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
             }
             if lab.is_stopped && !lab.is_fresh() {
                 if button(ui, "Go on", "Compute the preview after all", None) {
-                    commands.push(LabCommand::GoOn.into());
+                    lab.is_stopped = false;
                 }
                 ui.label(small("stopped: an earlier recipe is shown", palette.text));
                 return;
@@ -149,20 +102,11 @@ fn show_standing(ui: &mut Ui, view: &LabView<'_>, commands: &mut Commands) {
     });
 }
 
-fn small(words: &str, ink: egui::Color32) -> RichText {
-    RichText::new(words).font(theme::small()).color(ink)
-}
-
 /// The plots, in a grid or below each other.
-fn show_plots(
-    ui: &mut Ui,
-    view: &LabView<'_>,
-    pictures: &mut LabPictures,
-    commands: &mut Commands,
-) {
+fn show_plots(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let room = ui.available_size();
-    let Some(preview) = view.lab.preview.clone() else {
-        let words = match (&view.lab.refusal, view.lab.fault()) {
+    let Some(preview) = lab.preview.clone() else {
+        let words = match (&lab.refusal, lab.fault()) {
             (Some(words), _) => words.as_str(),
             (None, Some(_)) => "Mend the recipe: the wrong value is marked",
             (None, None) => "The surface is being made",
@@ -182,11 +126,11 @@ fn show_plots(
     area.show(ui, |ui| {
         let size = vec2(ui.available_width(), height - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-        if !view.lab.is_fresh() {
+        if !lab.is_fresh() {
             ui.set_opacity(STALE);
         }
         let parts = if is_narrow { stacked(rect) } else { grid(rect) };
-        show_parts(ui, view, (&preview, pictures), parts, commands);
+        show_parts(ui, (lab, &preview), bench, parts);
     });
 }
 
@@ -222,23 +166,14 @@ fn stacked(rect: Rect) -> Parts {
 
 fn show_parts(
     ui: &mut Ui,
-    view: &LabView<'_>,
-    (preview, pictures): (&std::sync::Arc<Preview>, &mut LabPictures),
+    (lab, preview): (&mut Lab, &Arc<Preview>),
+    bench: &Bench,
     [profile, relief, spectra, curves, figures]: Parts,
-    commands: &mut Commands,
 ) {
-    profile::show(ui, profile, view, preview, commands);
-    pictures::show_relief(ui, relief, (view, preview), pictures);
-    pictures::show_spectra(ui, spectra, (view, preview), pictures);
-    curves::show(ui, curves, view, preview);
-    within(ui, figures, |ui| figures::show(ui, view, preview));
-}
-
-/// The quiet title over a plot; says where the plot begins.
-fn title(ui: &Ui, rect: Rect, words: &str) -> Rect {
-    let palette = Palette::in_ui(ui);
-    let at = rect.left_top() + vec2(0.0, 0.5 * ROW - 5.0);
-    let text = small(words, palette.dim);
-    crate::kit::widgets::text::paint_line(ui, at, rect.width(), text);
-    rect.with_min_y(rect.top() + 18.0)
+    let map = bench.settings.preferences.colour_map;
+    profile::show(ui, profile, lab, preview);
+    pictures::show_relief(ui, relief, lab, preview);
+    pictures::show_spectra(ui, spectra, (lab, preview), map);
+    curves::show(ui, curves, (lab, preview), bench.workspace.scale);
+    within(ui, figures, |ui| figures::show(ui, lab, preview));
 }

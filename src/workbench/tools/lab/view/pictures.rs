@@ -1,12 +1,9 @@
 //! Two pictures of a surface: its relief in shade, and its local spectra over place and wavenumber.
-//!
-//! A picture is made when what it shows has changed, and then only.
 
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align2, Color32, ColorImage, Mesh, Painter, Rect, Sense, Shape, Stroke, TextureFilter,
-    TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, Mesh, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
@@ -14,140 +11,18 @@ use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit, round_step};
 use crate::kit::widgets::bar::colour_bar;
+use crate::tools::lab::pictures::wavenumbers;
 use crate::tools::lab::preview::Preview;
-use crate::tools::lab::view::{LabView, title};
+use crate::tools::lab::state::Lab;
+use crate::tools::lab::view::parts::title;
 use selvedge_foundation::quantity;
-use selvedge_textile::lit;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra};
 
-/// Rows of the picture of spectra.
-const N_ROWS: u8 = 96;
-/// Wavenumbers at its ends, cycles/mm: beyond, cloth has nothing that is felt.
-const WAVENUMBERS: [f64; 2] = [BIN_SPACING_PER_MM, 50.0];
 /// Width of the colour bar with its numbers, points.
 const BAR: f32 = 40.0;
 
-/// How the relief is read: smooth however far away it is.
-const READ: TextureOptions = TextureOptions {
-    mipmap_mode: Some(TextureFilter::Linear),
-    ..TextureOptions::LINEAR
-};
-
-/// The pictures as they were drawn last.
-#[derive(Default)]
-pub(crate) struct LabPictures {
-    relief: Option<(Arc<Preview>, TextureHandle)>,
-    spectra: Option<(Key, TextureHandle)>,
-    n_made: u64,
-}
-
-/// What a picture of spectra is made for.
-type Key = (Arc<LocalSpectra>, ColourMap);
-
-impl std::fmt::Debug for LabPictures {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("LabPictures")
-            .field("n_made", &self.n_made)
-            .finish_non_exhaustive()
-    }
-}
-
-impl LabPictures {
-    fn relief(&mut self, ctx: &egui::Context, preview: &Arc<Preview>) -> TextureHandle {
-        if let Some((of, texture)) = &self.relief
-            && Arc::ptr_eq(of, preview)
-        {
-            return texture.clone();
-        }
-        let picture = lit(preview.relief.heights_um());
-        let pixels = picture
-            .pixels
-            .iter()
-            .map(|&[r, g, b]| Color32::from_rgb(r, g, b));
-        let image = ColorImage::new([picture.width, picture.height], pixels.collect());
-        let texture = ctx.load_texture("lab relief", image, READ);
-        self.n_made += 1;
-        self.relief = Some((Arc::clone(preview), texture.clone()));
-        texture
-    }
-
-    fn spectra(
-        &mut self,
-        ctx: &egui::Context,
-        spectra: &Arc<LocalSpectra>,
-        map: ColourMap,
-    ) -> TextureHandle {
-        if let Some(((of, own), texture)) = &self.spectra
-            && Arc::ptr_eq(of, spectra)
-            && *own == map
-        {
-            return texture.clone();
-        }
-        let rows = rows_db(spectra);
-        let n_points = rows.first().map_or(0, Vec::len);
-        let colour = |db: &f64| {
-            if db.is_finite() {
-                map.colour(share(*db))
-            } else {
-                // Finer than the samples: nothing is known there.
-                Color32::TRANSPARENT
-            }
-        };
-        // The top row of a picture holds the highest wavenumbers.
-        let pixels = rows.iter().rev().flat_map(|row| row.iter().map(colour));
-        let image = ColorImage::new([n_points, rows.len()], pixels.collect());
-        let texture = ctx.load_texture("lab spectra", image, TextureOptions::NEAREST);
-        self.n_made += 1;
-        self.spectra = Some(((Arc::clone(spectra), map), texture.clone()));
-        texture
-    }
-}
-
-fn share(db: f64) -> f64 {
-    let [least, most] = DENSITIES_DB;
-    ((db - least) / (most - least)).clamp(0.0, 1.0)
-}
-
-fn wavenumbers() -> Axis {
-    Axis::log(WAVENUMBERS[0], WAVENUMBERS[1])
-}
-
-/// Densities in dB re 1 µm² per cycle/mm, a row for every band of wavenumbers from the lowest up,
-/// in it a value for every point along the stroke; of areal spectra those across the middle.
-pub(crate) fn rows_db(spectra: &LocalSpectra) -> Vec<Vec<f64>> {
-    let [n_along, n_across] = spectra.shape();
-    let first = n_along * (n_across / 2);
-    let axis = wavenumbers();
-    let edge = |row: u8| axis.value(f64::from(row) / f64::from(N_ROWS)) / BIN_SPACING_PER_MM;
-    let n_bins = spectra.n_bins();
-    let row = |row: u8| -> Vec<f64> {
-        // Bins whose middle lies in the row; where none does, the nearest one.
-        let (from, to) = (edge(row), edge(row + 1));
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "wavenumbers are positive and few"
-        )]
-        let bin = |k: f64| (k as usize).clamp(1, n_bins) - 1;
-        let least = bin((0.5 * (from + to)).round()).min(bin(from.ceil()));
-        let most = bin(to.floor()).max(least);
-        let at = |point: usize| {
-            let powers = &spectra.powers_um2(first + point)[least..=most];
-            let mean = powers.iter().sum::<f64>() / powers.len() as f64;
-            density_db(mean / BIN_SPACING_PER_MM)
-        };
-        (0..n_along).map(at).collect()
-    };
-    (0..N_ROWS).map(row).collect()
-}
-
 /// Shows the relief, as much of it as there is room for.
-pub(crate) fn show_relief(
-    ui: &Ui,
-    rect: Rect,
-    (view, preview): (&LabView<'_>, &Arc<Preview>),
-    pictures: &mut LabPictures,
-) {
+pub(crate) fn show_relief(ui: &Ui, rect: Rect, lab: &mut Lab, preview: &Arc<Preview>) {
     let size_mm = preview.relief.size_mm();
     let words = format!(
         "relief  {} × {} mm, lit from the upper left",
@@ -161,9 +36,9 @@ pub(crate) fn show_relief(
     if area.width() < 24.0 || area.height() < 24.0 {
         return;
     }
-    let texture = pictures.relief(ui.ctx(), preview);
+    let texture = lab.pictures.relief(ui.ctx(), preview);
     // As wide as the pane, a part of the height: one millimetre is as long both ways.
-    let span = view.lab.look.span_mm.min(size_mm[0]);
+    let span = lab.look.span_mm.min(size_mm[0]);
     let [width, height] = [area.width(), area.height()].map(f64::from);
     let (along, across) = if height / width * span <= size_mm[1] {
         (span, span * height / width)
@@ -176,7 +51,7 @@ pub(crate) fn show_relief(
         share
     };
     let along = along.min(size_mm[0]);
-    let from = view.lab.look.from_mm.min(size_mm[0] - along).max(0.0);
+    let from = lab.look.from_mm.min(size_mm[0] - along).max(0.0);
     let shown = vec2(area.width(), area.height());
     let picture = Rect::from_min_size(area.min, shown);
     let uv = Rect::from_min_max(
@@ -229,10 +104,10 @@ fn paint_ruler(painter: &Painter, picture: Rect, along_mm: f64) {
 pub(crate) fn show_spectra(
     ui: &Ui,
     rect: Rect,
-    (view, preview): (&LabView<'_>, &Arc<Preview>),
-    pictures: &mut LabPictures,
+    (lab, preview): (&mut Lab, &Preview),
+    map: ColourMap,
 ) {
-    let direction = view.lab.look.direction;
+    let direction = lab.look.direction;
     let words = format!("local spectra, {}", direction.label());
     let below = title(ui, rect, &words);
     let area = Rect::from_min_max(
@@ -246,7 +121,7 @@ pub(crate) fn show_spectra(
         return;
     }
     let spectra = preview.felt.surface.spectra(direction);
-    let texture = pictures.spectra(ui.ctx(), spectra, view.map);
+    let texture = lab.pictures.spectra(ui.ctx(), spectra, map);
     let mut mesh = Mesh::with_texture(texture.id());
     let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let floor = Palette::in_ui(ui).floor;
@@ -254,7 +129,7 @@ pub(crate) fn show_spectra(
     mesh.add_rect_with_uv(area, all, Color32::WHITE);
     ui.painter().add(Shape::mesh(mesh));
     paint_axes(ui.painter(), area, spectra);
-    paint_bar(ui.painter(), (area, below), view.map);
+    paint_bar(ui.painter(), (area, below), map);
     tell(response, area, direction, spectra);
 }
 
@@ -307,24 +182,4 @@ fn tell(response: egui::Response, area: Rect, direction: Direction, spectra: &Lo
         quantity::with_unit(level, 1, "dB"),
     );
     response.on_hover_text_at_pointer(words);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use selvedge_textile::surface::{Profile, ProfileSet, Surface};
-
-    #[test]
-    fn a_sine_is_brightest_in_the_row_of_its_wavenumber() {
-        let sine = |i: u32| (f64::from(i) / 230.0 * 3.0 * std::f64::consts::TAU).sin();
-        let mut profiles = ProfileSet::default();
-        profiles[0] = Some(Profile::new(1.0 / 230.0, (0..4600).map(sine).collect()).unwrap());
-        let surface = Surface::from_profiles(profiles, 0.0).unwrap();
-        let rows = rows_db(surface.spectra(Direction::WarpForward));
-        assert_eq!(rows.len(), usize::from(N_ROWS));
-        let brightest = (0..rows.len()).max_by(|a, b| rows[*a][5].total_cmp(&rows[*b][5]));
-        let share = (brightest.unwrap() as f64 + 0.5) / f64::from(N_ROWS);
-        let found = wavenumbers().value(share);
-        assert!((found / 3.0 - 1.0).abs() < 0.1, "{found}");
-    }
 }

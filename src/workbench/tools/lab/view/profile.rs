@@ -4,14 +4,14 @@ use eframe::egui::{
     self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, paint_ticks, paint_unit, round_step};
 use crate::kit::widgets::polyline::corners;
 use crate::kit::widgets::text::toggle;
-use crate::tools::lab::command::{LabCommand, Look};
 use crate::tools::lab::preview::Preview;
-use crate::tools::lab::view::{LabView, within};
+use crate::tools::lab::state::{Lab, Look};
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::within;
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{Direction, Profile};
 
@@ -23,16 +23,10 @@ const ENDS: [f64; 2] = [0.5, 100.0];
 const COMPARED: f32 = 0.8;
 
 /// Shows the plot, with what is looked at above it.
-pub(crate) fn show(
-    ui: &mut Ui,
-    rect: Rect,
-    view: &LabView<'_>,
-    preview: &Preview,
-    commands: &mut Commands,
-) {
-    let look = view.lab.look;
+pub(crate) fn show(ui: &mut Ui, rect: Rect, lab: &mut Lab, preview: &Preview) {
     let head = rect.with_max_y(rect.top() + 20.0);
-    within(ui, head, |ui| show_head(ui, look, commands));
+    within(ui, head, |ui| show_head(ui, &mut lab.look));
+    let look = lab.look;
     let area = Rect::from_min_max(
         pos2(rect.left() + 34.0, rect.top() + 24.0),
         pos2(rect.right() - 8.0, rect.bottom() - 16.0),
@@ -47,7 +41,7 @@ pub(crate) fn show(
     let Some(profile) = preview.felt.profile(look.direction) else {
         return;
     };
-    let compared = view.lab.compared.as_ref();
+    let compared = lab.compared.as_ref();
     let compared = compared.and_then(|compared| compared.felt.profile(look.direction));
     let plot = Plot::new(area, look, [Some(profile), compared]);
     plot.paint_axes(ui.painter());
@@ -59,16 +53,16 @@ pub(crate) fn show(
     plot.paint(ui.painter(), profile, Stroke::new(1.25, palette.text));
     plot.paint_units(ui.painter());
     if let Some(look) = moved(ui, &response, look, profile) {
-        commands.push(LabCommand::Look(look).into());
+        lab.look = look;
     }
     tell(response, &plot, (profile, compared));
 }
 
 /// Which stroke, and how much of it.
-fn show_head(ui: &mut Ui, look: Look, commands: &mut Commands) {
+fn show_head(ui: &mut Ui, look: &mut Look) {
     let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
-        ui.label(super::small("profile", palette.dim));
+        ui.label(parts::small("profile", palette.dim));
         for (direction, letters) in
             Direction::ALL
                 .into_iter()
@@ -76,8 +70,7 @@ fn show_head(ui: &mut Ui, look: Look, commands: &mut Commands) {
         {
             let tip = format!("Profile along {}", direction.label());
             if toggle(ui, letters, direction == look.direction, &tip) {
-                let other = Look { direction, ..look };
-                commands.push(LabCommand::Look(other).into());
+                look.direction = direction;
             }
         }
         ui.add_space(8.0);
@@ -85,8 +78,7 @@ fn show_head(ui: &mut Ui, look: Look, commands: &mut Commands) {
             let is_shown = (look.span_mm - span_mm).abs() < 1e-6;
             let tip = format!("Look at {words} of it; the wheel looks closer, a drag moves along");
             if toggle(ui, words, is_shown, &tip) {
-                let other = Look { span_mm, ..look };
-                commands.push(LabCommand::Look(other).into());
+                look.span_mm = span_mm;
             }
         }
     });

@@ -2,17 +2,25 @@
 
 use eframe::egui::{CollapsingHeader, RichText, Ui};
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::tools::lab::command::LabCommand;
+use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::controls::complaint;
+use crate::tools::lab::view::parts;
+use crate::tools::lab::view::parts::complaint;
 use crate::tools::lab::view::rows;
-use selvedge_textile::{Group, Parameter, ParameterKind, groups};
+use selvedge_foundation::files::KeyValue;
+use selvedge_textile::{Group, Parameter, ParameterKind, Place, groups};
 
-/// Shows every parameter; what is wrong stands below its own.
-pub(crate) fn show(ui: &mut Ui, steps: &Steps, commands: &mut Commands) {
+/// A parameter that was changed, or left out.
+type Change = (Place, Option<KeyValue>);
+
+/// Shows every parameter; what is wrong stands below its own. Says what was changed.
+pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
+    let mut changes = Vec::new();
+    let Some(steps) = &lab.steps else {
+        return changes;
+    };
     let draft = steps.now();
     let fault = steps.fault();
     if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
@@ -36,13 +44,14 @@ pub(crate) fn show(ui: &mut Ui, steps: &Steps, commands: &mut Commands) {
         };
         header.show_unindented(ui, |ui| {
             for parameter in &group.parameters {
-                show_parameter(ui, steps, parameter, commands);
+                changes.extend(show_parameter(ui, steps, parameter));
                 if let Some(fault) = fault.filter(|fault| fault.place == Some(parameter.place)) {
                     complaint(ui, &fault.message);
                 }
             }
         });
     }
+    changes
 }
 
 /// Whether a group stands open at first.
@@ -56,16 +65,16 @@ fn is_short(group: &Group) -> bool {
     !group.parameters.iter().any(is_list)
 }
 
-fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, commands: &mut Commands) {
+fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<Change> {
     let draft = steps.now();
     let is_of_table = matches!(parameter.kind, ParameterKind::Template { .. })
         || draft.has_table(parameter.place.table);
     if !is_of_table {
         if let Some(words) = rows::missing(parameter) {
             let palette = Palette::in_ui(ui);
-            ui.label(super::small(words, palette.dim));
+            ui.label(parts::small(words, palette.dim));
         }
-        return;
+        return None;
     }
     let changed = match parameter.kind {
         ParameterKind::Number {
@@ -107,7 +116,5 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter, commands: &
             rows::template(ui, draft, parameter, is_optional)
         }
     };
-    if let Some(value) = changed {
-        commands.push(LabCommand::Set(parameter.place, value).into());
-    }
+    changed.map(|value| (parameter.place, value))
 }

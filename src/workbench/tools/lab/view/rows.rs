@@ -12,6 +12,7 @@ use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, row, toggle};
 use crate::tools::lab::family::key_value;
 use crate::tools::lab::steps::Steps;
+use crate::tools::lab::view::parts;
 use selvedge_foundation::files::{KeyValue, Keys};
 use selvedge_textile::{Draft, Parameter, Place, example_templates};
 
@@ -234,7 +235,7 @@ pub(crate) fn list(
     let text = texts.join("  ");
     let head = format!("{} ({} values)", parameter.name, values.len());
     let response = row(ui, &head, |ui| {
-        ui.label(super::small(unit, palette.dim));
+        ui.label(parts::small(unit, palette.dim));
     });
     tell(&response, parameter, None);
     let typed = field(ui, parameter, (&text, f32::INFINITY))?;
@@ -328,7 +329,7 @@ pub(crate) fn field(
 /// A name before a field of words, below each other.
 pub(crate) fn named_field(ui: &mut Ui, name: &str, text: &mut String) -> Response {
     let palette = Palette::in_ui(ui);
-    ui.label(super::small(name, palette.dim));
+    ui.label(parts::small(name, palette.dim));
     let edit = TextEdit::singleline(text)
         .desired_width(f32::INFINITY)
         .margin(egui::Margin::symmetric(6, 4));

@@ -1,11 +1,9 @@
 //! What every stage made, as pictures side by side.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use eframe::egui::{
-    Align2, Color32, ImageData, Painter, Pos2, Rect, Role, Sense, Stroke, TextureFilter,
-    TextureHandle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Color32, Painter, Rect, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
 use crate::bench::follower::Standing;
@@ -13,9 +11,9 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d;
 use crate::kit::widgets::relief3d::View3d;
-use crate::tools::picture::Picturing;
 use crate::tools::picture::found::{Cloth, Found, Made};
-use crate::tools::picture::images::Image;
+use crate::tools::picture::state::Picture;
+use crate::tools::picture::textures::Textures;
 use crate::tools::picture::view::{frame, plots};
 use selvedge_foundation::quantity;
 
@@ -41,57 +39,6 @@ const TITLES: [&str; 8] = [
     "7  Strokes",
 ];
 
-/// Stages as textures, and from where the relief is looked at.
-#[derive(Default)]
-pub(crate) struct PictureTextures {
-    textures: BTreeMap<usize, (Image, TextureHandle)>,
-    view: Option<View3d>,
-    made: Option<Arc<Made>>,
-}
-
-impl std::fmt::Debug for PictureTextures {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("PictureTextures")
-            .field("cards", &self.textures.keys())
-            .field("view", &self.view)
-            .finish_non_exhaustive()
-    }
-}
-
-impl PictureTextures {
-    /// The texture of a card, made anew for another picture.
-    fn texture(&mut self, painter: &Painter, card: usize, image: &Image) -> &TextureHandle {
-        let make = || {
-            let options = TextureOptions {
-                magnification: TextureFilter::Nearest,
-                ..TextureOptions::LINEAR
-            };
-            let data = ImageData::Color(Arc::clone(image));
-            let name = TITLES[card];
-            (
-                Arc::clone(image),
-                painter.ctx().load_texture(name, data, options),
-            )
-        };
-        let kept = self.textures.entry(card).or_insert_with(make);
-        if !Arc::ptr_eq(&kept.0, image) {
-            *kept = make();
-        }
-        &kept.1
-    }
-
-    /// Paints a picture as large as fits; says where.
-    fn paint(&mut self, painter: &Painter, room: Rect, card: usize, image: &Image) -> Rect {
-        let [w, h] = image.size.map(|n| n.max(1) as f32);
-        let scale = (room.width() / w).min(room.height() / h);
-        let rect = Rect::from_min_size(room.min, vec2(w, h) * scale);
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        let texture = self.texture(painter, card, image).id();
-        painter.image(texture, rect, whole, Color32::WHITE);
-        rect
-    }
-}
-
 /// Columns of cards that make them largest in a room.
 fn n_columns(size: eframe::egui::Vec2) -> usize {
     let side = |n: usize| {
@@ -106,7 +53,7 @@ fn n_columns(size: eframe::egui::Vec2) -> usize {
 }
 
 /// Shows the cards.
-pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, textures: &mut PictureTextures) {
+pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
     let whole = ui.available_rect_before_wrap();
     let columns = n_columns(whole.size());
     let rows = TITLES.len().div_ceil(columns);
@@ -114,9 +61,9 @@ pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, textures: &mut Pictur
         (whole.width() - GAP * (columns - 1) as f32) / columns as f32,
         (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
     );
-    let found = picturing.found().cloned();
-    let is_past = picturing.standing() != Standing::Fresh;
-    let is_same_file = |found: &&Found| found.inputs.source == picturing.draft.source;
+    let found = picture.found().cloned();
+    let is_past = picture.standing() != Standing::Fresh;
+    let is_same_file = |found: &&Found| found.inputs.source == picture.draft.source;
     let found = found.as_deref().filter(is_same_file);
     let palette = Palette::in_ui(ui);
     for (card, title) in TITLES.iter().enumerate() {
@@ -137,16 +84,12 @@ pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, textures: &mut Pictur
         if is_past && card > 0 {
             child.multiply_opacity(PAST);
         }
-        show_card(&mut child, card, (picturing, found), textures);
+        show_card(&mut child, card, picture, found);
     }
 }
 
-fn show_card(
-    ui: &mut Ui,
-    card: usize,
-    (picturing, found): (&mut Picturing, Option<&Found>),
-    textures: &mut PictureTextures,
-) {
+fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Found>) {
+    let (textures, draft) = (&mut picture.textures, &mut picture.draft);
     let room = ui.max_rect();
     let cloth = found.and_then(|found| found.cloth.as_deref());
     let images = cloth.and_then(|cloth| cloth.images.as_ref());
@@ -165,7 +108,7 @@ fn show_card(
             .and_then(|found| found.loaded.as_deref())
             .map(|loaded| {
                 let rect = textures.paint(&painter, room, card, &loaded.image);
-                frame::show(ui, rect, loaded.size, &mut picturing.draft.part);
+                frame::show(ui, rect, loaded.size, &mut draft.part);
             }),
         1 => cloth.and_then(|cloth| correlation(&painter, room, cloth, textures)),
         2 => cloth
@@ -210,7 +153,7 @@ fn correlation(
     painter: &Painter,
     room: Rect,
     cloth: &Cloth,
-    textures: &mut PictureTextures,
+    textures: &mut Textures,
 ) -> Option<()> {
     let (image, radius) = cloth.correlation.as_ref()?;
     let rect = textures.paint(painter, room, 1, image);
@@ -243,7 +186,7 @@ fn correlation(
     Some(())
 }
 
-fn show_relief(ui: &mut Ui, made: &Arc<Made>, textures: &mut PictureTextures) {
+fn show_relief(ui: &mut Ui, made: &Arc<Made>, textures: &mut Textures) {
     let is_same = textures
         .made
         .as_ref()

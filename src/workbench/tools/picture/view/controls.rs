@@ -6,14 +6,14 @@ use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::follower::Standing;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
+use crate::tools::picture::state::Picture;
 use crate::tools::picture::view::hemisphere;
-use crate::tools::picture::{PictureCommand, Picturing};
 use selvedge_foundation::quantity::{self, with_unit};
 use selvedge_textile::picture::Directions;
 use selvedge_textile::picture::shading::Method;
@@ -24,23 +24,23 @@ const NAME: f32 = 52.0;
 const NUMBER: f32 = 72.0;
 
 /// Shows the steps.
-pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Commands) {
-    let found = picturing.found().cloned();
+pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
+    let found = picture.found().cloned();
     let found = found.as_deref();
-    let standing = picturing.standing();
-    show_picture(ui, picturing, found, commands);
+    let standing = picture.standing();
+    show_picture(ui, picture, found, commands);
     if let Standing::Working(share) = standing {
         ui.horizontal(|ui| {
             note(ui, &format!("working {:.0} %", 100.0 * share), Tone::Quiet);
             if button(ui, "Stop", "Stop working it out", None) {
-                commands.push(PictureCommand::Cancel.into());
+                picture.cancel();
             }
         });
     }
     let cloth = found.and_then(|found| found.cloth.as_deref());
-    show_repeats(ui, &mut picturing.draft, cloth);
+    show_repeats(ui, &mut picture.draft, cloth);
     let shaped = found.and_then(|found| found.shaped.as_deref());
-    show_light(ui, &mut picturing.draft, shaped);
+    show_light(ui, &mut picture.draft, shaped);
     show_failure(ui, found, Step::Light);
 }
 
@@ -53,12 +53,12 @@ fn show_failure(ui: &mut Ui, found: Option<&Found>, step: Step) {
 
 fn show_picture(
     ui: &mut Ui,
-    picturing: &mut Picturing,
+    picture: &mut Picture,
     found: Option<&Found>,
     commands: &mut Commands,
 ) {
-    let draft = &mut picturing.draft;
-    let name = draft.source.as_ref().map(|chosen| chosen.file().name());
+    let source = picture.draft.source.as_ref();
+    let name = source.map(|chosen| chosen.file().name());
     step_title(ui, 1, "File and scale", &name.unwrap_or_default());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
@@ -71,10 +71,11 @@ fn show_picture(
             "Let go of the picture and of what was typed",
             None,
         ) {
-            commands.push(PictureCommand::Clear.into());
+            picture.clear();
         }
     });
     show_failure(ui, found, Step::Picture);
+    let draft = &mut picture.draft;
     row_of(ui, NAME, ("scale", ""), |ui, label| {
         let need = Need::of(draft.px_per_mm().is_none());
         text(ui, label, &mut draft.scale, ("600", NUMBER, need));

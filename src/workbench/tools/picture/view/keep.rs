@@ -4,32 +4,32 @@ use eframe::egui::{Button, Ui, vec2};
 
 use crate::bench::command::Commands;
 use crate::kit::theme::{ROW, STEP};
+use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::tools::picture::draft::{Draft, Known};
 use crate::tools::picture::found::Step;
-use crate::tools::picture::{PictureCommand, Picturing};
+use crate::tools::picture::state::Picture;
 use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::surface::Representation;
 
 /// Shows the step.
-pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
     ui.spacing_mut().item_spacing.y = STEP;
-    let made = picturing.found().and_then(|found| found.made.clone());
+    let made = picture.found().and_then(|found| found.made.clone());
     let figures = made.map_or_else(String::new, |made| {
         let relief = with_unit(made.relief_um, 0, "µm");
         format!("relief {relief}, SMD {}", with_unit(made.smd_um, 2, "µm"))
     });
     step_title(ui, 7, "To the fingertip", &figures);
-    show_height(ui, &mut picturing.draft);
-    let own = picturing.draft.own_name();
+    show_height(ui, &mut picture.draft);
+    let own = picture.draft.own_name();
     row_of(ui, 44.0, ("name", ""), |ui, label| {
-        let felt = &mut picturing.draft.representation;
+        let felt = &mut picture.draft.representation;
         let width = ui.available_width() - 96.0;
         text(
             ui,
             label,
-            &mut picturing.draft.name,
+            &mut picture.draft.name,
             (&own, width, Need::Optional),
         );
         for (value, word, tip) in [
@@ -49,7 +49,7 @@ pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Comman
             }
         }
     });
-    let refusal = picturing.refusal();
+    let refusal = picture.refusal();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         let tip = "Keep it in the library and lay it under the display";
@@ -60,23 +60,23 @@ pub(crate) fn show(ui: &mut Ui, picturing: &mut Picturing, commands: &mut Comman
             None => response.on_hover_text(tip),
         };
         if response.clicked() {
-            commands.push(PictureCommand::Keep { is_felt: true }.into());
+            picture.keep(true, commands);
         }
         let save = "Write it into the library";
         if button(ui, "Save to the library", save, refusal.as_deref()) {
-            commands.push(PictureCommand::Keep { is_felt: false }.into());
+            picture.keep(false, commands);
         }
     });
-    show_outcome(ui, picturing, refusal);
+    show_outcome(ui, picture, refusal);
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, picturing: &Picturing, refusal: Option<String>) {
-    let failure = picturing.found().and_then(|found| found.failure.clone());
+fn show_outcome(ui: &mut Ui, picture: &Picture, refusal: Option<String>) {
+    let failure = picture.found().and_then(|found| found.failure.clone());
     if let Some((Step::Felt, line)) = failure {
         return note(ui, &line, Tone::Wrong);
     }
-    match (refusal, picturing.kept()) {
+    match (refusal, picture.kept()) {
         (Some(line), _) => note(ui, &line, Tone::Quiet),
         (None, Some(id)) => note(ui, &format!("handed to the library: {id}"), Tone::Quiet),
         (None, None) => {}

@@ -1,0 +1,56 @@
+//! Files that are dropped on a pane, and what it says before there are any.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Align, Label, Layout, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+
+use crate::kit::theme;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::button;
+
+/// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
+pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
+    let (dropped, is_hovered) = ui.input(|input| {
+        let paths = input
+            .raw
+            .dropped_files
+            .iter()
+            .map(|file| file.path().to_owned());
+        (
+            paths.collect::<Vec<_>>(),
+            !input.raw.hovered_files.is_empty(),
+        )
+    });
+    if is_hovered {
+        let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
+        ui.painter()
+            .rect_stroke(ui.max_rect(), 4, edge, StrokeKind::Inside);
+    }
+    dropped
+}
+
+/// What to do when there is nothing yet, at most so high: a title, a line, a button, and small
+/// words. Whether the button was pressed.
+pub(crate) fn nothing_yet(
+    ui: &mut Ui,
+    most_height: f32,
+    [title, line, ask]: [&str; 3],
+    notes: [&str; 3],
+) -> bool {
+    let palette = Palette::in_ui(ui);
+    let whole = ui.available_rect_before_wrap();
+    let size = vec2(whole.width().min(520.0), whole.height().min(most_height));
+    let room = Rect::from_center_size(whole.center(), size);
+    let layout = Layout::top_down(Align::Min);
+    let mut child = ui.new_child(UiBuilder::new().max_rect(room).layout(layout));
+    let ui = &mut child;
+    ui.spacing_mut().item_spacing.y = 2.0 * STEP;
+    ui.label(RichText::new(title).font(theme::title()));
+    ui.label(RichText::new(line).color(palette.text));
+    let is_pressed = button(ui, ask, "", None);
+    for words in notes {
+        let words = RichText::new(words).font(theme::small()).color(palette.dim);
+        ui.add(Label::new(words).wrap());
+    }
+    is_pressed
+}

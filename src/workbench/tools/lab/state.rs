@@ -1,0 +1,230 @@
+//! The lab's state: the recipe at hand, what became of it, and how it is looked at.
+
+use std::sync::Arc;
+
+use crate::bench::keep::NewTextile;
+use crate::bench::task::Task;
+use crate::tools::lab::family::{Family, FamilyFields};
+use crate::tools::lab::fields::KeepFields;
+use crate::tools::lab::pictures::Pictures;
+use crate::tools::lab::preview::{Compared, Preview};
+use crate::tools::lab::recipes::Recipes;
+use crate::tools::lab::steps::Steps;
+use selvedge_textile::surface::Direction;
+use selvedge_textile::tactile::Filters;
+use selvedge_textile::{Draft, Fault, Library, Manifest, Parent, Provenance};
+
+/// Which controls are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Page {
+    /// The parameters.
+    #[default]
+    Recipe,
+    /// Several recipes that differ in one parameter.
+    Family,
+    /// How the textile is called that is kept.
+    Keep,
+}
+
+impl Page {
+    /// All three, with their titles.
+    pub(crate) const ALL: [(Self, &'static str); 3] = [
+        (Self::Recipe, "Recipe"),
+        (Self::Family, "Family"),
+        (Self::Keep, "Keep"),
+    ];
+}
+
+/// Which stroke is looked at, and how much of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Look {
+    /// The stroke.
+    pub direction: Direction,
+    /// Where the view begins, mm.
+    pub from_mm: f64,
+    /// How much of it is in sight, mm.
+    pub span_mm: f64,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            direction: Direction::WarpForward,
+            from_mm: 0.0,
+            span_mm: 20.0,
+        }
+    }
+}
+
+/// A recipe that begins.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    /// The recipe.
+    pub(crate) draft: Draft,
+    /// The textile that it is made from.
+    pub(crate) parent: Option<(Parent, Compared)>,
+}
+
+/// The lab.
+#[derive(Debug, Default)]
+pub(crate) struct Lab {
+    /// The recipe; `None` before one has begun.
+    pub steps: Option<Steps>,
+    /// The textile of the library that it is made from.
+    pub parent: Option<Parent>,
+    /// What it is compared with.
+    pub compared: Option<Compared>,
+    /// What became of the recipe that was computed last.
+    pub(crate) preview: Option<Arc<Preview>>,
+    /// What is pictured of it, as it was drawn last.
+    pub(crate) pictures: Pictures,
+    /// Which stroke is looked at.
+    pub look: Look,
+    /// Which controls are shown.
+    pub page: Page,
+    /// What is typed where the textile is named.
+    pub fields: KeepFields,
+    /// What is chosen where a family is planned.
+    pub plan: FamilyFields,
+    /// The family that was tried last.
+    pub family: Option<Family>,
+    /// Why something was not done.
+    pub refusal: Option<String>,
+    /// Whether the preview was stopped: nothing is computed until something changes.
+    pub is_stopped: bool,
+    /// Previews that were begun.
+    pub(crate) n_computed: u64,
+    /// Counts changes of the recipe and of what it is felt through.
+    serial: u64,
+    pub(crate) recipes: Recipes,
+    shown_serial: Option<u64>,
+    filters: Option<Filters>,
+    pub(crate) beginning: Option<Task<Begun>>,
+    pub(crate) comparing: Option<Task<Compared>>,
+    pub(crate) previewing: Option<(u64, Option<Task<Preview>>)>,
+    pub(crate) trying: Option<Task<Family>>,
+    pub(crate) keeping: Option<(Option<Task<Vec<NewTextile>>>, bool)>,
+}
+
+impl Lab {
+    /// Whether the preview is of the recipe as it is.
+    pub(crate) fn is_fresh(&self) -> bool {
+        self.shown_serial == Some(self.serial)
+    }
+
+    /// What is wrong with the recipe.
+    pub(crate) fn fault(&self) -> Option<&Fault> {
+        self.steps.as_ref().and_then(Steps::fault)
+    }
+
+    /// How far what is computed is, 0…1; `None` while nothing is.
+    pub(crate) fn share(&self) -> Option<f32> {
+        let preview = self.previewing.as_ref().and_then(|(_, task)| task.as_ref());
+        let share = preview.map(Task::share);
+        share
+            .or_else(|| self.trying.as_ref().map(Task::share))
+            .or_else(|| self.beginning.as_ref().map(Task::share))
+            .or_else(|| self.comparing.as_ref().map(Task::share))
+            .or_else(|| self.keeping.as_ref()?.0.as_ref().map(Task::share))
+    }
+
+    /// The recipe has changed.
+    pub(crate) fn has_changed(&mut self) {
+        self.serial += 1;
+        self.is_stopped = false;
+        self.refusal = None;
+    }
+
+    /// Notices that everything is felt through other filters.
+    pub(crate) fn feel_through(&mut self, filters: Filters) {
+        if self.filters.replace(filters) != Some(filters) {
+            self.serial += 1;
+        }
+    }
+
+    /// The recipe to compute next; `None` while there is nothing to do.
+    pub(crate) fn due(&self) -> Option<(u64, Manifest)> {
+        let is_idle = self.previewing.is_none() && !self.is_stopped && !self.is_fresh();
+        let manifest = self.steps.as_ref()?.read().as_ref().ok()?;
+        is_idle.then(|| (self.serial, manifest.clone()))
+    }
+
+    /// Begins a recipe; the one at hand can be had back.
+    pub(crate) fn begin(&mut self, begun: Begun) {
+        self.set_aside();
+        let manifest = begun.draft.read().ok();
+        let name = manifest.map_or_else(String::new, |manifest| manifest.name);
+        let is_copy = begun.parent.is_some();
+        self.fields = KeepFields::of(&name, is_copy);
+        self.steps = Some(Steps::new(begun.draft));
+        self.family = None;
+        self.plan = FamilyFields::default();
+        self.parent = begun.parent.as_ref().map(|(parent, _)| parent.clone());
+        self.compared = begun.parent.map(|(_, compared)| compared);
+        self.has_changed();
+    }
+
+    /// Takes in a preview of this serial number.
+    pub(crate) fn show(&mut self, serial: u64, preview: Preview) {
+        self.preview = Some(Arc::new(preview));
+        self.shown_serial = Some(serial);
+    }
+
+    /// Says that there is no preview of this serial number, and why.
+    pub(crate) fn refuse(&mut self, serial: u64, words: String) {
+        self.shown_serial = Some(serial);
+        self.refusal = Some(words);
+    }
+
+    /// The recipe as it would be kept.
+    ///
+    /// # Errors
+    /// What is wrong with the recipe or with how it is called, in one line.
+    pub(crate) fn to_keep(&self, library: &Library) -> Result<(String, Manifest), String> {
+        let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
+        let manifest = steps
+            .read()
+            .as_ref()
+            .map_err(|fault| fault.message.clone())?;
+        let id = self.fields.id.trim();
+        if let Some(words) = self.fields.refusal(library.ids()) {
+            return Err(words);
+        }
+        Ok((id.to_owned(), self.named(manifest, self.fields.name.trim())))
+    }
+
+    /// A recipe under a name, with where it comes from.
+    fn named(&self, manifest: &Manifest, name: &str) -> Manifest {
+        Manifest {
+            name: name.to_owned(),
+            notes: self.fields.notes.trim().replace('\n', " "),
+            provenance: Some(Provenance::of(self.parent.iter().cloned().collect())),
+            ..manifest.clone()
+        }
+    }
+
+    /// Every member of the family as it would be kept.
+    ///
+    /// # Errors
+    /// The same, for any of them.
+    pub(crate) fn family_to_keep(
+        &self,
+        library: &Library,
+    ) -> Result<Vec<(String, Manifest)>, String> {
+        let none = || "there is no family yet: press “Try” first".to_owned();
+        let family = self.family.as_ref().ok_or_else(none)?;
+        let mut all = Vec::with_capacity(family.members.len());
+        for (nth, member) in (1..).zip(&family.members) {
+            let numbered = KeepFields {
+                id: format!("{}-{nth}", self.fields.id.trim()),
+                ..self.fields.clone()
+            };
+            if let Some(words) = numbered.refusal(library.ids()) {
+                return Err(words);
+            }
+            let name = format!("{}, {}", self.fields.name.trim(), member.label);
+            all.push((numbered.id.clone(), self.named(&member.manifest, &name)));
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,154 @@
+//! What was chosen and typed of a picture, and what was made of it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui;
+
+use crate::bench::command::Commands;
+use crate::bench::follower::{Follower, Standing};
+use crate::bench::keep::Keep;
+use crate::bench::source_file::SourceFile;
+use crate::tools::picture::draft::{Chosen, Draft, Part};
+use crate::tools::picture::found::Found;
+use crate::tools::picture::textures::Textures;
+
+/// A picture, what is wanted of it and what was made.
+#[derive(Default)]
+pub(crate) struct Picture {
+    /// What was chosen and typed.
+    pub draft: Draft,
+    /// The stages as textures.
+    pub(crate) textures: Textures,
+    work: Follower<Found>,
+    /// The id that was handed to the library last.
+    kept: Option<String>,
+}
+
+impl Picture {
+    /// What was made last, whatever has changed since.
+    pub(crate) fn found(&self) -> Option<&Arc<Found>> {
+        self.work.found()
+    }
+
+    /// Runs that were begun.
+    pub(crate) fn n_begun(&self) -> u64 {
+        self.work.n_begun()
+    }
+
+    /// The id that was handed to the library last, of what is chosen now.
+    pub(crate) fn kept(&self) -> Option<&str> {
+        self.kept.as_deref()
+    }
+
+    /// How what was made stands to what is chosen.
+    pub(crate) fn standing(&self) -> Standing {
+        if self.draft.source.is_none() {
+            return Standing::Empty;
+        }
+        self.work.standing(&self.draft)
+    }
+
+    /// Why nothing can be kept now; `None` if it can.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        match self.standing() {
+            Standing::Empty => return Some("Open a picture first".to_owned()),
+            Standing::Working(_) => return Some("It is being worked out".to_owned()),
+            Standing::Stopped => return Some("It was stopped; change something".to_owned()),
+            Standing::Fresh => {}
+        }
+        let found = self.found()?;
+        if let Some((step, _)) = &found.failure {
+            return Some(format!("Step {} has something to mend", *step as u8));
+        }
+        if found
+            .cloth
+            .as_ref()
+            .is_some_and(|cloth| cloth.found.is_err())
+        {
+            return Some("There is no lattice; step 4 says why".to_owned());
+        }
+        if found.made.is_none() {
+            return self.draft.missing().map(str::to_owned);
+        }
+        None
+    }
+
+    /// Takes another picture; how it was lit and its scale stay, for the next may be like it.
+    pub(crate) fn open(&mut self, path: PathBuf) {
+        let draft = Draft {
+            source: Some(Chosen::new(SourceFile::new(path))),
+            part: Part::Whole,
+            lambda: None,
+            name: String::new(),
+            ..self.draft.clone()
+        };
+        self.take_draft(draft);
+    }
+
+    /// Takes what was chosen and typed.
+    fn take_draft(&mut self, draft: Draft) {
+        let before = std::mem::replace(&mut self.draft, draft);
+        self.forget_after(&before);
+    }
+
+    /// Forgets what came of another draft; says whether it is another.
+    pub(crate) fn forget_after(&mut self, before: &Draft) -> bool {
+        let is_other = self.draft != *before;
+        if is_other {
+            self.kept = None;
+        }
+        is_other
+    }
+
+    /// Stops until something else is chosen.
+    pub(crate) fn cancel(&mut self) {
+        self.work.stop();
+    }
+
+    /// Begins anew, with nothing.
+    pub(crate) fn clear(&mut self) {
+        self.cancel();
+        *self = Self {
+            textures: std::mem::take(&mut self.textures),
+            ..Self::default()
+        };
+    }
+
+    /// Keeps the textile of what is chosen now in the library; it may be felt at once.
+    pub(crate) fn keep(&mut self, is_felt: bool, commands: &mut Commands) {
+        let made = self.found().and_then(|found| found.made.clone());
+        let Some(made) = made.filter(|_| self.refusal().is_none()) else {
+            return;
+        };
+        self.kept = made.textile.first().map(|textile| textile.id.clone());
+        let textile = Arc::clone(&made.textile);
+        let keep = if is_felt {
+            Keep::Feel(textile)
+        } else {
+            Keep::Save(textile)
+        };
+        commands.push(keep.into());
+    }
+
+    /// Takes what a thread has made, if it is done.
+    pub(crate) fn poll(&mut self) {
+        self.work.poll();
+    }
+
+    /// Lets the stages follow what was chosen: to be called while the pane is in sight.
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
+        if self.standing() != Standing::Empty {
+            self.work.follow(ctx, is_at_once, self.draft.clone());
+        }
+    }
+}
+
+impl std::fmt::Debug for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Picture")
+            .field("draft", &self.draft)
+            .field("n_begun", &self.n_begun())
+            .finish_non_exhaustive()
+    }
+}
