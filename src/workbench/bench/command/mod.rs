@@ -299,10 +299,6 @@ pub(crate) enum ShowCommand {
     ToggleNumbers,
     /// Grey what is too weak to be felt by the model, or no longer.
     ToggleThreshold,
-    /// Hold the scale of amplitudes, or let it follow them.
-    LockScale(bool),
-    /// The largest amplitude of the scale, µm; holds it.
-    ScaleTop(f64),
     /// What the contactors' dots show by what.
     DotStyle(DotStyle),
     /// Draw this over the cloth, or no longer.

@@ -10,7 +10,7 @@ use crate::kit::theme::Palette;
 use crate::shell::frame;
 
 /// Why there is nothing to export before anything was felt.
-const NOTHING_FELT: &str =
+pub(crate) const NOTHING_FELT: &str =
     "There is nothing to export yet: move over a textile, or let the display explore by itself";
 /// Why there is nothing to export of no contactor.
 const NO_CONTACTOR: &str =
@@ -27,7 +27,6 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Exportable::Pane(pane) => pane,
     };
     match pane {
-        Pane::Heatmaps => Some(Bench::gather_heatmaps),
         Pane::ContactSpectrum => Some(Bench::gather_contact_spectrum),
         Pane::DriveSpectrum => Some(Bench::gather_drive_spectrum),
         Pane::DriveWave => Some(Bench::gather_drive_wave),
@@ -42,15 +41,18 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Workspace => Some(Bench::gather_maps),
         Pane::Collection => Some(Bench::gather_collection),
         Pane::Bridge => Some(Bench::gather_link),
-        Pane::Import | Pane::Library | Pane::Participant | Pane::Experimenter | Pane::Analysis => {
-            None
-        }
+        Pane::Heatmaps
+        | Pane::Import
+        | Pane::Library
+        | Pane::Participant
+        | Pane::Experimenter
+        | Pane::Analysis => None,
     }
 }
 
 /// Whether a pane has numbers to export.
 pub(crate) fn is_exportable(pane: Pane) -> bool {
-    pane == Pane::Import || gather_of(Exportable::Pane(pane)).is_some()
+    matches!(pane, Pane::Heatmaps | Pane::Import) || gather_of(Exportable::Pane(pane)).is_some()
 }
 
 impl Bench {
@@ -84,26 +86,6 @@ impl Bench {
 
     fn contactor(&self) -> Result<usize, &'static str> {
         self.workspace.contactor.ok_or(NO_CONTACTOR)
-    }
-
-    fn gather_heatmaps(&mut self) -> Result<Exported, &'static str> {
-        let dots = &self.transient.live.dots;
-        if dots.iter().all(|dot| dot.cloth.is_none()) {
-            return Err(NOTHING_FELT);
-        }
-        let scene = self.plain_scene_view();
-        let grid = scene.grid.ok_or(
-            "The contactors of this display form no grid: `selvedge render` writes them as a table",
-        )?;
-        let origin = self.origin();
-        let live = &self.transient.live;
-        Ok(crate::tools::contactors::export::heatmaps(
-            &scene,
-            live,
-            self.heatmap_style(),
-            grid,
-            origin,
-        ))
     }
 
     fn gather_contact_spectrum(&mut self) -> Result<Exported, &'static str> {

@@ -21,7 +21,6 @@ use crate::shell::tab_row::TabRow;
 use crate::tools::collection::measuring::Asked;
 use crate::tools::collection::view::Typed as CollectionTyped;
 use crate::tools::compare::view::CompareView;
-use crate::tools::contactors::HeatmapStyle;
 use crate::tools::spectra::contact::ContactSpectrumView;
 use crate::tools::spectra::drive::DriveSpectrumView;
 use crate::tools::spectra::spatial::SpatialSource;
@@ -69,7 +68,6 @@ impl Desk<'_> {
             Pane::Bridge => scrolled(ui, pane.title(), |ui| {
                 self.context.bench.show_bridge(ui, self.context.commands);
             }),
-            Pane::Heatmaps => framed(ui, 10, |ui| self.show_heatmaps(ui)),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),
             Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
@@ -95,7 +93,7 @@ impl Desk<'_> {
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Import => {}
+            Pane::Heatmaps | Pane::Import => {}
         }
     }
 
@@ -137,18 +135,6 @@ impl Desk<'_> {
             collection.pointed = pointed;
             ui.ctx().request_repaint();
         }
-    }
-
-    fn show_heatmaps(&mut self, ui: &mut Ui) {
-        let bench = &*self.context.bench;
-        let style = bench.heatmap_style();
-        crate::tools::contactors::show(
-            ui,
-            self.context.scene,
-            &bench.transient.live,
-            style,
-            self.context.commands,
-        );
     }
 }
 
@@ -288,17 +274,6 @@ impl Bench {
         self.transient.collection.measurements.rest();
     }
 
-    /// How the heatmaps are drawn.
-    pub(crate) fn heatmap_style(&self) -> HeatmapStyle {
-        HeatmapStyle {
-            map: self.settings.preferences.colour_map,
-            scale: self.workspace.scale,
-            has_numbers: self.settings.preferences.has_numbers,
-            greys_below: self.workspace.greys_below,
-            selected: self.workspace.contactor.unwrap_or(usize::MAX),
-        }
-    }
-
     /// What drove the chosen contactor in the last two ticks.
     pub(crate) fn drive_wave_view(&self) -> DriveWaveView {
         let contactor = self.workspace.contactor.unwrap_or(usize::MAX);
@@ -322,11 +297,6 @@ impl Desk<'_> {
             return tool.corner(pane, ui, &mut self.context);
         }
         match pane {
-            Pane::Heatmaps => {
-                let style = self.context.bench.heatmap_style();
-                let mute_solo = &self.context.bench.transient.mute_solo;
-                crate::tools::contactors::show_corner(ui, style, mute_solo, self.context.commands);
-            }
             Pane::ContactSpectrum
             | Pane::DriveSpectrum
             | Pane::DriveWave
@@ -373,7 +343,8 @@ impl Desk<'_> {
                     workspace::show_tools(ui, state, ground, size_mm, self.context.commands);
                 }
             }
-            Pane::Collection
+            Pane::Heatmaps
+            | Pane::Collection
             | Pane::Lab
             | Pane::Library
             | Pane::Tuning

@@ -70,9 +70,6 @@ impl Bench {
             ShowCommand::Mute(part) => self.transient.mute_solo.toggle_mute(part),
             ShowCommand::Solo(part) => self.transient.mute_solo.toggle_solo(part),
             ShowCommand::HearAll => self.transient.mute_solo = MuteSolo::default(),
-            ShowCommand::ToggleNumbers => {
-                self.settings.preferences.has_numbers = !self.settings.preferences.has_numbers;
-            }
             ShowCommand::FreezeWhy => self.transient.why.1 = !self.transient.why.1,
             ShowCommand::CopyWhy => {
                 if let Some(why) = &self.transient.why.0 {

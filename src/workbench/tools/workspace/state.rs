@@ -59,8 +59,6 @@ impl WorkspaceState {
             ShowCommand::ToggleThreshold => self.greys_below = !self.greys_below,
             ShowCommand::Overlay(overlay) => self.overlays = self.overlays.toggled(overlay),
             ShowCommand::Probe(probe) => self.probe = probe,
-            ShowCommand::LockScale(is_locked) => self.scale = self.scale.with_lock(is_locked),
-            ShowCommand::ScaleTop(most_um) => self.scale = self.scale.locked_at(most_um),
             ShowCommand::Calibrate => self.is_calibrating = true,
             ShowCommand::Calibrated(pixels_per_mm) => {
                 self.true_pixels_per_mm = Some(pixels_per_mm);

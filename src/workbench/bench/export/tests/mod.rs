@@ -98,7 +98,7 @@ impl Headless {
     }
 
     fn exported(&mut self, what: Exportable) -> Exported {
-        let exported = self.workbench.bench.exported(what);
+        let exported = self.workbench.exported(what);
         exported.unwrap_or_else(|words| panic!("{what:?}: {words}"))
     }
 
@@ -303,7 +303,6 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         desk.workbench.bench.workspace.contactor = is_chosen.then_some(9);
         let words = desk
             .workbench
-            .bench
             .exported(what)
             .expect_err("nothing is shown yet");
         assert!(
@@ -315,7 +314,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.workbench.shell.exports.seen.is_none(), "{what:?}");
     }
     let library = Exportable::Pane(Pane::Library);
-    assert!(!is_exportable(Pane::Library) && desk.workbench.bench.exported(library).is_err());
+    assert!(!is_exportable(Pane::Library) && desk.workbench.exported(library).is_err());
 }
 
 #[test]
