@@ -229,6 +229,13 @@ fn image(appearance: &Appearance) -> (ColorImage, Vec2) {
     )
 }
 
+/// A textile of the library that is carried by the pointer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LibraryItem {
+    /// Its place in the library.
+    pub id: String,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

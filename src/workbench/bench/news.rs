@@ -127,8 +127,6 @@ impl Bench {
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
         kept.greys_below = self.workspace.greys_below;
-        kept.overlays = self.workspace.overlays;
-        kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
         let form = &self.transient.experiment.form;
         kept.sessions_folder = form.kept_folder();
         kept.design = form.chosen.word();

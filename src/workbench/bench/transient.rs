@@ -14,6 +14,7 @@ use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
+use crate::bench::trail::Trail;
 use crate::bench::view::{BridgeView, Hovered, Live};
 use crate::tools::accuracy::AccuracyWatch;
 use crate::tools::analysis::Analysing;
@@ -33,11 +34,7 @@ use crate::tools::spectra::contact::ContactSpectrogram;
 use crate::tools::spectra::drive::DriveSpectrogram;
 use crate::tools::spectra::spatial::SpatialSpectra;
 use crate::tools::spectra::wave::WaveScale;
-use crate::tools::timeline::TransportState;
 use crate::tools::why::Why;
-use crate::tools::workspace::maps::Maps;
-use crate::tools::workspace::overlay::lattice::Lattice;
-use crate::tools::workspace::trail::Trail;
 use selvedge_render::array::ContactorReading;
 use selvedge_render::scene::SceneError;
 
@@ -100,10 +97,6 @@ pub(crate) struct Transient {
     pub(crate) picture_textures: PictureTextures,
     /// How accurate rendering was found to be.
     pub accuracy: AccuracyWatch,
-    /// Maps of the textiles at the chosen velocity.
-    pub maps: Maps,
-    /// Pictures of the points 1 mm apart.
-    pub lattice: Lattice,
     /// What the contactors read and how they move, while that is drawn.
     pub readings: Vec<ContactorReading>,
     /// A textile's amplitudes over direction and speed.
@@ -116,8 +109,6 @@ pub(crate) struct Transient {
     pub(crate) lab_pictures: LabPictures,
     /// What the pointer rests on.
     pub hovered: Hovered,
-    /// What the timeline remembers.
-    pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.
     pub(crate) mute_solo: MuteSolo,
     /// Whether recordings are replayed again and again.

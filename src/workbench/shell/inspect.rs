@@ -8,6 +8,7 @@ use crate::bench::pane::Pane;
 use crate::bench::view::{BridgePhase, Source};
 use crate::shell::window::Workbench;
 use crate::tools::import::Import;
+use crate::tools::workspace::Workspace;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::Tuning;
@@ -119,8 +120,9 @@ impl Workbench {
 
     /// Maps over the cloth and curves over direction and speed computed so far.
     pub fn responses_computed(&self) -> [u64; 2] {
-        let transient = &self.bench.transient;
-        [transient.maps.n_computed(), transient.curves.n_computed()]
+        let workspace = self.tools.get::<Workspace>();
+        let n_maps = workspace.map_or(0, |workspace| workspace.maps.n_computed());
+        [n_maps, self.bench.transient.curves.n_computed()]
     }
 
     /// Previews of recipes that were begun in the textile lab.

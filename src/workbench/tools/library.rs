@@ -7,6 +7,7 @@ use eframe::egui::{
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
+use crate::bench::library_view::LibraryItem;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::view::{Cloth, ClothPicture, SceneView, ShelfItem};
@@ -15,7 +16,6 @@ use crate::kit::widgets::text::{paint_line, row, toggle};
 use crate::kit::{swatch, theme};
 use crate::tools::collection::{CollectionCommand, Joining};
 use crate::tools::lab::command::{Beginning, LabCommand};
-use crate::tools::workspace::drop::LibraryItem;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
 

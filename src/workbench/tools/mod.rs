@@ -20,12 +20,19 @@ pub(crate) mod tuning;
 pub(crate) mod why;
 pub(crate) mod workspace;
 
-use crate::bench::tool::Tool;
+use crate::bench::tool::{Bar, Tool};
 
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
     vec![
         Box::new(contactors::Contactors),
         Box::new(import::Import::default()),
+        Box::new(tuning::Tuning::default()),
+        Box::new(workspace::Workspace::default()),
     ]
+}
+
+/// The bar at the bottom of the window.
+pub(crate) fn bar() -> Box<dyn Bar> {
+    Box::new(timeline::Timeline::default())
 }

@@ -17,6 +17,7 @@ use eframe::egui;
 
 use crate::bench::export::Exportable;
 use crate::bench::keep::Keep;
+use crate::bench::overlays::Overlay;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
@@ -29,7 +30,6 @@ use crate::tools::compare::choice::Choice;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::lab::command::LabCommand;
 use crate::tools::picture::PictureCommand;
-use crate::tools::workspace::overlay::Overlay;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
 use selvedge_textile::tactile::Band;
@@ -310,8 +310,6 @@ pub(crate) enum ShowCommand {
     Hover(Part),
     /// Begin to calibrate the screen to true size.
     Calibrate,
-    /// The screen has this many pixels per millimetre.
-    Calibrated(f64),
     /// Hold the explanation of the chosen contactor, or let it follow again.
     FreezeWhy,
     /// Copy the explanation of the chosen contactor as text.

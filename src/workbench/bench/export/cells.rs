@@ -1,6 +1,6 @@
 //! Numbers of all contactors as cells of one band: rows and columns as they stand.
 
-use crate::tools::spectra::export_spectrograms::ink;
+use crate::bench::export::ink;
 use selvedge_chart::{Axis, Chart, Raster, Upright, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;

@@ -7,7 +7,6 @@ use crate::bench::export::{Exportable, Exported};
 use crate::bench::pane::Pane;
 use crate::bench::{Bench, query};
 use crate::kit::theme::Palette;
-use crate::shell::frame;
 
 /// Why there is nothing to export before anything was felt.
 pub(crate) const NOTHING_FELT: &str =
@@ -22,7 +21,7 @@ type Gather = fn(&mut Bench) -> Result<Exported, &'static str>;
 /// How the numbers of a pane are fetched; `None` where a pane shows none.
 fn gather_of(what: Exportable) -> Option<Gather> {
     let pane = match what {
-        Exportable::Timeline => return Some(Bench::gather_timeline),
+        Exportable::Timeline => return None,
         Exportable::Analysed => return Some(Bench::gather_analysed),
         Exportable::Pane(pane) => pane,
     };
@@ -31,17 +30,17 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::DriveSpectrum => Some(Bench::gather_drive_spectrum),
         Pane::DriveWave => Some(Bench::gather_drive_wave),
         Pane::SpatialSpectra => Some(Bench::gather_spatial),
-        Pane::Tuning => Some(Bench::gather_compression),
         Pane::Why => Some(Bench::gather_why),
         Pane::Response => Some(Bench::gather_response),
         Pane::Accuracy => Some(Bench::gather_accuracy),
         Pane::Compare => Some(Bench::gather_comparison),
         Pane::Lab => Some(Bench::gather_lab),
         Pane::Picture => Some(Bench::gather_picture),
-        Pane::Workspace => Some(Bench::gather_maps),
         Pane::Collection => Some(Bench::gather_collection),
         Pane::Bridge => Some(Bench::gather_link),
-        Pane::Heatmaps
+        Pane::Workspace
+        | Pane::Heatmaps
+        | Pane::Tuning
         | Pane::Import
         | Pane::Library
         | Pane::Participant
@@ -52,7 +51,10 @@ fn gather_of(what: Exportable) -> Option<Gather> {
 
 /// Whether a pane has numbers to export.
 pub(crate) fn is_exportable(pane: Pane) -> bool {
-    matches!(pane, Pane::Heatmaps | Pane::Import) || gather_of(Exportable::Pane(pane)).is_some()
+    matches!(
+        pane,
+        Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Import
+    ) || gather_of(Exportable::Pane(pane)).is_some()
 }
 
 impl Bench {
@@ -168,33 +170,6 @@ impl Bench {
         ))
     }
 
-    fn gather_compression(&mut self) -> Result<Exported, &'static str> {
-        let scene = self.plain_scene_view();
-        let reference_db = scene.reference_db.filter(|_| !scene.library.is_empty());
-        let reference_db = reference_db.ok_or(
-            "There is nothing to export yet: levels are being computed, or the library has no \
-             textile with a level",
-        )?;
-        Ok(crate::tools::tuning::curve::exported(
-            &scene,
-            reference_db,
-            self.origin(),
-        ))
-    }
-
-    fn gather_timeline(&mut self) -> Result<Exported, &'static str> {
-        let origin = self.rendered_origin();
-        let transient = &self.transient;
-        let take = self.take.as_ref();
-        let view = frame::transport_view(transient, take);
-        let timeline = view.timeline();
-        let mut ticks = timeline.ticks.iter();
-        if !ticks.any(|tick| tick.felt.speed_mm_per_s > 0.0) {
-            return Err(NOTHING_FELT);
-        }
-        Ok(crate::tools::timeline::export::strips(&timeline, origin))
-    }
-
     fn gather_why(&mut self) -> Result<Exported, &'static str> {
         self.explain();
         let shown = self.transient.why.0.as_ref().ok_or(NO_CONTACTOR)?;
@@ -272,24 +247,6 @@ impl Bench {
             (grid, map),
             origin,
         ))
-    }
-
-    fn gather_maps(&mut self) -> Result<Exported, &'static str> {
-        if self.workspace.overlays.map().is_none() {
-            return Err(
-                "There is nothing to export: show a map over the cloth first, by “Overlay” in \
-                 the row of tools or by the keys K and Shift+K",
-            );
-        }
-        let ctx = self.ctx.clone();
-        self.prepare_overlays(&ctx);
-        let (scene, origin) = (self.plain_scene_view(), self.origin());
-        let maps = &self.transient.maps;
-        let cloths = scene.cloths.iter().enumerate();
-        let shown = cloths.filter_map(|(index, cloth)| Some((index, cloth, maps.shown(index)?)));
-        crate::tools::workspace::export::maps(shown.collect(), self.workspace.probe, origin).ok_or(
-            "There is nothing to export yet: the maps are being computed, or no textile is felt",
-        )
     }
 
     fn gather_collection(&mut self) -> Result<Exported, &'static str> {

@@ -38,10 +38,19 @@ pub(crate) use selvedge_chart::Columns as Sheet;
 
 use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_chart::{Axis, Chart, ColourBar, Figure, Row};
+use selvedge_chart::{Axis, Chart, ColourBar, Figure, Ink, Row};
+use selvedge_textile::tactile::Band;
 
 /// Colours of a bar: more than the eye tells apart.
 pub(crate) const N_COLOURS: u8 = 33;
+
+/// What a band is drawn with.
+pub(crate) fn ink(band: Band) -> Ink {
+    match band {
+        Band::Low => Ink::Amber,
+        Band::High => Ink::Cyan,
+    }
+}
 
 /// Something that can be exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

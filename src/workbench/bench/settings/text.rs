@@ -11,11 +11,11 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::command::DotStyle;
+use crate::bench::overlays::Overlays;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::preferences::Preferences;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::workspace::overlay::Overlays;
 use selvedge_engine::Area;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};
 use selvedge_render::array::Method;
@@ -277,7 +277,7 @@ pub(crate) fn write(preferences: &Preferences, path: &Path) -> Result<String, Fi
 mod tests {
     use super::*;
     use crate::bench::amplitude::AmplitudeScale;
-    use crate::tools::workspace::overlay::Overlay;
+    use crate::bench::overlays::Overlay;
     use selvedge_textile::tactile::Band;
 
     fn path() -> &'static Path {

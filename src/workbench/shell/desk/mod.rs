@@ -25,7 +25,6 @@ use crate::tools::spectra::contact::ContactSpectrumView;
 use crate::tools::spectra::drive::DriveSpectrumView;
 use crate::tools::spectra::spatial::SpatialSource;
 use crate::tools::spectra::wave::DriveWaveView;
-use crate::tools::workspace;
 
 /// Everything that panes are drawn from, and what came of drawing them.
 pub(crate) struct Desk<'a> {
@@ -51,20 +50,7 @@ impl Desk<'_> {
             return tool.ui(pane, ui, &mut self.context);
         }
         match pane {
-            Pane::Workspace => self.show_workspace(ui),
             Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
-            Pane::Tuning => scrolled(ui, pane.title(), |ui| {
-                let bench = &mut *self.context.bench;
-                let mute_solo = &bench.transient.mute_solo;
-                let live = &bench.transient.live;
-                crate::tools::tuning::show(
-                    ui,
-                    self.context.scene,
-                    live,
-                    mute_solo,
-                    self.context.commands,
-                );
-            }),
             Pane::Bridge => scrolled(ui, pane.title(), |ui| {
                 self.context.bench.show_bridge(ui, self.context.commands);
             }),
@@ -93,7 +79,7 @@ impl Desk<'_> {
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Heatmaps | Pane::Import => {}
+            Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Import => {}
         }
     }
 
@@ -336,14 +322,8 @@ impl Desk<'_> {
                 let shows_methods = self.context.bench.transient.accuracy.shows_methods;
                 crate::tools::accuracy::view::show_corner(ui, shows_methods, self.context.commands);
             }
-            Pane::Workspace => {
-                let bench = &*self.context.bench;
-                if let Some(ground) = bench.transient.ground {
-                    let (state, size_mm) = (&bench.workspace, self.context.scene.size_mm);
-                    workspace::show_tools(ui, state, ground, size_mm, self.context.commands);
-                }
-            }
-            Pane::Heatmaps
+            Pane::Workspace
+            | Pane::Heatmaps
             | Pane::Collection
             | Pane::Lab
             | Pane::Library

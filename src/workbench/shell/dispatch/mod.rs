@@ -63,7 +63,6 @@ impl Workbench {
         self.shell.exports.seen = None;
         self.shell.question = None;
         self.shell.is_help_shown = false;
-        self.bench.workspace.is_calibrating = false;
     }
 }
 

@@ -1,7 +1,5 @@
 //! What is shown how: kept per user where that makes sense, never undone.
 
-use eframe::egui;
-
 use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
@@ -9,7 +7,6 @@ use crate::shell::arrangement;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::window::Workbench;
 use crate::tools::why::text::to_text;
-use crate::tools::workspace::state::Place;
 
 impl Workbench {
     /// Shows something, or shows it otherwise.
@@ -47,12 +44,7 @@ impl Workbench {
 impl Bench {
     pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
         let ctx = self.ctx.clone();
-        let place = Place {
-            pane: self.transient.ground.unwrap_or(egui::Rect::ZERO),
-            size_mm: self.document.scene().size_mm,
-            pixels_per_point: ctx.pixels_per_point(),
-        };
-        self.workspace.take(command, place);
+        self.workspace.take(command);
         match *command {
             ShowCommand::Theme(preference) => {
                 ctx.set_theme(preference);

@@ -1,11 +1,11 @@
 //! By how much two runs on the same path differ: by contactor and over time.
 
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, N_COLOURS, Sheet, cells};
 use crate::kit::theme::colour_map::Diverging;
 use crate::tools::compare::choice::Side;
 use crate::tools::compare::view::scale_db as scale_of_differences_db;
-use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{Axis, Chart, ColourBar, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::LevelDifference;

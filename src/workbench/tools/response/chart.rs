@@ -2,11 +2,11 @@
 //! speed of movement.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::probe::SPEEDS_MM_PER_S;
 use crate::tools::response::curves::speeds_mm_per_s;
 use crate::tools::response::{ResponseView, ends_db};
-use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{Axis, Band as Area, Chart, Columns, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;

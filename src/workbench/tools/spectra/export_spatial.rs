@@ -1,9 +1,9 @@
 //! The spatial spectra under a contactor: every bin of all four directions.
 
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
 use crate::bench::signals::spatial::{SpatialCurve, SpatialView};
-use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::spectra::spatial::{
     LEVELS_DB as SPATIAL_LEVELS_DB, density_db, means_of, wavenumber_per_mm,
 };

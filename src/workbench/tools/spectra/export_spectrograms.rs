@@ -2,7 +2,7 @@
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::{Exported, Sheet, bar, rgb};
+use crate::bench::export::{Exported, Sheet, bar, ink, rgb};
 use crate::bench::signals::ring::N_COLUMNS;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
 use crate::kit::spectrogram::ShownColumn;
@@ -10,7 +10,7 @@ use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::spectra::contact::{
     ContactSpectrumView, LEVELS_DB as CONTACT_LEVELS_DB, share_of as contact_share,
 };
-use selvedge_chart::{At, Axis, Chart, Extent, Ink, Raster, Row, Rule, Series, Style, Upright};
+use selvedge_chart::{At, Axis, Chart, Extent, Raster, Row, Rule, Series, Style, Upright};
 use selvedge_render::scene::TICKS_PER_S;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -86,14 +86,6 @@ pub(crate) fn drive(
         note,
         origin,
     )
-}
-
-/// What a band is drawn with.
-pub(crate) fn ink(band: Band) -> Ink {
-    match band {
-        Band::Low => Ink::Amber,
-        Band::High => Ink::Cyan,
-    }
 }
 
 /// One row a cell, old to new and low to high.

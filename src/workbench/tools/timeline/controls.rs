@@ -3,9 +3,9 @@
 use eframe::egui::{Align, Layout, Ui, vec2};
 
 use crate::bench::command::{Command, Commands, FileCommand, PlayCommand, PlaySource, Purpose};
+use crate::bench::keys::hint;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::button;
-use crate::shell::keys::hint;
 use crate::tools::timeline::TransportView;
 use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
 

@@ -14,18 +14,21 @@ pub(crate) mod plot;
 pub(crate) mod strip;
 pub(crate) mod strips_view;
 #[cfg(test)]
-#[cfg(test)]
 mod tests;
 
 use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
+use crate::bench::Bench;
 use crate::bench::command::{Commands, PlaySource};
-use crate::bench::export::Exportable;
 use crate::bench::export::button::{place_in, show as show_export};
+use crate::bench::export::gather::NOTHING_FELT;
+use crate::bench::export::{Exportable, Exported};
 use crate::bench::recording::Take;
 use crate::bench::signals::history::History;
+use crate::bench::tool::{Bar, PaneContext};
+use crate::bench::view::Source;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::timeline::picture::Picture;
@@ -65,12 +68,52 @@ pub(crate) struct TransportView<'a> {
     pub live: &'a History,
 }
 
-/// What the bar remembers from frame to frame.
+/// The bar at the bottom: what it remembers from frame to frame.
 #[derive(Default)]
-pub(crate) struct TransportState {
+pub(crate) struct Timeline {
     picture: Option<Picture>,
     /// The tick that was asked for last in the drag that goes on.
     asked: Option<u64>,
+}
+
+impl Bar for Timeline {
+    fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let view = TransportView::of(context.bench);
+        show(ui, &view, self, context.commands);
+    }
+
+    fn export(&mut self, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let timeline = TransportView::of(bench).timeline();
+        let mut ticks = timeline.ticks.iter();
+        if !ticks.any(|tick| tick.felt.speed_mm_per_s > 0.0) {
+            return Err(NOTHING_FELT);
+        }
+        Ok(export::strips(&timeline, bench.rendered_origin()))
+    }
+}
+
+impl<'a> TransportView<'a> {
+    fn of(bench: &'a Bench) -> Self {
+        let transient = &bench.transient;
+        let live = &transient.live;
+        Self {
+            source: match live.play.source {
+                Source::Pointer => PlaySource::Pointer,
+                Source::Lines | Source::Device => PlaySource::Input,
+                Source::Stroke => PlaySource::Stroke,
+                Source::Recording => PlaySource::Recording,
+            },
+            input: transient.sources.chosen_name(),
+            is_playing: live.play.is_playing,
+            does_loop: transient.does_loop,
+            is_stopped: live.is_stopped,
+            recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
+            tick: live.play.tick,
+            speed_mm_per_s: live.speed_mm_per_s,
+            take: bench.take.as_ref(),
+            live: &transient.history,
+        }
+    }
 }
 
 impl TransportView<'_> {
@@ -112,12 +155,7 @@ impl TransportView<'_> {
 }
 
 /// Shows the bar in the width that there is.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &TransportView<'_>,
-    state: &mut TransportState,
-    commands: &mut Commands,
-) {
+fn show(ui: &mut Ui, view: &TransportView<'_>, state: &mut Timeline, commands: &mut Commands) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
     let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
@@ -178,9 +216,9 @@ fn show_numbers(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
     response.on_hover_text(format!("{what}\nSpeed of the middle of the display"));
 }
 
-impl fmt::Debug for TransportState {
+impl fmt::Debug for Timeline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("TransportState")
+        f.debug_struct("Timeline")
             .field("asked", &self.asked)
             .finish_non_exhaustive()
     }

@@ -10,7 +10,7 @@ use crate::bench::recording::strips::{Column, Extent, Strips};
 use crate::kit::theme::Palette;
 use crate::kit::widgets::polyline::corners;
 use crate::tools::timeline::plot::Plot;
-use crate::tools::timeline::{TransportState, plot};
+use crate::tools::timeline::{Timeline, plot};
 use selvedge_textile::tactile::Band;
 
 /// How solid columns are: where the bands overlap, both show.
@@ -32,7 +32,7 @@ pub(crate) fn drawn(
     ui: &Ui,
     plot: &Plot,
     strips: &Arc<Strips>,
-    state: &mut TransportState,
+    state: &mut Timeline,
 ) -> Vec<Shape> {
     let (pixels_per_point, is_dark) = (ui.ctx().pixels_per_point(), ui.visuals().dark_mode);
     let is_the_same = |picture: &&Picture| {

@@ -22,7 +22,7 @@ pub(crate) struct StripTick {
 
 /// What the timeline shows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Timeline {
+pub(crate) struct TimelineTicks {
     /// What people call the exploration.
     pub name: String,
     /// What its time is counted from.
@@ -41,11 +41,11 @@ pub(crate) struct Timeline {
 
 impl TransportView<'_> {
     /// What the timeline shows.
-    pub(crate) fn timeline(&self) -> Timeline {
+    pub(crate) fn timeline(&self) -> TimelineTicks {
         self.shown_take().map_or_else(|| self.felt_last(), of_take)
     }
 
-    fn felt_last(&self) -> Timeline {
+    fn felt_last(&self) -> TimelineTicks {
         let placed = live::placed(self.live);
         let tick = |one: &live::Placed| StripTick {
             tick: one.glimpse.tick,
@@ -53,7 +53,7 @@ impl TransportView<'_> {
             goes_on: one.goes_on,
             felt: one.felt(),
         };
-        Timeline {
+        TimelineTicks {
             name: "what was felt last".to_owned(),
             time_label: "felt time before the newest tick, s",
             range_s: [-(N_TICKS as f64) / TICKS_PER_S, 0.0],
@@ -65,7 +65,7 @@ impl TransportView<'_> {
     }
 }
 
-fn of_take(take: &Take) -> Timeline {
+fn of_take(take: &Take) -> TimelineTicks {
     let strips = take.strips();
     let n_ticks = strips.n_ticks();
     let step = usize::try_from(strips.ticks_per_entry()).unwrap_or(1);
@@ -77,7 +77,7 @@ fn of_take(take: &Take) -> Timeline {
             felt: strips.at(tick)?,
         })
     };
-    Timeline {
+    TimelineTicks {
         name: take.name().to_owned(),
         time_label: "time, s",
         range_s: [0.0, n_ticks.saturating_sub(1) as f64 / TICKS_PER_S],

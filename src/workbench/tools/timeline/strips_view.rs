@@ -11,7 +11,7 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::timeline::picture::drawn;
 use crate::tools::timeline::plot::Plot;
-use crate::tools::timeline::{TICK_MS, TransportState, TransportView, felt, plot};
+use crate::tools::timeline::{TICK_MS, Timeline, TransportView, felt, plot};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -23,7 +23,7 @@ pub(crate) fn show(
     ui: &Ui,
     rect: Rect,
     view: &TransportView<'_>,
-    state: &mut TransportState,
+    state: &mut Timeline,
     commands: &mut Commands,
 ) {
     match view.shown_take() {
@@ -37,7 +37,7 @@ fn show_take(
     rect: Rect,
     take: &Take,
     tick: u64,
-    (state, commands): (&mut TransportState, &mut Commands),
+    (state, commands): (&mut Timeline, &mut Commands),
 ) {
     let strips = take.strips();
     let plot = Plot::new(rect, strips.fastest_mm_per_s());

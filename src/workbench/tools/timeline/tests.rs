@@ -43,7 +43,7 @@ fn view(take: Option<&Take>) -> TransportView<'_> {
 /// The bar in a window that is `WIDTH` wide.
 struct Window {
     ctx: egui::Context,
-    state: TransportState,
+    state: Timeline,
 }
 
 const WIDTH: f32 = 1200.0;
@@ -54,7 +54,7 @@ impl Window {
         theme::install(&ctx);
         Self {
             ctx,
-            state: TransportState::default(),
+            state: Timeline::default(),
         }
     }
 

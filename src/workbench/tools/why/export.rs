@@ -1,8 +1,8 @@
 //! Why a contactor does what it does: its chain of numbers, and the energy of every bin.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
-use crate::tools::spectra::export_spectrograms::ink;
 use crate::tools::why::Why;
 use crate::tools::why::text::sheet;
 use selvedge_chart::{Axis, Chart, Row, Series, Style};

@@ -5,18 +5,12 @@ use eframe::egui::{DragAndDrop, Rect, Stroke, StrokeKind, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::command::edit::Edit;
 use crate::bench::editing::new_size_mm;
+use crate::bench::library_view::LibraryItem;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::workspace::Stage;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
-
-/// A textile of the library that is carried by the pointer.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct LibraryItem {
-    /// Its place in the library.
-    pub id: String,
-}
 
 /// Shows where a carried textile would lie, and places it when it is let go.
 pub(crate) fn take(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {

@@ -13,10 +13,10 @@ use eframe::egui::vec2;
 
 use super::*;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
+use crate::bench::overlays::Overlay;
 use crate::shell::headless::Headless;
 use crate::tools::compare::Standing;
 use crate::tools::lab::command::{Beginning, LabCommand};
-use crate::tools::workspace::overlay::Overlay;
 use selvedge_foundation::files::{self, Table};
 use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;

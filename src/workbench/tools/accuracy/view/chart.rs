@@ -2,10 +2,10 @@
 //! cost, and every method on the scene.
 
 use crate::bench::export::Exported;
+use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::tools::accuracy::AccuracyView;
 use crate::tools::accuracy::checker::{ERRORS_DB, ROUNDING_DB, edges_db};
-use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series};
 use selvedge_foundation::quantity;
 use selvedge_render::array::Method;

@@ -13,11 +13,11 @@ use eframe::egui::{self, DragAndDrop, Response, Stroke, StrokeKind, Ui};
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::library_view::LibraryItem;
 use crate::bench::library_view::LibraryView;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::collection::{CollectionCommand, CollectionView, Entry, Joining, Mode};
-use crate::tools::workspace::drop::LibraryItem;
 
 /// Below this width, and where it is hardly wider than high, the table stands below the plot,
 /// points and width over height.

@@ -4,6 +4,7 @@
 use eframe::egui::{Margin, Rect, Ui};
 
 use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::export::ink;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::widgets::axis::Tick;
@@ -13,7 +14,6 @@ use crate::tools::lab::family::Family;
 use crate::tools::lab::preview::{Felt, Preview, SPEEDS_MM_PER_S, speeds_mm_per_s};
 use crate::tools::lab::view::{LabView, title};
 use crate::tools::response::ends_db as response_ends_db;
-use crate::tools::spectra::export_spectrograms::ink;
 use selvedge_chart::{Axis, Band as Area, Chart, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
