@@ -8,6 +8,7 @@ pub(crate) mod applied_gains;
 pub(crate) mod arrays;
 pub(crate) mod clips;
 pub(crate) mod command;
+pub(crate) mod device;
 pub(crate) mod document;
 pub(crate) mod edit;
 pub(crate) mod editing;

@@ -3,7 +3,6 @@
 use eframe::egui;
 
 use crate::bench::{Bench, FRAME, query};
-use selvedge_device::BridgeState;
 use selvedge_engine::{Notice, TICKS_PER_S};
 
 /// At most as many notices are taken in a frame as anybody can be told of.
@@ -20,7 +19,6 @@ impl Bench {
         self.poll_clips();
         self.poll_sources();
         self.poll_lab();
-        self.transient.ports.poll();
         if let Some(failure) = self.transient.folders.poll() {
             self.transient.notices.give(failure);
         }
@@ -69,18 +67,6 @@ impl Bench {
             held.vibration = snapshot.vibration;
         }
         let status = snapshot.link.and_then(|link| link.status);
-        let is_lost = snapshot
-            .link
-            .is_some_and(|link| link.state == BridgeState::Lost);
-        let uid = snapshot
-            .link
-            .and_then(|link| link.caps)
-            .map(|caps| caps.uid);
-        if let Some(found) = transient.ports.follow(ctx, is_lost, uid) {
-            transient
-                .notices
-                .give(crate::tools::bridge::back::notice(&found));
-        }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         transient.reference_db = snapshot.rendering.compression_reference_db;
         let mut live = query::live_view(snapshot, interval_s, &transient.mute_solo);

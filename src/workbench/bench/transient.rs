@@ -19,9 +19,6 @@ use crate::bench::view::{BridgeView, Hovered, Live};
 use crate::tools::accuracy::AccuracyWatch;
 use crate::tools::analysis::Analysing;
 use crate::tools::analysis::view::section::Looks as AnalysisLooks;
-use crate::tools::bridge::actuators::PlantPeek;
-use crate::tools::bridge::fault_bench::FaultBench;
-use crate::tools::bridge::ports::Ports;
 use crate::tools::collection::Collection;
 use crate::tools::compare::Comparison;
 use crate::tools::experiment::Experiment;
@@ -35,6 +32,7 @@ use crate::tools::spectra::drive::DriveSpectrogram;
 use crate::tools::spectra::spatial::SpatialSpectra;
 use crate::tools::spectra::wave::WaveScale;
 use crate::tools::why::Why;
+use selvedge_device::FaultWords;
 use selvedge_render::array::ContactorReading;
 use selvedge_render::scene::SceneError;
 
@@ -43,10 +41,6 @@ use selvedge_render::scene::SceneError;
 pub(crate) struct Transient {
     /// Sentences for the user.
     pub notices: Notices,
-    /// The serial ports of this computer.
-    pub ports: Ports,
-    /// What is typed in the field for a port.
-    pub port: String,
     /// What is typed in the field that searches the library.
     pub search: String,
     /// What the link was last opened to.
@@ -119,10 +113,8 @@ pub(crate) struct Transient {
     pub ground: Option<Rect>,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
-    /// What is to go wrong with the emulator.
-    pub faults: FaultBench,
-    /// The emulator's contactors.
-    pub plant: PlantPeek,
+    /// What goes wrong with the emulator that is connected; `None` for other devices.
+    pub faults: Option<FaultWords>,
     /// Refusals to arm that are expected, since there is no device.
     pub(crate) n_expected_refusals: u32,
     /// The device's measured interval between frames.

@@ -43,7 +43,6 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     });
     let (ground, rect) = panes.inner;
     let apart = (window.bench).show_participants_window(ui.ctx(), &mut commands);
-    window.bench.leave_plant();
     let over = ground.map_or(rect, |ground| ground.rect);
     show_overlays(window, ui, over, &mut commands);
     window.bench.transient.ground = ground.map(|ground| ground.rect);

@@ -25,6 +25,7 @@ use crate::bench::tool::{Bar, Tool};
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
     vec![
+        Box::new(bridge::Bridge::default()),
         Box::new(contactors::Contactors),
         Box::new(import::Import::default()),
         Box::new(tuning::Tuning::default()),

@@ -37,8 +37,8 @@ fn gather_of(what: Exportable) -> Option<Gather> {
         Pane::Lab => Some(Bench::gather_lab),
         Pane::Picture => Some(Bench::gather_picture),
         Pane::Collection => Some(Bench::gather_collection),
-        Pane::Bridge => Some(Bench::gather_link),
-        Pane::Workspace
+        Pane::Bridge
+        | Pane::Workspace
         | Pane::Heatmaps
         | Pane::Tuning
         | Pane::Import
@@ -53,7 +53,7 @@ fn gather_of(what: Exportable) -> Option<Gather> {
 pub(crate) fn is_exportable(pane: Pane) -> bool {
     matches!(
         pane,
-        Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Import
+        Pane::Bridge | Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Import
     ) || gather_of(Exportable::Pane(pane)).is_some()
 }
 
@@ -221,14 +221,6 @@ impl Bench {
             return Err(NOTHING_FELT);
         }
         Ok(crate::tools::accuracy::view::chart::exported(&view, origin))
-    }
-
-    fn gather_link(&mut self) -> Result<Exported, &'static str> {
-        let bridge = self.transient.live.bridge.as_ref();
-        let exported = bridge.and_then(|bridge| {
-            crate::tools::bridge::export::distributions(&bridge.timing, self.origin())
-        });
-        exported.ok_or("There is nothing to export yet: connect a device")
     }
 
     fn gather_comparison(&mut self) -> Result<Exported, &'static str> {

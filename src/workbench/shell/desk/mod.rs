@@ -51,9 +51,6 @@ impl Desk<'_> {
         }
         match pane {
             Pane::Library => framed(ui, 10, |ui| self.show_library(ui)),
-            Pane::Bridge => scrolled(ui, pane.title(), |ui| {
-                self.context.bench.show_bridge(ui, self.context.commands);
-            }),
             Pane::ContactSpectrum => framed(ui, 8, |ui| self.show_contact_spectrum(ui)),
             Pane::DriveSpectrum => framed(ui, 8, |ui| self.show_drive_spectrum(ui)),
             Pane::DriveWave => framed(ui, 8, |ui| self.show_drive_wave(ui)),
@@ -79,7 +76,7 @@ impl Desk<'_> {
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
             Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Import => {}
+            Pane::Workspace | Pane::Heatmaps | Pane::Tuning | Pane::Bridge | Pane::Import => {}
         }
     }
 

@@ -12,7 +12,7 @@ use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, choice};
-use crate::tools::bridge::ports::PortsView;
+use crate::tools::bridge::ports::{Ports, PortsView};
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;
@@ -21,7 +21,7 @@ const MENU: f32 = 288.0;
 pub(crate) fn show_port(
     ui: &mut Ui,
     port: &mut String,
-    ports: &PortsView,
+    ports: &mut Ports,
     commands: &mut Commands,
 ) {
     let size = vec2(ui.available_width(), ROW + 4.0);
@@ -46,7 +46,7 @@ pub(crate) fn show_port(
 }
 
 /// The menu of the ports that were found; opening it looks again.
-fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut Commands) {
+fn show_menu(ui: &mut Ui, port: &mut String, ports: &mut Ports, commands: &mut Commands) {
     let opener = ui.add(Button::new("").min_size(vec2(ROW + STEP, ROW)));
     opener.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Choose a port"));
     paint_arrow(ui, opener.rect.center());
@@ -54,11 +54,11 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut C
     let menu = Popup::menu(&opener).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     // The click takes effect below, where the menu is shown.
     if opener.clicked() && !menu.is_open() {
-        commands.push(DeviceCommand::ListPorts.into());
+        ports.list(ui.ctx());
     }
     menu.width(MENU).show(|ui| {
         ui.set_width(MENU);
-        for (path, description) in &ports.ports {
+        for (path, description) in &ports.view().ports {
             let name = RichText::new(path).font(theme::number());
             let tip = format!("Connect to {path}: {description}");
             if choice(ui, name, description, &tip) {
@@ -67,16 +67,16 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut C
                 ui.close();
             }
         }
-        if let Some(words) = empty_words(ports) {
+        if let Some(words) = empty_words(ports.view()) {
             let palette = Palette::in_ui(ui);
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
                 ui.add(egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
             });
         }
         ui.separator();
-        let busy = ports.is_listing.then_some("Looking…");
+        let busy = ports.view().is_listing.then_some("Looking…");
         if button(ui, "Look again", "List the ports anew", busy) {
-            commands.push(DeviceCommand::ListPorts.into());
+            ports.list(ui.ctx());
         }
     });
 }
