@@ -16,9 +16,9 @@ use crate::kit::theme;
 use crate::shell::ask::{Ask, show as show_ask};
 use crate::shell::help::show as show_help;
 use crate::shell::question::show as show_question;
-use crate::tools::bridge::array::ArrayView;
+use crate::tools::bridge::Bridge;
 use crate::tools::bridge::ports::PortsView;
-use crate::tools::bridge::{Bridge, BridgePane};
+use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::{ArrayProfile, FoundPort, RecognisedBy};
 use selvedge_scratch::ScratchFolder;
 

@@ -6,7 +6,6 @@
 
 pub(crate) mod actuators;
 pub(crate) mod array;
-pub(crate) mod back;
 pub(crate) mod calibration;
 pub(crate) mod counters;
 pub(crate) mod export;
@@ -21,6 +20,7 @@ pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
 pub(crate) mod timing;
+pub(crate) mod view;
 pub(crate) mod wiring;
 
 use eframe::egui::Ui;
@@ -31,15 +31,13 @@ use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{Command, Commands};
 use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
-use crate::bench::sources::SourcesView;
 use crate::bench::tool::{PaneContext, Tool};
-use crate::bench::view::Live;
 use crate::kit::pane::scrolled;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
 use crate::tools::bridge::actuators::PlantPeek;
-use crate::tools::bridge::array::ArrayView;
 use crate::tools::bridge::ports::Ports;
+use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
 
 /// The pane of the device: what is typed and chosen in it, and what it looks after while a link is
@@ -69,7 +67,7 @@ impl Tool for Bridge {
         let is_lost = link.is_some_and(|link| link.state == BridgeState::Lost);
         let uid = link.and_then(|link| link.caps).map(|caps| caps.uid);
         if let Some(found) = self.ports.follow(&bench.ctx, is_lost, uid) {
-            bench.transient.notices.give(back::notice(&found));
+            bench.transient.notices.give(port::back_notice(&found));
         }
         let is_in_sight = bench.shows(Pane::Bridge);
         self.plant.rest(&mut bench.engine, is_in_sight);
@@ -129,7 +127,7 @@ impl Tool for Bridge {
             _ => return,
         };
         if target.is_some() {
-            bench.transient.notices.forget_about(back::BACK);
+            bench.transient.notices.forget_about(port::BACK);
         }
         self.ports.hold(target.as_ref());
     }
@@ -142,24 +140,6 @@ impl Tool for Bridge {
     }
 }
 
-/// What the pane is drawn from.
-pub(crate) struct BridgePane<'a> {
-    /// The engine and the device.
-    pub live: &'a Live,
-    /// What the link was opened to.
-    pub target: Option<&'a str>,
-    /// The array.
-    pub array: ArrayView<'a>,
-    /// What moves the display, and who hears of it.
-    pub sources: &'a SourcesView,
-    /// Whether a model says what the contactors do: those of the emulator in this program.
-    pub has_plant: bool,
-    /// What goes wrong with the emulator that is connected; `None` for other devices.
-    pub faults: Option<&'a FaultWords>,
-    /// Whether an armed device stops when the window loses the keyboard.
-    pub(crate) stops_on_focus_loss: bool,
-}
-
 impl Bridge {
     /// Shows the pane.
     pub(crate) fn show(&mut self, ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
@@ -167,7 +147,7 @@ impl Bridge {
         link::show_state(ui, bridge, view.target);
         link::show_arming(ui, bridge, view.live.is_stopped, commands);
         timing::show_fault(ui, bridge, commands);
-        back::show(ui, self.ports.view().back.as_ref(), commands);
+        port::show_back(ui, self.ports.view().back.as_ref(), commands);
         if let Some(wizard) = view.array.wizard {
             ui.add_space(STEP);
             wiring::show_wizard(ui, wizard, view, commands);

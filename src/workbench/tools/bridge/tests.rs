@@ -12,8 +12,8 @@ use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
 use crate::bench::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::kit::theme;
-use crate::tools::bridge::array::ArrayView;
-use crate::tools::bridge::{Bridge, BridgePane};
+use crate::tools::bridge::Bridge;
+use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
     ArrayProfile, BridgeEvent, Calibration, DeviceUid, FaultWords, LimiterState, Wiring,

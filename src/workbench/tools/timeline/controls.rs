@@ -6,8 +6,8 @@ use crate::bench::command::{Command, Commands, FileCommand, PlayCommand, PlaySou
 use crate::bench::keys::hint;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::button;
-use crate::tools::timeline::TransportView;
 use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
+use crate::tools::timeline::transport::TransportView;
 
 /// Why recording is not to be had.
 const STOPPED: &str = "Everything is off: arm first";

@@ -15,23 +15,22 @@ pub(crate) mod strip;
 pub(crate) mod strips_view;
 #[cfg(test)]
 mod tests;
+pub(crate) mod transport;
 
 use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use crate::bench::Bench;
-use crate::bench::command::{Commands, PlaySource};
+use crate::bench::command::Commands;
 use crate::bench::export::button::{place_in, show as show_export};
 use crate::bench::export::gather::NOTHING_FELT;
 use crate::bench::export::{Exportable, Exported};
-use crate::bench::recording::Take;
-use crate::bench::signals::history::History;
 use crate::bench::tool::{Bar, PaneContext};
-use crate::bench::view::Source;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::timeline::picture::Picture;
+use crate::tools::timeline::transport::{TICK_MS, TransportView};
 use selvedge_foundation::quantity;
 
 /// Height of the bar without its margins, points.
@@ -40,33 +39,6 @@ pub(crate) const HEIGHT: f32 = 68.0;
 const CONTROLS: f32 = 304.0;
 /// Width of the numbers, points.
 const NUMBERS: f32 = 116.0;
-/// Time between two ticks, ms.
-const TICK_MS: u64 = 25;
-
-/// What the bar shows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TransportView<'a> {
-    /// What moves the display.
-    pub source: PlaySource,
-    /// The tablet or program that was chosen.
-    pub input: Option<&'a str>,
-    /// Whether a recording or stroke moves on at the next tick.
-    pub is_playing: bool,
-    /// Whether a recording or stroke begins again at its end.
-    pub does_loop: bool,
-    /// Whether everything was switched off and nothing was armed since.
-    pub is_stopped: bool,
-    /// Ticks recorded so far; `None` when nothing records.
-    pub(crate) recorded_ticks: Option<u64>,
-    /// The tick of the recording or stroke that is shown.
-    pub tick: u64,
-    /// How fast the display moves, mm/s.
-    pub speed_mm_per_s: f64,
-    /// The recording at hand.
-    pub take: Option<&'a Take>,
-    /// What was felt last.
-    pub live: &'a History,
-}
 
 /// The bar at the bottom: what it remembers from frame to frame.
 #[derive(Default)]
@@ -89,68 +61,6 @@ impl Bar for Timeline {
             return Err(NOTHING_FELT);
         }
         Ok(export::strips(&timeline, bench.rendered_origin()))
-    }
-}
-
-impl<'a> TransportView<'a> {
-    fn of(bench: &'a Bench) -> Self {
-        let transient = &bench.transient;
-        let live = &transient.live;
-        Self {
-            source: match live.play.source {
-                Source::Pointer => PlaySource::Pointer,
-                Source::Lines | Source::Device => PlaySource::Input,
-                Source::Stroke => PlaySource::Stroke,
-                Source::Recording => PlaySource::Recording,
-            },
-            input: transient.sources.chosen_name(),
-            is_playing: live.play.is_playing,
-            does_loop: transient.does_loop,
-            is_stopped: live.is_stopped,
-            recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
-            tick: live.play.tick,
-            speed_mm_per_s: live.speed_mm_per_s,
-            take: bench.take.as_ref(),
-            live: &transient.history,
-        }
-    }
-}
-
-impl TransportView<'_> {
-    /// The take that the timeline shows: the one that moves the display. While something is
-    /// recorded, the timeline shows what is felt.
-    fn shown_take(&self) -> Option<&Take> {
-        let is_shown = self.source == PlaySource::Recording && self.recorded_ticks.is_none();
-        self.take.filter(|_| is_shown)
-    }
-
-    /// Whether positions come as they happen.
-    fn is_live(&self) -> bool {
-        matches!(self.source, PlaySource::Pointer | PlaySource::Input)
-    }
-
-    /// Whether something runs that could be held.
-    fn is_running(&self) -> bool {
-        self.is_playing && !self.is_live()
-    }
-
-    /// The tick that the numbers show, and what it counts.
-    fn counted(&self) -> (u64, &'static str) {
-        if let Some(n_ticks) = self.recorded_ticks {
-            return (n_ticks, "Ticks recorded, 25 ms each");
-        }
-        match self.source {
-            PlaySource::Pointer | PlaySource::Input => {
-                let newest = self.live.newest();
-                let tick = newest.map_or(0, |entry| entry.glimpse.tick);
-                (
-                    tick,
-                    "The last tick in which something moved, since the program started",
-                )
-            }
-            PlaySource::Stroke => (self.tick, "The tick of the stroke, 25 ms each"),
-            PlaySource::Recording => (self.tick, "The tick of the recording, 25 ms each"),
-        }
     }
 }
 

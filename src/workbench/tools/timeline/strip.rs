@@ -2,9 +2,10 @@
 
 use crate::bench::recording::Take;
 use crate::bench::recording::strips::Felt;
+use crate::tools::timeline::live;
 use crate::tools::timeline::live::N_TICKS;
 use crate::tools::timeline::plot::round_above;
-use crate::tools::timeline::{TransportView, live};
+use crate::tools::timeline::transport::TransportView;
 use selvedge_render::scene::TICKS_PER_S;
 
 /// A tick of the timeline.

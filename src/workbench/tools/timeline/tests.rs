@@ -4,8 +4,11 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use super::*;
+use crate::bench::command::PlaySource;
 use crate::bench::command::{Command, PlayCommand};
+use crate::bench::recording::Take;
 use crate::bench::recording::strips::Felt;
+use crate::bench::signals::history::History;
 use crate::tools::timeline::strips_view::{share_of, tick_at, told};
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
 use selvedge_foundation::geometry::Point;

@@ -13,7 +13,7 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::text::button;
-use crate::tools::workspace::Stage;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::quantity;
 
 /// Where the crosses are at first, in shares of the ground.

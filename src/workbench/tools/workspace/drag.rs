@@ -15,7 +15,8 @@ use crate::bench::view::Cloth;
 use crate::kit::swatch::paint_outline;
 use crate::kit::theme::Palette;
 use crate::tools::workspace::arrange::{Guides, Handle, Handles, Lines, SNAP_POINTS};
-use crate::tools::workspace::{Stage, arrange, display, navigate};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{arrange, display, navigate};
 use selvedge_foundation::geometry::{Displacement, Point};
 
 /// How far an arrow key moves a textile, mm; finely with Shift.

@@ -11,7 +11,9 @@ use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::tools::workspace::{Stage, display, paint_cloths, paint_display, tips};
+use crate::tools::workspace::ground::{paint_cloths, paint_display};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{display, tips};
 use selvedge_foundation::quantity;
 
 /// Width of the column that holds the lens, points.

@@ -4,7 +4,8 @@ use eframe::egui::{Button, Ui};
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Commands, Look, Part, ShowCommand};
-use crate::tools::workspace::{Stage, arrange, tools};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{arrange, tools};
 
 /// Shows the menu while it is open. What it is about is settled when it opens.
 pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {

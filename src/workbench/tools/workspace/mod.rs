@@ -4,7 +4,6 @@
 //! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
 //! Draws, says where the pointer feels, and wishes; what is done about it is decided elsewhere.
 
-pub(crate) mod access;
 pub(crate) mod arrange;
 pub(crate) mod asked;
 pub(crate) mod calibration;
@@ -14,46 +13,42 @@ pub(crate) mod display;
 pub(crate) mod drag;
 pub(crate) mod drop;
 pub(crate) mod export;
+pub(crate) mod ground;
 pub(crate) mod lens;
 pub(crate) mod maps;
 pub(crate) mod menu;
 pub(crate) mod navigate;
 pub(crate) mod overlay;
 pub(crate) mod ruler;
+pub(crate) mod stage;
 pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tips;
 pub(crate) mod tools;
 
-pub(crate) use crate::tools::workspace::overlay::Layers;
-
 use std::cell::Cell;
 
 use eframe::egui::{
-    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, vec2,
+    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    vec2,
 };
 
 use crate::bench::Bench;
-use crate::bench::command::{Command, Commands, Look, Part, ShowCommand, Tool};
+use crate::bench::command::{Command, Commands, Part, ShowCommand, Tool};
 use crate::bench::export::Exported;
 use crate::bench::overlays::Overlay;
 use crate::bench::pane::Pane;
-use crate::bench::selection::Selection;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{self, PaneContext};
-use crate::bench::trail::Trail;
-use crate::bench::view::{Live, SceneView};
-use crate::kit::swatch::paint_outline;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
+use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::tools::workspace::camera::Camera;
 use crate::tools::workspace::maps::Maps;
 use crate::tools::workspace::overlay::lattice::Lattice;
+use crate::tools::workspace::stage::{Layers, Sight, Stage};
 use crate::tools::workspace::state::{Place, WorkspaceView};
-use selvedge_foundation::geometry::Point;
 use selvedge_render::array::ContactorReading;
 
 /// The workspace: how it is looked at, and what was computed to be drawn over it.
@@ -191,65 +186,6 @@ impl Workspace {
     }
 }
 
-/// What the pane is drawn from.
-#[derive(Clone, Copy)]
-pub(crate) struct Sight<'a> {
-    scene: &'a SceneView,
-    live: &'a Live,
-    trail: &'a Trail,
-    selection: &'a Selection,
-    layers: Layers<'a>,
-    /// How the workspace is looked at in the next frame.
-    next: &'a Cell<WorkspaceView>,
-}
-
-/// What the parts of the pane share during one frame.
-pub(crate) struct Stage<'a> {
-    scene: &'a SceneView,
-    live: &'a Live,
-    trail: &'a Trail,
-    selection: &'a Selection,
-    layers: Layers<'a>,
-    next: &'a Cell<WorkspaceView>,
-    /// How it is looked at in this frame.
-    state: WorkspaceView,
-    /// The part of the screen where mm are.
-    ground: Rect,
-    view: ViewTransform,
-    /// What the pointer does on the ground.
-    response: Response,
-}
-
-impl Stage<'_> {
-    /// Whether a drag moves textiles now.
-    fn arranges(&self) -> bool {
-        self.state.tool == Tool::Arrange && !self.state.is_calibrating
-    }
-
-    /// Changes how the workspace is looked at from the next frame on.
-    fn change(&self, change: impl FnOnce(&mut WorkspaceView, Place)) {
-        let mut next = self.next.get();
-        let place = Place {
-            pane: self.ground,
-            size_mm: self.scene.size_mm,
-            pixels_per_point: self.response.ctx.pixels_per_point(),
-        };
-        change(&mut next, place);
-        self.next.set(next);
-    }
-
-    /// Looks at another part of the workspace from the next frame on.
-    fn look(&self, look: Look) {
-        self.change(|view, place| view.look(look, place));
-    }
-
-    /// The chosen textile, if there still is one at its place.
-    fn selected(&self) -> Option<(usize, &crate::bench::view::Cloth)> {
-        let index = self.selection.cloth?;
-        Some((index, self.scene.cloths.get(index)?))
-    }
-}
-
 /// Shows the workspace in all the space that is left.
 fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround {
     let (scene, state) = (sight.scene, sight.next.get());
@@ -278,8 +214,7 @@ fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround
         view: state.camera.view(ground, scene.size_mm),
         response,
     };
-    let tag = paint(ui, &stage);
-    access::declare(ui, &stage);
+    let tag = ground::paint(ui, &stage);
     paint_rulers(ui, frame, &stage);
     let feels = handle(ui, &stage, tag, commands);
     if let Some(lens) = lens {
@@ -327,63 +262,6 @@ fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, commands: &mut Com
     stage.state.tool == Tool::Explore && !(is_panning || is_busy)
 }
 
-/// Draws what lies on the ground. Says whose tag is under the pointer.
-fn paint(ui: &Ui, stage: &Stage<'_>) -> Option<usize> {
-    let painter = ui.painter_at(stage.ground);
-    paint_extent(&painter, &stage.view, stage.scene.size_mm);
-    paint_cloths(&painter, &stage.view, stage);
-    let tag = paint_tags(&painter, stage);
-    if stage.scene.cloths.is_empty() {
-        cloth::paint_empty(&painter, stage.ground);
-    }
-    paint_marked(&painter, stage);
-    paint_display(&painter, &stage.view, stage);
-    tag
-}
-
-/// Draws the textiles through a view; the lens uses it too.
-fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    let lifted = lifted(stage);
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        cloth::paint(painter, view, cloth, lifted == Some(index));
-        overlay::paint_on_cloth(painter, view, stage, (index, cloth));
-        if lifted == Some(index) {
-            cloth::paint_lifted(painter, view, cloth);
-        }
-    }
-}
-
-/// The textile that is felt; where textiles are arranged, none is.
-fn lifted(stage: &Stage<'_>) -> Option<usize> {
-    match stage.state.tool {
-        Tool::Explore => stage.live.cloth_under_display(),
-        Tool::Arrange => None,
-    }
-}
-
-/// Draws trail and contactors through a view; the lens uses it too.
-fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    display::paint_trail(painter, view, stage.trail.aged());
-    if stage.live.centre.is_some() {
-        let pointed = stage.scene.marks.hovered.contactor;
-        overlay::paint_velocities(painter, view, stage);
-        display::paint(painter, view, stage.live, (stage.selection, pointed));
-        overlay::paint_readings(painter, view, stage);
-    }
-}
-
-/// Marks the textile that the pointer rests on in another view.
-fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
-    let hovered = stage.scene.marks.hovered.cloth;
-    let elsewhere = hovered.filter(|_| stage.response.hover_pos().is_none());
-    if let Some(cloth) = elsewhere.and_then(|index| stage.scene.cloths.get(index)) {
-        let palette = Palette::of(painter.ctx().theme());
-        let corners = arrange::screen_corners(&stage.view, cloth);
-        let edge = Stroke::new(1.5, palette.selection.gamma_multiply(0.7));
-        paint_outline(painter, corners, edge);
-    }
-}
-
 /// Says what the pointer rests on.
 fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
     let Some(at) = stage.response.hover_pos() else {
@@ -398,22 +276,6 @@ fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
     {
         commands.push(ShowCommand::Hover(Part::Contactor(index)).into());
     }
-}
-
-fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
-    let lifted = lifted(stage);
-    let pointer = stage.response.hover_pos();
-    let mut hovered = None;
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        let is_lit = lifted == Some(index) || stage.scene.is_marked(index);
-        let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
-        if let (Some(tag), Some(at)) = (tag, pointer)
-            && tag.contains(at)
-        {
-            hovered = Some(index);
-        }
-    }
-    hovered
 }
 
 fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
@@ -445,17 +307,4 @@ fn paint_all_off(painter: &Painter, ground: Rect) {
         StrokeKind::Inside,
     );
     painter.galley(middle - 0.5 * galley.size(), galley, palette.text);
-}
-
-fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
-    let palette = Palette::of(painter.ctx().theme());
-    let corners = [Point::default(), Point::new(size_mm[0], size_mm[1])];
-    let [low, high] = corners.map(|corner| view.screen(corner));
-    let extent = Rect::from_two_pos(low, high);
-    painter.rect_stroke(
-        extent,
-        0,
-        Stroke::new(1.0, palette.hairline),
-        StrokeKind::Outside,
-    );
 }

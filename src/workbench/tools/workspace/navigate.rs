@@ -4,7 +4,8 @@
 use eframe::egui::{CursorIcon, Event, MouseWheelUnit, PointerButton, Ui, Vec2};
 
 use crate::bench::command::{Commands, Look, PlayCommand};
-use crate::tools::workspace::{Stage, arrange};
+use crate::tools::workspace::arrange;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::Displacement;
 
 /// Points of scrolling that magnify by the factor e.

@@ -9,9 +9,11 @@ use super::*;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, PlayCommand, ShowCommand};
 use crate::bench::library_view::LibraryItem;
-use crate::bench::view::{Cloth, Dot};
+use crate::bench::selection::Selection;
+use crate::bench::trail::Trail;
+use crate::bench::view::{Cloth, Dot, Live, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_foundation::geometry::{Frame, Rotation};
+use selvedge_foundation::geometry::{Frame, Point, Rotation};
 use selvedge_textile::tactile::{Filters, Tuning};
 
 /// The pane in a window of its own, with two textiles.

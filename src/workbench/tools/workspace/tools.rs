@@ -12,16 +12,16 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::camera::Camera;
+use crate::tools::workspace::overlay::BUTTON;
+use crate::tools::workspace::stage::Stage;
 use crate::tools::workspace::state::{Place, WorkspaceView};
-use crate::tools::workspace::{Stage, arrange, overlay};
+use crate::tools::workspace::{arrange, overlay};
 use selvedge_foundation::quantity;
 
 /// Space around what lies on a strip, points.
 const PADDING: f32 = STEP;
 /// Space between a strip and the edge of the ground, points.
 const AWAY: f32 = 2.0 * STEP;
-/// Height of the buttons in the row of tabs, points.
-pub(crate) const BUTTON: f32 = 18.0;
 /// Width of the buttons Fit and 1:1, points.
 const SMALL_BUTTON: f32 = 32.0;
 /// Size of the strip beside the chosen textile, points.

@@ -19,26 +19,12 @@ use crate::bench::overlays::{Overlay, Overlays};
 use crate::bench::view::Cloth;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::text::tick_box;
-use crate::tools::workspace::Stage;
-use crate::tools::workspace::maps::Maps;
-use crate::tools::workspace::overlay::lattice::Lattice;
-use selvedge_render::array::ContactorReading;
+use crate::tools::workspace::stage::Stage;
 
-/// What overlays are drawn from.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Layers<'a> {
-    /// What the contactors read and how they move; empty while that is not drawn.
-    pub readings: &'a [ContactorReading],
-    /// Maps of the textiles.
-    pub maps: &'a Maps,
-    /// Pictures of the points.
-    pub lattice: &'a Lattice,
-    /// The colours that stand for numbers.
-    pub colours: ColourMap,
-}
+/// Height of the buttons in the row of tabs, points.
+pub(crate) const BUTTON: f32 = 18.0;
 
 /// Draws what lies on a textile, below the contactors.
 pub(crate) fn paint_on_cloth(
@@ -64,8 +50,7 @@ pub(crate) fn show_menu(ui: &mut Ui, overlays: &mut Overlays, points_per_mm: f64
     let is_any = *overlays != Overlays::default();
     let ink = if is_any { palette.text } else { palette.dim };
     let text = RichText::new("Overlay").font(theme::small()).color(ink);
-    let button = Button::selectable(is_any, text)
-        .min_size(vec2(56.0, crate::tools::workspace::tools::BUTTON));
+    let button = Button::selectable(is_any, text).min_size(vec2(56.0, BUTTON));
     let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let shown = *overlays;
     let (response, _) = MenuButton::from_button(button).config(stays).ui(ui, |ui| {

@@ -9,7 +9,7 @@ use crate::bench::overlays::Overlay;
 use crate::kit::swatch::narrow;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::tools::workspace::Stage;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::{Displacement, Rotation, Velocity};
 use selvedge_render::array::{ContactorReading, Reading};
 use selvedge_textile::surface::Direction;
