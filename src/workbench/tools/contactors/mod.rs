@@ -27,7 +27,7 @@ use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
 /// How the heatmaps are drawn.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HeatmapStyle {
     /// The colours.
     pub map: ColourMap,
@@ -146,15 +146,11 @@ fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
 fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let bench = &mut *context.bench;
-    let has_numbers = &mut bench.settings.preferences.has_numbers;
-    let mut is_changed = toggle(ui, "123", *has_numbers, "Numbers in the cells (N)");
-    *has_numbers ^= is_changed;
+    let before = HeatmapStyle::of(bench);
+    let (mut style, scale) = (before, before.scale);
+    style.has_numbers ^= toggle(ui, "123", before.has_numbers, "Numbers in the cells (N)");
     let tip = "Hollow and grey what is below the threshold of detection, by a model";
-    if toggle(ui, "SL", bench.workspace.greys_below, tip) {
-        bench.workspace.greys_below = !bench.workspace.greys_below;
-        is_changed = true;
-    }
-    let scale = bench.workspace.scale;
+    style.greys_below ^= toggle(ui, "SL", before.greys_below, tip);
     let (word, tip) = if scale.is_locked() {
         (
             "held",
@@ -167,8 +163,7 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
         )
     };
     if toggle(ui, word, scale.is_locked(), tip) {
-        bench.workspace.scale = scale.with_lock(!scale.is_locked());
-        is_changed = true;
+        style.scale = scale.with_lock(!scale.is_locked());
     }
     let tops = [
         ("−", 0.4, "A scale that ends lower, held"),
@@ -176,11 +171,13 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ];
     for (sign, factor, tip) in tops.into_iter().rev() {
         if toggle(ui, sign, false, tip) {
-            bench.workspace.scale = scale.locked_at(scale.most_um() * factor);
-            is_changed = true;
+            style.scale = scale.locked_at(scale.most_um() * factor);
         }
     }
-    if is_changed {
+    if style != before && !bench.refuses_in_session() {
+        bench.settings.preferences.has_numbers = style.has_numbers;
+        bench.workspace.greys_below = style.greys_below;
+        bench.workspace.scale = style.scale;
         ui.ctx().request_repaint();
     }
     if bench.transient.mute_solo.is_any()

@@ -99,7 +99,9 @@ impl tool::Tool for Workspace {
         if let Some(pane) = context.bench.transient.ground {
             let mut next = self.view;
             tools::show(ui, &mut next, pane, context.scene.size_mm);
-            self.take_up(ui, next);
+            if next != self.view && !context.bench.refuses_in_session() {
+                self.take_up(ui, next);
+            }
         }
     }
 
