@@ -9,6 +9,7 @@ pub(crate) mod arrays;
 pub(crate) mod background;
 pub(crate) mod clips;
 pub(crate) mod command;
+pub(crate) mod device;
 pub(crate) mod document;
 pub(crate) mod edit;
 pub(crate) mod editing;
@@ -21,12 +22,15 @@ pub(crate) mod free_places;
 pub(crate) mod history;
 pub(crate) mod job;
 pub(crate) mod keep;
+pub(crate) mod keys;
 pub(crate) mod latest;
+pub(crate) mod library_selection;
 pub(crate) mod library_view;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
 pub(crate) mod notices;
 pub(crate) mod opening;
+pub(crate) mod overlays;
 pub(crate) mod pane;
 pub(crate) mod perceptual_level;
 pub(crate) mod perspective;
@@ -43,6 +47,7 @@ pub(crate) mod source_file;
 pub(crate) mod sources;
 pub(crate) mod task;
 pub(crate) mod tool;
+pub(crate) mod trail;
 pub(crate) mod transient;
 pub(crate) mod view;
 
@@ -58,12 +63,12 @@ use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
 use crate::bench::recording::Take;
 use crate::bench::rendering::Rendering;
+use crate::bench::selection::Selection;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
+use crate::bench::trail::Trail;
 use crate::bench::transient::Transient;
 use crate::bench::view::{LibraryDot, Marks, SceneView};
 use crate::kit::theme;
-use crate::tools::workspace::state::WorkspaceState;
-use crate::tools::workspace::trail::Trail;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
 use selvedge_engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
@@ -104,8 +109,8 @@ pub(crate) struct Bench {
     pub(crate) commands: Commands,
     /// The panes in sight.
     pub(crate) in_sight: Vec<Pane>,
-    /// How the workspace is looked at.
-    pub(crate) workspace: WorkspaceState,
+    /// What all views share.
+    pub(crate) workspace: Selection,
     pub(crate) transient: Transient,
     pub(crate) engine: Engine,
     pub(crate) switch: StopSwitch,
@@ -190,7 +195,7 @@ impl Bench {
             commands: Commands::new(),
             in_sight: Vec::new(),
             arrays: Arrays::default(),
-            workspace: WorkspaceState::default(),
+            workspace: Selection::default(),
             transient: Transient::default(),
             switch: engine.stop_switch(),
             is_stepped,
@@ -235,8 +240,6 @@ impl Bench {
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
         self.workspace.greys_below = kept.greys_below;
-        self.workspace.overlays = kept.overlays;
-        self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
         let form = &mut self.transient.experiment.form;
         form.take_up(kept.sessions_folder.as_deref(), kept.design.as_deref());
         self.workspace.contactor = Some(FIRST_CONTACTOR);
@@ -276,10 +279,9 @@ impl Bench {
         self.transient.mute_solo = mute_solo::MuteSolo::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
-        self.transient.selection = selection::Selection::default();
+        self.transient.selection = library_selection::LibrarySelection::default();
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
-        self.workspace.camera = crate::tools::workspace::camera::Camera::default();
         self.show_document();
         self.render_as_chosen();
     }

@@ -3,7 +3,6 @@
 use eframe::egui;
 
 use crate::bench::{Bench, FRAME, query};
-use selvedge_device::BridgeState;
 use selvedge_engine::{Notice, TICKS_PER_S};
 
 /// At most as many notices are taken in a frame as anybody can be told of.
@@ -19,7 +18,6 @@ impl Bench {
         self.poll_kept();
         self.poll_clips();
         self.poll_sources();
-        self.transient.ports.poll();
         if let Some(failure) = self.transient.folders.poll() {
             self.transient.notices.give(failure);
         }
@@ -65,18 +63,6 @@ impl Bench {
             held.vibration = snapshot.vibration;
         }
         let status = snapshot.link.and_then(|link| link.status);
-        let is_lost = snapshot
-            .link
-            .is_some_and(|link| link.state == BridgeState::Lost);
-        let uid = snapshot
-            .link
-            .and_then(|link| link.caps)
-            .map(|caps| caps.uid);
-        if let Some(found) = transient.ports.follow(ctx, is_lost, uid) {
-            transient
-                .notices
-                .give(crate::tools::bridge::back::notice(&found));
-        }
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         transient.reference_db = snapshot.rendering.compression_reference_db;
         let mut live = query::live_view(snapshot, interval_s, &transient.mute_solo);
@@ -123,8 +109,6 @@ impl Bench {
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
         kept.greys_below = self.workspace.greys_below;
-        kept.overlays = self.workspace.overlays;
-        kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
         let form = &self.transient.experiment.form;
         kept.sessions_folder = form.kept_folder();
         kept.design = form.chosen.word();

@@ -1,37 +1,56 @@
-//! The textiles of the library that are selected, in every view of it.
+//! What is chosen in all views, and how amplitudes are drawn in all of them. Never undoable.
 
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use crate::bench::amplitude::AmplitudeScale;
+use crate::bench::command::{DotStyle, ShowCommand};
+use crate::bench::probe::Probe;
 
-/// How a textile joins what is selected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Joining {
-    /// In the place of what was selected.
-    Alone,
-    /// Beside it, or taken away from it if it was.
-    Toggled,
-    /// Beside it.
-    Also,
+/// What all views share.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Selection {
+    /// The chosen textile: its place in the scene's list.
+    pub cloth: Option<usize>,
+    /// The contactor that is looked at closer.
+    pub contactor: Option<usize>,
+    /// The scale on which amplitudes are drawn.
+    pub scale: AmplitudeScale,
+    /// What the dots show by what.
+    pub(crate) dot_style: DotStyle,
+    /// Whether what is below the threshold of detection is greyed.
+    pub(crate) greys_below: bool,
+    /// The velocity at which textiles are asked what they would give.
+    pub probe: Probe,
 }
 
-/// The ids of the textiles that are selected.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Selection(pub(crate) Arc<BTreeSet<String>>);
-
 impl Selection {
-    /// Selects textiles.
-    pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
-        let selected = Arc::make_mut(&mut self.0);
-        match joining {
-            Joining::Alone => *selected = ids.into_iter().collect(),
-            Joining::Also => selected.extend(ids),
-            Joining::Toggled => {
-                for id in ids {
-                    if !selected.remove(&id) {
-                        selected.insert(id);
-                    }
-                }
-            }
+    /// Takes in what the user wants to see; what does not concern it changes nothing.
+    pub(crate) fn take(&mut self, command: &ShowCommand) {
+        match *command {
+            ShowCommand::SelectContactor(index) => self.contactor = Some(index),
+            ShowCommand::SelectCloth(index) => self.cloth = index,
+            ShowCommand::DotStyle(style) => self.dot_style = style,
+            ShowCommand::ToggleThreshold => self.greys_below = !self.greys_below,
+            ShowCommand::Probe(probe) => self.probe = probe,
+            _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choosing_is_taken_in() {
+        let mut selection = Selection::default();
+        for command in [
+            ShowCommand::SelectCloth(Some(2)),
+            ShowCommand::SelectContactor(7),
+            ShowCommand::DotStyle(DotStyle::Size),
+            ShowCommand::Help,
+        ] {
+            selection.take(&command);
+        }
+        assert_eq!((selection.cloth, selection.contactor), (Some(2), Some(7)));
+        assert_eq!(selection.dot_style, DotStyle::Size);
     }
 }

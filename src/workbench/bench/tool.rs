@@ -80,6 +80,18 @@ pub(crate) trait Tool: Any {
     fn keep_preferences(&self, _preferences: &mut Preferences) {}
 }
 
+/// The bar at the bottom of the window, which stands in no tile.
+pub(crate) trait Bar {
+    /// Draws it in the width that there is.
+    fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>);
+
+    /// What it shows now, as a table and a figure.
+    ///
+    /// # Errors
+    /// There is nothing to export, and what to do about it.
+    fn export(&mut self, bench: &mut Bench) -> Result<Exported, &'static str>;
+}
+
 /// All tools of a window.
 pub(crate) struct Tools(Vec<Box<dyn Tool>>);
 

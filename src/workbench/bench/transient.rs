@@ -7,36 +7,26 @@ use crate::bench::clips::Clips;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::keep::Keeping;
+use crate::bench::library_selection::LibrarySelection;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::notices::Notices;
 use crate::bench::opening::Opened;
 use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
-use crate::bench::selection::Selection;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
+use crate::bench::trail::Trail;
 use crate::bench::view::{BridgeView, Hovered, Live};
 use crate::tools::analysis::Analysing;
 use crate::tools::analysis::view::section::Looks as AnalysisLooks;
-use crate::tools::bridge::actuators::PlantPeek;
-use crate::tools::bridge::fault_bench::FaultBench;
-use crate::tools::bridge::ports::Ports;
 use crate::tools::experiment::Experiment;
-use crate::tools::timeline::TransportState;
-use crate::tools::workspace::maps::Maps;
-use crate::tools::workspace::overlay::lattice::Lattice;
-use crate::tools::workspace::trail::Trail;
-use selvedge_render::array::ContactorReading;
+use selvedge_device::FaultWords;
 
 /// What is neither saved nor undoable.
 #[derive(Debug, Default)]
 pub(crate) struct Transient {
     /// Sentences for the user.
     pub notices: Notices,
-    /// The serial ports of this computer.
-    pub ports: Ports,
-    /// What is typed in the field for a port.
-    pub port: String,
     /// What the link was last opened to.
     pub target: Option<String>,
     /// Folders that the desktop is asked to show.
@@ -60,23 +50,15 @@ pub(crate) struct Transient {
     /// The last seconds.
     pub(crate) history: History,
     /// The textiles of the library that are selected.
-    pub(crate) selection: Selection,
+    pub(crate) selection: LibrarySelection,
     /// Experiments and the session that is held.
     pub experiment: Experiment,
     /// Logs that are analysed.
     pub analysing: Analysing,
     /// Tables and figures of an analysis as they are laid out.
     pub(crate) analysis_looks: AnalysisLooks,
-    /// Maps of the textiles at the chosen velocity.
-    pub maps: Maps,
-    /// Pictures of the points 1 mm apart.
-    pub lattice: Lattice,
-    /// What the contactors read and how they move, while that is drawn.
-    pub readings: Vec<ContactorReading>,
     /// What the pointer rests on.
     pub hovered: Hovered,
-    /// What the timeline remembers.
-    pub(crate) transport: TransportState,
     /// What is muted and what is felt alone.
     pub(crate) mute_solo: MuteSolo,
     /// Whether recordings are replayed again and again.
@@ -87,10 +69,8 @@ pub(crate) struct Transient {
     pub ground: Option<Rect>,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured_bridge: Option<BridgeView>,
-    /// What is to go wrong with the emulator.
-    pub faults: FaultBench,
-    /// The emulator's contactors.
-    pub plant: PlantPeek,
+    /// What goes wrong with the emulator that is connected; `None` for other devices.
+    pub faults: Option<FaultWords>,
     /// Refusals to arm that are expected, since there is no device.
     pub(crate) n_expected_refusals: u32,
     /// The device's measured interval between frames.

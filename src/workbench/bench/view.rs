@@ -7,10 +7,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use eframe::egui::{TextureId, Vec2};
-
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
+pub(crate) use crate::kit::swatch::ClothPicture;
 use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
@@ -131,15 +130,6 @@ pub(crate) struct Cloth {
     pub gain_db: f64,
     /// How it looks; `None` while it has no picture.
     pub picture: Option<ClothPicture>,
-}
-
-/// The picture that a textile is tiled with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ClothPicture {
-    /// The texture that holds it.
-    pub(crate) texture: TextureId,
-    /// How much cloth one tile shows, mm.
-    pub(crate) tile_mm: Vec2,
 }
 
 /// A textile of the library as the shelf shows it.

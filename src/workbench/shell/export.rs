@@ -28,8 +28,10 @@ impl Workbench {
     /// # Errors
     /// There is nothing, and what to do about it.
     pub(crate) fn exported(&mut self, what: Exportable) -> Result<Exported, &'static str> {
-        let Exportable::Pane(pane) = what else {
-            return self.bench.exported(what);
+        let pane = match what {
+            Exportable::Pane(pane) => pane,
+            Exportable::Timeline => return self.shell.bar.export(&mut self.bench),
+            Exportable::Analysed => return self.bench.exported(what),
         };
         match self.tools.showing(pane) {
             Some(tool) => tool.export(pane, &mut self.bench),

@@ -8,13 +8,11 @@ use eframe::egui::{
 use egui_tiles::Tree;
 
 use crate::bench::Bench;
-use crate::bench::command::{Command, Commands, PlaySource, ShowCommand};
+use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
-use crate::bench::recording::Take;
 use crate::bench::tool::PaneContext;
-use crate::bench::transient::Transient;
-use crate::bench::view::{Hovered, SceneView, Source};
+use crate::bench::view::{Hovered, SceneView};
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
@@ -36,7 +34,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     show_header(window, ui, &scene, &mut commands);
     if !window.bench.has_session() {
         // What is felt is not to be seen.
-        show_transport(&mut window.bench, ui, &mut commands);
+        show_bar(window, ui, &scene, &mut commands);
     }
     let central = CentralPanel::default().frame(Frame::new());
     let panes = central.show(ui, |ui| {
@@ -45,7 +43,6 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     });
     let (ground, rect) = panes.inner;
     let apart = (window.bench).show_participants_window(ui.ctx(), &mut commands);
-    window.bench.leave_plant();
     let over = ground.map_or(rect, |ground| ground.rect);
     show_overlays(window, ui, over, &mut commands);
     window.bench.transient.ground = ground.map(|ground| ground.rect);
@@ -91,39 +88,17 @@ fn show_header(window: &Workbench, ui: &mut Ui, scene: &SceneView, commands: &mu
     });
 }
 
-fn show_transport(bench: &mut Bench, ui: &mut Ui, commands: &mut Commands) {
+fn show_bar(window: &mut Workbench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let bottom = Panel::bottom("transport").resizable(false);
     bottom.frame(panel(ui, 12, 6)).show(ui, |ui| {
-        let mut state = std::mem::take(&mut bench.transient.transport);
-        let view = transport_view(&bench.transient, bench.take.as_ref());
-        crate::tools::timeline::show(ui, &view, &mut state, commands);
-        bench.transient.transport = state;
+        let mut context = PaneContext {
+            bench: &mut window.bench,
+            scene,
+            commands,
+            ground: &mut None,
+        };
+        window.shell.bar.ui(ui, &mut context);
     });
-}
-
-/// What the timeline shows; `take` is the recording at hand.
-pub(crate) fn transport_view<'a>(
-    transient: &'a Transient,
-    take: Option<&'a Take>,
-) -> crate::tools::timeline::TransportView<'a> {
-    let live = &transient.live;
-    crate::tools::timeline::TransportView {
-        source: match live.play.source {
-            Source::Pointer => PlaySource::Pointer,
-            Source::Lines | Source::Device => PlaySource::Input,
-            Source::Stroke => PlaySource::Stroke,
-            Source::Recording => PlaySource::Recording,
-        },
-        input: transient.sources.chosen_name(),
-        is_playing: live.play.is_playing,
-        does_loop: transient.does_loop,
-        is_stopped: live.is_stopped,
-        recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
-        tick: live.play.tick,
-        speed_mm_per_s: live.speed_mm_per_s,
-        take,
-        live: &transient.history,
-    }
 }
 
 /// The panes in their tiles.
@@ -194,7 +169,7 @@ impl Workbench {
             perspective: kept.perspective,
             dots: self.bench.workspace.dot_style,
             greys_below: self.bench.workspace.greys_below,
-            overlays: self.bench.workspace.overlays,
+            overlays: kept.overlays,
             panes: shown.to_vec(),
             recent: kept.recent_scenes.clone(),
         }

@@ -5,12 +5,12 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Command, Commands, ShowCommand};
+use crate::bench::keys::hint;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::{Live, SceneView, Status};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
-use crate::shell::keys::hint;
 use crate::shell::menu::{Appearance, show_scene_menu, show_view_menu};
 use selvedge_foundation::quantity;
 

@@ -5,12 +5,12 @@
 use eframe::egui::{self, Align, KeyboardShortcut, Layout, Rect, RichText, ScrollArea, Ui, vec2};
 
 use crate::bench::command::{Command, Commands};
+use crate::bench::keys::{Shortcut, table};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
 use crate::kit::widgets::text::{button, row, section};
-use crate::shell::keys::{Shortcut, table};
 
 /// The card's width, points.
 const WIDTH: f32 = 720.0;

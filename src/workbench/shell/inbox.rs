@@ -74,7 +74,7 @@ impl Workbench {
             self.dispatch(Command::AllOff);
         }
         let is_held = self.bench.transient.experiment.is_held();
-        for command in crate::shell::keys::pressed(ctx) {
+        for command in crate::bench::keys::pressed(ctx) {
             // A participant who presses a key is told nothing of what it does elsewhere.
             if is_held && command != Command::AllOff {
                 continue;

@@ -16,6 +16,7 @@ use crate::tools::picture::Picture;
 use crate::tools::response::Response;
 use crate::tools::spectra::contact::ContactSpectrum;
 use crate::tools::spectra::drive::DriveSpectrum;
+use crate::tools::workspace::Workspace;
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::Tuning;
@@ -130,7 +131,9 @@ impl Workbench {
     pub fn responses_computed(&self) -> [u64; 2] {
         let curves = self.tools.get::<Response>();
         let n_curves = curves.map_or(0, |response| response.curves.n_computed());
-        [self.bench.transient.maps.n_computed(), n_curves]
+        let workspace = self.tools.get::<Workspace>();
+        let n_maps = workspace.map_or(0, |workspace| workspace.maps.n_computed());
+        [n_maps, n_curves]
     }
 
     /// Previews of recipes that were begun in the textile lab.

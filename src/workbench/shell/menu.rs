@@ -2,16 +2,17 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{self, Button, ThemePreference, Ui};
+use eframe::egui::{Button, ThemePreference, Ui};
 
 use crate::bench::clips::{CLIPS, ClipsView};
 use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
+use crate::bench::keys::hint;
+use crate::bench::overlays::Overlays;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::SceneView;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::shell::keys::hint;
-use crate::tools::workspace::overlay::Overlays;
+use crate::kit::widgets::text::tick_box;
 use selvedge_foundation::quantity;
 
 /// Sizes that are offered, %.
@@ -222,22 +223,15 @@ fn entry(
 }
 
 /// A line that is ticked or not; the menu stays open.
-pub(crate) fn choice(
+fn choice(
     ui: &mut Ui,
     label: &str,
     is_chosen: bool,
     command: ShowCommand,
     commands: &mut Commands,
 ) {
-    let key = hint(ui.ctx(), &command.clone().into());
-    let mut is_ticked = is_chosen;
-    ui.horizontal(|ui| {
-        let response = ui.add(egui::Checkbox::new(&mut is_ticked, label));
-        if response.clicked() {
-            commands.push(command.into());
-        }
-        if !key.is_empty() {
-            ui.weak(key);
-        }
-    });
+    let command = command.into();
+    if tick_box(ui, label, is_chosen, hint(ui.ctx(), &command)) {
+        commands.push(command);
+    }
 }

@@ -16,7 +16,6 @@ pub(crate) mod headless;
 pub(crate) mod help;
 pub(crate) mod inbox;
 pub(crate) mod inspect;
-pub(crate) mod keys;
 pub(crate) mod menu;
 pub(crate) mod native;
 pub(crate) mod pending_motion;

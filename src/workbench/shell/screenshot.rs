@@ -89,7 +89,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         .pictured_bridge
         .as_ref()
         .map(|_| query::device_name(&Target::Emulator));
-    bench.transient.faults.running = bench.transient.target.is_some().then(Default::default);
+    bench.transient.faults = bench.transient.target.is_some().then(Default::default);
     let mut rasteriser = Rasteriser::default();
     for _ in 1..N_FRAMES {
         rasteriser.apply(&mut window.run().textures_delta);

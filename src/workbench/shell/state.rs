@@ -8,6 +8,7 @@ use egui_tiles::Tree;
 use crate::bench::opening::Origin;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
+use crate::bench::tool::Bar;
 use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
@@ -20,6 +21,8 @@ pub(crate) struct Shell {
     pub(crate) tree: Tree<Pane>,
     /// The arrangements of the other perspectives, as far as they were shown.
     pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// What stands at the bottom.
+    pub(crate) bar: Box<dyn Bar>,
     /// The size of everything between header and timeline, points.
     pub(crate) size: Vec2,
     /// Where the desktop asks for paths.
@@ -43,11 +46,12 @@ pub(crate) struct Shell {
 }
 
 impl Shell {
-    /// The window of a new user; `tap` takes the pointer's movements.
-    pub(crate) fn new(tap: PointerTap, dialogs: Dialogs) -> Self {
+    /// The window of a new user; `tap` takes the pointer's movements, `bar` stands at the bottom.
+    pub(crate) fn new(tap: PointerTap, dialogs: Dialogs, bar: Box<dyn Bar>) -> Self {
         Self {
             tree: arrangement::default_tree(Vec2::ZERO),
             resting: Default::default(),
+            bar,
             size: Vec2::ZERO,
             dialogs,
             ask: None,

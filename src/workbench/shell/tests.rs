@@ -16,10 +16,10 @@ use crate::kit::theme;
 use crate::shell::ask::{Ask, show as show_ask};
 use crate::shell::help::show as show_help;
 use crate::shell::question::show as show_question;
-use crate::tools::bridge::array::ArrayView;
+use crate::tools::bridge::Bridge;
 use crate::tools::bridge::ports::PortsView;
-use crate::tools::bridge::{BridgePane, BridgeTyped, show as show_bridge};
-use selvedge_device::{ArrayProfile, FaultWords, FoundPort, RecognisedBy};
+use crate::tools::bridge::view::{ArrayView, BridgePane};
+use selvedge_device::{ArrayProfile, FoundPort, RecognisedBy};
 use selvedge_scratch::ScratchFolder;
 
 /// A window with nothing in it but `content`, and what is wished for in it.
@@ -121,13 +121,13 @@ fn the_list_of_keys_names_a_key_and_can_be_put_away() {
 }
 
 /// The pane of the device, with nothing connected.
-fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, Commands> {
-    window(|ui, commands| {
+fn bridge_window(ports: PortsView) -> Harness<'static, Commands> {
+    let mut bridge = Bridge::with_ports(ports);
+    window(move |ui, commands| {
         let profile = ArrayProfile::default();
         let view = BridgePane {
             live: &Live::default(),
             target: None,
-            ports,
             array: ArrayView {
                 profile: &profile,
                 places_mm: profile.places_mm(),
@@ -139,16 +139,11 @@ fn bridge_window<'a>(ports: &'a PortsView, port: &'a mut String) -> Harness<'a, 
                 folder: None,
             },
             sources: &SourcesView::default(),
-            plant: None,
+            has_plant: false,
             faults: None,
             stops_on_focus_loss: false,
         };
-        let mut typed = BridgeTyped {
-            port,
-            copy_name: &mut String::new(),
-            faults: &mut FaultWords::default(),
-        };
-        show_bridge(ui, &view, &mut typed, commands);
+        bridge.show(ui, &view, commands);
     })
 }
 
@@ -159,11 +154,10 @@ fn opening_the_menu_lists_ports_and_choosing_one_connects() {
         ports: vec![("/dev/ttyACM0".to_owned(), "Array bridge".to_owned())],
         ..PortsView::default()
     };
-    let mut port = String::new();
-    let mut harness = bridge_window(&ports, &mut port);
+    let mut harness = bridge_window(ports);
     harness.run();
     let listed = click(&mut harness, "Choose a port");
-    assert_eq!(listed, [DeviceCommand::ListPorts.into()]);
+    assert_eq!(listed, [], "they are listed by the pane itself");
     harness.get_by_label_contains("Array bridge").click();
     harness.run();
     let path = PathBuf::from("/dev/ttyACM0");
@@ -187,8 +181,7 @@ fn a_device_that_is_back_is_connected_with_one_click_and_not_armed() {
         }),
         ..PortsView::default()
     };
-    let mut port = String::new();
-    let mut harness = bridge_window(&ports, &mut port);
+    let mut harness = bridge_window(ports);
     harness.run();
     harness.get_by_label("The array is back as /dev/ttyACM1");
     let asked = click(&mut harness, "Connect again");

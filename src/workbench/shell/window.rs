@@ -42,7 +42,7 @@ impl Workbench {
         Ok(Self {
             bench,
             tools,
-            shell: Shell::new(tap, dialogs),
+            shell: Shell::new(tap, dialogs, tools::bar()),
         })
     }
 }

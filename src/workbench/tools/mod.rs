@@ -20,7 +20,7 @@ pub(crate) mod tuning;
 pub(crate) mod why;
 pub(crate) mod workspace;
 
-use crate::bench::tool::Tool;
+use crate::bench::tool::{Bar, Tool};
 
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
@@ -38,5 +38,14 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(lab::Lab::default()),
         Box::new(collection::Collection::default()),
         Box::new(library::Library::default()),
+        Box::new(bridge::Bridge::default()),
+        Box::new(contactors::Contactors),
+        Box::new(tuning::Tuning::default()),
+        Box::new(workspace::Workspace::default()),
     ]
+}
+
+/// The bar at the bottom of the window.
+pub(crate) fn bar() -> Box<dyn Bar> {
+    Box::new(timeline::Timeline::default())
 }

@@ -4,6 +4,7 @@
 //! becomes the user's own of the same name. Devices follow at once where a change only lowers;
 //! everything else waits until the device is disarmed.
 
+pub(crate) mod change;
 pub(crate) mod follow;
 #[cfg(test)]
 mod tests;
@@ -43,8 +44,6 @@ pub(crate) struct Arrays {
     doubted: Option<DeviceUid>,
     /// Channels that are being identified.
     pub(crate) wizard: Option<Wizard>,
-    /// What is typed as the name of a copy.
-    pub(crate) copy_name: String,
 }
 
 impl Arrays {
@@ -96,6 +95,12 @@ impl Arrays {
         }
         choices.sort();
         choices
+    }
+
+    /// Whether a profile may have this name.
+    pub(crate) fn is_free(&self, name: &str) -> bool {
+        let is_taken = self.is_own(name) || ArrayProfile::shipped(name).is_some();
+        !name.is_empty() && !is_taken
     }
 
     /// Whether a profile of this name is the user's.

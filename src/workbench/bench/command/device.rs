@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::bench::command::array::ArrayCommand;
-use selvedge_device::{FaultWords, Skin};
+use selvedge_device::FaultWords;
 
 /// What can be done with the device.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,12 +22,6 @@ pub(crate) enum DeviceCommand {
     ConnectPort(PathBuf),
     /// Let go of it.
     Disconnect,
-    /// Look anew which ports there are.
-    ListPorts,
-    /// Model the emulator's contactors and show what they do, or no longer.
-    ShowContactors(bool),
-    /// Lay another finger on the emulator's contactors.
-    LoadContactors(Skin),
     /// Clear its faults, whose cause is gone.
     ClearFaults,
     /// Put the path of the session log where it can be pasted.

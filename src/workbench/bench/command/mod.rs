@@ -18,6 +18,7 @@ use eframe::egui;
 
 use crate::bench::export::Exportable;
 use crate::bench::keep::Keep;
+use crate::bench::overlays::Overlay;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
@@ -26,7 +27,6 @@ use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::workspace::overlay::Overlay;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
 use selvedge_textile::tactile::Band;
@@ -259,10 +259,6 @@ pub(crate) enum ShowCommand {
     ToggleNumbers,
     /// Grey what is too weak to be felt by the model, or no longer.
     ToggleThreshold,
-    /// Hold the scale of amplitudes, or let it follow them.
-    LockScale(bool),
-    /// The largest amplitude of the scale, µm; holds it.
-    ScaleTop(f64),
     /// What the contactors' dots show by what.
     DotStyle(DotStyle),
     /// Draw this over the cloth, or no longer.
@@ -274,8 +270,6 @@ pub(crate) enum ShowCommand {
     Hover(Part),
     /// Begin to calibrate the screen to true size.
     Calibrate,
-    /// The screen has this many pixels per millimetre.
-    Calibrated(f64),
     /// Show or hide the list of keys.
     Help,
 }

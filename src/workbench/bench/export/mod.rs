@@ -49,6 +49,14 @@ pub(crate) const NOTHING_FELT: &str =
 pub(crate) const NO_CONTACTOR: &str =
     "There is nothing to export: choose a contactor first, by a click on a cell of the heatmaps";
 
+/// What a band is drawn with.
+pub(crate) fn ink(band: Band) -> Ink {
+    match band {
+        Band::Low => Ink::Amber,
+        Band::High => Ink::Cyan,
+    }
+}
+
 /// Something that can be exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Exportable {
@@ -132,14 +140,6 @@ impl Exported {
             bar: None,
         };
         Self::new(title.to_owned(), sheet, vec![row], note, origin)
-    }
-}
-
-/// What a band is drawn with.
-pub(crate) fn ink(band: Band) -> Ink {
-    match band {
-        Band::Low => Ink::Amber,
-        Band::High => Ink::Cyan,
     }
 }
 

@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
+use crate::bench::overlays::Overlays;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::workspace::overlay::Overlays;
 use selvedge_engine::Area;
 
 /// Most scenes that are remembered.

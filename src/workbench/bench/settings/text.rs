@@ -31,10 +31,10 @@ mod tests {
     use super::*;
     use crate::bench::amplitude::AmplitudeScale;
     use crate::bench::command::DotStyle;
+    use crate::bench::overlays::{Overlay, Overlays};
     use crate::bench::perspective::Perspective;
     use crate::bench::rendering::Rendering;
     use crate::kit::theme::colour_map::ColourMap;
-    use crate::tools::workspace::overlay::{Overlay, Overlays};
     use selvedge_engine::Area;
     use selvedge_render::array::Method;
     use selvedge_textile::tactile::Band;

@@ -67,6 +67,20 @@ pub(crate) fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
     response
 }
 
+/// A line of a menu that is ticked or not, with its key; the menu stays open. Says whether it was
+/// clicked.
+pub(crate) fn tick_box(ui: &mut Ui, label: &str, is_ticked: bool, key: String) -> bool {
+    let mut is_ticked = is_ticked;
+    let line = ui.horizontal(|ui| {
+        let response = ui.add(egui::Checkbox::new(&mut is_ticked, label));
+        if !key.is_empty() {
+            ui.weak(key);
+        }
+        response.clicked()
+    });
+    line.inner
+}
+
 /// A button that is grey, with the reason as its tip, when `refusal` says why it does nothing.
 pub(crate) fn button(ui: &mut Ui, text: &str, tip: &str, refusal: Option<&str>) -> bool {
     let button = egui::Button::new(text).min_size(vec2(0.0, ROW));

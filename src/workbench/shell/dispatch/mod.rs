@@ -38,9 +38,8 @@ impl Workbench {
     }
 
     fn act(&mut self, command: Command) {
-        if self.bench.has_session() && !leaves_session(&command) {
-            let words = "A session is held: end it first, in the Experimenter pane";
-            return self.bench.transient.notices.give(words);
+        if !leaves_session(&command) && self.bench.refuses_in_session() {
+            return;
         }
         for tool in self.tools.iter_mut() {
             tool.command(&command, &mut self.bench);
@@ -63,7 +62,6 @@ impl Workbench {
         self.shell.exports.seen = None;
         self.shell.question = None;
         self.shell.is_help_shown = false;
-        self.bench.workspace.is_calibrating = false;
     }
 }
 
@@ -156,6 +154,16 @@ impl Bench {
     /// Whether a session of an experiment is under way.
     pub(crate) fn has_session(&self) -> bool {
         self.transient.experiment.is_held()
+    }
+
+    /// Whether what is shown and felt is the session's alone; says so.
+    pub(crate) fn refuses_in_session(&mut self) -> bool {
+        let is_held = self.has_session();
+        if is_held {
+            let words = "A session is held: end it first, in the Experimenter pane";
+            self.transient.notices.give(words);
+        }
+        is_held
     }
 
     /// Tells the engine what is wanted of it.

@@ -1,14 +1,11 @@
 //! What is shown how: kept per user where that makes sense, never undone.
 
-use eframe::egui;
-
 use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
 use crate::shell::arrangement;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::window::Workbench;
-use crate::tools::workspace::state::Place;
 
 impl Workbench {
     /// Shows something, or shows it otherwise.
@@ -46,12 +43,7 @@ impl Workbench {
 impl Bench {
     pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
         let ctx = self.ctx.clone();
-        let place = Place {
-            pane: self.transient.ground.unwrap_or(egui::Rect::ZERO),
-            size_mm: self.document.scene().size_mm,
-            pixels_per_point: ctx.pixels_per_point(),
-        };
-        self.workspace.take(command, place);
+        self.workspace.take(command);
         match *command {
             ShowCommand::Theme(preference) => {
                 ctx.set_theme(preference);
@@ -69,9 +61,6 @@ impl Bench {
             ShowCommand::Mute(part) => self.transient.mute_solo.toggle_mute(part),
             ShowCommand::Solo(part) => self.transient.mute_solo.toggle_solo(part),
             ShowCommand::HearAll => self.transient.mute_solo = MuteSolo::default(),
-            ShowCommand::ToggleNumbers => {
-                self.settings.preferences.has_numbers = !self.settings.preferences.has_numbers;
-            }
             _ => {}
         }
     }

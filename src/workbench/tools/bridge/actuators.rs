@@ -6,8 +6,8 @@
 use eframe::egui;
 use std::time::Duration;
 
-use crate::bench::Bench;
 use selvedge_device::{ActuatorReading, Bimorph, ContactorModel, FULL_CODE, Skin};
+use selvedge_engine::Engine;
 
 /// How soon a first reading is looked for again.
 const SOON: Duration = Duration::from_millis(100);
@@ -68,31 +68,30 @@ pub(crate) struct PlantCell {
     pub(crate) held_share: f64,
 }
 
-impl Bench {
+impl PlantPeek {
     /// What the section shows; `None` where no emulator of this program is connected. To be called
     /// while its pane is drawn.
-    pub(crate) fn peek_at_plant(&mut self, ctx: &egui::Context) -> Option<&PlantView> {
-        let full_scale_um = self.engine.profile().full_scale_um;
-        let n_columns = usize::from(self.engine.profile().cols);
-        let watch = self.engine.actuators()?;
-        let peek = &mut self.transient.plant;
-        peek.is_drawn = true;
-        if watch.model().skin != peek.skin {
+    pub(crate) fn look(&mut self, ctx: &egui::Context, engine: &mut Engine) -> Option<&PlantView> {
+        let full_scale_um = engine.profile().full_scale_um;
+        let n_columns = usize::from(engine.profile().cols);
+        let watch = engine.actuators()?;
+        self.is_drawn = true;
+        if watch.model().skin != self.skin {
             let model = *watch.model();
             watch.set_model(ContactorModel {
-                skin: peek.skin,
+                skin: self.skin,
                 ..model
             });
         }
-        watch.look(peek.is_open);
+        watch.look(self.is_open);
         let model = *watch.model();
-        let view = &mut peek.view;
-        view.is_open = peek.is_open;
-        view.skin = peek.skin;
+        let view = &mut self.view;
+        view.is_open = self.is_open;
+        view.skin = self.skin;
         view.n_columns = n_columns;
         view.beams = beams(&model);
         view.contactors.clear();
-        if peek.is_open {
+        if self.is_open {
             let reading = watch.reading();
             view.contactors.extend(cells(reading, full_scale_um));
             let moves = view.contactors.iter().any(|cell| {
@@ -103,13 +102,14 @@ impl Bench {
                 ctx.request_repaint_after(SOON);
             }
         }
-        Some(&self.transient.plant.view)
+        Some(&self.view)
     }
 
-    /// Lets the model rest whose pane was not drawn. To be called after every frame.
-    pub(crate) fn leave_plant(&mut self) {
-        let was_drawn = std::mem::take(&mut self.transient.plant.is_drawn);
-        if let Some(watch) = self.engine.actuators().filter(|_| !was_drawn) {
+    /// Lets the model rest whose pane is out of sight, or was not drawn in the last frame. To be
+    /// called before every frame.
+    pub(crate) fn rest(&mut self, engine: &mut Engine, is_in_sight: bool) {
+        let was_drawn = std::mem::take(&mut self.is_drawn) && is_in_sight;
+        if let Some(watch) = engine.actuators().filter(|_| !was_drawn) {
             watch.look(false);
         }
     }
@@ -146,38 +146,46 @@ fn cells(reading: &ActuatorReading, full_scale_um: [f64; 2]) -> impl Iterator<It
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
+    use crate::bench::{Bench, Drive};
 
     #[test]
     fn contactors_are_modelled_only_while_the_open_section_is_drawn() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        assert!(bench.peek_at_plant(&ctx).is_none(), "no emulator yet");
+        let mut peek = PlantPeek::default();
+        let none = peek.look(&ctx, &mut bench.engine);
+        assert!(none.is_none(), "no emulator yet");
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        assert!(!bench.peek_at_plant(&ctx).unwrap().is_open);
+        assert!(!peek.look(&ctx, &mut bench.engine).unwrap().is_open);
         let is_looking = |bench: &mut Bench| bench.engine.actuators().unwrap().is_looking();
         assert!(!is_looking(&mut bench), "the section is closed");
-        bench.dispatch(DeviceCommand::ShowContactors(true).into());
-        assert!(bench.peek_at_plant(&ctx).unwrap().is_open);
-        bench.leave_plant();
-        assert!(is_looking(&mut bench), "it was drawn in this frame");
-        bench.leave_plant();
+        peek.is_open = true;
+        assert!(peek.look(&ctx, &mut bench.engine).unwrap().is_open);
+        peek.rest(&mut bench.engine, true);
+        assert!(is_looking(&mut bench), "it was drawn in the last frame");
+        peek.rest(&mut bench.engine, true);
         assert!(!is_looking(&mut bench), "it was not drawn in the next");
+        peek.look(&ctx, &mut bench.engine);
+        peek.rest(&mut bench.engine, false);
+        assert!(!is_looking(&mut bench), "its pane is out of sight");
     }
 
     #[test]
     fn the_finger_that_is_chosen_outlasts_the_link() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut peek = PlantPeek::default();
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        bench.dispatch(DeviceCommand::LoadContactors(Skin::FIRM).into());
-        assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);
+        peek.skin = Skin::FIRM;
+        let shown = peek.look(&ctx, &mut bench.engine).unwrap().skin;
+        assert_eq!(shown, Skin::FIRM);
         assert_eq!(bench.engine.actuators().unwrap().model().skin, Skin::FIRM);
         bench.dispatch(DeviceCommand::Disconnect.into());
-        assert!(bench.peek_at_plant(&ctx).is_none());
+        assert!(peek.look(&ctx, &mut bench.engine).is_none());
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        assert_eq!(bench.peek_at_plant(&ctx).unwrap().skin, Skin::FIRM);
+        let shown = peek.look(&ctx, &mut bench.engine).unwrap().skin;
+        assert_eq!(shown, Skin::FIRM);
     }
 
     #[test]

@@ -1,10 +1,7 @@
 //! The array profile in force: which, its scale and limits, how the device falls silent.
 
-use std::path::Path;
-
 use eframe::egui::{self, Label, RichText, TextEdit, Ui};
 
-use crate::bench::arrays::wizard::Wizard;
 use crate::bench::command::Commands;
 use crate::bench::command::array::ArrayCommand;
 use crate::kit::theme;
@@ -14,33 +11,13 @@ use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
 use crate::kit::widgets::text::{button, choice, row};
-use crate::tools::bridge::BridgePane;
+use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::ArrayProfile;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
 /// Width of the list of profiles, points.
 const CHOICE: f32 = 168.0;
-
-/// The array as the pane shows it.
-pub(crate) struct ArrayView<'a> {
-    /// The profile in force.
-    pub profile: &'a ArrayProfile,
-    /// Where its contactors are, mm; none where it is too large to be shown.
-    pub places_mm: Vec<[f64; 2]>,
-    /// Whether it is the user's.
-    pub is_own: bool,
-    /// The profiles that fit the scene's display, and which are the user's.
-    pub choices: Vec<(String, bool)>,
-    /// Whether what was changed waits until the device is disarmed.
-    pub waits: bool,
-    /// The contactor that is looked at closer.
-    pub contactor: Option<usize>,
-    /// Channels that are being identified.
-    pub(crate) wizard: Option<&'a Wizard>,
-    /// Where the user's profiles are kept.
-    pub folder: Option<&'a Path>,
-}
 
 /// What matters of the array while its part is folded away.
 pub(crate) fn summary(view: &BridgePane<'_>) -> String {

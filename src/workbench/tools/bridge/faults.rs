@@ -9,13 +9,38 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, choice, field_row, row};
 use crate::kit::widgets::{fold, list};
-use crate::tools::bridge::fault_bench::PRESETS;
 use selvedge_device::{FaultGroup, FaultKind, FaultOption, FaultWords};
 
 /// Width of a field, points.
 const FIELD: f32 = 116.0;
 /// Width of the list of presets, points.
 const LIST: f32 = 168.0;
+
+/// Faults that are worth a try together: a name, and options with their texts.
+pub(crate) const PRESETS: [(&str, &[(&str, &str)]); 6] = [
+    ("None", &[]),
+    (
+        "Adapter with a timer",
+        &[("latency", "ftdi"), ("hiccup", "0.1%:50ms")],
+    ),
+    (
+        "Bad cable",
+        &[("drop", "0.01%"), ("flip", "0.01%"), ("lose-usb", "0.1%")],
+    ),
+    (
+        "Clock off its pace",
+        &[("clock-ppm", "100"), ("tick-jitter", "2ms")],
+    ),
+    (
+        "Device that stalls",
+        &[
+            ("stall-reading-at", "5s,20s"),
+            ("stall-writing-at", "10s"),
+            ("reboot-at", "30s"),
+        ],
+    ),
+    ("Wired wrongly", &[("dead", "3"), ("swap", "5,6")]),
+];
 
 /// What matters while the part is folded away: what goes wrong now, and whether something else was
 /// chosen since.
@@ -198,8 +223,19 @@ mod tests {
 
     fn stage(pairs: &[(&str, &str)]) -> Stage {
         let mut stage = Stage::new(BridgePhase::Ready);
-        stage.chosen_faults = FaultWords::of(pairs);
+        stage.bridge.faults = FaultWords::of(pairs);
         stage
+    }
+
+    #[test]
+    fn every_preset_is_read_whole_and_none_is_none() {
+        for (name, pairs) in PRESETS {
+            let words = FaultWords::of(pairs);
+            assert_eq!(words.n_faults(), pairs.len(), "{name}");
+            let faults = words.faults().unwrap();
+            faults.check(24).unwrap();
+            assert_eq!(faults.is_none(), pairs.is_empty(), "{name}");
+        }
     }
 
     #[test]

@@ -5,13 +5,11 @@ use eframe::egui::{
     vec2,
 };
 
-use crate::bench::command::Commands;
-use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fold::told_fold;
 use crate::kit::widgets::text::row;
-use crate::tools::bridge::actuators::{PlantCell, PlantView};
+use crate::tools::bridge::actuators::{PlantCell, PlantPeek, PlantView};
 use selvedge_device::Skin;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -26,17 +24,24 @@ const CELL: f32 = 42.0;
 const LINE: f32 = 13.0;
 
 /// Shows the section; it opens and closes by its title.
-pub(crate) fn show(ui: &mut Ui, view: &PlantView, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, plant: &mut PlantPeek) {
+    let PlantPeek {
+        view,
+        skin,
+        is_open,
+        ..
+    } = plant;
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
     let part = ("Displacement by a model", view.is_open);
-    let head = told_fold(ui, part, "", |ui| show_open(ui, view, commands));
+    let head = told_fold(ui, part, "", |ui| show_open(ui, view, skin));
     if head.on_hover_text(tip).clicked() {
-        commands.push(DeviceCommand::ShowContactors(!view.is_open).into());
+        *is_open = !view.is_open;
+        ui.ctx().request_repaint();
     }
 }
 
-fn show_open(ui: &mut Ui, view: &PlantView, commands: &mut Commands) {
-    show_skin(ui, view.skin, commands);
+fn show_open(ui: &mut Ui, view: &PlantView, skin: &mut Skin) {
+    show_skin(ui, skin);
     let palette = Palette::in_ui(ui);
     if view.contactors.is_empty() {
         let words = "Waiting for the emulator’s next tick…";
@@ -57,14 +62,15 @@ fn small(words: &str, ink: egui::Color32) -> RichText {
 }
 
 /// The finger: one of those that have a name.
-fn show_skin(ui: &mut Ui, chosen: Skin, commands: &mut Commands) {
+fn show_skin(ui: &mut Ui, chosen: &mut Skin) {
     row(ui, "Finger", |ui| {
         for (name, skin) in Skin::NAMED.into_iter().rev() {
             let label = capitalised(name);
             let tip = format!("Every contactor under skin: {skin}");
-            let choice = ui.selectable_label(skin == chosen, label);
-            if choice.on_hover_text(tip).clicked() && skin != chosen {
-                commands.push(DeviceCommand::LoadContactors(skin).into());
+            let choice = ui.selectable_label(skin == *chosen, label);
+            if choice.on_hover_text(tip).clicked() && skin != *chosen {
+                *chosen = skin;
+                ui.ctx().request_repaint();
             }
         }
     });

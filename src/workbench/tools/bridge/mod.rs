@@ -6,18 +6,13 @@
 
 pub(crate) mod actuators;
 pub(crate) mod array;
-pub(crate) mod back;
 pub(crate) mod calibration;
 pub(crate) mod counters;
-pub(crate) mod dispatch;
-pub(crate) mod dispatch_array;
 pub(crate) mod export;
-pub(crate) mod fault_bench;
 pub(crate) mod faults;
 pub(crate) mod felt;
 pub(crate) mod inputs;
 pub(crate) mod link;
-pub(crate) mod pane;
 pub(crate) mod port;
 pub(crate) mod ports;
 pub(crate) mod replug;
@@ -25,94 +20,177 @@ pub(crate) mod surface;
 #[cfg(test)]
 mod tests;
 pub(crate) mod timing;
+pub(crate) mod view;
 pub(crate) mod wiring;
-
-pub(crate) use crate::tools::bridge::array::ArrayView;
 
 use eframe::egui::Ui;
 
-use crate::bench::command::Commands;
-use crate::bench::sources::SourcesView;
-use crate::bench::view::Live;
+use crate::bench::Bench;
+use crate::bench::command::array::ArrayCommand;
+use crate::bench::command::device::DeviceCommand;
+use crate::bench::command::{Command, Commands};
+use crate::bench::export::Exported;
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::scrolled;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
-use crate::tools::bridge::actuators::PlantView;
-use crate::tools::bridge::ports::PortsView;
-use selvedge_device::FaultWords;
+use crate::tools::bridge::actuators::PlantPeek;
+use crate::tools::bridge::ports::Ports;
+use crate::tools::bridge::view::{ArrayView, BridgePane};
+use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
 
-/// What the pane is drawn from.
-pub(crate) struct BridgePane<'a> {
-    /// The engine and the device.
-    pub live: &'a Live,
-    /// What the link was opened to.
-    pub target: Option<&'a str>,
-    /// The ports that were found.
-    pub ports: &'a PortsView,
-    /// The array.
-    pub array: ArrayView<'a>,
-    /// What moves the display, and who hears of it.
-    pub sources: &'a SourcesView,
-    /// What a model says the emulator's contactors do; `None` for other devices.
-    pub plant: Option<&'a PlantView>,
-    /// What goes wrong with the emulator that is connected; `None` for other devices.
-    pub faults: Option<&'a FaultWords>,
-    /// Whether an armed device stops when the window loses the keyboard.
-    pub(crate) stops_on_focus_loss: bool,
+/// The pane of the device: what is typed and chosen in it, and what it looks after while a link is
+/// open.
+#[derive(Debug, Default)]
+pub(crate) struct Bridge {
+    /// The serial ports of this computer.
+    ports: Ports,
+    /// What is typed as a port.
+    port: String,
+    /// What is typed as the name of a copy of the array profile.
+    copy_name: String,
+    /// What is to go wrong with the emulator when it is started next.
+    faults: FaultWords,
+    /// The emulator's contactors.
+    plant: PlantPeek,
 }
 
-/// What is typed in the pane.
-pub(crate) struct BridgeTyped<'a> {
-    /// A port.
-    pub port: &'a mut String,
-    /// The name of a copy of the array profile.
-    pub(crate) copy_name: &'a mut String,
-    /// What is to go wrong with the emulator next.
-    pub faults: &'a mut FaultWords,
-}
-
-/// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &BridgePane<'_>,
-    typed: &mut BridgeTyped<'_>,
-    commands: &mut Commands,
-) {
-    let bridge = view.live.bridge.as_ref();
-    link::show_state(ui, bridge, view.target);
-    link::show_arming(ui, bridge, view.live.is_stopped, commands);
-    timing::show_fault(ui, bridge, commands);
-    back::show(ui, view.ports.back.as_ref(), commands);
-    if let Some(wizard) = view.array.wizard {
-        ui.add_space(STEP);
-        wiring::show_wizard(ui, wizard, view, commands);
-        return;
+impl Tool for Bridge {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Bridge]
     }
-    ui.add_space(STEP);
-    port::show_port(ui, typed.port, view.ports, commands);
-    port::show_connecting(ui, bridge.is_some(), typed.port, commands);
-    ui.add_space(STEP);
-    fold(ui, ("Array", false), &array::summary(view), |ui| {
-        array::show(ui, view, typed.copy_name, commands);
-        show_contactors(ui, view, commands);
-    });
-    fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
-        counters::show_counters(ui, bridge, view.live.status.felt_age_s);
-        timing::show_focus(ui, view.stops_on_focus_loss, commands);
-    });
-    fold(ui, ("Timing", false), &timing::summary(bridge), |ui| {
-        timing::show(ui, bridge, commands);
-    });
-    fold(ui, ("Input", false), inputs::word(view.live), |ui| {
-        inputs::show(ui, view.live, view.sources, commands);
-    });
-    if let Some(running) = view.faults {
-        let summary = faults::summary(running, typed.faults);
-        fold(ui, ("Faults", false), &summary, |ui| {
-            faults::show(ui, typed.faults, commands);
+
+    fn logic(&mut self, bench: &mut Bench) {
+        self.ports.poll();
+        let link = bench.engine.snapshot().link;
+        let is_lost = link.is_some_and(|link| link.state == BridgeState::Lost);
+        let uid = link.and_then(|link| link.caps).map(|caps| caps.uid);
+        if let Some(found) = self.ports.follow(&bench.ctx, is_lost, uid) {
+            bench.transient.notices.give(port::back_notice(&found));
+        }
+        let is_in_sight = bench.shows(Pane::Bridge);
+        self.plant.rest(&mut bench.engine, is_in_sight);
+    }
+
+    fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        scrolled(ui, pane.title(), |ui| {
+            let bench = &mut *context.bench;
+            let has_plant = self.plant.look(ui.ctx(), &mut bench.engine).is_some();
+            let profile = bench.array();
+            // What no frame can carry is no array that a device drives.
+            let is_drivable = profile.n_contactors() <= LARGEST_CHANNELS;
+            let view = BridgePane {
+                live: &bench.transient.live,
+                target: bench.transient.target.as_deref(),
+                array: ArrayView {
+                    places_mm: if is_drivable {
+                        profile.places_mm()
+                    } else {
+                        Vec::new()
+                    },
+                    is_own: bench.arrays.is_own(&profile.name),
+                    choices: bench.arrays.choices(profile.n_contactors()),
+                    waits: bench.arrays.waits,
+                    contactor: bench.workspace.contactor,
+                    wizard: bench.arrays.wizard.as_ref(),
+                    folder: bench.arrays.folder(),
+                    profile: &profile,
+                },
+                sources: &bench.sources_view(),
+                has_plant,
+                faults: bench.transient.faults.as_ref(),
+                stops_on_focus_loss: bench.settings.preferences.stops_on_focus_loss,
+            };
+            self.show(ui, &view, context.commands);
         });
     }
-    if let Some(plant) = view.plant {
-        felt::show(ui, plant, commands);
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        let Command::Device(command) = command else {
+            return;
+        };
+        let target = match command {
+            DeviceCommand::ConnectEmulator => Some(Target::Emulator),
+            DeviceCommand::StartFaults(words) => match bench.emulator_with(words) {
+                Ok(target) => Some(target),
+                Err(_) => return,
+            },
+            DeviceCommand::ConnectPort(path) => Some(Target::Port(path.clone())),
+            DeviceCommand::Disconnect => None,
+            DeviceCommand::Array(ArrayCommand::Copy(name)) => {
+                if bench.arrays.is_free(name.trim()) {
+                    self.copy_name.clear();
+                }
+                return;
+            }
+            _ => return,
+        };
+        if target.is_some() {
+            bench.transient.notices.forget_about(port::BACK);
+        }
+        self.ports.hold(target.as_ref());
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let bridge = bench.transient.live.bridge.as_ref();
+        let exported =
+            bridge.and_then(|bridge| export::distributions(&bridge.timing, bench.origin()));
+        exported.ok_or("There is nothing to export yet: connect a device")
+    }
+}
+
+impl Bridge {
+    /// Shows the pane.
+    pub(crate) fn show(&mut self, ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
+        let bridge = view.live.bridge.as_ref();
+        link::show_state(ui, bridge, view.target);
+        link::show_arming(ui, bridge, view.live.is_stopped, commands);
+        timing::show_fault(ui, bridge, commands);
+        port::show_back(ui, self.ports.view().back.as_ref(), commands);
+        if let Some(wizard) = view.array.wizard {
+            ui.add_space(STEP);
+            wiring::show_wizard(ui, wizard, view, commands);
+            return;
+        }
+        ui.add_space(STEP);
+        port::show_port(ui, &mut self.port, &mut self.ports, commands);
+        port::show_connecting(ui, bridge.is_some(), &self.port, commands);
+        ui.add_space(STEP);
+        fold(ui, ("Array", false), &array::summary(view), |ui| {
+            array::show(ui, view, &mut self.copy_name, commands);
+            show_contactors(ui, view, commands);
+        });
+        fold(ui, ("Link", true), &counters::summary(bridge), |ui| {
+            counters::show_counters(ui, bridge, view.live.status.felt_age_s);
+            timing::show_focus(ui, view.stops_on_focus_loss, commands);
+        });
+        fold(ui, ("Timing", false), &timing::summary(bridge), |ui| {
+            timing::show(ui, bridge, commands);
+        });
+        fold(ui, ("Input", false), inputs::word(view.live), |ui| {
+            inputs::show(ui, view.live, view.sources, commands);
+        });
+        if let Some(running) = view.faults {
+            let summary = faults::summary(running, &self.faults);
+            fold(ui, ("Faults", false), &summary, |ui| {
+                faults::show(ui, &mut self.faults, commands);
+            });
+        }
+        if view.has_plant {
+            felt::show(ui, &mut self.plant);
+        }
+    }
+}
+
+#[cfg(test)]
+impl Bridge {
+    /// With ports that were found.
+    pub(crate) fn with_ports(ports: ports::PortsView) -> Self {
+        Self {
+            ports: Ports::found(ports),
+            ..Self::default()
+        }
     }
 }
 

@@ -1,4 +1,5 @@
-//! Which port to connect to: typed, or chosen from those that were found.
+//! Which port to connect to: typed, or chosen from those that were found; and where a device that
+//! was lost is back: one click connects it, and it is not armed.
 
 use std::path::PathBuf;
 
@@ -12,7 +13,8 @@ use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, choice};
-use crate::tools::bridge::ports::PortsView;
+use crate::tools::bridge::ports::{Ports, PortsView};
+use selvedge_device::FoundPort;
 
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;
@@ -21,7 +23,7 @@ const MENU: f32 = 288.0;
 pub(crate) fn show_port(
     ui: &mut Ui,
     port: &mut String,
-    ports: &PortsView,
+    ports: &mut Ports,
     commands: &mut Commands,
 ) {
     let size = vec2(ui.available_width(), ROW + 4.0);
@@ -46,7 +48,7 @@ pub(crate) fn show_port(
 }
 
 /// The menu of the ports that were found; opening it looks again.
-fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut Commands) {
+fn show_menu(ui: &mut Ui, port: &mut String, ports: &mut Ports, commands: &mut Commands) {
     let opener = ui.add(Button::new("").min_size(vec2(ROW + STEP, ROW)));
     opener.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Choose a port"));
     paint_arrow(ui, opener.rect.center());
@@ -54,11 +56,11 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut C
     let menu = Popup::menu(&opener).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     // The click takes effect below, where the menu is shown.
     if opener.clicked() && !menu.is_open() {
-        commands.push(DeviceCommand::ListPorts.into());
+        ports.list(ui.ctx());
     }
     menu.width(MENU).show(|ui| {
         ui.set_width(MENU);
-        for (path, description) in &ports.ports {
+        for (path, description) in &ports.view().ports {
             let name = RichText::new(path).font(theme::number());
             let tip = format!("Connect to {path}: {description}");
             if choice(ui, name, description, &tip) {
@@ -67,16 +69,16 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &PortsView, commands: &mut C
                 ui.close();
             }
         }
-        if let Some(words) = empty_words(ports) {
+        if let Some(words) = empty_words(ports.view()) {
             let palette = Palette::in_ui(ui);
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
                 ui.add(egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
             });
         }
         ui.separator();
-        let busy = ports.is_listing.then_some("Looking…");
+        let busy = ports.view().is_listing.then_some("Looking…");
         if button(ui, "Look again", "List the ports anew", busy) {
-            commands.push(DeviceCommand::ListPorts.into());
+            ports.list(ui.ctx());
         }
     });
 }
@@ -130,9 +132,38 @@ pub(crate) fn show_connecting(
     });
 }
 
+/// How the sentence begins, here and as a notice.
+pub(crate) const BACK: &str = "The array is back as";
+
+/// Shows what is back, if anything is.
+pub(crate) fn show_back(ui: &mut Ui, back: Option<&FoundPort>, commands: &mut Commands) {
+    let Some(found) = back else { return };
+    let path = found.path.display().to_string();
+    ui.add_space(STEP);
+    let words = RichText::new(back_words(found)).color(Palette::in_ui(ui).text);
+    ui.label(words).on_hover_text(found.by.words());
+    let tip = format!("Connect to {path}; the device stays disarmed");
+    ui.vertical_centered_justified(|ui| {
+        if button(ui, "Connect again", &tip, None) {
+            commands.push(DeviceCommand::ConnectPort(found.path.clone()).into());
+        }
+    });
+}
+
+/// Where it is.
+fn back_words(found: &FoundPort) -> String {
+    format!("{BACK} {}", found.path.display())
+}
+
+/// The notice of it.
+pub(crate) fn back_notice(found: &FoundPort) -> String {
+    format!("{}: connect again", back_words(found))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use selvedge_device::RecognisedBy;
 
     #[test]
     fn an_empty_menu_says_why_it_is_empty() {
@@ -158,5 +189,16 @@ mod tests {
             ..none
         };
         assert_eq!(empty_words(&found), None);
+    }
+
+    #[test]
+    fn a_notice_begins_with_what_it_is_put_away_by() {
+        let found = FoundPort {
+            path: PathBuf::from("/dev/ttyACM1"),
+            by: RecognisedBy::UsbSerial,
+        };
+        let line = back_notice(&found);
+        assert_eq!(line, "The array is back as /dev/ttyACM1: connect again");
+        assert!(line.starts_with(BACK));
     }
 }

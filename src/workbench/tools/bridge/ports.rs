@@ -123,6 +123,17 @@ impl Ports {
 }
 
 #[cfg(test)]
+impl Ports {
+    /// Ports that were found, and are looked for no more.
+    pub(crate) fn found(view: PortsView) -> Self {
+        Self {
+            view,
+            ..Self::default()
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -12,9 +12,8 @@ use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
 use crate::bench::view::{BridgePhase, BridgeView, Dot, Live};
 use crate::kit::theme;
-use crate::tools::bridge::array::ArrayView;
-use crate::tools::bridge::ports::PortsView;
-use crate::tools::bridge::{BridgePane, BridgeTyped, show};
+use crate::tools::bridge::Bridge;
+use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
     ArrayProfile, BridgeEvent, Calibration, DeviceUid, FaultWords, LimiterState, Wiring,
@@ -28,12 +27,9 @@ pub(crate) struct Stage {
     profile: ArrayProfile,
     wizard: Option<Wizard>,
     waits: bool,
-    port: String,
-    copy_name: String,
-    ports: PortsView,
+    pub(crate) bridge: Bridge,
     pub(crate) sources: SourcesView,
     pub(crate) faults: Option<FaultWords>,
-    pub(crate) chosen_faults: FaultWords,
 }
 
 impl Stage {
@@ -68,12 +64,9 @@ impl Stage {
             profile: ArrayProfile::default(),
             wizard: None,
             waits: false,
-            port: String::new(),
-            copy_name: String::new(),
-            ports: PortsView::default(),
+            bridge: Bridge::default(),
             sources: SourcesView::default(),
             faults: Some(FaultWords::default()),
-            chosen_faults: FaultWords::default(),
         }
     }
 
@@ -81,7 +74,6 @@ impl Stage {
         let view = BridgePane {
             live: &self.live,
             target: Some("Emulator"),
-            ports: &self.ports,
             array: ArrayView {
                 profile: &self.profile,
                 places_mm: self.profile.places_mm(),
@@ -93,16 +85,11 @@ impl Stage {
                 folder: None,
             },
             sources: &self.sources,
-            plant: None,
+            has_plant: false,
             faults: self.faults.as_ref(),
             stops_on_focus_loss: false,
         };
-        let mut typed = BridgeTyped {
-            port: &mut self.port,
-            copy_name: &mut self.copy_name,
-            faults: &mut self.chosen_faults,
-        };
-        show(ui, &view, &mut typed, commands);
+        self.bridge.show(ui, &view, commands);
     }
 }
 
@@ -310,7 +297,7 @@ fn faulty(is_bad: bool) -> Stage {
             ("unplug-at", "soon"),
             ("chatter", "on"),
         ];
-        stage.chosen_faults = FaultWords::of(&bad);
+        stage.bridge.faults = FaultWords::of(&bad);
         stage.faults = Some(FaultWords::of(&bad[..2]));
     }
     stage

@@ -12,7 +12,7 @@ use crate::bench::view::BridgePhase;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, row};
-use crate::tools::bridge::BridgePane;
+use crate::tools::bridge::view::BridgePane;
 use selvedge_device::DeviceUid;
 use selvedge_device::wiring::{Answer, WiringFound};
 

@@ -9,7 +9,7 @@ use eframe::egui::vec2;
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::bench::command::edit::Edit;
-use crate::bench::selection::Joining;
+use crate::bench::library_selection::Joining;
 use crate::shell::headless::Headless;
 use crate::tools::collection::listing::SortBy;
 use crate::tools::collection::listing::{Only, Sort};

@@ -3,37 +3,31 @@
 pub(crate) mod export;
 
 use eframe::egui::{
-    self, Align2, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
-    vec2,
+    self, Align2, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
+use crate::bench::Bench;
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::{Commands, Part, ShowCommand};
-use crate::bench::mute_solo::MuteSolo;
+use crate::bench::command::{Command, Commands, Part, ShowCommand};
+use crate::bench::export::Exported;
+use crate::bench::export::NOTHING_FELT;
+use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
+use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::{Dot, Live, SceneView};
+use crate::kit::pane::framed;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::bar::amplitude_bar;
+use crate::kit::widgets::cells::{GAP, NUMBER_WIDTH, Places, TITLE};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, limits_band, paint_limit_mark};
 use crate::kit::widgets::text::toggle;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
-/// Height of a title, points.
-pub(crate) const TITLE: f32 = 20.0;
-/// Space between cells, points.
-pub(crate) const GAP: f32 = 2.0;
-/// Width of the colour bar with its numbers, points.
-const BAR: f32 = 48.0;
-/// Space between the two heatmaps, points.
-const BETWEEN: f32 = 16.0;
-/// A cell narrower than this has no room for a number, points.
-pub(crate) const NUMBER_WIDTH: f32 = 20.0;
-
 /// How the heatmaps are drawn.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HeatmapStyle {
     /// The colours.
     pub map: ColourMap,
@@ -47,59 +41,61 @@ pub(crate) struct HeatmapStyle {
     pub selected: usize,
 }
 
-/// Where the cells of both bands are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Places {
-    /// The upper left corner of either heatmap.
-    pub(crate) corners: [Pos2; 2],
-    /// Width and height of a cell with its gap.
-    pub(crate) cell: egui::Vec2,
-    n_columns: usize,
+impl HeatmapStyle {
+    fn of(bench: &Bench) -> Self {
+        Self {
+            map: bench.settings.preferences.colour_map,
+            scale: bench.workspace.scale,
+            has_numbers: bench.settings.preferences.has_numbers,
+            greys_below: bench.workspace.greys_below,
+            selected: bench.workspace.contactor.unwrap_or(usize::MAX),
+        }
+    }
 }
 
-impl Places {
-    /// As large as fits, in the middle of `rect`; cells are at most half as wide again as high.
-    pub(crate) fn new(rect: Rect, (n_rows, n_columns): (usize, usize)) -> Self {
-        let height = ((rect.height() - TITLE) / n_rows.max(1) as f32).max(2.0);
-        let room = (rect.width() - BAR - BETWEEN) / 2.0;
-        let width = (room / n_columns.max(1) as f32).clamp(2.0, 1.9 * height);
-        let height = height.min(1.4 * width);
-        let cell = vec2(width, height).floor().max(vec2(2.0, 2.0));
-        let map_width = n_columns as f32 * cell.x;
-        let left = rect.center().x - 0.5 * (2.0 * map_width + BETWEEN + BAR);
-        let top = rect.top() + TITLE;
-        let corner = |band: usize| pos2(left + band as f32 * (map_width + BETWEEN), top).round();
-        Self {
-            corners: [corner(0), corner(1)],
-            cell,
-            n_columns: n_columns.max(1),
+/// The heatmaps, which show what all tools share.
+#[derive(Debug)]
+pub(crate) struct Contactors;
+
+impl Tool for Contactors {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Heatmaps]
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        framed(ui, 10, |ui| show(ui, context));
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        show_corner(ui, context);
+    }
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        if let Command::Show(ShowCommand::ToggleNumbers) = command {
+            let has_numbers = &mut bench.settings.preferences.has_numbers;
+            *has_numbers = !*has_numbers;
         }
     }
 
-    pub(crate) fn cell(&self, band: usize, index: usize) -> Rect {
-        let (row, column) = (index / self.n_columns, index % self.n_columns);
-        let corner = self.corners[band] + vec2(column as f32, row as f32) * self.cell;
-        Rect::from_min_size(corner, self.cell - vec2(GAP, GAP))
-    }
-
-    /// The contactor and band whose cell is at a place.
-    pub(crate) fn at(&self, place: Pos2, n_contactors: usize) -> Option<(usize, usize)> {
-        let cells = (0..2).flat_map(|band| (0..n_contactors).map(move |index| (band, index)));
-        cells
-            .into_iter()
-            .find(|&(band, index)| self.cell(band, index).expand(0.5 * GAP).contains(place))
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let live = &bench.transient.live;
+        if live.dots.iter().all(|dot| dot.cloth.is_none()) {
+            return Err(NOTHING_FELT);
+        }
+        let scene = bench.plain_scene_view();
+        let grid = scene.grid.ok_or(
+            "The contactors of this display form no grid: `selvedge render` writes them as a table",
+        )?;
+        let (style, origin) = (HeatmapStyle::of(bench), bench.origin());
+        Ok(export::heatmaps(&scene, live, style, grid, origin))
     }
 }
 
 /// Shows both heatmaps and the colour bar.
-pub(crate) fn show(
-    ui: &mut Ui,
-    scene: &SceneView,
-    live: &Live,
-    style: HeatmapStyle,
-    commands: &mut Commands,
-) {
+fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let palette = Palette::in_ui(ui);
+    let (scene, live) = (context.scene, &context.bench.transient.live);
+    let style = HeatmapStyle::of(context.bench);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
         return;
@@ -144,24 +140,17 @@ pub(crate) fn show(
     let height = grid.0 as f32 * places.cell.y - GAP;
     let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
     amplitude_bar(&painter, bar, style.map, style.scale);
-    answer(&response, &places, (scene, live), commands);
+    answer(&response, &places, (scene, live), context.commands);
 }
 
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
-pub(crate) fn show_corner(
-    ui: &mut Ui,
-    style: HeatmapStyle,
-    mute_solo: &MuteSolo,
-    commands: &mut Commands,
-) {
-    let scale = style.scale;
-    if toggle(ui, "123", style.has_numbers, "Numbers in the cells (N)") {
-        commands.push(ShowCommand::ToggleNumbers.into());
-    }
+fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let bench = &mut *context.bench;
+    let before = HeatmapStyle::of(bench);
+    let (mut style, scale) = (before, before.scale);
+    style.has_numbers ^= toggle(ui, "123", before.has_numbers, "Numbers in the cells (N)");
     let tip = "Hollow and grey what is below the threshold of detection, by a model";
-    if toggle(ui, "SL", style.greys_below, tip) {
-        commands.push(ShowCommand::ToggleThreshold.into());
-    }
+    style.greys_below ^= toggle(ui, "SL", before.greys_below, tip);
     let (word, tip) = if scale.is_locked() {
         (
             "held",
@@ -174,7 +163,7 @@ pub(crate) fn show_corner(
         )
     };
     if toggle(ui, word, scale.is_locked(), tip) {
-        commands.push(ShowCommand::LockScale(!scale.is_locked()).into());
+        style.scale = scale.with_lock(!scale.is_locked());
     }
     let tops = [
         ("−", 0.4, "A scale that ends lower, held"),
@@ -182,11 +171,16 @@ pub(crate) fn show_corner(
     ];
     for (sign, factor, tip) in tops.into_iter().rev() {
         if toggle(ui, sign, false, tip) {
-            commands.push(ShowCommand::ScaleTop(scale.most_um() * factor).into());
+            style.scale = scale.locked_at(scale.most_um() * factor);
         }
     }
-    let is_any = mute_solo.is_any();
-    if is_any
+    if style != before && !bench.refuses_in_session() {
+        bench.settings.preferences.has_numbers = style.has_numbers;
+        bench.workspace.greys_below = style.greys_below;
+        bench.workspace.scale = style.scale;
+        ui.ctx().request_repaint();
+    }
+    if bench.transient.mute_solo.is_any()
         && toggle(
             ui,
             "all",
@@ -194,7 +188,7 @@ pub(crate) fn show_corner(
             "Feel everything again: end every mute and solo (H)",
         )
     {
-        commands.push(ShowCommand::HearAll.into());
+        context.commands.push(ShowCommand::HearAll.into());
     }
 }
 
@@ -331,30 +325,4 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, perceptual_level: &Perceptu
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
          limits{limited}{muted}\nclick to look closer"
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cells_fit_the_pane_and_are_found_again() {
-        for size in [vec2(300.0, 200.0), vec2(500.0, 120.0), vec2(200.0, 600.0)] {
-            let rect = Rect::from_min_size(pos2(10.0, 20.0), size);
-            let places = Places::new(rect, (6, 4));
-            for (band, index) in [(0, 0), (0, 23), (1, 0), (1, 23), (1, 5)] {
-                let cell = places.cell(band, index);
-                assert!(rect.contains_rect(cell), "{size:?}: {cell:?}");
-                assert_eq!(places.at(cell.center(), 24), Some((band, index)));
-            }
-            assert_eq!(places.at(rect.min, 24), None);
-        }
-    }
-
-    #[test]
-    fn a_pane_without_room_and_a_display_without_contactors_are_harmless() {
-        let places = Places::new(Rect::ZERO, (0, 0));
-        assert_eq!(places.at(pos2(0.0, 0.0), 0), None);
-        assert!(places.cell(0, 7).is_finite());
-    }
 }

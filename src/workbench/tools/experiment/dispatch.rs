@@ -205,7 +205,7 @@ impl Bench {
         let mask = self.transient.mute_solo.contactor_mask(self.n_contactors());
         self.send(selvedge_engine::Command::SetContactorMask(mask));
         self.transient.history.clear();
-        self.transient.trail = crate::tools::workspace::trail::Trail::default();
+        self.transient.trail = crate::bench::trail::Trail::default();
         self.feel_document();
         self.list_sessions(ctx, false);
     }

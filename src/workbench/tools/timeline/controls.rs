@@ -3,11 +3,11 @@
 use eframe::egui::{Align, Layout, Ui, vec2};
 
 use crate::bench::command::{Command, Commands, FileCommand, PlayCommand, PlaySource, Purpose};
+use crate::bench::keys::hint;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::button;
-use crate::shell::keys::hint;
-use crate::tools::timeline::TransportView;
 use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
+use crate::tools::timeline::transport::TransportView;
 
 /// Why recording is not to be had.
 const STOPPED: &str = "Everything is off: arm first";

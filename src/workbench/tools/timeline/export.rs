@@ -1,10 +1,9 @@
 //! The strips of the timeline: speed and mean levels, tick for tick.
 
-use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::{Exported, Sheet};
-use crate::tools::timeline::plot::LEVELS_DB as TIMELINE_LEVELS_DB;
-use crate::tools::timeline::strip::{StripTick, Timeline};
+use crate::bench::export::{Exported, Sheet, ink};
+use crate::tools::timeline::plot::LEVELS_DB;
+use crate::tools::timeline::strip::{StripTick, TimelineTicks};
 use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -15,7 +14,7 @@ const MOST_POINTS: usize = 1500;
 const GAP: [f64; 2] = [f64::NAN; 2];
 
 /// What the timeline shows.
-pub(crate) fn strips(timeline: &Timeline, origin: Origin) -> Exported {
+pub(crate) fn strips(timeline: &TimelineTicks, origin: Origin) -> Exported {
     let x = Axis::linear(timeline.time_label).within(timeline.range_s);
     let speed = |tick: &StripTick| Some(tick.felt.speed_mm_per_s);
     let speeds = Chart {
@@ -64,7 +63,7 @@ fn levels(ticks: &[StripTick], x: Axis) -> Chart {
     };
     Chart {
         x,
-        y: Axis::linear("mean level, dB re 1 µm").within(TIMELINE_LEVELS_DB),
+        y: Axis::linear("mean level, dB re 1 µm").within(LEVELS_DB),
         series: Band::ALL.map(series).to_vec(),
         ..Chart::default()
     }
@@ -75,7 +74,7 @@ fn level_db(tick: &StripTick, band: Band) -> Option<f64> {
     (um > 0.0).then(|| quantity::level_db(um))
 }
 
-fn sheet(timeline: &Timeline) -> Sheet {
+fn sheet(timeline: &TimelineTicks) -> Sheet {
     let ticks = &timeline.ticks;
     let number = |of: &dyn Fn(&StripTick) -> f64| -> Vec<f64> { ticks.iter().map(of).collect() };
     let sheet = Sheet::default()

@@ -9,7 +9,8 @@ use crate::tools::timeline::live::{N_TICKS, Placed};
 use crate::tools::timeline::picture::speed_shapes;
 use crate::tools::timeline::plot::Plot;
 use crate::tools::timeline::strips_view::{paint_title, tell, told};
-use crate::tools::timeline::{TICK_MS, TransportView, live, plot};
+use crate::tools::timeline::transport::{TICK_MS, TransportView};
+use crate::tools::timeline::{live, plot};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 

@@ -14,21 +14,23 @@ pub(crate) mod plot;
 pub(crate) mod strip;
 pub(crate) mod strips_view;
 #[cfg(test)]
-#[cfg(test)]
 mod tests;
+pub(crate) mod transport;
 
 use std::fmt;
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::{Commands, PlaySource};
-use crate::bench::export::Exportable;
+use crate::bench::Bench;
+use crate::bench::command::Commands;
+use crate::bench::export::NOTHING_FELT;
 use crate::bench::export::button::{place_in, show as show_export};
-use crate::bench::recording::Take;
-use crate::bench::signals::history::History;
+use crate::bench::export::{Exportable, Exported};
+use crate::bench::tool::{Bar, PaneContext};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::timeline::picture::Picture;
+use crate::tools::timeline::transport::{TICK_MS, TransportView};
 use selvedge_foundation::quantity;
 
 /// Height of the bar without its margins, points.
@@ -37,87 +39,33 @@ pub(crate) const HEIGHT: f32 = 68.0;
 const CONTROLS: f32 = 304.0;
 /// Width of the numbers, points.
 const NUMBERS: f32 = 116.0;
-/// Time between two ticks, ms.
-const TICK_MS: u64 = 25;
 
-/// What the bar shows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TransportView<'a> {
-    /// What moves the display.
-    pub source: PlaySource,
-    /// The tablet or program that was chosen.
-    pub input: Option<&'a str>,
-    /// Whether a recording or stroke moves on at the next tick.
-    pub is_playing: bool,
-    /// Whether a recording or stroke begins again at its end.
-    pub does_loop: bool,
-    /// Whether everything was switched off and nothing was armed since.
-    pub is_stopped: bool,
-    /// Ticks recorded so far; `None` when nothing records.
-    pub(crate) recorded_ticks: Option<u64>,
-    /// The tick of the recording or stroke that is shown.
-    pub tick: u64,
-    /// How fast the display moves, mm/s.
-    pub speed_mm_per_s: f64,
-    /// The recording at hand.
-    pub take: Option<&'a Take>,
-    /// What was felt last.
-    pub live: &'a History,
-}
-
-/// What the bar remembers from frame to frame.
+/// The bar at the bottom: what it remembers from frame to frame.
 #[derive(Default)]
-pub(crate) struct TransportState {
+pub(crate) struct Timeline {
     picture: Option<Picture>,
     /// The tick that was asked for last in the drag that goes on.
     asked: Option<u64>,
 }
 
-impl TransportView<'_> {
-    /// The take that the timeline shows: the one that moves the display. While something is
-    /// recorded, the timeline shows what is felt.
-    fn shown_take(&self) -> Option<&Take> {
-        let is_shown = self.source == PlaySource::Recording && self.recorded_ticks.is_none();
-        self.take.filter(|_| is_shown)
+impl Bar for Timeline {
+    fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let view = TransportView::of(context.bench);
+        show(ui, &view, self, context.commands);
     }
 
-    /// Whether positions come as they happen.
-    fn is_live(&self) -> bool {
-        matches!(self.source, PlaySource::Pointer | PlaySource::Input)
-    }
-
-    /// Whether something runs that could be held.
-    fn is_running(&self) -> bool {
-        self.is_playing && !self.is_live()
-    }
-
-    /// The tick that the numbers show, and what it counts.
-    fn counted(&self) -> (u64, &'static str) {
-        if let Some(n_ticks) = self.recorded_ticks {
-            return (n_ticks, "Ticks recorded, 25 ms each");
+    fn export(&mut self, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let timeline = TransportView::of(bench).timeline();
+        let mut ticks = timeline.ticks.iter();
+        if !ticks.any(|tick| tick.felt.speed_mm_per_s > 0.0) {
+            return Err(NOTHING_FELT);
         }
-        match self.source {
-            PlaySource::Pointer | PlaySource::Input => {
-                let newest = self.live.newest();
-                let tick = newest.map_or(0, |entry| entry.glimpse.tick);
-                (
-                    tick,
-                    "The last tick in which something moved, since the program started",
-                )
-            }
-            PlaySource::Stroke => (self.tick, "The tick of the stroke, 25 ms each"),
-            PlaySource::Recording => (self.tick, "The tick of the recording, 25 ms each"),
-        }
+        Ok(export::strips(&timeline, bench.rendered_origin()))
     }
 }
 
 /// Shows the bar in the width that there is.
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &TransportView<'_>,
-    state: &mut TransportState,
-    commands: &mut Commands,
-) {
+fn show(ui: &mut Ui, view: &TransportView<'_>, state: &mut Timeline, commands: &mut Commands) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
     let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
@@ -178,9 +126,9 @@ fn show_numbers(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
     response.on_hover_text(format!("{what}\nSpeed of the middle of the display"));
 }
 
-impl fmt::Debug for TransportState {
+impl fmt::Debug for Timeline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("TransportState")
+        f.debug_struct("Timeline")
             .field("asked", &self.asked)
             .finish_non_exhaustive()
     }

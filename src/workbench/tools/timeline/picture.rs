@@ -9,8 +9,8 @@ use eframe::egui::{Pos2, Shape, Stroke, Ui, pos2};
 use crate::bench::recording::strips::{Column, Extent, Strips};
 use crate::kit::theme::Palette;
 use crate::kit::widgets::polyline::corners;
+use crate::tools::timeline::plot;
 use crate::tools::timeline::plot::Plot;
-use crate::tools::timeline::{TransportState, plot};
 use selvedge_textile::tactile::Band;
 
 /// How solid columns are: where the bands overlap, both show.
@@ -32,7 +32,7 @@ pub(crate) fn drawn(
     ui: &Ui,
     plot: &Plot,
     strips: &Arc<Strips>,
-    state: &mut TransportState,
+    last: &mut Option<Picture>,
 ) -> Vec<Shape> {
     let (pixels_per_point, is_dark) = (ui.ctx().pixels_per_point(), ui.visuals().dark_mode);
     let is_the_same = |picture: &&Picture| {
@@ -41,11 +41,11 @@ pub(crate) fn drawn(
             && (picture.pixels_per_point - pixels_per_point).abs() < f32::EPSILON
             && picture.is_dark == is_dark
     };
-    if let Some(picture) = state.picture.as_ref().filter(is_the_same) {
+    if let Some(picture) = last.as_ref().filter(is_the_same) {
         return picture.shapes.clone();
     }
     let shapes = strip_shapes(plot, strips, Palette::in_ui(ui), pixels_per_point);
-    state.picture = Some(Picture {
+    *last = Some(Picture {
         strips: Arc::clone(strips),
         plot: *plot,
         pixels_per_point,

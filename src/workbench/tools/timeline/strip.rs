@@ -2,9 +2,10 @@
 
 use crate::bench::recording::Take;
 use crate::bench::recording::strips::Felt;
+use crate::tools::timeline::live;
 use crate::tools::timeline::live::N_TICKS;
 use crate::tools::timeline::plot::round_above;
-use crate::tools::timeline::{TransportView, live};
+use crate::tools::timeline::transport::TransportView;
 use selvedge_render::scene::TICKS_PER_S;
 
 /// A tick of the timeline.
@@ -22,7 +23,7 @@ pub(crate) struct StripTick {
 
 /// What the timeline shows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Timeline {
+pub(crate) struct TimelineTicks {
     /// What people call the exploration.
     pub name: String,
     /// What its time is counted from.
@@ -41,11 +42,11 @@ pub(crate) struct Timeline {
 
 impl TransportView<'_> {
     /// What the timeline shows.
-    pub(crate) fn timeline(&self) -> Timeline {
+    pub(crate) fn timeline(&self) -> TimelineTicks {
         self.shown_take().map_or_else(|| self.felt_last(), of_take)
     }
 
-    fn felt_last(&self) -> Timeline {
+    fn felt_last(&self) -> TimelineTicks {
         let placed = live::placed(self.live);
         let tick = |one: &live::Placed| StripTick {
             tick: one.glimpse.tick,
@@ -53,7 +54,7 @@ impl TransportView<'_> {
             goes_on: one.goes_on,
             felt: one.felt(),
         };
-        Timeline {
+        TimelineTicks {
             name: "what was felt last".to_owned(),
             time_label: "felt time before the newest tick, s",
             range_s: [-(N_TICKS as f64) / TICKS_PER_S, 0.0],
@@ -65,7 +66,7 @@ impl TransportView<'_> {
     }
 }
 
-fn of_take(take: &Take) -> Timeline {
+fn of_take(take: &Take) -> TimelineTicks {
     let strips = take.strips();
     let n_ticks = strips.n_ticks();
     let step = usize::try_from(strips.ticks_per_entry()).unwrap_or(1);
@@ -77,7 +78,7 @@ fn of_take(take: &Take) -> Timeline {
             felt: strips.at(tick)?,
         })
     };
-    Timeline {
+    TimelineTicks {
         name: take.name().to_owned(),
         time_label: "time, s",
         range_s: [0.0, n_ticks.saturating_sub(1) as f64 / TICKS_PER_S],

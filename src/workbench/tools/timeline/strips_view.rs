@@ -11,7 +11,8 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::timeline::picture::drawn;
 use crate::tools::timeline::plot::Plot;
-use crate::tools::timeline::{TICK_MS, TransportState, TransportView, felt, plot};
+use crate::tools::timeline::transport::{TICK_MS, TransportView};
+use crate::tools::timeline::{Timeline, felt, plot};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -23,7 +24,7 @@ pub(crate) fn show(
     ui: &Ui,
     rect: Rect,
     view: &TransportView<'_>,
-    state: &mut TransportState,
+    state: &mut Timeline,
     commands: &mut Commands,
 ) {
     match view.shown_take() {
@@ -37,7 +38,7 @@ fn show_take(
     rect: Rect,
     take: &Take,
     tick: u64,
-    (state, commands): (&mut TransportState, &mut Commands),
+    (state, commands): (&mut Timeline, &mut Commands),
 ) {
     let strips = take.strips();
     let plot = Plot::new(rect, strips.fastest_mm_per_s());
@@ -59,7 +60,8 @@ fn show_take(
     paint_title(ui, &plot, &take_title(take), strips.has_levels());
     plot.paint_axes(ui.painter(), strips.has_levels());
     paint_times(ui.painter(), &plot, strips.n_ticks());
-    ui.painter().extend(drawn(ui, &plot, strips, state));
+    ui.painter()
+        .extend(drawn(ui, &plot, strips, &mut state.picture));
     paint_playhead(ui, &plot, share_of(asked.unwrap_or(tick), strips.n_ticks()));
     if let Some(pointer) = response.hover_pos() {
         let at = tick_at(plot.share_at(pointer.x), strips.n_ticks());

@@ -4,8 +4,11 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use super::*;
+use crate::bench::command::PlaySource;
 use crate::bench::command::{Command, PlayCommand};
+use crate::bench::recording::Take;
 use crate::bench::recording::strips::Felt;
+use crate::bench::signals::history::History;
 use crate::tools::timeline::strips_view::{share_of, tick_at, told};
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
 use selvedge_foundation::geometry::Point;
@@ -43,7 +46,7 @@ fn view(take: Option<&Take>) -> TransportView<'_> {
 /// The bar in a window that is `WIDTH` wide.
 struct Window {
     ctx: egui::Context,
-    state: TransportState,
+    state: Timeline,
 }
 
 const WIDTH: f32 = 1200.0;
@@ -54,7 +57,7 @@ impl Window {
         theme::install(&ctx);
         Self {
             ctx,
-            state: TransportState::default(),
+            state: Timeline::default(),
         }
     }
 

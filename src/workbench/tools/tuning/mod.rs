@@ -4,61 +4,95 @@ pub(crate) mod curve;
 
 use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 
+use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::export::Exported;
 use crate::bench::mute_solo::MuteSolo;
+use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::{SOURCE, above_words, felt_words, noticed_db, of_textile};
-use crate::bench::view::{Live, SceneView};
+use crate::bench::tool::{PaneContext, Tool};
+use crate::bench::view::SceneView;
+use crate::kit::pane::scrolled;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tip_beside};
 use crate::kit::widgets::text::{row, toggle};
 use selvedge_foundation::quantity;
-use selvedge_textile::tactile::{Band, Filters, Perception, Tuning};
+use selvedge_textile::tactile::{self, Band, Filters, Perception};
 
 /// What every slider can do.
 const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
 /// Bounds of the filters' width, octaves.
 const OCTAVES: [f64; 2] = [0.5, 6.0];
 
-/// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    scene: &SceneView,
-    live: &Live,
-    mute_solo: &MuteSolo,
-    commands: &mut Commands,
-) {
-    let palette = Palette::in_ui(ui);
-    let (now, rest) = (scene.tuning, scene.default_tuning);
-    let under = live.cloth_under_display();
-    let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
-    let marked = last_felt(ui, felt);
-    let noticed = marked.and_then(|felt| noticed_db(&felt, None));
-    let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
-    let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
-    tip_beside(ui, &response, slider_tip(noticed));
-    commands.extend(new.map(|db| Edit::MasterGain(db).into()));
-    for band in Band::ALL {
-        let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
-        show_band(ui, band, noticed, (scene, mute_solo), commands);
+/// Gains, compression and filters; what they are is the document's.
+#[derive(Debug, Default)]
+pub(crate) struct Tuning {
+    /// How the textile felt that is under the display or was last, so that marks do not come and go
+    /// while the display moves over gaps.
+    last_felt: Option<Perception>,
+}
+
+impl Tool for Tuning {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Tuning]
     }
-    show_textile(ui, scene, (under, noticed), commands);
-    show_felt(ui, felt.as_ref());
-    let scale = Scale::share(rest.compression);
-    let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
-    let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
-    tip_beside(ui, &response, tip);
-    commands.extend(new.map(|share| Edit::Compression(share).into()));
-    curve::show(ui, scene, commands);
-    show_ranges(ui, scene);
-    ui.add_space(theme::STEP);
-    show_filters(ui, scene.filters, commands);
+
+    fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        scrolled(ui, pane.title(), |ui| self.show(ui, context));
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        let scene = bench.plain_scene_view();
+        let reference_db = scene.reference_db.filter(|_| !scene.library.is_empty());
+        let reference_db = reference_db.ok_or(
+            "There is nothing to export yet: levels are being computed, or the library has no \
+             textile with a level",
+        )?;
+        Ok(curve::exported(&scene, reference_db, bench.origin()))
+    }
+}
+
+impl Tuning {
+    fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let (scene, commands) = (context.scene, &mut *context.commands);
+        let (live, mute_solo) = (
+            &context.bench.transient.live,
+            &context.bench.transient.mute_solo,
+        );
+        let palette = Palette::in_ui(ui);
+        let (now, rest) = (scene.tuning, scene.default_tuning);
+        let under = live.cloth_under_display();
+        let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
+        self.last_felt = felt.or(self.last_felt);
+        let marked = self.last_felt;
+        let noticed = marked.and_then(|felt| noticed_db(&felt, None));
+        let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
+        let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
+        tip_beside(ui, &response, slider_tip(noticed));
+        commands.extend(new.map(|db| Edit::MasterGain(db).into()));
+        for band in Band::ALL {
+            let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
+            show_band(ui, band, noticed, (scene, mute_solo), commands);
+        }
+        show_textile(ui, scene, (under, noticed), commands);
+        show_felt(ui, felt.as_ref());
+        let scale = Scale::share(rest.compression);
+        let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
+        let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
+        tip_beside(ui, &response, tip);
+        commands.extend(new.map(|share| Edit::Compression(share).into()));
+        curve::show(ui, scene, commands);
+        show_ranges(ui, scene);
+        ui.add_space(theme::STEP);
+        show_filters(ui, scene.filters, commands);
+    }
 }
 
 /// A band's own gain, without the master's, dB.
-fn own_gain_db(tuning: &Tuning, band: Band) -> f64 {
+fn own_gain_db(tuning: &tactile::Tuning, band: Band) -> f64 {
     match band {
         Band::Low => tuning.gain_40_db,
         Band::High => tuning.gain_320_db,
@@ -105,17 +139,6 @@ fn show_band(
         }
     }
     tip_beside(ui, &response, slider_tip(noticed));
-}
-
-/// How the textile felt that is under the display or was last, so that marks do not come and go
-/// while the display moves over gaps.
-fn last_felt(ui: &Ui, felt: Option<Perception>) -> Option<Perception> {
-    let id = ui.scope_id().with("last felt");
-    let Some(felt) = felt else {
-        return ui.data(|data| data.get_temp(id));
-    };
-    ui.data_mut(|data| data.insert_temp(id, felt));
-    Some(felt)
 }
 
 /// What a gain's slider can do, and what its marks are.
@@ -210,7 +233,7 @@ fn show_ranges(ui: &mut Ui, scene: &SceneView) {
     let Some(reference_db) = scene.reference_db else {
         return;
     };
-    let plain = Tuning {
+    let plain = tactile::Tuning {
         compression: 0.0,
         ..scene.tuning
     };

@@ -8,12 +8,12 @@ use eframe::egui::{
     Stroke, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::{Command, Commands, ShowCommand};
+use crate::bench::command::{Command, Commands};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::text::button;
-use crate::tools::workspace::Stage;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::quantity;
 
 /// Where the crosses are at first, in shares of the ground.
@@ -117,12 +117,13 @@ fn show_card(
     commands: &mut Commands,
 ) {
     card(ui, stage.ground, 400.0, "True size", |ui, _| {
-        show_question(ui, (measurement, is_first), ends, commands);
+        show_question(ui, stage, (measurement, is_first), ends, commands);
     });
 }
 
 fn show_question(
     ui: &mut Ui,
+    stage: &Stage<'_>,
     (measurement, is_first): (&mut Measurement, bool),
     ends: [Pos2; 2],
     commands: &mut Commands,
@@ -151,7 +152,7 @@ fn show_question(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let is_used = button(ui, "Use", "Show true size from now on (Enter)", None);
             if is_used || is_entered {
-                answer(measurement, distance_in_pixels(ends, ui), commands);
+                answer(stage, measurement, distance_in_pixels(ends, ui));
             }
             if button(ui, "Cancel", "Leave the screen as it is", None) {
                 commands.push(Command::Dismiss);
@@ -169,9 +170,11 @@ fn show_question(
     ui.label(said.font(theme::small()));
 }
 
-fn answer(measurement: &mut Measurement, pixels: f64, commands: &mut Commands) {
+fn answer(stage: &Stage<'_>, measurement: &mut Measurement, pixels: f64) {
     match pixels_per_mm(pixels, &measurement.typed) {
-        Ok(pixels_per_mm) => commands.push(ShowCommand::Calibrated(pixels_per_mm).into()),
+        Ok(pixels_per_mm) => {
+            stage.change(|view, place| view.calibrate(pixels_per_mm, place));
+        }
         Err(why) => measurement.refusal = Some(why),
     }
 }

@@ -1,23 +1,17 @@
 //! Textiles drawn as cloth: their own picture, tiled from their origin and turned with them.
 
-use eframe::egui::{
-    Color32, CornerRadius, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextureId, pos2, vec2,
-};
-use eframe::epaint::Vertex;
+use eframe::egui::{CornerRadius, Painter, Pos2, Rect, Stroke, pos2, vec2};
 use eframe::epaint::text::{LayoutJob, TextWrapping};
 
-use crate::bench::view::{Cloth, ClothPicture};
+use crate::bench::view::Cloth;
+use crate::kit::swatch::{SHADOW, Textile, is_in_sight, paint_outline};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
 
-/// How far a shadow reaches beyond its textile, points.
-const SHADOW: f32 = 16.0;
 /// Height of a tag, points.
 const TAG: f32 = 20.0;
-/// How much is seen of a muted textile.
-const MUTED: f32 = 0.4;
 /// A tag on a textile narrower than this leaves the name out, points.
 const NAMED: f32 = 72.0;
 /// No tag's name is cut shorter than this, points.
@@ -25,43 +19,14 @@ const NARROWEST: f32 = 20.0;
 
 /// Draws a textile, if it is in sight; one under the display is lifted a little.
 pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_lifted: bool) {
-    if !is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
-        return;
-    }
-    let palette = Palette::of(painter.ctx().theme());
-    let corners = screen_corners(view, cloth);
-    let presence = if cloth.is_muted { MUTED } else { 1.0 };
-    let drop = vec2(0.0, if is_lifted { 5.0 } else { 2.0 });
-    for spread in [1.0_f32, 3.0, 5.0] {
-        let veil = palette.shadow.gamma_multiply(0.4 * presence);
-        let shadow = corners.map(|corner| corner + drop).to_vec();
-        painter.add(Shape::convex_polygon(
-            shadow,
-            veil,
-            Stroke::new(2.0 * spread, veil.gamma_multiply(0.5)),
-        ));
-    }
-    let tint = if is_lifted {
-        Color32::WHITE
-    } else {
-        palette.resting_cloth
+    let textile = Textile {
+        corners: screen_corners(view, cloth),
+        size_mm: cloth.size_mm,
+        picture: cloth.picture,
+        is_muted: cloth.is_muted,
+        is_lifted,
     };
-    let tint = tint.gamma_multiply(presence);
-    match cloth.picture {
-        Some(picture) => {
-            painter.add(Shape::mesh(textured(corners, cloth.size_mm, picture, tint)));
-        }
-        None => {
-            painter.add(Shape::convex_polygon(
-                corners.to_vec(),
-                palette.raised.gamma_multiply(presence),
-                Stroke::NONE,
-            ));
-        }
-    }
-    if cloth.is_muted && !is_lifted {
-        paint_outline(painter, corners, Stroke::new(1.0, palette.hairline));
-    }
+    textile.paint(painter);
 }
 
 /// Draws the line around the textile that is felt, over whatever lies on it.
@@ -71,11 +36,6 @@ pub(crate) fn paint_lifted(painter: &Painter, view: &ViewTransform, cloth: &Clot
         let edge = Stroke::new(1.5, palette.selection);
         paint_outline(painter, screen_corners(view, cloth), edge);
     }
-}
-
-/// Draws a line around a textile.
-pub(crate) fn paint_outline(painter: &Painter, corners: [Pos2; 4], stroke: Stroke) {
-    painter.add(Shape::closed_line(corners.to_vec(), stroke));
 }
 
 /// Draws the tag with the textile's label and name at its lower left corner on the screen. Says
@@ -126,10 +86,6 @@ pub(crate) fn paint_tag(
     Some(tag)
 }
 
-fn is_in_sight(painter: &Painter, rect: Rect) -> bool {
-    painter.clip_rect().intersects(rect)
-}
-
 /// The corner that looks most like "lower left".
 fn lower_left(corners: &[Pos2; 4]) -> Pos2 {
     let leftness = |corner: &Pos2| corner.y - corner.x;
@@ -138,48 +94,6 @@ fn lower_left(corners: &[Pos2; 4]) -> Pos2 {
         .copied()
         .max_by(|a, b| leftness(a).total_cmp(&leftness(b)))
         .unwrap_or_default()
-}
-
-fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: Color32) -> Mesh {
-    let [width, height] = size_mm.map(narrow);
-    let n_across = width / picture.tile_mm.x.max(1e-3);
-    let n_up = height / picture.tile_mm.y.max(1e-3);
-    // Row 0 of a picture is its top, and the textile's origin is at the picture's lower left.
-    let uv = Rect {
-        min: pos2(0.0, 1.0),
-        max: pos2(n_across, 1.0 - n_up),
-    };
-    tiled(corners, uv, picture.texture, tint)
-}
-
-/// A quad from the textile's origin along its warp and its weft, with a texture from `uv.min` at
-/// the origin to `uv.max` at the far corner.
-pub(crate) fn tiled(corners: [Pos2; 4], uv: Rect, texture_id: TextureId, tint: Color32) -> Mesh {
-    let places = [
-        uv.min,
-        pos2(uv.max.x, uv.min.y),
-        uv.max,
-        pos2(uv.min.x, uv.max.y),
-    ];
-    let vertex = |(pos, uv): (Pos2, Pos2)| Vertex {
-        pos,
-        uv,
-        color: tint,
-    };
-    Mesh {
-        indices: vec![0, 1, 2, 0, 2, 3],
-        vertices: corners.into_iter().zip(places).map(vertex).collect(),
-        texture_id,
-    }
-}
-
-/// A number as the screen draws it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the screen is drawn in single precision"
-)]
-pub(crate) fn narrow(value: f64) -> f32 {
-    value as f32
 }
 
 /// Draws what the workspace says when no textile is placed.
@@ -197,23 +111,6 @@ pub(crate) fn paint_empty(painter: &Painter, ground: Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_picture_is_tiled_from_the_textiles_lower_left_corner() {
-        let picture = ClothPicture {
-            texture: TextureId::default(),
-            tile_mm: vec2(25.0, 50.0),
-        };
-        let corners = [
-            pos2(0.0, 100.0),
-            pos2(100.0, 100.0),
-            pos2(100.0, 0.0),
-            pos2(0.0, 0.0),
-        ];
-        let mesh = textured(corners, [100.0, 100.0], picture, Color32::WHITE);
-        assert_eq!(mesh.vertices[0].uv, pos2(0.0, 1.0));
-        assert_eq!(mesh.vertices[2].uv, pos2(4.0, -1.0));
-    }
 
     #[test]
     fn the_tag_hangs_on_the_lower_left_corner_however_the_textile_is_turned() {

@@ -9,15 +9,13 @@ use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2
 use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
 use crate::bench::perceptual_level::PerceptualLevel;
+use crate::bench::selection::Selection;
+use crate::bench::trail::TRAIL_S;
 use crate::bench::view::{Dot, Live};
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::limit_mark::paint_limit_mark;
-use crate::tools::workspace::state::WorkspaceState;
 use selvedge_foundation::geometry::Point;
-
-/// How long the trail is, s.
-pub(crate) const TRAIL_S: f64 = 0.8;
 
 /// Dots closer together than this have no room for a ring, points per mm.
 const LEAST_FOR_RING: f32 = 4.0;
@@ -36,16 +34,16 @@ pub(crate) fn paint(
     painter: &Painter,
     view: &ViewTransform,
     live: &Live,
-    (state, pointed): (&WorkspaceState, Option<usize>),
+    (selection, pointed): (&Selection, Option<usize>),
 ) {
     let dots = &live.dots;
     let brush = Brush {
         painter,
         palette: Palette::of(painter.ctx().theme()),
         points_per_mm: view.length(1.0).max(LEAST_SCALE),
-        scale: state.scale,
-        style: state.dot_style,
-        perceptual_level: state.greys_below.then_some(live.perceptual_level),
+        scale: selection.scale,
+        style: selection.dot_style,
+        perceptual_level: selection.greys_below.then_some(live.perceptual_level),
     };
     let sight = painter.clip_rect().expand(2.5 * brush.points_per_mm);
     let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
@@ -63,7 +61,7 @@ pub(crate) fn paint(
     if let Some(dot) = pointed.and_then(|index| dots.get(index)) {
         brush.pointed(view.screen(dot.position));
     }
-    if let Some(dot) = state.contactor.and_then(|index| dots.get(index)) {
+    if let Some(dot) = selection.contactor.and_then(|index| dots.get(index)) {
         brush.selection(view.screen(dot.position));
     }
 }

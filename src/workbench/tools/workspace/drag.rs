@@ -12,9 +12,11 @@ use eframe::egui::{
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::view::Cloth;
+use crate::kit::swatch::paint_outline;
 use crate::kit::theme::Palette;
 use crate::tools::workspace::arrange::{Guides, Handle, Handles, Lines, SNAP_POINTS};
-use crate::tools::workspace::{Stage, arrange, cloth, display, navigate};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{arrange, display, navigate};
 use selvedge_foundation::geometry::{Displacement, Point};
 
 /// How far an arrow key moves a textile, mm; finely with Shift.
@@ -105,7 +107,7 @@ fn take_hold(stage: &Stage<'_>, at: Pos2, commands: &mut Commands) -> Grab {
     }
     let hit = arrange::topmost(&stage.scene.cloths, place);
     // A click on a dot means the contactor, not the textile below it; a drag means the textile.
-    if stage.state.cloth != hit && dot_at(stage, at).is_none() {
+    if stage.selection.cloth != hit && dot_at(stage, at).is_none() {
         commands.push(ShowCommand::SelectCloth(hit).into());
     }
     let cloth = hit.and_then(|index| Some((index, stage.scene.cloths.get(index)?)));
@@ -118,7 +120,7 @@ fn take_hold(stage: &Stage<'_>, at: Pos2, commands: &mut Commands) -> Grab {
 fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), commands: &mut Commands) -> Guides {
     let (index, icon) = match grab {
         Grab::Ground => {
-            navigate::pan(ui, stage, commands);
+            navigate::pan(ui, stage);
             return Guides::default();
         }
         Grab::Cloth(index, _) | Grab::Turn(index, _) => (index, CursorIcon::Grabbing),
@@ -128,7 +130,7 @@ fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), commands: &mut C
     let Some(cloth) = stage.scene.cloths.get(index) else {
         return Guides::default();
     };
-    if stage.state.cloth != Some(index) {
+    if stage.selection.cloth != Some(index) {
         commands.push(ShowCommand::SelectCloth(Some(index)).into());
     }
     let modifiers = ui.input(|input| input.modifiers);
@@ -231,10 +233,10 @@ fn paint_hovered(ui: &Ui, painter: &Painter, stage: &Stage<'_>) {
         None if dot_at(stage, at).is_some() => CursorIcon::PointingHand,
         None => {
             let hit = arrange::topmost(&stage.scene.cloths, stage.view.workspace(at));
-            if let Some(index) = hit.filter(|index| stage.state.cloth != Some(*index)) {
+            if let Some(index) = hit.filter(|index| stage.selection.cloth != Some(*index)) {
                 let corners = arrange::screen_corners(&stage.view, &stage.scene.cloths[index]);
                 let edge = Stroke::new(1.0, Palette::in_ui(ui).dim);
-                cloth::paint_outline(painter, corners, edge);
+                paint_outline(painter, corners, edge);
             }
             hit.map_or(CursorIcon::Default, |_| CursorIcon::Move)
         }
@@ -270,7 +272,7 @@ fn paint_selection(painter: &Painter, stage: &Stage<'_>) {
     };
     let palette = Palette::of(painter.ctx().theme());
     let edge = Stroke::new(1.5, palette.selection);
-    cloth::paint_outline(painter, arrange::screen_corners(&stage.view, cloth), edge);
+    paint_outline(painter, arrange::screen_corners(&stage.view, cloth), edge);
     let handles = Handles::of(&stage.view, cloth);
     painter.line_segment([handles.foot, handles.turn], edge);
     painter.circle(handles.turn, TURN_HANDLE, palette.floor, edge);

@@ -8,7 +8,7 @@ use crate::bench::editing::new_size_mm;
 use crate::bench::library_view::LibraryItem;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::tools::workspace::Stage;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
 

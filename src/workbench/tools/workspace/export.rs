@@ -1,8 +1,7 @@
 //! Maps over the cloth: what every textile of the scene would give all over at one velocity.
 
-use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::{Exported, Sheet, bar, rgb};
+use crate::bench::export::{Exported, Sheet, bar, ink, rgb};
 use crate::bench::probe::Probe;
 use crate::bench::view::Cloth;
 use crate::tools::workspace::maps::ShownMap;

@@ -11,8 +11,9 @@ use crate::bench::view::{Live, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::tools::workspace::trail::Trail;
-use crate::tools::workspace::{Stage, display, paint_cloths, paint_display, tips};
+use crate::tools::workspace::ground::{paint_cloths, paint_display};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{display, tips};
 use selvedge_foundation::quantity;
 
 /// Width of the column that holds the lens, points.
@@ -41,13 +42,7 @@ pub(crate) fn split(inner: Rect, size_mm: [f64; 2]) -> (Rect, Option<Rect>) {
 }
 
 /// Shows the lens and its readings in `column`; a click on a contactor looks closer at it.
-pub(crate) fn show(
-    ui: &Ui,
-    column: Rect,
-    stage: &Stage<'_>,
-    trail: &Trail,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(column);
     painter.vline(
@@ -73,7 +68,7 @@ pub(crate) fn show(
         let view = ViewTransform::new(glass, centre, POINTS_PER_MM);
         let painter = ui.painter_at(glass);
         paint_cloths(&painter, &view, stage);
-        paint_display(&painter, &view, stage, trail);
+        paint_display(&painter, &view, stage);
         choose(&response, &view, stage, commands);
     } else {
         let words = "Move the pointer over a textile";

@@ -4,7 +4,8 @@ use eframe::egui::{Button, Ui};
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Commands, Look, Part, ShowCommand};
-use crate::tools::workspace::{Stage, arrange, tools};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{arrange, tools};
 
 /// Shows the menu while it is open. What it is about is settled when it opens.
 pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
@@ -22,7 +23,7 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
         let about = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
         match about.filter(|index| *index < stage.scene.cloths.len()) {
             Some(index) => show_cloth(ui, stage, index, commands),
-            None => show_ground(ui, commands),
+            None => show_ground(ui, stage),
         }
     });
 }
@@ -64,22 +65,20 @@ fn mute(part: Part) -> Command {
     ShowCommand::Mute(part).into()
 }
 
-fn show_ground(ui: &mut Ui, commands: &mut Commands) {
-    for (name, command) in [
-        ("Fit", ShowCommand::Look(Look::Fit)),
-        ("True size", ShowCommand::Look(Look::TrueSize)),
-        ("Calibrate…", ShowCommand::Calibrate),
-    ] {
-        let command = command.into();
-        if entry(ui, name, false, &command) {
-            commands.push(command);
+fn show_ground(ui: &mut Ui, stage: &Stage<'_>) {
+    for (name, look) in [("Fit", Look::Fit), ("True size", Look::TrueSize)] {
+        if entry(ui, name, false, &ShowCommand::Look(look).into()) {
+            stage.look(look);
         }
+    }
+    if entry(ui, "Calibrate…", false, &ShowCommand::Calibrate.into()) {
+        stage.change(|view, _| view.is_calibrating = true);
     }
 }
 
 /// An entry with its key on the right.
 fn entry(ui: &mut Ui, name: &str, is_chosen: bool, command: &Command) -> bool {
-    let key = crate::shell::keys::hint(ui.ctx(), command);
+    let key = crate::bench::keys::hint(ui.ctx(), command);
     let button = Button::selectable(is_chosen, name).shortcut_text(key);
     let is_clicked = ui.add(button).clicked();
     if is_clicked {

@@ -4,9 +4,7 @@
 //! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
 //! Draws, says where the pointer feels, and wishes; what is done about it is decided elsewhere.
 
-pub(crate) mod access;
 pub(crate) mod arrange;
-pub(crate) mod asked;
 pub(crate) mod calibration;
 pub(crate) mod camera;
 pub(crate) mod cloth;
@@ -14,73 +12,184 @@ pub(crate) mod display;
 pub(crate) mod drag;
 pub(crate) mod drop;
 pub(crate) mod export;
+pub(crate) mod ground;
 pub(crate) mod lens;
 pub(crate) mod maps;
 pub(crate) mod menu;
 pub(crate) mod navigate;
 pub(crate) mod overlay;
 pub(crate) mod ruler;
+pub(crate) mod stage;
 pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tips;
 pub(crate) mod tools;
-pub(crate) mod trail;
 
-use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
-pub(crate) use crate::tools::workspace::overlay::Layers;
-#[cfg(test)]
-pub(crate) use crate::tools::workspace::overlay::lattice::Lattice;
-pub(crate) use crate::tools::workspace::state::WorkspaceState;
-pub(crate) use crate::tools::workspace::tools::show as show_tools;
-pub(crate) use crate::tools::workspace::trail::Trail;
+use std::cell::Cell;
 
 use eframe::egui::{
-    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Response, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, vec2,
+    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    vec2,
 };
 
-use crate::bench::command::{Commands, Part, ShowCommand, Tool};
-use crate::bench::view::{Live, SceneView};
+use crate::bench::Bench;
+use crate::bench::command::{Command, Commands, Part, ShowCommand, Tool};
+use crate::bench::export::Exported;
+use crate::bench::overlays::Overlay;
+use crate::bench::pane::Pane;
+use crate::bench::settings::preferences::Preferences;
+use crate::bench::tool::{self, PaneContext};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use selvedge_foundation::geometry::Point;
+use crate::kit::view_transform::{Pointed, PointerGround};
+use crate::tools::workspace::camera::Camera;
+use crate::tools::workspace::maps::Maps;
+use crate::tools::workspace::overlay::lattice::Lattice;
+use crate::tools::workspace::stage::{Layers, Sight, Stage};
+use crate::tools::workspace::state::{Place, WorkspaceView};
+use selvedge_render::array::ContactorReading;
 
-/// What the parts of the pane share during one frame.
-pub(crate) struct Stage<'a> {
-    scene: &'a SceneView,
-    live: &'a Live,
-    state: &'a WorkspaceState,
-    layers: Layers<'a>,
-    /// The part of the screen where mm are.
-    ground: Rect,
-    view: ViewTransform,
-    /// What the pointer does on the ground.
-    response: Response,
+/// The workspace: how it is looked at, and what was computed to be drawn over it.
+#[derive(Debug, Default)]
+pub(crate) struct Workspace {
+    pub(crate) view: WorkspaceView,
+    /// Maps of the textiles at the chosen velocity.
+    pub(crate) maps: Maps,
+    /// Pictures of the points 1 mm apart.
+    lattice: Lattice,
+    /// What the contactors read and how they move, while that is drawn.
+    readings: Vec<ContactorReading>,
 }
 
-impl Stage<'_> {
-    /// Whether a drag moves textiles now.
-    fn arranges(&self) -> bool {
-        self.state.tool == Tool::Arrange && !self.state.is_calibrating
+impl tool::Tool for Workspace {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Workspace]
     }
 
-    /// The chosen textile, if there still is one at its place.
-    fn selected(&self) -> Option<(usize, &crate::bench::view::Cloth)> {
-        let index = self.state.cloth?;
-        Some((index, self.scene.cloths.get(index)?))
+    fn begin(&mut self, bench: &mut Bench) {
+        let kept = &bench.settings.preferences;
+        self.view.overlays = kept.overlays;
+        self.view.true_pixels_per_mm = kept.pixels_per_mm;
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.prepare_overlays(ui.ctx(), context.bench);
+        let bench = &*context.bench;
+        let next = Cell::new(self.view);
+        let sight = Sight {
+            scene: context.scene,
+            live: &bench.transient.live,
+            trail: &bench.transient.trail,
+            selection: &bench.workspace,
+            layers: Layers {
+                readings: &self.readings,
+                maps: &self.maps,
+                lattice: &self.lattice,
+                colours: bench.settings.preferences.colour_map,
+            },
+            next: &next,
+        };
+        *context.ground = Some(show(ui, sight, context.commands));
+        self.take_up(ui, next.get());
+    }
+
+    fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        if let Some(pane) = context.bench.transient.ground {
+            let mut next = self.view;
+            tools::show(ui, &mut next, pane, context.scene.size_mm);
+            if next != self.view && !context.bench.refuses_in_session() {
+                self.take_up(ui, next);
+            }
+        }
+    }
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        match command {
+            Command::Show(ShowCommand::Tool(tool)) => self.view.tool = *tool,
+            Command::Show(ShowCommand::Look(look)) => {
+                let place = Place {
+                    pane: bench.transient.ground.unwrap_or(Rect::ZERO),
+                    size_mm: bench.document.scene().size_mm,
+                    pixels_per_point: bench.ctx.pixels_per_point(),
+                };
+                self.view.look(*look, place);
+            }
+            Command::Show(ShowCommand::Overlay(overlay)) => {
+                self.view.overlays = self.view.overlays.toggled(*overlay);
+            }
+            Command::Show(ShowCommand::Calibrate) => self.view.is_calibrating = true,
+            Command::AllOff | Command::Dismiss => self.view.is_calibrating = false,
+            _ => {}
+        }
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        if self.view.overlays.map().is_none() {
+            return Err(
+                "There is nothing to export: show a map over the cloth first, by “Overlay” in \
+                 the row of tools or by the keys K and Shift+K",
+            );
+        }
+        let ctx = bench.ctx.clone();
+        self.prepare_overlays(&ctx, bench);
+        let (scene, origin) = (bench.plain_scene_view(), bench.origin());
+        let cloths = scene.cloths.iter().enumerate();
+        let shown =
+            cloths.filter_map(|(index, cloth)| Some((index, cloth, self.maps.shown(index)?)));
+        export::maps(shown.collect(), bench.workspace.probe, origin).ok_or(
+            "There is nothing to export yet: the maps are being computed, or no textile is felt",
+        )
+    }
+
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.view.camera = Camera::default();
+    }
+
+    fn keep_preferences(&self, preferences: &mut Preferences) {
+        preferences.overlays = self.view.overlays;
+        preferences.pixels_per_mm = self.view.true_pixels_per_mm;
+    }
+}
+
+impl Workspace {
+    /// Takes up what was changed while drawing; it shows in the next frame.
+    fn take_up(&mut self, ui: &Ui, next: WorkspaceView) {
+        if self.view != next {
+            self.view = next;
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Has what the overlays show that are switched on.
+    fn prepare_overlays(&mut self, ctx: &egui::Context, bench: &mut Bench) {
+        let overlays = self.view.overlays;
+        if overlays.shows(Overlay::Points) {
+            self.lattice.prepare(ctx);
+        }
+        self.readings.clear();
+        let inspector = &mut bench.inspection.inspector;
+        let live = &bench.transient.live;
+        if overlays.need_readings() && live.centre.is_some() {
+            inspector.readings_into(0, &live.pose, &mut self.readings);
+        }
+        let Some(band) = overlays.map() else {
+            self.maps.clear();
+            return;
+        };
+        let wanted = maps::Wanted {
+            velocity: bench.workspace.probe.velocity(),
+            band,
+            scale: bench.workspace.scale,
+            colours: bench.settings.preferences.colour_map,
+        };
+        self.maps.catch_up(ctx, inspector, wanted, bench.is_stepped);
     }
 }
 
 /// Shows the workspace in all the space that is left.
-pub(crate) fn show(
-    ui: &mut Ui,
-    scene: &SceneView,
-    live: &Live,
-    (trail, layers): (&Trail, Layers<'_>),
-    state: &WorkspaceState,
-    commands: &mut Commands,
-) -> PointerGround {
+fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround {
+    let (scene, state) = (sight.scene, sight.next.get());
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
     let inner = Rect::from_min_max(frame.min + vec2(ruler::LEFT, ruler::TOP), frame.max);
@@ -96,25 +205,27 @@ pub(crate) fn show(
     });
     let stage = Stage {
         scene,
-        live,
+        live: sight.live,
+        trail: sight.trail,
+        selection: sight.selection,
+        layers: sight.layers,
+        next: sight.next,
         state,
-        layers,
         ground,
         view: state.camera.view(ground, scene.size_mm),
         response,
     };
-    let tag = paint(ui, &stage, trail);
-    access::declare(ui, &stage);
+    let tag = ground::paint(ui, &stage);
     paint_rulers(ui, frame, &stage);
     let feels = handle(ui, &stage, tag, commands);
     if let Some(lens) = lens {
-        lens::show(ui, lens, &stage, trail, commands);
+        lens::show(ui, lens, &stage, commands);
     }
     if let Some(band) = state.overlays.map() {
         let beside = lens.and_then(lens::room_below);
         overlay::paint_legend(ui.painter(), &stage, (beside, band));
     }
-    if live.is_stopped {
+    if stage.live.is_stopped {
         paint_all_off(&ui.painter_at(ground), ground);
     }
     PointerGround {
@@ -152,90 +263,6 @@ fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, commands: &mut Com
     stage.state.tool == Tool::Explore && !(is_panning || is_busy)
 }
 
-/// Draws what lies on the ground. Says whose tag is under the pointer.
-fn paint(ui: &Ui, stage: &Stage<'_>, trail: &Trail) -> Option<usize> {
-    let painter = ui.painter_at(stage.ground);
-    paint_extent(&painter, &stage.view, stage.scene.size_mm);
-    paint_cloths(&painter, &stage.view, stage);
-    let tag = paint_tags(&painter, stage);
-    if stage.scene.cloths.is_empty() {
-        cloth::paint_empty(&painter, stage.ground);
-    }
-    paint_marked(&painter, stage);
-    paint_display(&painter, &stage.view, stage, trail);
-    tag
-}
-
-/// Draws a cloth that lies straight, with nothing on it that tells which it is.
-pub(crate) fn paint_plain_cloth(
-    painter: &Painter,
-    view: &ViewTransform,
-    (origin_mm, size_mm): (Point, [f64; 2]),
-    picture: Option<crate::bench::view::ClothPicture>,
-) {
-    let plain = crate::bench::view::Cloth {
-        id: String::new(),
-        label: String::new(),
-        name: String::new(),
-        workspace_from_textile: selvedge_foundation::geometry::Frame {
-            origin: origin_mm,
-            ..selvedge_foundation::geometry::Frame::default()
-        },
-        size_mm,
-        rotation_deg: 0.0,
-        is_muted: false,
-        gain_db: 0.0,
-        picture,
-    };
-    cloth::paint(painter, view, &plain, false);
-    let palette = Palette::of(painter.ctx().theme());
-    let edge = Stroke::new(1.0, palette.line);
-    cloth::paint_outline(painter, arrange::screen_corners(view, &plain), edge);
-}
-
-/// Draws the textiles through a view; the lens uses it too.
-fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    let lifted = lifted(stage);
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        cloth::paint(painter, view, cloth, lifted == Some(index));
-        overlay::paint_on_cloth(painter, view, stage, (index, cloth));
-        if lifted == Some(index) {
-            cloth::paint_lifted(painter, view, cloth);
-        }
-    }
-}
-
-/// The textile that is felt; where textiles are arranged, none is.
-fn lifted(stage: &Stage<'_>) -> Option<usize> {
-    match stage.state.tool {
-        Tool::Explore => stage.live.cloth_under_display(),
-        Tool::Arrange => None,
-    }
-}
-
-/// Draws trail and contactors through a view; the lens uses it too.
-fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>, trail: &Trail) {
-    display::paint_trail(painter, view, trail.aged());
-    if stage.live.centre.is_some() {
-        let pointed = stage.scene.marks.hovered.contactor;
-        overlay::paint_velocities(painter, view, stage);
-        display::paint(painter, view, stage.live, (stage.state, pointed));
-        overlay::paint_readings(painter, view, stage);
-    }
-}
-
-/// Marks the textile that the pointer rests on in another view.
-fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
-    let hovered = stage.scene.marks.hovered.cloth;
-    let elsewhere = hovered.filter(|_| stage.response.hover_pos().is_none());
-    if let Some(cloth) = elsewhere.and_then(|index| stage.scene.cloths.get(index)) {
-        let palette = Palette::of(painter.ctx().theme());
-        let corners = arrange::screen_corners(&stage.view, cloth);
-        let edge = Stroke::new(1.5, palette.selection.gamma_multiply(0.7));
-        cloth::paint_outline(painter, corners, edge);
-    }
-}
-
 /// Says what the pointer rests on.
 fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
     let Some(at) = stage.response.hover_pos() else {
@@ -250,22 +277,6 @@ fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
     {
         commands.push(ShowCommand::Hover(Part::Contactor(index)).into());
     }
-}
-
-fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
-    let lifted = lifted(stage);
-    let pointer = stage.response.hover_pos();
-    let mut hovered = None;
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        let is_lit = lifted == Some(index) || stage.scene.is_marked(index);
-        let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
-        if let (Some(tag), Some(at)) = (tag, pointer)
-            && tag.contains(at)
-        {
-            hovered = Some(index);
-        }
-    }
-    hovered
 }
 
 fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
@@ -297,17 +308,4 @@ fn paint_all_off(painter: &Painter, ground: Rect) {
         StrokeKind::Inside,
     );
     painter.galley(middle - 0.5 * galley.size(), galley, palette.text);
-}
-
-fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
-    let palette = Palette::of(painter.ctx().theme());
-    let corners = [Point::default(), Point::new(size_mm[0], size_mm[1])];
-    let [low, high] = corners.map(|corner| view.screen(corner));
-    let extent = Rect::from_two_pos(low, high);
-    painter.rect_stroke(
-        extent,
-        0,
-        Stroke::new(1.0, palette.hairline),
-        StrokeKind::Outside,
-    );
 }

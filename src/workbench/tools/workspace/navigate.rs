@@ -3,8 +3,9 @@
 
 use eframe::egui::{CursorIcon, Event, MouseWheelUnit, PointerButton, Ui, Vec2};
 
-use crate::bench::command::{Commands, Look, PlayCommand, ShowCommand};
-use crate::tools::workspace::{Stage, arrange};
+use crate::bench::command::{Commands, Look, PlayCommand};
+use crate::tools::workspace::arrange;
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::Displacement;
 
 /// Points of scrolling that magnify by the factor e.
@@ -23,17 +24,17 @@ pub(crate) fn navigate(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) -> b
         && let Some(at) = stage.response.interact_pointer_pos()
         && arrange::topmost(&stage.scene.cloths, stage.view.workspace(at)).is_none()
     {
-        commands.push(ShowCommand::Look(Look::Fit).into());
+        stage.look(Look::Fit);
     }
     let is_panning = stage.response.dragged_by(PointerButton::Middle);
     if is_panning {
-        pan(ui, stage, commands);
+        pan(ui, stage);
     }
     is_panning
 }
 
 /// Lets the ground follow the drag.
-pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
+pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>) {
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     let by = stage.response.drag_delta();
     if by != Vec2::ZERO {
@@ -42,7 +43,7 @@ pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
             f64::from(by.x) / points_per_mm,
             -f64::from(by.y) / points_per_mm,
         );
-        commands.push(ShowCommand::Look(Look::Centre(stage.view.centre() - shift)).into());
+        stage.look(Look::Centre(stage.view.centre() - shift));
     }
 }
 
@@ -66,7 +67,7 @@ fn take_wheel(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
         && let Some(at) = pointer
     {
         let place = stage.view.workspace(at);
-        commands.push(ShowCommand::Look(Look::Zoom(factor, place)).into());
+        stage.look(Look::Zoom(factor, place));
     }
 }
 

@@ -1,35 +1,21 @@
-//! What the workspace shows how: plain data that the window holds and the pane only reads.
+//! How the workspace is looked at: plain data.
 
 use eframe::egui::Rect;
 
-use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::{DotStyle, Look, ShowCommand, Tool};
-use crate::bench::probe::Probe;
+use crate::bench::command::{Look, Tool};
+use crate::bench::overlays::Overlays;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::camera::Camera;
-use crate::tools::workspace::overlay::Overlays;
 
-/// How the workspace is looked at and what is chosen in it. Never undoable.
+/// How the workspace is looked at. Never undoable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct WorkspaceState {
+pub(crate) struct WorkspaceView {
     /// Which part of it is in sight.
     pub camera: Camera,
     /// What a drag does.
     pub tool: Tool,
-    /// The chosen textile: its place in the scene's list.
-    pub cloth: Option<usize>,
-    /// The contactor that other panes look closer at.
-    pub contactor: Option<usize>,
-    /// The scale on which dots are drawn.
-    pub scale: AmplitudeScale,
-    /// What the dots show by what.
-    pub(crate) dot_style: DotStyle,
-    /// Whether what is below the threshold of detection is greyed.
-    pub(crate) greys_below: bool,
     /// What is drawn over the cloth.
     pub overlays: Overlays,
-    /// The velocity at which textiles are asked what they would give.
-    pub probe: Probe,
     /// Whether the screen is being calibrated to true size.
     pub(crate) is_calibrating: bool,
     /// Physical pixels per millimetre of the screen, once it is calibrated.
@@ -47,28 +33,12 @@ pub(crate) struct Place {
     pub pixels_per_point: f32,
 }
 
-impl WorkspaceState {
-    /// Takes in what the user wants to see; what does not concern the workspace changes nothing.
-    pub(crate) fn take(&mut self, command: &ShowCommand, place: Place) {
-        match *command {
-            ShowCommand::Tool(tool) => self.tool = tool,
-            ShowCommand::Look(look) => self.look(look, place),
-            ShowCommand::SelectContactor(index) => self.contactor = Some(index),
-            ShowCommand::SelectCloth(index) => self.cloth = index,
-            ShowCommand::DotStyle(style) => self.dot_style = style,
-            ShowCommand::ToggleThreshold => self.greys_below = !self.greys_below,
-            ShowCommand::Overlay(overlay) => self.overlays = self.overlays.toggled(overlay),
-            ShowCommand::Probe(probe) => self.probe = probe,
-            ShowCommand::LockScale(is_locked) => self.scale = self.scale.with_lock(is_locked),
-            ShowCommand::ScaleTop(most_um) => self.scale = self.scale.locked_at(most_um),
-            ShowCommand::Calibrate => self.is_calibrating = true,
-            ShowCommand::Calibrated(pixels_per_mm) => {
-                self.true_pixels_per_mm = Some(pixels_per_mm);
-                self.is_calibrating = false;
-                self.look(Look::TrueSize, place);
-            }
-            _ => {}
-        }
+impl WorkspaceView {
+    /// Shows true size on a screen with this many pixels per millimetre.
+    pub(crate) fn calibrate(&mut self, pixels_per_mm: f64, place: Place) {
+        self.true_pixels_per_mm = Some(pixels_per_mm);
+        self.is_calibrating = false;
+        self.look(Look::TrueSize, place);
     }
 
     /// Points per millimetre at true size, once the screen is calibrated.
@@ -84,7 +54,7 @@ impl WorkspaceState {
     }
 
     /// Looks; true size asks for a calibration first where there is none.
-    fn look(&mut self, look: Look, place: Place) {
+    pub(crate) fn look(&mut self, look: Look, place: Place) {
         let true_size = self.true_points_per_mm(place.pixels_per_point);
         if look == Look::TrueSize && true_size.is_none() {
             self.is_calibrating = true;
@@ -111,33 +81,16 @@ mod tests {
 
     #[test]
     fn true_size_asks_for_a_calibration_and_holds_at_every_scale_of_the_window() {
-        let mut state = WorkspaceState::default();
-        state.take(&ShowCommand::Look(Look::TrueSize), place());
+        let mut state = WorkspaceView::default();
+        state.look(Look::TrueSize, place());
         assert!(state.is_calibrating, "nobody knows the screen yet");
         assert_eq!(state.camera, Camera::Fit);
-        state.take(&ShowCommand::Calibrated(9.0), place());
+        state.calibrate(9.0, place());
         assert!(!state.is_calibrating, "done");
         let Place { pane, size_mm, .. } = place();
         let view = state.camera.view(pane, size_mm);
         assert!((view.points_per_mm() - 4.5).abs() < 1e-12, "{view:?}");
         assert!(state.is_true_size(&view, 2.0));
         assert!(!state.is_true_size(&view, 1.0), "the window was rescaled");
-    }
-
-    #[test]
-    fn choosing_is_taken_in() {
-        let mut state = WorkspaceState::default();
-        for command in [
-            ShowCommand::Tool(Tool::Arrange),
-            ShowCommand::SelectCloth(Some(2)),
-            ShowCommand::SelectContactor(7),
-            ShowCommand::DotStyle(DotStyle::Size),
-            ShowCommand::Help,
-        ] {
-            state.take(&command, place());
-        }
-        assert_eq!(state.tool, Tool::Arrange);
-        assert_eq!((state.cloth, state.contactor), (Some(2), Some(7)));
-        assert_eq!(state.dot_style, DotStyle::Size);
     }
 }

@@ -7,12 +7,13 @@ use eframe::egui::{
 
 use super::*;
 use crate::bench::command::edit::Edit;
-use crate::bench::command::{Command, Look, PlayCommand, ShowCommand};
+use crate::bench::command::{Command, PlayCommand, ShowCommand};
 use crate::bench::library_view::LibraryItem;
-use crate::bench::view::{Cloth, Dot};
+use crate::bench::selection::Selection;
+use crate::bench::trail::Trail;
+use crate::bench::view::{Cloth, Dot, Live, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::workspace::maps::Maps;
-use selvedge_foundation::geometry::{Frame, Rotation};
+use selvedge_foundation::geometry::{Frame, Point, Rotation};
 use selvedge_textile::tactile::{Filters, Tuning};
 
 /// The pane in a window of its own, with two textiles.
@@ -20,7 +21,8 @@ struct Window {
     ctx: Context,
     scene: SceneView,
     live: Live,
-    state: WorkspaceState,
+    view: WorkspaceView,
+    selection: Selection,
     frame: u32,
     modifiers: Modifiers,
 }
@@ -54,10 +56,11 @@ impl Window {
             ctx,
             scene,
             live: Live::default(),
-            state: WorkspaceState {
+            view: WorkspaceView {
                 tool,
-                ..WorkspaceState::default()
+                ..WorkspaceView::default()
             },
+            selection: Selection::default(),
             frame: 0,
             modifiers: Modifiers::NONE,
         };
@@ -81,17 +84,21 @@ impl Window {
         let mut shown = None;
         let (maps, lattice) = (Maps::default(), Lattice::default());
         let layers = layers(&maps, &lattice);
+        let (trail, next) = (Trail::default(), Cell::new(self.view));
         let mut output = self.ctx.run_ui(input, |ui| {
             commands.clear();
-            shown = Some(show(
-                ui,
-                &self.scene,
-                &self.live,
-                (&Trail::default(), layers),
-                &self.state,
-                &mut commands,
-            ));
+            next.set(self.view);
+            let sight = Sight {
+                scene: &self.scene,
+                live: &self.live,
+                trail: &trail,
+                selection: &self.selection,
+                layers,
+                next: &next,
+            };
+            shown = Some(show(ui, sight, &mut commands));
         });
+        self.view = next.get();
         output.textures_delta.clear();
         let is_hover = |c: &Command| matches!(c, Command::Show(ShowCommand::Hover(_)));
         commands.retain(|command| !is_hover(command));
@@ -214,7 +221,7 @@ fn with_alt_held_nothing_snaps() {
 #[test]
 fn handles_resize_and_turn_the_chosen_textile() {
     let mut window = Window::new(Tool::Arrange);
-    window.state.cloth = Some(0);
+    window.selection.cloth = Some(0);
     let (during, _) = window.drag([120.0, 120.0], [113.2, 91.1]);
     let Some(Edit::ResizeCloth(0, size_mm)) = edits(&during).last().cloned() else {
         panic!("{during:?}");
@@ -230,15 +237,10 @@ fn handles_resize_and_turn_the_chosen_textile() {
 #[test]
 fn dragging_empty_ground_goes_about_and_holds_what_is_under_the_pointer() {
     let mut window = Window::new(Tool::Arrange);
-    window.state.cloth = Some(0);
+    window.selection.cloth = Some(0);
     let (during, after) = window.drag([30.0, 200.0], [50.0, 190.0]);
     assert_eq!(during.first(), Some(&ShowCommand::SelectCloth(None).into()));
-    assert!(
-        during
-            .iter()
-            .any(|c| matches!(c, Command::Show(ShowCommand::Look(Look::Centre(_))))),
-        "{during:?}"
-    );
+    assert_ne!(window.view.camera, Camera::Fit, "gone about");
     assert_eq!((edits(&during), edits(&after)), (Vec::new(), Vec::new()));
 }
 
@@ -257,11 +259,11 @@ fn the_pointer_feels_while_it_explores_and_not_while_it_arranges() {
 fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
     let mut window = Window::new(Tool::Explore);
     let at = window.at(70.0, 70.0);
-    let commands = window.scroll(at);
-    let [Command::Show(ShowCommand::Look(Look::Zoom(factor, place)))] = commands[..] else {
-        panic!("{commands:?}");
-    };
-    assert!(factor > 1.0, "{factor}");
+    let before = window.run(Vec::new()).1.view;
+    assert_eq!(window.scroll(at), []);
+    let after = window.run(Vec::new()).1.view;
+    assert!(after.points_per_mm() > before.points_per_mm(), "{after:?}");
+    let place = after.workspace(at);
     assert!(
         (place - Point::new(70.0, 70.0)).length_mm() < 0.01,
         "{place:?}"
@@ -273,13 +275,18 @@ fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
 
 #[test]
 fn two_clicks_on_empty_ground_show_all_of_it() {
-    let fit: Command = ShowCommand::Look(Look::Fit).into();
+    let closer = Camera::At {
+        centre: Point::new(130.0, 130.0),
+        points_per_mm: 2.2,
+    };
     for ([x_mm, y_mm], is_fit) in [([70.0, 70.0], false), ([60.0, 200.0], true)] {
         let mut window = Window::new(Tool::Explore);
+        window.view.camera = closer;
         let at = window.at(x_mm, y_mm);
-        let mut commands = window.click(at);
-        commands.extend(window.click(at));
-        assert_eq!(commands.contains(&fit), is_fit, "{commands:?}");
+        window.click(at);
+        window.click(at);
+        let wanted = if is_fit { Camera::Fit } else { closer };
+        assert_eq!(window.view.camera, wanted);
     }
 }
 
@@ -295,7 +302,7 @@ fn arrow_keys_move_the_chosen_textile() {
     };
     let right = vec![key(Key::ArrowRight, Modifiers::NONE)];
     assert_eq!(window.run(right.clone()).0, [], "none is chosen");
-    window.state.cloth = Some(0);
+    window.selection.cloth = Some(0);
     let moved = |x, y| vec![Command::Edit(Edit::MoveCloth(0, Point::new(x, y)))];
     assert_eq!(window.run(right).0, moved(21.0, 20.0));
     window.modifiers = Modifiers::SHIFT;
@@ -340,7 +347,7 @@ fn a_textile_of_the_library_is_placed_where_it_is_let_go() {
 #[test]
 fn what_is_measured_between_the_crosses_calibrates_the_screen() {
     let mut window = Window::new(Tool::Explore);
-    window.state.is_calibrating = true;
+    window.view.is_calibrating = true;
     let typed = |text: &str| Event::Text(text.to_owned());
     let enter = Event::Key {
         key: Key::Enter,
@@ -352,16 +359,14 @@ fn what_is_measured_between_the_crosses_calibrates_the_screen() {
     window.run(Vec::new());
     window.run(Vec::new());
     assert_eq!(window.run(vec![typed("-"), enter.clone()]).0, []);
-    window.state.is_calibrating = false;
+    window.view.is_calibrating = false;
     window.run(Vec::new());
-    window.state.is_calibrating = true;
+    window.view.is_calibrating = true;
     window.run(Vec::new());
     let (_, shown) = window.run(Vec::new());
     assert!(!shown.feels, "the pointer measures");
-    let commands = window.run(vec![typed("100"), enter]).0;
-    let [Command::Show(ShowCommand::Calibrated(pixels_per_mm))] = commands[..] else {
-        panic!("{commands:?}");
-    };
+    assert_eq!(window.run(vec![typed("100"), enter]).0, []);
+    let pixels_per_mm = window.view.true_pixels_per_mm.unwrap();
     let pixels = 0.6 * (f64::from(shown.rect.width()) - 28.0);
     assert!(
         (pixels_per_mm - pixels / 100.0).abs() < 0.02,
@@ -374,8 +379,8 @@ fn nothing_to_show_is_shown_without_harm() {
     let mut window = Window::new(Tool::Arrange);
     window.scene.cloths.clear();
     window.scene.size_mm = [f64::NAN, 0.0];
-    window.state.cloth = Some(7);
-    window.state.contactor = Some(99);
+    window.selection.cloth = Some(7);
+    window.selection.contactor = Some(99);
     let at = pos2(300.0, 300.0);
     window.click(at);
     let (during, _) = window.drag([0.1, 0.1], [0.3, 0.4]);
@@ -384,18 +389,18 @@ fn nothing_to_show_is_shown_without_harm() {
         screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(9.0, 5.0))),
         ..RawInput::default()
     };
-    let (scene, state, live) = (&window.scene, &window.state, &window.live);
     let (maps, lattice) = (Maps::default(), Lattice::default());
-    let layers = layers(&maps, &lattice);
+    let (trail, next) = (Trail::default(), Cell::new(window.view));
+    let sight = Sight {
+        scene: &window.scene,
+        live: &window.live,
+        trail: &trail,
+        selection: &window.selection,
+        layers: layers(&maps, &lattice),
+        next: &next,
+    };
     let mut output = window.ctx.run_ui(tiny, |ui| {
-        show(
-            ui,
-            scene,
-            live,
-            (&Trail::default(), layers),
-            state,
-            &mut Commands::new(),
-        );
+        show(ui, sight, &mut Commands::new());
     });
     output.textures_delta.clear();
 }

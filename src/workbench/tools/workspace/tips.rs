@@ -7,7 +7,8 @@ use eframe::egui::{Label, Pos2, Response, Ui};
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Cloth, Dot, SceneView};
 use crate::kit::widgets::limit_mark::limit_words;
-use crate::tools::workspace::{Stage, arrange, drag, overlay};
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::{arrange, drag, overlay};
 use selvedge_foundation::quantity;
 
 /// Tells what is under the resting pointer; `tag` is the textile whose tag is.

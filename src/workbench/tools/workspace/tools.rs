@@ -11,16 +11,17 @@ use crate::bench::command::{Command, Commands, Look, ShowCommand, Tool};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::view_transform::ViewTransform;
-use crate::tools::workspace::state::WorkspaceState;
-use crate::tools::workspace::{Stage, arrange, overlay};
+use crate::tools::workspace::camera::Camera;
+use crate::tools::workspace::overlay::BUTTON;
+use crate::tools::workspace::stage::Stage;
+use crate::tools::workspace::state::{Place, WorkspaceView};
+use crate::tools::workspace::{arrange, overlay};
 use selvedge_foundation::quantity;
 
 /// Space around what lies on a strip, points.
 const PADDING: f32 = STEP;
 /// Space between a strip and the edge of the ground, points.
 const AWAY: f32 = 2.0 * STEP;
-/// Height of the buttons in the row of tabs, points.
-pub(crate) const BUTTON: f32 = 18.0;
 /// Width of the buttons Fit and 1:1, points.
 const SMALL_BUTTON: f32 = 32.0;
 /// Size of the strip beside the chosen textile, points.
@@ -31,17 +32,16 @@ type Asked = Vec<Command>;
 
 /// Shows tools and magnification in one row, from right to left. `pane` is where the workspace was
 /// drawn last.
-pub(crate) fn show(
-    ui: &mut Ui,
-    state: &WorkspaceState,
-    pane: Rect,
-    size_mm: [f64; 2],
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, state: &mut WorkspaceView, pane: Rect, size_mm: [f64; 2]) {
     ui.spacing_mut().item_spacing.x = STEP;
     ui.spacing_mut().button_padding = vec2(2.0 * STEP, 0.0);
+    let place = Place {
+        pane,
+        size_mm,
+        pixels_per_point: ui.ctx().pixels_per_point(),
+    };
     let view = state.camera.view(pane, size_mm);
-    show_magnification(ui, state, &view, commands);
+    show_magnification(ui, state, &view, place);
     ui.add_space(2.0 * STEP);
     let size = vec2(60.0, BUTTON);
     for (tool, name, what) in [
@@ -54,23 +54,18 @@ pub(crate) fn show(
     ] {
         let command: Command = ShowCommand::Tool(tool).into();
         if offered(ui, size, (name, state.tool == tool), what, &command) {
-            commands.push(command);
+            state.tool = tool;
         }
     }
     ui.add_space(2.0 * STEP);
-    overlay::show_menu(ui, state, view.points_per_mm(), commands);
+    overlay::show_menu(ui, &mut state.overlays, view.points_per_mm());
 }
 
 /// Shows the magnification, from right to left.
-fn show_magnification(
-    ui: &mut Ui,
-    state: &WorkspaceState,
-    view: &ViewTransform,
-    commands: &mut Commands,
-) {
-    let pixels_per_point = ui.ctx().pixels_per_point();
+fn show_magnification(ui: &mut Ui, state: &mut WorkspaceView, view: &ViewTransform, place: Place) {
+    let pixels_per_point = place.pixels_per_point;
     let is_true = state.is_true_size(view, pixels_per_point);
-    let is_fit = state.camera == crate::tools::workspace::camera::Camera::Fit;
+    let is_fit = state.camera == Camera::Fit;
     let true_size = match state.true_pixels_per_mm {
         Some(_) => "True size: a millimetre is a millimetre on the screen",
         None => "True size; asks you to measure the screen first",
@@ -82,7 +77,7 @@ fn show_magnification(
     ] {
         let command: Command = ShowCommand::Look(look).into();
         if offered(ui, size, (name, is_chosen), what, &command) {
-            commands.push(command);
+            state.look(look, place);
         }
     }
     let pixels_per_mm = view.points_per_mm() * f64::from(pixels_per_point);
@@ -153,7 +148,7 @@ pub(crate) fn removing(index: usize) -> Asked {
 
 /// What a button does, with its key.
 pub(crate) fn tip(ui: &Ui, what: &str, command: &Command) -> String {
-    match crate::shell::keys::hint(ui.ctx(), command) {
+    match crate::bench::keys::hint(ui.ctx(), command) {
         key if key.is_empty() => what.to_owned(),
         key => format!("{what} ({key})"),
     }

@@ -14,12 +14,12 @@ use eframe::egui::vec2;
 use super::*;
 use crate::bench::command::lab::Beginning;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
+use crate::bench::overlays::Overlay;
 use crate::shell::headless::Headless;
 use crate::tools::accuracy::Accuracy;
 use crate::tools::compare::comparison::{Compare, Standing};
 use crate::tools::lab::Lab;
 use crate::tools::response::Response;
-use crate::tools::workspace::overlay::Overlay;
 use selvedge_foundation::files::{self, Table};
 use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;
@@ -322,6 +322,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
         assert!(desk.workbench.shell.exports.seen.is_none(), "{what:?}");
     }
     let library = Exportable::Pane(Pane::Library);
+    assert!(!Pane::Library.has_export() && desk.workbench.exported(library).is_err());
     assert!(!Pane::Library.has_export() && desk.workbench.exported(library).is_err());
 }
 

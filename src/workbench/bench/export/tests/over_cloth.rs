@@ -1,7 +1,8 @@
 //! Exports of what textiles give all over: maps over the cloth, and the library as a whole.
 
 use super::*;
-use crate::bench::selection::Joining;
+use crate::bench::library_selection::Joining;
+use crate::tools::workspace::Workspace;
 use selvedge_textile::tactile::{Band, Filters, Levels};
 
 #[test]
@@ -18,7 +19,8 @@ fn the_map_holds_what_lies_under_the_pointer_at_every_point_of_every_textile() {
         .map(|cloth| (cloth.size_mm[0] + 1.0) * (cloth.size_mm[1] + 1.0))
         .sum();
     assert_eq!(numbers[3].len() as f64, n_points);
-    let maps = &desk.workbench.bench.transient.maps;
+    let workspace: &Workspace = desk.workbench.tools.get().unwrap();
+    let maps = &workspace.maps;
     for (row, (place, amplitude_um)) in numbers[0].iter().zip(&numbers[3]).enumerate() {
         let index = (0..scene.textiles.len()).find(|index| *index as f64 == *place);
         let index = index.unwrap();

@@ -10,10 +10,10 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::Tick;
 use crate::kit::widgets::bar::colour_bar;
+use crate::kit::widgets::cells::{GAP, NUMBER_WIDTH, Places, TITLE};
 use crate::tools::compare::words::{
     alone_words, band_name, decimals_of, describe, scale_db, signed_db, unit_of,
 };
-use crate::tools::contactors::{GAP, NUMBER_WIDTH, Places, TITLE};
 use selvedge_foundation::quantity::fixed;
 use selvedge_render::{LevelDifference, Tally};
 use selvedge_textile::tactile::Band;

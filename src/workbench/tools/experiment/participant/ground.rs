@@ -5,12 +5,12 @@ use eframe::egui::{
     pos2, vec2,
 };
 
+use crate::kit::swatch::paint_plain;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 use crate::tools::experiment::guide::{HALF_MM, RADIUS_MM};
 use crate::tools::experiment::view::Ground;
-use crate::tools::workspace::paint_plain_cloth;
 use selvedge_experiment::layout::Place;
 use selvedge_foundation::geometry::Point;
 
@@ -25,7 +25,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, ground: &Ground) -> PointerGround {
     let painter = ui.painter_at(rect);
     for slot in &ground.slots {
         let place = (slot.origin_mm, Place::SIZE_MM);
-        paint_plain_cloth(&painter, &view, place, ground.picture);
+        paint_plain(&painter, &view, place, ground.picture);
         match (slot.number, slot.is_target) {
             (Some(number), _) => paint_tag(&painter, &view, slot.origin_mm, &number.to_string()),
             (None, true) => paint_tag(&painter, &view, slot.origin_mm, "target"),

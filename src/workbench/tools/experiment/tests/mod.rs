@@ -182,7 +182,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     to_trial(&mut window);
     window.dispatch(Edit::MasterGain(3.0));
     window.dispatch(Command::Undo);
-    window.dispatch(DeviceCommand::ListPorts);
+    window.dispatch(DeviceCommand::CopyLogPath);
     assert_eq!(window.workbench.bench.document.scene(), &before);
     assert_eq!(
         window.workbench.bench.document.undo_name(),

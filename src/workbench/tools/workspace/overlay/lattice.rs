@@ -9,9 +9,9 @@ use eframe::egui::{
 };
 
 use crate::bench::view::Cloth;
+use crate::kit::swatch::{narrow, tiled};
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
-use crate::tools::workspace::cloth;
 
 /// Points nearer to one another than this are not drawn, points of the screen.
 const LEAST_STEP: f64 = 6.0;
@@ -61,12 +61,12 @@ impl Lattice {
         let Some(picture) = self.pictures.get(place) else {
             return;
         };
-        let [width, height] = cloth.size_mm.map(cloth::narrow);
+        let [width, height] = cloth.size_mm.map(narrow);
         // A picture has its point in the middle, and point 0 lies on the edge of the cloth.
         let corners = screen_corners(view, cloth);
         let from = pos2(0.5, 0.5);
         let uv = Rect::from_min_max(from, pos2(width + 0.5, height + 0.5));
-        let mesh = cloth::tiled(corners, uv, picture.id(), Color32::WHITE);
+        let mesh = tiled(corners, uv, picture.id(), Color32::WHITE);
         painter.add(Shape::mesh(mesh));
     }
 }

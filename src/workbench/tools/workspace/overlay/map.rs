@@ -5,12 +5,13 @@ use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureI
 
 use crate::bench::probe::Probe;
 use crate::bench::view::Cloth;
+use crate::kit::swatch::{narrow, tiled};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::bar::amplitude_bar;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
-use crate::tools::workspace::{Stage, cloth};
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -33,7 +34,7 @@ pub(crate) fn paint(
     // The cell of point i reaches from half a millimetre before it to half a millimetre behind.
     let share = |axis: usize, place_mm: f64| {
         let n_points = n_points[axis].max(1) as f64;
-        cloth::narrow((place_mm + 0.5) / n_points)
+        narrow((place_mm + 0.5) / n_points)
     };
     let [width, height] = cloth.size_mm;
     let uv = Rect::from_min_max(
@@ -41,7 +42,7 @@ pub(crate) fn paint(
         pos2(share(0, width), share(1, height)),
     );
     let corners = screen_corners(view, cloth);
-    let mesh = cloth::tiled(corners, uv, picture, Color32::WHITE);
+    let mesh = tiled(corners, uv, picture, Color32::WHITE);
     painter.add(Shape::mesh(mesh));
 }
 
@@ -76,7 +77,7 @@ pub(crate) fn paint_legend(
         theme::body(),
         palette.band(band),
     );
-    let probe = stage.state.probe;
+    let probe = stage.selection.probe;
     let at = pos2(left, card.top() + 31.0);
     let words = velocity_words(probe);
     let font = theme::small_number();
@@ -87,7 +88,7 @@ pub(crate) fn paint_legend(
         pos2(left, card.top() + 58.0),
         pos2(left + 8.0, card.bottom() - 10.0),
     );
-    amplitude_bar(painter, bar, stage.layers.colours, stage.state.scale);
+    amplitude_bar(painter, bar, stage.layers.colours, stage.selection.scale);
 }
 
 /// How a chosen velocity is written: `100 mm/s, 35°`.
@@ -115,6 +116,6 @@ pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Po
         "\n{} Hz here {} at {}",
         quantity::fixed(band.carrier_hz(), 0),
         quantity::with_unit(amplitude_um, 2, "µm"),
-        velocity_words(stage.state.probe)
+        velocity_words(stage.selection.probe)
     )
 }

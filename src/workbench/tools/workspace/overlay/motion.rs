@@ -5,10 +5,11 @@
 
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
 
+use crate::bench::overlays::Overlay;
+use crate::kit::swatch::narrow;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::tools::workspace::overlay::Overlay;
-use crate::tools::workspace::{Stage, cloth};
+use crate::tools::workspace::stage::Stage;
 use selvedge_foundation::geometry::{Displacement, Rotation, Velocity};
 use selvedge_render::array::{ContactorReading, Reading};
 use selvedge_textile::surface::Direction;
@@ -70,7 +71,7 @@ fn for_each_in_sight(
             painter,
             palette: Palette::of(painter.ctx().theme()),
             view,
-            is_chosen: stage.state.contactor == Some(contactor),
+            is_chosen: stage.selection.contactor == Some(contactor),
         };
         let axes = moving.reading.and_then(|reading| {
             let cloth = stage.scene.cloths.get(reading.textile)?;
@@ -211,6 +212,6 @@ impl Brush<'_> {
 
 /// A velocity's direction on the screen, where y points down; its length means nothing.
 pub(crate) fn on_screen(velocity: Velocity) -> Vec2 {
-    let [x, y] = [velocity.x_mm_per_s, -velocity.y_mm_per_s].map(cloth::narrow);
+    let [x, y] = [velocity.x_mm_per_s, -velocity.y_mm_per_s].map(narrow);
     vec2(x, y)
 }

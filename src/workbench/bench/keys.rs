@@ -5,8 +5,8 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use crate::bench::command::{
     Chosen, Command, FileCommand, Look, PlayCommand, PlaySource, Purpose, ShowCommand, Tool,
 };
+use crate::bench::overlays::Overlay;
 use crate::bench::perspective::Perspective;
-use crate::tools::workspace::overlay::Overlay;
 use selvedge_textile::tactile::Band;
 
 /// A key and what it does.

@@ -1,4 +1,4 @@
-//! Commands to array profiles.
+//! Changes of array profiles, and the walk over the channels of a device.
 
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
@@ -36,8 +36,7 @@ impl Bench {
 
     fn copy_array(&mut self, name: &str) {
         let name = name.trim();
-        let is_taken = self.arrays.is_own(name) || ArrayProfile::shipped(name).is_some();
-        if name.is_empty() || is_taken {
+        if !self.arrays.is_free(name) {
             let words = format!("\"{name}\" is the name of an array already; type another");
             self.transient.notices.give(words);
             return;
@@ -46,7 +45,6 @@ impl Bench {
         name.clone_into(&mut profile.name);
         self.change_array(profile);
         self.settings.preferences.array = Some(name.to_owned());
-        self.arrays.copy_name.clear();
     }
 
     fn identify(&mut self, command: WizardCommand) {

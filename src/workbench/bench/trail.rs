@@ -4,9 +4,10 @@
 
 use std::collections::VecDeque;
 
-use crate::tools::workspace::display::TRAIL_S;
 use selvedge_foundation::geometry::Point;
 
+/// How long the trail is, s.
+pub(crate) const TRAIL_S: f64 = 0.8;
 /// Ticks per second.
 const TICKS_PER_S: f64 = 40.0;
 /// A step longer than this is a jump, not a stroke, mm.

@@ -1,0 +1,98 @@
+//! What moves the display and how far it is, as the bar shows it.
+
+use crate::bench::Bench;
+use crate::bench::command::PlaySource;
+use crate::bench::recording::Take;
+use crate::bench::signals::history::History;
+use crate::bench::view::Source;
+
+/// Time between two ticks, ms.
+pub(crate) const TICK_MS: u64 = 25;
+
+/// What the bar shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TransportView<'a> {
+    /// What moves the display.
+    pub source: PlaySource,
+    /// The tablet or program that was chosen.
+    pub input: Option<&'a str>,
+    /// Whether a recording or stroke moves on at the next tick.
+    pub is_playing: bool,
+    /// Whether a recording or stroke begins again at its end.
+    pub does_loop: bool,
+    /// Whether everything was switched off and nothing was armed since.
+    pub is_stopped: bool,
+    /// Ticks recorded so far; `None` when nothing records.
+    pub(crate) recorded_ticks: Option<u64>,
+    /// The tick of the recording or stroke that is shown.
+    pub tick: u64,
+    /// How fast the display moves, mm/s.
+    pub speed_mm_per_s: f64,
+    /// The recording at hand.
+    pub take: Option<&'a Take>,
+    /// What was felt last.
+    pub live: &'a History,
+}
+
+impl<'a> TransportView<'a> {
+    /// What it shows now.
+    pub(crate) fn of(bench: &'a Bench) -> Self {
+        let transient = &bench.transient;
+        let live = &transient.live;
+        Self {
+            source: match live.play.source {
+                Source::Pointer => PlaySource::Pointer,
+                Source::Lines | Source::Device => PlaySource::Input,
+                Source::Stroke => PlaySource::Stroke,
+                Source::Recording => PlaySource::Recording,
+            },
+            input: transient.sources.chosen_name(),
+            is_playing: live.play.is_playing,
+            does_loop: transient.does_loop,
+            is_stopped: live.is_stopped,
+            recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
+            tick: live.play.tick,
+            speed_mm_per_s: live.speed_mm_per_s,
+            take: bench.take.as_ref(),
+            live: &transient.history,
+        }
+    }
+}
+
+impl TransportView<'_> {
+    /// The take that the timeline shows: the one that moves the display. While something is
+    /// recorded, the timeline shows what is felt.
+    pub(crate) fn shown_take(&self) -> Option<&Take> {
+        let is_shown = self.source == PlaySource::Recording && self.recorded_ticks.is_none();
+        self.take.filter(|_| is_shown)
+    }
+
+    /// Whether positions come as they happen.
+    pub(crate) fn is_live(&self) -> bool {
+        matches!(self.source, PlaySource::Pointer | PlaySource::Input)
+    }
+
+    /// Whether something runs that could be held.
+    pub(crate) fn is_running(&self) -> bool {
+        self.is_playing && !self.is_live()
+    }
+
+    /// The tick that the numbers show, and what it counts.
+    pub(crate) fn counted(&self) -> (u64, &'static str) {
+        if let Some(n_ticks) = self.recorded_ticks {
+            return (n_ticks, "Ticks recorded, 25 ms each");
+        }
+        match self.source {
+            PlaySource::Pointer | PlaySource::Input => {
+                let newest = self.live.newest();
+                let tick = newest.map_or(0, |entry| entry.glimpse.tick);
+                (
+                    tick,
+                    "The last tick in which something moved, since the program started",
+                )
+            }
+            PlaySource::Stroke => (self.tick, "The tick of the stroke, 25 ms each"),
+            PlaySource::Recording => (self.tick, "The tick of the recording, 25 ms each"),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What the parts of the pane share during one frame.
+
+use std::cell::Cell;
+
+use eframe::egui::{Rect, Response};
+
+use crate::bench::command::{Look, Tool};
+use crate::bench::selection::Selection;
+use crate::bench::trail::Trail;
+use crate::bench::view::{Cloth, Live, SceneView};
+use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::view_transform::ViewTransform;
+use crate::tools::workspace::maps::Maps;
+use crate::tools::workspace::overlay::lattice::Lattice;
+use crate::tools::workspace::state::{Place, WorkspaceView};
+use selvedge_render::array::ContactorReading;
+
+/// What overlays are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layers<'a> {
+    /// What the contactors read and how they move; empty while that is not drawn.
+    pub readings: &'a [ContactorReading],
+    /// Maps of the textiles.
+    pub maps: &'a Maps,
+    /// Pictures of the points.
+    pub lattice: &'a Lattice,
+    /// The colours that stand for numbers.
+    pub colours: ColourMap,
+}
+
+/// What the pane is drawn from.
+#[derive(Clone, Copy)]
+pub(crate) struct Sight<'a> {
+    pub(crate) scene: &'a SceneView,
+    pub(crate) live: &'a Live,
+    pub(crate) trail: &'a Trail,
+    pub(crate) selection: &'a Selection,
+    pub(crate) layers: Layers<'a>,
+    /// How the workspace is looked at in the next frame.
+    pub(crate) next: &'a Cell<WorkspaceView>,
+}
+
+/// What the parts of the pane share during one frame.
+pub(crate) struct Stage<'a> {
+    pub(crate) scene: &'a SceneView,
+    pub(crate) live: &'a Live,
+    pub(crate) trail: &'a Trail,
+    pub(crate) selection: &'a Selection,
+    pub(crate) layers: Layers<'a>,
+    pub(crate) next: &'a Cell<WorkspaceView>,
+    /// How it is looked at in this frame.
+    pub(crate) state: WorkspaceView,
+    /// The part of the screen where mm are.
+    pub(crate) ground: Rect,
+    pub(crate) view: ViewTransform,
+    /// What the pointer does on the ground.
+    pub(crate) response: Response,
+}
+
+impl Stage<'_> {
+    /// Whether a drag moves textiles now.
+    pub(crate) fn arranges(&self) -> bool {
+        self.state.tool == Tool::Arrange && !self.state.is_calibrating
+    }
+
+    /// Changes how the workspace is looked at from the next frame on.
+    pub(crate) fn change(&self, change: impl FnOnce(&mut WorkspaceView, Place)) {
+        let mut next = self.next.get();
+        let place = Place {
+            pane: self.ground,
+            size_mm: self.scene.size_mm,
+            pixels_per_point: self.response.ctx.pixels_per_point(),
+        };
+        change(&mut next, place);
+        self.next.set(next);
+    }
+
+    /// Looks at another part of the workspace from the next frame on.
+    pub(crate) fn look(&self, look: Look) {
+        self.change(|view, place| view.look(look, place));
+    }
+
+    /// The chosen textile, if there still is one at its place.
+    pub(crate) fn selected(&self) -> Option<(usize, &Cloth)> {
+        let index = self.selection.cloth?;
+        Some((index, self.scene.cloths.get(index)?))
+    }
+}
