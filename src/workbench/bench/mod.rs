@@ -20,6 +20,7 @@ pub(crate) mod free_places;
 pub(crate) mod history;
 pub(crate) mod job;
 pub(crate) mod keep;
+pub(crate) mod library_selection;
 pub(crate) mod library_view;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
@@ -34,7 +35,6 @@ pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
-pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod signals;
 pub(crate) mod source_file;
@@ -267,7 +267,7 @@ impl Bench {
         self.transient.trail = Trail::default();
         self.transient.history.clear();
         self.transient.comparison.leave_scene();
-        self.transient.selection = selection::Selection::default();
+        self.transient.library_selection = library_selection::LibrarySelection::default();
         self.transient.asked_textile = None;
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
@@ -332,7 +332,7 @@ impl Bench {
             &self.transient.mute_solo,
             self.transient.reference_db,
         );
-        view.picked = Arc::clone(&self.transient.selection.0);
+        view.picked = Arc::clone(&self.transient.library_selection.0);
         view.marks = Marks {
             cloth: self.workspace.cloth,
             hovered: self.transient.hovered,

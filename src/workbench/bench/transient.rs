@@ -7,12 +7,12 @@ use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::job::Job;
 use crate::bench::keep::Keeping;
+use crate::bench::library_selection::LibrarySelection;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::notices::Notices;
 use crate::bench::opening::Opening;
 use crate::bench::query::IntervalMeter;
 use crate::bench::recording::Take;
-use crate::bench::selection::Selection;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::view::{BridgeView, Hovered, Live};
@@ -79,7 +79,7 @@ pub(crate) struct Transient {
     /// The explanation that is shown, and whether it is held.
     pub why: (Option<Why>, bool),
     /// The textiles of the library that are selected.
-    pub(crate) selection: Selection,
+    pub(crate) library_selection: LibrarySelection,
     /// What is compared, and what came of it.
     pub comparison: Comparison,
     /// Experiments and the session that is held.

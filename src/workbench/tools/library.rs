@@ -8,10 +8,10 @@ use eframe::egui::{
 use crate::bench::command::edit::Edit;
 use crate::bench::command::lab::Beginning;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
+use crate::bench::library_selection::Joining;
 use crate::bench::library_view::LibraryItem;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::pane::Pane;
-use crate::bench::selection::Joining;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::{Cloth, ClothPicture, SceneView, ShelfItem};
 use crate::kit::pane::framed;
@@ -178,7 +178,7 @@ fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut Pane
         } else {
             Joining::Alone
         };
-        let selection = &mut context.bench.transient.selection;
+        let selection = &mut context.bench.transient.library_selection;
         selection.select(vec![item.id.clone()], joining);
         ui.ctx().request_repaint();
     }

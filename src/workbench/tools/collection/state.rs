@@ -1,6 +1,6 @@
 //! The library as a whole: what is chosen of it, and the library as it is drawn by that.
 
-use crate::bench::selection::Selection;
+use crate::bench::library_selection::LibrarySelection;
 use crate::bench::view::{SceneView, ShelfItem};
 use crate::tools::collection::listing::{Only, Sort};
 use crate::tools::collection::measure::Measure;
@@ -169,7 +169,7 @@ impl Collection {
         &'a self,
         items: &'a [ShelfItem],
         scene: &SceneView,
-        selection: &Selection,
+        selection: &LibrarySelection,
     ) -> CollectionView<'a> {
         let asked = Asked {
             speed_mm_per_s: self.choice.speed_mm_per_s,

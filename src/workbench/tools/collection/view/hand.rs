@@ -5,9 +5,9 @@ use eframe::egui::{DragAndDrop, Response, Stroke, StrokeKind, Ui};
 use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::library_selection::Joining;
 use crate::bench::library_view::LibraryItem;
 use crate::bench::pane::Pane;
-use crate::bench::selection::Joining;
 use crate::kit::theme::Palette;
 use crate::tools::collection::state::{Choice, Entry};
 
@@ -30,7 +30,7 @@ pub(crate) struct Hand<'a> {
 impl Hand<'_> {
     /// Selects textiles.
     pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
-        self.bench.transient.selection.select(ids, joining);
+        self.bench.transient.library_selection.select(ids, joining);
     }
 }
 

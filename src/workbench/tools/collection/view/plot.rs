@@ -5,7 +5,7 @@ use eframe::egui::{
     pos2, vec2,
 };
 
-use crate::bench::selection::Joining;
+use crate::bench::library_selection::Joining;
 use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};

@@ -3,7 +3,7 @@
 use eframe::egui::{Align, Label, Layout, ProgressBar, RichText, Role, Ui, WidgetInfo, vec2};
 
 use crate::bench::command::edit::Edit;
-use crate::bench::selection::Joining;
+use crate::bench::library_selection::Joining;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::toggle;

@@ -16,9 +16,9 @@ pub(crate) enum Joining {
 
 /// The ids of the textiles that are selected.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Selection(pub(crate) Arc<BTreeSet<String>>);
+pub(crate) struct LibrarySelection(pub(crate) Arc<BTreeSet<String>>);
 
-impl Selection {
+impl LibrarySelection {
     /// Selects textiles.
     pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
         let selected = Arc::make_mut(&mut self.0);
