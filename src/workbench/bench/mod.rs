@@ -279,7 +279,7 @@ impl Bench {
         self.transient.mute_solo = mute_solo::MuteSolo::default();
         self.transient.trail = Trail::default();
         self.transient.history.clear();
-        self.transient.selection = library_selection::LibrarySelection::default();
+        self.transient.library_selection = library_selection::LibrarySelection::default();
         self.workspace.cloth = None;
         self.inspection.n_scenes += 1;
         self.show_document();
@@ -342,7 +342,7 @@ impl Bench {
             &self.transient.mute_solo,
             self.transient.reference_db,
         );
-        view.picked = Arc::clone(&self.transient.selection.0);
+        view.picked = Arc::clone(&self.transient.library_selection.0);
         view.marks = Marks {
             cloth: self.workspace.cloth,
             hovered: self.transient.hovered,

@@ -50,7 +50,7 @@ pub(crate) struct Transient {
     /// The last seconds.
     pub(crate) history: History,
     /// The textiles of the library that are selected.
-    pub(crate) selection: LibrarySelection,
+    pub(crate) library_selection: LibrarySelection,
     /// Experiments and the session that is held.
     pub experiment: Experiment,
     /// Logs that are analysed.

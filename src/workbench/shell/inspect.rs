@@ -143,7 +143,13 @@ impl Workbench {
 
     /// The textiles of the library that are selected, by their ids in order.
     pub fn selected_textiles(&self) -> Vec<String> {
-        self.bench.transient.selection.0.iter().cloned().collect()
+        self.bench
+            .transient
+            .library_selection
+            .0
+            .iter()
+            .cloned()
+            .collect()
     }
 
     /// Textiles of the library measured so far, at whichever speed.

@@ -178,7 +178,7 @@ fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut Pane
         } else {
             Joining::Alone
         };
-        let selection = &mut context.bench.transient.selection;
+        let selection = &mut context.bench.transient.library_selection;
         selection.select(vec![item.id.clone()], joining);
         ui.ctx().request_repaint();
     }

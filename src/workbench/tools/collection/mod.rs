@@ -58,7 +58,11 @@ impl Collection {
             bench: &mut *context.bench,
             commands: &mut *context.commands,
         };
-        let view = self.view(&items, context.scene, &hand.bench.transient.selection);
+        let view = self.view(
+            &items,
+            context.scene,
+            &hand.bench.transient.library_selection,
+        );
         view::show(ui, &view, &mut hand);
         let Hand {
             choice,
@@ -101,7 +105,7 @@ impl Tool for Collection {
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
         let (scene, origin) = (bench.plain_scene_view(), bench.origin());
         let items = bench.library_view.shared_items();
-        let view = self.view(&items, &scene, &bench.transient.selection);
+        let view = self.view(&items, &scene, &bench.transient.library_selection);
         if view.entries.iter().all(|one| one.figures.is_none()) {
             return Err(
                 "There is nothing to export yet: the library is measured while the Collection \

@@ -46,7 +46,7 @@ fn measure(window: &mut Headless, n_measured: u64) {
 fn shown<T>(window: &mut Headless, of: impl Fn(&Entry<'_>) -> T) -> Vec<T> {
     let scene = window.workbench.bench.scene_view();
     let items = window.workbench.bench.library_view.shared_items();
-    let selection = &window.workbench.bench.transient.selection;
+    let selection = &window.workbench.bench.transient.library_selection;
     let collection: &Collection = window.workbench.tools.get().unwrap();
     let view = collection.view(&items, &scene, selection);
     view.entries.iter().map(of).collect()
@@ -228,7 +228,7 @@ fn what_is_selected_joins_toggles_and_is_marked_in_the_library() {
         ),
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
     ] {
-        let selection = &mut window.workbench.bench.transient.selection;
+        let selection = &mut window.workbench.bench.transient.library_selection;
         selection.select(chosen, joining);
         assert_eq!(
             window.workbench.selected_textiles(),

@@ -52,7 +52,7 @@ fn without_a_map_the_entry_says_how_to_show_one() {
 fn the_collection_holds_the_levels_of_every_textile() {
     let mut desk = Headless::collected(4);
     let chosen = vec!["silk-crepe".to_owned()];
-    let selection = &mut desk.workbench.bench.transient.selection;
+    let selection = &mut desk.workbench.bench.transient.library_selection;
     selection.select(chosen, Joining::Alone);
     let exported = desk.exported(Exportable::Pane(Pane::Collection));
     let table = table_of(&exported);
