@@ -34,6 +34,7 @@ pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
+pub(crate) mod session;
 pub(crate) mod settings;
 pub(crate) mod signals;
 pub(crate) mod sources;
@@ -53,6 +54,7 @@ use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
 use crate::bench::recording::Take;
 use crate::bench::rendering::Rendering;
+use crate::bench::session::SessionInSight;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
 use crate::bench::transient::Transient;
 use crate::bench::view::{LibraryDot, Marks, SceneView};
@@ -61,7 +63,7 @@ use crate::tools::workspace::state::WorkspaceState;
 use crate::tools::workspace::trail::Trail;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
-use selvedge_engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
+use selvedge_engine::{Command, Engine, EngineConfig, Recording, StopSwitch, TICK};
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
@@ -107,6 +109,12 @@ pub(crate) struct Bench {
     pub(crate) is_stepped: bool,
     /// The exploration that can be replayed.
     pub(crate) take: Option<Take>,
+    /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
+    pub(crate) ended_recording: Option<Recording>,
+    /// The session of an experiment that is active.
+    pub(crate) session: Option<SessionInSight>,
+    /// Whether a participant's view has a window of its own.
+    pub(crate) has_participants_window: bool,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
     pub(crate) loaded: LoadedScene,
     /// The serial number of that scene.
@@ -189,6 +197,9 @@ impl Bench {
             is_stepped,
             engine,
             take: None,
+            ended_recording: None,
+            session: None,
+            has_participants_window: false,
             scene_serial,
             rendering: opened.rendering,
             preparing: Preparing::new(opened.cache, opened.rendering),

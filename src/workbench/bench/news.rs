@@ -28,7 +28,6 @@ impl Bench {
         self.poll_prepared(ctx);
         self.transient.comparison.poll();
         self.transient.picturing.poll();
-        self.transient.analysing.poll();
         self.take_notices();
         self.take_snapshot(ctx);
         self.take_recording();

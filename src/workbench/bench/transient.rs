@@ -16,8 +16,6 @@ use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::view::{BridgeView, Hovered, Live};
 use crate::tools::accuracy::AccuracyWatch;
-use crate::tools::analysis::Analysing;
-use crate::tools::analysis::view::section::Looks as AnalysisLooks;
 use crate::tools::bridge::actuators::PlantPeek;
 use crate::tools::bridge::fault_bench::FaultBench;
 use crate::tools::bridge::ports::Ports;
@@ -90,10 +88,6 @@ pub(crate) struct Transient {
     pub comparison: Comparison,
     /// Experiments and the session that is held.
     pub experiment: Experiment,
-    /// Logs that are analysed.
-    pub analysing: Analysing,
-    /// Tables and figures of an analysis as they are laid out.
-    pub(crate) analysis_looks: AnalysisLooks,
     /// A picture of a cloth on its way to a textile.
     pub(crate) picturing: Picturing,
     /// Its stages as textures.

@@ -1,6 +1,8 @@
 //! The space around what a pane shows.
 
-use eframe::egui::{Frame, Margin, ScrollArea, Ui};
+use eframe::egui::{Frame, Margin, Rect, ScrollArea, Ui, UiBuilder};
+
+use crate::kit::theme::STEP;
 
 /// A pane with space around it.
 pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
@@ -19,4 +21,24 @@ pub(crate) fn scrolled(ui: &mut Ui, pane: &str, content: impl FnOnce(&mut Ui)) {
         .id_salt(("pane", pane))
         .auto_shrink(false);
     area.show(ui, |ui| framed(ui, 12, content));
+}
+
+/// A part of a pane.
+pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
+    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
+    child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
+    content(&mut child);
+}
+
+/// A column of fields that may be longer than it is high.
+pub(crate) fn scrolled_column(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
+    ScrollArea::vertical()
+        .id_salt(id)
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = STEP;
+            // Room for the edge of a field that is asked for.
+            let margin = Margin::symmetric(4, 0);
+            Frame::new().inner_margin(margin).show(ui, content);
+        });
 }

@@ -6,6 +6,7 @@ use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
 use crate::bench::job::{Job, Polled};
+use crate::bench::tool::Tool;
 use crate::shell::window::Workbench;
 
 /// What a job ends with: a table to be copied, or nothing where a file was written.
@@ -63,12 +64,16 @@ impl Workbench {
             )
         };
         let (folder, kind) = last.unwrap_or_else(beside);
-        let figure = self.bench.transient.analysing.figure();
-        match figure.filter(|_| what == Exportable::Analysed) {
-            Some((section, drawn)) => {
-                let ending = kind.ending();
-                folder.join(format!("{}-{}.{ending}", section.key, drawn.key))
+        let own = match what {
+            Exportable::Pane(pane) => {
+                let mut tools = self.tools.iter();
+                let tool = tools.find(|tool| tool.panes().contains(&pane));
+                tool.and_then(Tool::export_name)
             }
+            Exportable::Timeline => None,
+        };
+        match own {
+            Some(name) => folder.join(format!("{name}.{}", kind.ending())),
             None => folder.join(what.file_name(kind)),
         }
     }

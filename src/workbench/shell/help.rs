@@ -97,7 +97,6 @@ fn kind(command: &Command) -> &'static str {
         | Command::Compare(_)
         | Command::Collection(_)
         | Command::Experiment(_)
-        | Command::Analysis(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => "View",
     }

@@ -24,5 +24,8 @@ use crate::bench::tool::Tool;
 
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
-    vec![Box::new(import::Import::default())]
+    vec![
+        Box::new(import::Import::default()),
+        Box::new(analysis::Analysis::default()),
+    ]
 }

@@ -23,7 +23,6 @@ use crate::bench::probe::Probe;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::accuracy::AccuracyCommand;
-use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::collection::CollectionCommand;
 use crate::tools::compare::choice::Choice;
 use crate::tools::experiment::command::ExperimentCommand;
@@ -70,8 +69,6 @@ pub(crate) enum Command {
     Lab(LabCommand),
     /// Run an experiment.
     Experiment(ExperimentCommand),
-    /// Analyse the logs of experiments.
-    Analysis(AnalysisCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.

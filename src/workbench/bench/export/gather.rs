@@ -23,7 +23,6 @@ type Gather = fn(&mut Bench) -> Result<Exported, &'static str>;
 fn gather_of(what: Exportable) -> Option<Gather> {
     let pane = match what {
         Exportable::Timeline => return Some(Bench::gather_timeline),
-        Exportable::Analysed => return Some(Bench::gather_analysed),
         Exportable::Pane(pane) => pane,
     };
     match pane {
@@ -327,14 +326,6 @@ impl Bench {
         let found = self.transient.picturing.found();
         let exported = found.and_then(|found| crate::tools::picture::export::directions(found));
         exported.ok_or("There is nothing to export yet: open a picture in the Picture pane")
-    }
-
-    fn gather_analysed(&mut self) -> Result<Exported, &'static str> {
-        let analysing = &self.transient.analysing;
-        let found = analysing.found().zip(analysing.figure());
-        let (found, (_, drawn)) =
-            found.ok_or("There is nothing to export yet: analyse sessions in the Analysis pane")?;
-        Ok(crate::tools::analysis::export::figure(found, drawn))
     }
 
     /// The scene as panes draw it, without a look at pictures.

@@ -50,8 +50,6 @@ pub(crate) enum Exportable {
     Pane(Pane),
     /// The strips at the bottom.
     Timeline,
-    /// A figure of the section of an analysis that is at hand.
-    Analysed,
 }
 
 impl Exportable {
@@ -63,7 +61,6 @@ impl Exportable {
             Self::Pane(Pane::Bridge) => "Times on the link",
             Self::Pane(pane) => pane.title(),
             Self::Timeline => "Timeline",
-            Self::Analysed => "Analysis",
         }
     }
 

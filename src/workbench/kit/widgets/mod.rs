@@ -6,6 +6,7 @@
 pub(crate) mod axis;
 pub(crate) mod bar;
 pub(crate) mod card;
+pub(crate) mod fields;
 pub(crate) mod fold;
 pub(crate) mod limit_mark;
 pub(crate) mod list;

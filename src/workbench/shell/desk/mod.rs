@@ -94,8 +94,7 @@ impl Desk<'_> {
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
             Pane::Participant => self.show_participant(ui),
             Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
-            Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            Pane::Import => {}
+            Pane::Import | Pane::Analysis => {}
         }
     }
 

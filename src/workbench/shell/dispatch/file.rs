@@ -9,7 +9,6 @@ use crate::bench::opening::Origin;
 use crate::shell::ask::Ask;
 use crate::shell::state::After;
 use crate::shell::window::Workbench;
-use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::form::Chosen;
 use crate::tools::picture::PictureCommand;
@@ -53,9 +52,11 @@ impl Workbench {
             Purpose::Clip(kind) => bench.write_clip_to(kind, &path),
             Purpose::OpenPicture => bench.commands.push(PictureCommand::Open(path).into()),
             Purpose::OpenDesign => bench.commands.push(ExperimentCommand::Open(path).into()),
-            Purpose::OpenLogs => bench.commands.push(AnalysisCommand::Open(path).into()),
-            Purpose::WriteReport => bench.commands.push(AnalysisCommand::Write(path).into()),
-            Purpose::SaveScene | Purpose::Export(_) | Purpose::ImportFiles => {}
+            Purpose::SaveScene
+            | Purpose::Export(_)
+            | Purpose::ImportFiles
+            | Purpose::OpenLogs
+            | Purpose::WriteReport => {}
         }
     }
 
@@ -90,13 +91,11 @@ impl Workbench {
                 Chosen::File(path) => Some(path.clone()),
                 Chosen::Shipped(_) => None,
             },
-            Purpose::OpenLogs => bench.transient.analysing.fields.folder(),
-            Purpose::WriteReport => bench.transient.analysing.report_folder(),
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = bench.take.as_ref()?;
                 take.file().map(Path::to_owned)
             }
-            Purpose::ImportFiles => None,
+            Purpose::ImportFiles | Purpose::OpenLogs | Purpose::WriteReport => None,
         }
     }
 

@@ -73,7 +73,6 @@ fn leaves_session(command: &Command) -> bool {
         Command::AllOff
         | Command::Device(_)
         | Command::Experiment(_)
-        | Command::Analysis(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => true,
         Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
@@ -114,7 +113,6 @@ impl Bench {
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
             Command::Experiment(command) => self.dispatch_experiment(ctx, command),
-            Command::Analysis(command) => self.dispatch_analysis(ctx, command),
             Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.transient.notices.dismiss(number),
             // Windows and tools have done these.
@@ -145,11 +143,6 @@ impl Bench {
             Chosen::Mute => ShowCommand::Mute(part).into(),
             Chosen::Solo => ShowCommand::Solo(part).into(),
         });
-    }
-
-    /// Whether a session of an experiment is under way.
-    pub(crate) fn has_session(&self) -> bool {
-        self.transient.experiment.is_held()
     }
 
     /// Tells the engine what is wanted of it.

@@ -1,7 +1,7 @@
 //! Logs of experiments that are analysed in the window: a folder, a few choices, what was found.
 //!
 //! ```text
-//! folder, choices ─▶ Asked ─▶ find_out (a thread) ─▶ Findings ─┬▶ pane ─▶ Wanted ─▶ Pictures
+//! folder, choices ─▶ Asked ─▶ find_out (a thread) ─▶ Findings ─┬▶ view ─▶ Wanted ─▶ Pictures
 //!                                                              └▶ files (a thread)
 //! ```
 //!
@@ -11,48 +11,43 @@
 //! - who takes part in a session that is being held is left out unless that is asked for
 
 pub(crate) mod asked;
-pub(crate) mod command;
-pub(crate) mod dispatch;
-pub(crate) mod export;
 pub(crate) mod findings;
-pub(crate) mod pane;
 pub(crate) mod pictures;
 #[cfg(test)]
 mod tests;
 pub(crate) mod view;
 
-pub(crate) use crate::tools::analysis::asked::Asked;
-pub(crate) use crate::tools::analysis::asked::Choice;
-#[cfg(test)]
-pub(crate) use crate::tools::analysis::asked::Effort;
-pub(crate) use crate::tools::analysis::asked::Fields;
-#[cfg(test)]
-pub(crate) use crate::tools::analysis::command::AnalysisCommand;
-pub(crate) use crate::tools::analysis::findings::Findings;
-pub(crate) use crate::tools::analysis::findings::find_out;
-pub(crate) use crate::tools::analysis::pictures::Pictures;
-pub(crate) use crate::tools::analysis::pictures::Wanted;
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui;
+use eframe::egui::{self, Ui};
 
+use crate::bench::Bench;
+use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
+use crate::bench::export::{Exportable, Exported};
 use crate::bench::follower::Follower;
+use crate::bench::pane::Pane;
 use crate::bench::task::{Task, taken};
-use selvedge_experiment::analysis::{Drawn, Section, Table};
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use crate::tools::analysis::asked::{Asked, Choice, Fields};
+use crate::tools::analysis::findings::{Findings, find_out};
+use crate::tools::analysis::pictures::{Pictures, Wanted};
+use crate::tools::analysis::view::section::Looks;
+use selvedge_experiment::analysis::{Drawn, Section};
+use selvedge_foundation::progress::Progress;
 
-/// What the window knows of analyses: neither saved nor undoable.
+/// Analyses: what is asked for, and what was found last. Neither saved nor undoable.
 #[derive(Default)]
-pub(crate) struct Analysing {
+pub(crate) struct Analysis {
     /// What is typed.
-    pub fields: Fields,
+    fields: Fields,
     /// What is chosen.
-    pub choice: Choice,
+    choice: Choice,
     /// The figure of the section at hand that is being saved.
-    pub(crate) saved_figure: usize,
+    saved_figure: usize,
     /// Whether results are shown although a session is held.
-    pub(crate) is_uncovered: bool,
+    is_uncovered: bool,
     /// The folder that was offered last.
     offered: PathBuf,
     section: usize,
@@ -62,38 +57,11 @@ pub(crate) struct Analysing {
     writing: Option<Task<PathBuf>>,
     written: Option<Result<PathBuf, String>>,
     pictures: Follower<Pictures>,
+    /// Tables and figures of the section at hand as they are laid out.
+    looks: Looks,
 }
 
-/// An analysis as the pane draws it.
-#[derive(Debug, Clone)]
-pub(crate) struct AnalysisView<'a> {
-    /// What was found last.
-    pub found: Option<&'a Arc<Findings>>,
-    /// The section at hand.
-    pub section: usize,
-    /// What is chosen for the next one.
-    pub choice: &'a Choice,
-    /// How far the one under way is, 0…1.
-    pub share: Option<f32>,
-    /// Why none can begin.
-    pub refusal: Option<&'static str>,
-    /// Why the last one failed.
-    pub failure: Option<&'a str>,
-    /// Whether something else is asked for than was found.
-    pub(crate) is_past: bool,
-    /// How far writing is, 0…1.
-    pub writing: Option<f32>,
-    /// Where it was written last, or why it was not.
-    pub written: Option<Result<&'a Path, &'a str>>,
-    /// Who takes part in the session that is held in this window.
-    pub held: Option<&'a str>,
-    /// Whether results are hidden, since a participant may see them.
-    pub is_covered: bool,
-    /// The figures of a section as they were drawn last.
-    pub pictures: Option<&'a Arc<Pictures>>,
-}
-
-impl Analysing {
+impl Analysis {
     /// What is asked for; `None` while something is missing.
     pub(crate) fn asked(&self) -> Option<Asked> {
         Some(Asked {
@@ -111,19 +79,9 @@ impl Analysing {
         (!is_seed).then_some("The seed is a whole number from 0 on")
     }
 
-    /// The last result.
-    pub(crate) fn found(&self) -> Option<&Arc<Findings>> {
-        self.found.as_ref()
-    }
-
     /// The section at hand.
     pub(crate) fn section(&self) -> Option<&Section> {
         self.found.as_ref()?.analysis.sections.get(self.section)
-    }
-
-    /// A table of the section at hand.
-    pub(crate) fn table(&self, nth: usize) -> Option<&Table> {
-        self.section()?.tables.get(nth)
     }
 
     /// The figure of the section at hand that is being saved.
@@ -138,11 +96,6 @@ impl Analysing {
         self.pictures.n_begun()
     }
 
-    /// Shows a section.
-    pub(crate) fn select(&mut self, section: usize) {
-        self.section = section;
-    }
-
     /// Offers a folder where none is typed; the same folder is offered once.
     pub(crate) fn offer(&mut self, folder: Option<&Path>) {
         let Some(folder) = folder.filter(|folder| *folder != self.offered) else {
@@ -154,18 +107,20 @@ impl Analysing {
         folder.clone_into(&mut self.offered);
     }
 
-    /// Begins the analysis that is asked for, unless one is under way. `held` is the log of the
-    /// session that this window holds.
-    pub(crate) fn begin(&mut self, ctx: &egui::Context, is_at_once: bool, held: Option<PathBuf>) {
+    /// Begins the analysis that is asked for, unless one is under way.
+    pub(crate) fn begin(&mut self, bench: &Bench) {
+        let active = bench.session.as_ref().map(|session| session.log.clone());
+        self.begin_with(&bench.ctx, bench.is_stepped, active);
+    }
+
+    /// The same; `active` is the log of the session that is active in this window.
+    fn begin_with(&mut self, ctx: &egui::Context, is_at_once: bool, active: Option<PathBuf>) {
         let Some(asked) = self.asked().filter(|_| self.task.is_none()) else {
             return;
         };
         self.failure = None;
-        let work = move |progress: &mut selvedge_foundation::progress::Progress<'_>| {
-            find_out(asked, held.as_deref(), progress)
-        };
-        let name = ("selvedge-analysis", ctx);
-        self.task = Some(Task::start(name, is_at_once, work));
+        let work = move |progress: &mut Progress<'_>| find_out(asked, active.as_deref(), progress);
+        self.task = Some(Task::start(("selvedge-analysis", ctx), is_at_once, work));
         ctx.request_repaint();
     }
 
@@ -176,20 +131,54 @@ impl Analysing {
         }
     }
 
-    /// Where a report goes unless another folder is chosen.
-    pub(crate) fn report_folder(&self) -> Option<PathBuf> {
-        Some(self.found.as_ref()?.report_folder())
+    /// Analyses the logs in a folder, and shows what is found.
+    pub(crate) fn open(&mut self, folder: &Path, bench: &mut Bench) {
+        self.fields.folder = folder.display().to_string();
+        let reveal = ShowCommand::Reveal(Pane::Analysis);
+        bench.commands.push(reveal.into());
+        self.begin(bench);
     }
 
     /// Writes the report of the last result into a folder.
-    pub(crate) fn write(&mut self, ctx: &egui::Context, is_at_once: bool, folder: PathBuf) {
+    pub(crate) fn write(&mut self, folder: PathBuf, bench: &Bench) {
         let Some(found) = self.found.clone().filter(|_| self.writing.is_none()) else {
             return;
         };
         self.written = None;
-        let work = move |_: &mut selvedge_foundation::progress::Progress<'_>| found.write(folder);
-        self.writing = Some(Task::start(("selvedge-report", ctx), is_at_once, work));
-        ctx.request_repaint();
+        let work = move |_: &mut Progress<'_>| found.write(folder);
+        let name = ("selvedge-report", &bench.ctx);
+        self.writing = Some(Task::start(name, bench.is_stepped, work));
+        bench.ctx.request_repaint();
+    }
+
+    /// Shows the folder of the report in the desktop's file manager.
+    fn show_report(&self, bench: &mut Bench) {
+        if let Some(Ok(folder)) = &self.written {
+            bench.transient.folders.open(&bench.ctx, folder);
+        }
+    }
+
+    /// Asks where a figure of the section at hand is saved.
+    fn save_figure(&mut self, nth: usize, context: &mut PaneContext<'_>) {
+        self.saved_figure = nth;
+        let purpose = Purpose::Export(Exportable::Pane(Pane::Analysis));
+        context.commands.push(FileCommand::Ask(purpose).into());
+    }
+
+    /// Whether something else is asked for than was found.
+    fn is_past(&self) -> bool {
+        let found = self.found.as_ref();
+        found.is_some_and(|found| self.asked().as_ref() != Some(&found.asked))
+    }
+
+    /// How far the analysis under way is, 0…1.
+    fn share(&self) -> Option<f32> {
+        self.task.as_ref().map(Task::share)
+    }
+
+    /// Whether results are hidden, since a participant may see them.
+    fn is_covered(&self, bench: &Bench) -> bool {
+        bench.has_session() && !self.is_uncovered
     }
 
     /// Takes what threads have found, written and drawn. To be called every frame.
@@ -216,43 +205,79 @@ impl Analysing {
         self.written = None;
     }
 
-    /// Has figures drawn as they are wanted: to be called while they are in sight.
-    pub(crate) fn draw(&mut self, ctx: &egui::Context, is_at_once: bool, wanted: Wanted) {
-        let before = self.pictures.n_begun();
-        self.pictures.follow(ctx, is_at_once, wanted);
-        if is_at_once && self.pictures.n_begun() > before {
-            ctx.request_repaint();
+    /// Follows the session that is active in this window: results are covered anew with the next
+    /// one, and its folder is offered.
+    fn follow_session(&mut self, bench: &Bench) {
+        if let Some(session) = &bench.session {
+            self.offer(session.log.parent());
+            return;
         }
+        self.is_uncovered = false;
+        let folder = bench.settings.preferences.sessions_folder.as_deref();
+        self.offer(Some(Path::new(folder.unwrap_or_default())));
     }
 
-    /// Who is left out of the next analysis and what is covered follow from the session that is
-    /// held in this window, if one is: who takes part.
-    pub(crate) fn view<'a>(&'a self, held: Option<&'a str>) -> AnalysisView<'a> {
-        let found = self.found.as_ref();
-        let is_past = found.is_some_and(|found| self.asked().as_ref() != Some(&found.asked));
-        AnalysisView {
-            found,
-            section: self.section,
-            choice: &self.choice,
-            share: self.task.as_ref().map(Task::share),
-            refusal: self.refusal(),
-            failure: self.failure.as_deref(),
-            is_past,
-            writing: self.writing.as_ref().map(Task::share),
-            written: self.written.as_ref().map(|written| match written {
-                Ok(folder) => Ok(folder.as_path()),
-                Err(line) => Err(line.as_str()),
-            }),
-            held,
-            is_covered: held.is_some() && !self.is_uncovered,
-            pictures: self.pictures.found(),
+    /// Has figures drawn as they are wanted.
+    fn draw(&mut self, bench: &Bench, wanted: Wanted) {
+        let before = self.pictures.n_begun();
+        self.pictures.follow(&bench.ctx, bench.is_stepped, wanted);
+        if bench.is_stepped && self.pictures.n_begun() > before {
+            bench.ctx.request_repaint();
         }
     }
 }
 
-impl std::fmt::Debug for Analysing {
+impl Tool for Analysis {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Analysis]
+    }
+
+    fn logic(&mut self, _bench: &mut Bench) {
+        self.poll();
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.follow_session(context.bench);
+        framed(ui, 10, |ui| {
+            if let Some(wanted) = view::show(ui, self, context) {
+                self.draw(context.bench, wanted);
+            }
+        });
+    }
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        match command {
+            Command::File(FileCommand::Use(Purpose::OpenLogs, folder)) => self.open(folder, bench),
+            Command::File(FileCommand::Use(Purpose::WriteReport, folder)) => {
+                self.write(folder.clone(), bench);
+            }
+            _ => {}
+        }
+    }
+
+    fn export(&mut self, _pane: Pane, _bench: &mut Bench) -> Result<Exported, &'static str> {
+        let found = self.found.as_ref().zip(self.figure());
+        let exported = found.map(|(found, (_, drawn))| found.exported(drawn));
+        exported.ok_or("There is nothing to export yet: analyse sessions in the Analysis pane")
+    }
+
+    fn export_name(&self) -> Option<String> {
+        let (section, drawn) = self.figure()?;
+        Some(format!("{}-{}", section.key, drawn.key))
+    }
+
+    fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
+        match purpose {
+            Purpose::OpenLogs => self.fields.folder(),
+            Purpose::WriteReport => Some(self.found.as_ref()?.report_folder()),
+            _ => None,
+        }
+    }
+}
+
+impl std::fmt::Debug for Analysis {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Analysing")
+        f.debug_struct("Analysis")
             .field("fields", &self.fields)
             .field("choice", &self.choice)
             .field("section", &self.section)

@@ -7,6 +7,7 @@ use eframe::egui;
 use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
+use crate::bench::session::SessionInSight;
 use crate::bench::task::taken;
 use crate::bench::view::Source;
 use crate::bench::{Bench, FRAME};
@@ -64,6 +65,10 @@ impl Bench {
     fn hold(&mut self, ctx: &egui::Context, begun: Begun) {
         let device = self.device_name();
         let held = Held::new(begun.session, begun.materials, device, self.began(ctx));
+        self.session = Some(SessionInSight {
+            pseudonym: held.subject.pseudonym.clone(),
+            log: held.log.clone(),
+        });
         self.transient.experiment.held = Some(Box::new(held));
         let source = self.transient.live.play.source;
         if matches!(source, Source::Stroke | Source::Recording) {
@@ -201,6 +206,7 @@ impl Bench {
     }
 
     fn leave_session(&mut self, ctx: &egui::Context) {
+        self.session = None;
         self.send(selvedge_engine::Command::Vibrate(Vec::new()));
         let mask = self.transient.mute_solo.contactor_mask(self.n_contactors());
         self.send(selvedge_engine::Command::SetContactorMask(mask));

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::bench::session::title_of;
 use crate::bench::task::Task;
 use crate::tools::experiment::noise::NOISE_FILE;
 use crate::tools::experiment::who::Who;
@@ -298,15 +299,6 @@ fn row(found: Found) -> Row {
         log: found.log,
         subject: found.subject,
         progress,
-    }
-}
-
-/// What people call a design.
-pub(crate) fn title_of(design: &Design) -> String {
-    if design.title.is_empty() {
-        design.experiment.clone()
-    } else {
-        design.title.clone()
     }
 }
 

@@ -8,7 +8,6 @@ use eframe::egui::{
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands};
-use crate::bench::pane::Pane;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::desk::Desk;
 use crate::shell::frame::frame_as_armed;
@@ -116,16 +115,6 @@ impl Bench {
             let window = Pointed::Participant;
             shown.inner.map(|ground| PointerGround { window, ..ground })
         })
-    }
-
-    /// Whether a pane would tell what a session must not.
-    pub(crate) fn is_veiled(&self, pane: Pane) -> bool {
-        // The analysis has a cover of its own.
-        let is_open = matches!(
-            pane,
-            Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
-        );
-        self.transient.experiment.is_held() && !is_open
     }
 }
 

@@ -3,9 +3,9 @@
 //! A participant's view holds numbers of places and the target's picture. No id, no level and no
 //! position of what is right is in it, nor in the experimenter's.
 
+use crate::bench::session::title_of;
 use crate::bench::view::{BridgePhase, BridgeView, ClothPicture, Live};
 use crate::tools::experiment::draft::Draft;
-use crate::tools::experiment::form::title_of;
 use crate::tools::experiment::held::Held;
 use crate::tools::experiment::now::{Now, Pause};
 use crate::tools::experiment::{Experiment, guide};

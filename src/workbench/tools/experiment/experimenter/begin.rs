@@ -3,12 +3,13 @@
 use eframe::egui::{ProgressBar, RichText, Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
+use crate::bench::session::title_of;
 use crate::kit::theme::{ROW, STEP};
+use crate::kit::widgets::fields::{Need, Tone, choose, note, row_of, text};
 use crate::kit::widgets::text::{button, choice, section};
 use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::{Chosen, Form, Row, title_of};
+use crate::tools::experiment::form::{Chosen, Form, Row};
 use crate::tools::experiment::who::Who;
-use crate::tools::import::view::fields::{Need, Tone, choose, note, row_of, text};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::{HANDS, SEXES};
 

@@ -9,13 +9,13 @@ use eframe::egui::{ProgressBar, RichText, Ui};
 use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, section};
 use crate::tools::experiment::ParticipantsWindow;
 use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::noise::NoiseView;
 use crate::tools::experiment::view::{ExperimenterView, TrialView};
-use crate::tools::import::view::fields::{Tone, note};
 
 /// What is typed in the pane.
 pub(crate) struct ExperimenterHands<'a> {

@@ -6,11 +6,11 @@ use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Need, Tone, note, row_of, text};
 use crate::kit::widgets::text::{button, mark, quiet_pair, section};
 use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::now::Pause;
 use crate::tools::experiment::view::{Course, HeldView, Link};
-use crate::tools::import::view::fields::{Need, Tone, note, row_of, text};
 use selvedge_foundation::quantity;
 
 pub(crate) fn show(

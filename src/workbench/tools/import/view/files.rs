@@ -7,10 +7,10 @@ use eframe::egui::{Align, Label, Layout, RichText, Stroke, StrokeKind, Ui, UiBui
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
 use crate::kit::widgets::text::{button, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::DraftFile;
-use crate::tools::import::view::fields::{LINE, Need, choose, step_title};
 use crate::tools::import::work::Found;
 use selvedge_textile::{KesPlace, Measurement, StrokeSide, TextileAxis};
 

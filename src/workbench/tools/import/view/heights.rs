@@ -3,11 +3,11 @@
 use eframe::egui::{Align, Layout, Ui, vec2};
 
 use crate::kit::theme::STEP;
+use crate::kit::widgets::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
 use crate::kit::widgets::text::toggle;
 use crate::tools::import::Import;
 use crate::tools::import::draft::HeightsDraft;
 use crate::tools::import::failure::Failure;
-use crate::tools::import::view::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
 use crate::tools::import::work::{Found, Heights};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::LengthUnit;

@@ -6,12 +6,10 @@ use crate::bench::Bench;
 use crate::bench::view::ShelfItem;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
 use crate::kit::widgets::text::{button, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
-use crate::tools::import::view::fields::{
-    LINE, Need, Tone, choose, note, row_of, step_title, text,
-};
 use crate::tools::import::work::Found;
 use selvedge_textile::{Construction, Measurement, known_figures, nth_id};
 

@@ -2,10 +2,10 @@
 
 use eframe::egui::Ui;
 
+use crate::kit::widgets::fields::{Need, Tone, choose_of, note, row, text};
 use crate::tools::import::Import;
 use crate::tools::import::draft::StrokesDraft;
 use crate::tools::import::failure::Failure;
-use crate::tools::import::view::fields::{Need, Tone, choose_of, note, row, text};
 use crate::tools::import::view::table;
 use crate::tools::import::work::{Found, Strokes};
 use selvedge_foundation::quantity::fixed;

@@ -4,7 +4,6 @@
 //! what was found.
 
 pub(crate) mod curves;
-pub(crate) mod fields;
 pub(crate) mod files;
 pub(crate) mod heights;
 pub(crate) mod keep;
@@ -13,18 +12,21 @@ pub(crate) mod meaning;
 pub(crate) mod section;
 pub(crate) mod table;
 
-use eframe::egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+use eframe::egui::{RichText, Ui, vec2};
 
 use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Tone, note, step_title};
 use crate::tools::import::Import;
 use crate::tools::import::failure::{Failure, Step};
-use crate::tools::import::view::fields::{show_failure, step_title};
 use crate::tools::import::work::{Body, Found};
 use selvedge_textile::Measurement;
+
+pub(crate) use crate::kit::pane::{inside, scrolled_column as scrolled};
+pub(crate) use crate::kit::widgets::fields;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;
@@ -86,26 +88,6 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
         importing.forget_after(&before);
         ui.ctx().request_repaint();
     }
-}
-
-pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
-    child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
-    content(&mut child);
-}
-
-pub(crate) fn scrolled(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical()
-        .id_salt(id)
-        .auto_shrink(false)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = STEP;
-            // Room for the edge of a field that is asked for.
-            let margin = eframe::egui::Margin::symmetric(4, 0);
-            eframe::egui::Frame::new()
-                .inner_margin(margin)
-                .show(ui, content);
-        });
 }
 
 /// Files, and what they mean.
@@ -173,4 +155,12 @@ fn show_look(ui: &mut Ui, importing: &mut Import, colours: ColourMap) {
             ui.label(RichText::new(words).color(palette.dim));
         }
     }
+}
+
+/// The line that says what is wrong at a step, if something is.
+pub(crate) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
+    let Some(failure) = failure.filter(|failure| failure.step == step) else {
+        return;
+    };
+    note(ui, &failure.line, Tone::Wrong);
 }

@@ -1,4 +1,4 @@
-//! Fields of the pane: a name on the left, what is typed or chosen on the right.
+//! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
 
 use eframe::egui::{
     self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,
@@ -6,7 +6,6 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::import::failure::{Failure, Step};
 
 /// Height of a row, points.
 pub(crate) const LINE: f32 = 22.0;
@@ -51,14 +50,6 @@ pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
         let state = RichText::new(state).font(theme::small()).color(palette.dim);
         ui.add(Label::new(state).truncate());
     });
-}
-
-/// The line that says what is wrong at a step, if something is.
-pub(crate) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
-    let Some(failure) = failure.filter(|failure| failure.step == step) else {
-        return;
-    };
-    note(ui, &failure.line, Tone::Wrong);
 }
 
 /// How much a line matters.
