@@ -236,8 +236,6 @@ impl Bench {
         self.workspace.greys_below = kept.greys_below;
         self.workspace.overlays = kept.overlays;
         self.workspace.true_pixels_per_mm = kept.pixels_per_mm;
-        let form = &mut self.transient.experiment.form;
-        form.take_up(kept.sessions_folder.as_deref(), kept.design.as_deref());
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
         self.send(Command::SampleTicks(true));

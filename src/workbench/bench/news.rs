@@ -30,8 +30,7 @@ impl Bench {
         self.transient.picturing.poll();
         self.take_notices();
         self.take_snapshot(ctx);
-        self.take_recording();
-        self.poll_experiment(ctx);
+        self.ended_recording = self.engine.take_recording();
         self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
@@ -64,9 +63,6 @@ impl Bench {
         }
         let snapshot = self.engine.snapshot();
         let transient = &mut self.transient;
-        if let Some(held) = &mut transient.experiment.held {
-            held.vibration = snapshot.vibration;
-        }
         let status = snapshot.link.and_then(|link| link.status);
         let is_lost = snapshot
             .link
@@ -128,8 +124,5 @@ impl Bench {
         kept.greys_below = self.workspace.greys_below;
         kept.overlays = self.workspace.overlays;
         kept.pixels_per_mm = self.workspace.true_pixels_per_mm;
-        let form = &self.transient.experiment.form;
-        kept.sessions_folder = form.kept_folder();
-        kept.design = form.chosen.word();
     }
 }

@@ -21,7 +21,6 @@ use crate::tools::bridge::fault_bench::FaultBench;
 use crate::tools::bridge::ports::Ports;
 use crate::tools::collection::Collection;
 use crate::tools::compare::Comparison;
-use crate::tools::experiment::Experiment;
 use crate::tools::lab::Lab;
 use crate::tools::lab::view::pictures::LabPictures;
 use crate::tools::picture::Picturing;
@@ -86,8 +85,6 @@ pub(crate) struct Transient {
     pub collection: Collection,
     /// What is compared, and what came of it.
     pub comparison: Comparison,
-    /// Experiments and the session that is held.
-    pub experiment: Experiment,
     /// A picture of a cloth on its way to a textile.
     pub(crate) picturing: Picturing,
     /// Its stages as textures.

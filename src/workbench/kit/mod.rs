@@ -3,6 +3,7 @@
 //! Knows nothing of scenes, engines or tools.
 
 pub(crate) mod pane;
+pub(crate) mod part;
 pub(crate) mod plot;
 pub(crate) mod spectrogram;
 pub(crate) mod swatch;

@@ -1,8 +1,13 @@
-//! The space around what a pane shows.
+//! The space around what a pane shows, and the frame around a whole window.
 
-use eframe::egui::{Frame, Margin, Rect, ScrollArea, Ui, UiBuilder};
+use eframe::egui::{
+    Context, Frame, Id, LayerId, Margin, Order, ScrollArea, Stroke, StrokeKind, Ui,
+};
 
-use crate::kit::theme::STEP;
+use crate::kit::theme::Palette;
+
+/// Width of the frame around the window of an armed device, points.
+const ARMED_FRAME: f32 = 5.0;
 
 /// A pane with space around it.
 pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
@@ -23,22 +28,12 @@ pub(crate) fn scrolled(ui: &mut Ui, pane: &str, content: impl FnOnce(&mut Ui)) {
     area.show(ui, |ui| framed(ui, 12, content));
 }
 
-/// A part of a pane.
-pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
-    child.set_clip_rect(rect.expand(4.0).intersect(ui.clip_rect()));
-    content(&mut child);
-}
-
-/// A column of fields that may be longer than it is high.
-pub(crate) fn scrolled_column(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical()
-        .id_salt(id)
-        .auto_shrink(false)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = STEP;
-            // Room for the edge of a field that is asked for.
-            let margin = Margin::symmetric(4, 0);
-            Frame::new().inner_margin(margin).show(ui, content);
-        });
+/// Frames the whole window in red while high voltage is on: to be seen from across the room,
+/// whatever pane is in front.
+pub(crate) fn frame_as_armed(ctx: &Context) {
+    let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
+    let palette = Palette::of(ctx.theme());
+    let stroke = Stroke::new(ARMED_FRAME, palette.danger);
+    let painter = ctx.layer_painter(layer);
+    painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
 }

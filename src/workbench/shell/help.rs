@@ -96,7 +96,6 @@ fn kind(command: &Command) -> &'static str {
         | Command::Accuracy(_)
         | Command::Compare(_)
         | Command::Collection(_)
-        | Command::Experiment(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => "View",
     }

@@ -26,6 +26,7 @@ use crate::bench::tool::Tool;
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
     vec![
         Box::new(import::Import::default()),
+        Box::new(experiment::Experiment::default()),
         Box::new(analysis::Analysis::default()),
     ]
 }

@@ -25,7 +25,6 @@ use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::accuracy::AccuracyCommand;
 use crate::tools::collection::CollectionCommand;
 use crate::tools::compare::choice::Choice;
-use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::lab::command::LabCommand;
 use crate::tools::picture::PictureCommand;
 use crate::tools::workspace::overlay::Overlay;
@@ -67,8 +66,6 @@ pub(crate) enum Command {
     Keep(Keep),
     /// Do something in the textile lab.
     Lab(LabCommand),
-    /// Run an experiment.
-    Experiment(ExperimentCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.

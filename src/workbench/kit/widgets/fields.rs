@@ -1,4 +1,4 @@
-//! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
+//! Fields of the pane: a name on the left, what is typed or chosen on the right.
 
 use eframe::egui::{
     self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,

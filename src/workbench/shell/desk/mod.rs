@@ -16,7 +16,7 @@ use crate::bench::tool::{PaneContext, Tools};
 use crate::bench::view::Source;
 use crate::kit::pane::{framed, scrolled};
 use crate::kit::theme;
-use crate::kit::theme::Palette;
+use crate::kit::theme::{Palette, STEP};
 use crate::shell::tab_row::TabRow;
 use crate::tools::collection::measuring::Asked;
 use crate::tools::collection::view::Typed as CollectionTyped;
@@ -46,7 +46,7 @@ impl Desk<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
         self.n_drawn[pane.index()] += 1;
         if self.context.bench.is_veiled(pane) {
-            return framed(ui, 10, crate::tools::experiment::experimenter::show_veil);
+            return framed(ui, 10, show_veil);
         }
         if let Some(tool) = self.tools.showing(pane) {
             return tool.ui(pane, ui, &mut self.context);
@@ -92,9 +92,7 @@ impl Desk<'_> {
             Pane::Collection => framed(ui, 10, |ui| self.show_collection(ui)),
             Pane::Lab => framed(ui, 10, |ui| self.show_lab(ui)),
             Pane::Picture => framed(ui, 10, |ui| self.show_picture(ui)),
-            Pane::Participant => self.show_participant(ui),
-            Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
-            Pane::Import | Pane::Analysis => {}
+            Pane::Import | Pane::Participant | Pane::Experimenter | Pane::Analysis => {}
         }
     }
 
@@ -149,6 +147,14 @@ impl Desk<'_> {
             self.context.commands,
         );
     }
+}
+
+/// What stands in the place of a pane that would tell too much.
+fn show_veil(ui: &mut Ui) {
+    let words = "Hidden while a session is held: what lies under the finger is not to be seen.";
+    let ink = Palette::in_ui(ui).dim;
+    ui.add_space(2.0 * STEP);
+    ui.add(egui::Label::new(egui::RichText::new(words).color(ink)).wrap());
 }
 
 /// The plots of the contactor that is looked at closer.

@@ -9,8 +9,6 @@ use crate::bench::opening::Origin;
 use crate::shell::ask::Ask;
 use crate::shell::state::After;
 use crate::shell::window::Workbench;
-use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::Chosen;
 use crate::tools::picture::PictureCommand;
 
 impl Workbench {
@@ -51,10 +49,10 @@ impl Workbench {
             Purpose::SaveRecording => bench.save_recording(path),
             Purpose::Clip(kind) => bench.write_clip_to(kind, &path),
             Purpose::OpenPicture => bench.commands.push(PictureCommand::Open(path).into()),
-            Purpose::OpenDesign => bench.commands.push(ExperimentCommand::Open(path).into()),
             Purpose::SaveScene
             | Purpose::Export(_)
             | Purpose::ImportFiles
+            | Purpose::OpenDesign
             | Purpose::OpenLogs
             | Purpose::WriteReport => {}
         }
@@ -87,15 +85,14 @@ impl Workbench {
                 let chosen = bench.transient.picturing.draft.source.as_ref();
                 chosen.map(|chosen| chosen.file().path().to_owned())
             }
-            Purpose::OpenDesign => match &bench.transient.experiment.form.chosen {
-                Chosen::File(path) => Some(path.clone()),
-                Chosen::Shipped(_) => None,
-            },
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = bench.take.as_ref()?;
                 take.file().map(Path::to_owned)
             }
-            Purpose::ImportFiles | Purpose::OpenLogs | Purpose::WriteReport => None,
+            Purpose::ImportFiles
+            | Purpose::OpenDesign
+            | Purpose::OpenLogs
+            | Purpose::WriteReport => None,
         }
     }
 

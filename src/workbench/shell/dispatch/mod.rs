@@ -70,11 +70,7 @@ impl Workbench {
 /// Whether a command leaves what is felt to the session.
 fn leaves_session(command: &Command) -> bool {
     match command {
-        Command::AllOff
-        | Command::Device(_)
-        | Command::Experiment(_)
-        | Command::Dismiss
-        | Command::DismissNotice(_) => true,
+        Command::AllOff | Command::Device(_) | Command::Dismiss | Command::DismissNotice(_) => true,
         Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
             matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
         }
@@ -112,7 +108,6 @@ impl Bench {
             Command::Picture(command) => self.dispatch_picture(command),
             Command::Keep(keep) => self.keep(ctx, keep),
             Command::Lab(command) => self.dispatch_lab(ctx, command),
-            Command::Experiment(command) => self.dispatch_experiment(ctx, command),
             Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.transient.notices.dismiss(number),
             // Windows and tools have done these.

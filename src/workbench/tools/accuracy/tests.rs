@@ -198,6 +198,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .send(selvedge_engine::Command::StopRecording)
         .unwrap();
     bench.engine.advance_ticks(1).unwrap();
+    bench.ended_recording = bench.engine.take_recording();
     bench.take_recording();
     bench.dispatch(AccuracyCommand::Measure.into());
     while bench.transient.accuracy.measuring.is_some() {

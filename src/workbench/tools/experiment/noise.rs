@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use crate::bench::task::Task;
+use crate::bench::Bench;
+use crate::bench::task::{Task, taken};
+use crate::tools::experiment::Experiment;
 use selvedge_experiment::MaskingNoise;
 use selvedge_foundation::progress::Progress;
 
@@ -31,8 +33,30 @@ impl NoiseView {
     }
 }
 
+impl Experiment {
+    /// Begins to write the noise into the folder of sessions.
+    pub(crate) fn write_noise(&mut self, bench: &Bench) {
+        if self.form.kept_folder().is_none() || self.noise.is_some() {
+            return;
+        }
+        let folder = self.form.folder();
+        let work = move |progress: &mut Progress<'_>| write_noise(&folder, progress);
+        let name = ("selvedge-noise", &bench.ctx);
+        self.noise = Some(Task::start(name, bench.is_stepped, work));
+    }
+
+    /// Takes what came of it.
+    pub(crate) fn poll_noise(&mut self, bench: &mut Bench) {
+        match taken(&mut self.noise) {
+            Some((Ok(()), _)) => self.form.has_noise = true,
+            Some((Err(line), _)) => bench.transient.notices.give(line),
+            None => {}
+        }
+    }
+}
+
 /// Writes the noise into a folder, which is made where it is missing.
-pub(crate) fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
+fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let folder = folder.display();
         format!("cannot make the folder {folder}: {error}; choose another")

@@ -9,11 +9,10 @@ use std::{fs, thread};
 use eframe::egui::vec2;
 
 use super::*;
+use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
 use crate::shell::headless::Headless;
 use crate::tools::analysis::asked::Effort;
-use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::Chosen;
 use selvedge_experiment::Simulation;
 use selvedge_experiment::analysis::analyse_folder;
 use selvedge_experiment::design::{Design, Subject};
@@ -293,14 +292,17 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     let mut window = window(&asked(&folder.0));
     open(&mut window, &folder.0);
     window.pass(3);
-    let form = &mut window.workbench.bench.transient.experiment.form;
-    form.choose(Chosen::Shipped("threshold-40"));
-    form.folder = folder.0.display().to_string();
-    form.who.pseudonym = "p07".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
-    window.pass(3);
-    assert!(window.workbench.bench.transient.experiment.is_held());
-    window.dispatch(ShowCommand::Pane(Pane::Analysis));
+    let subject = Subject {
+        pseudonym: "p07".to_owned(),
+        nth: 2,
+        session: 1,
+    };
+    let design = Design::shipped("threshold-40").unwrap();
+    let active = Session::create(&folder.0, design, subject, "none").unwrap();
+    window.workbench.bench.session = Some(SessionInSight {
+        pseudonym: "p07".to_owned(),
+        log: active.log().to_owned(),
+    });
     window.pass(2);
     assert!(is_covered(&window));
     analysis_mut(&mut window).is_uncovered = true;
@@ -314,8 +316,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
         (found.n_sessions, &found.left_out[..]),
         (2, &["p07".to_owned()][..])
     );
-    window.dispatch(ExperimentCommand::End);
+    window.workbench.bench.session = None;
     window.pass(3);
-    assert!(!window.workbench.bench.transient.experiment.is_held());
     assert!(!analysis(&window).is_uncovered, "the next one is covered");
 }

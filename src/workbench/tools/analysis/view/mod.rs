@@ -16,7 +16,7 @@ use std::sync::Arc;
 use eframe::egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use crate::bench::tool::PaneContext;
-use crate::kit::pane::{inside, scrolled_column};
+use crate::kit::part::{inside, scrolled};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
@@ -57,7 +57,7 @@ pub(crate) fn show(
         let hairline = (1.0, Palette::in_ui(ui).hairline);
         ui.painter().vline(left.right(), whole.y_range(), hairline);
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
-            scrolled_column(ui, "analysis-left", |ui| {
+            scrolled(ui, "analysis-left", |ui| {
                 form::show(ui, analysis, context);
                 outline::show(ui, sections, &mut analysis.section);
                 form::show_report(ui, analysis, context);

@@ -1,10 +1,9 @@
 //! The first step: which files, and what each of them holds.
 
-use std::path::PathBuf;
-
-use eframe::egui::{Align, Label, Layout, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
+use crate::kit::part::nothing_yet;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
@@ -42,48 +41,15 @@ const HOLDS: [(Option<KesPlace>, &str); 7] = {
     ]
 };
 
-/// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
-pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
-    let (dropped, is_hovered) = ui.input(|input| {
-        let paths = input
-            .raw
-            .dropped_files
-            .iter()
-            .map(|file| file.path().to_owned());
-        (
-            paths.collect::<Vec<_>>(),
-            !input.raw.hovered_files.is_empty(),
-        )
-    });
-    if is_hovered {
-        let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
-        ui.painter()
-            .rect_stroke(ui.max_rect(), 4, edge, StrokeKind::Inside);
-    }
-    dropped
-}
-
 /// What to do when there is nothing yet.
 pub(crate) fn show_empty(ui: &mut Ui, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
-    let whole = ui.available_rect_before_wrap();
-    let width = whole.width().min(520.0);
-    let room = eframe::egui::Rect::from_center_size(
-        whole.center(),
-        vec2(width, whole.height().min(280.0)),
-    );
-    let layout = Layout::top_down(Align::Min);
-    let mut child = ui.new_child(UiBuilder::new().max_rect(room).layout(layout));
-    let ui = &mut child;
-    ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-    ui.label(RichText::new("Import your own fabrics").font(theme::title()));
-    ui.label(RichText::new("Drop measurements here, or choose files.").color(palette.text));
-    if button(ui, "Choose files…", "", None) {
+    let words = [
+        "Import your own fabrics",
+        "Drop measurements here, or choose files.",
+        "Choose files…",
+    ];
+    if nothing_yet(ui, 280.0, words, EMPTY) {
         commands.push(FileCommand::Ask(Purpose::ImportFiles).into());
-    }
-    for words in EMPTY {
-        let words = RichText::new(words).font(theme::small()).color(palette.dim);
-        ui.add(Label::new(words).wrap());
     }
 }
 

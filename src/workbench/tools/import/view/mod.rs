@@ -17,6 +17,7 @@ use eframe::egui::{RichText, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::follower::Standing;
 use crate::bench::tool::PaneContext;
+use crate::kit::part::{dropped, inside, scrolled};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note, step_title};
@@ -24,9 +25,6 @@ use crate::tools::import::Import;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::work::{Body, Found};
 use selvedge_textile::Measurement;
-
-pub(crate) use crate::kit::pane::{inside, scrolled_column as scrolled};
-pub(crate) use crate::kit::widgets::fields;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;
@@ -38,7 +36,7 @@ const KEEP: f32 = 164.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    let dropped = files::dropped(ui);
+    let dropped = dropped(ui);
     if !dropped.is_empty() {
         importing.take_files(dropped, context.bench);
         ui.ctx().request_repaint();
@@ -121,6 +119,13 @@ fn failure_of<'a>(importing: &Import, found: Option<&'a Found>) -> Option<&'a Fa
         .and_then(|found| found.failure.as_ref())
 }
 
+/// The line that says what is wrong at a step, if something is.
+fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
+    if let Some(failure) = failure.filter(|failure| failure.step == step) {
+        note(ui, &failure.line, Tone::Wrong);
+    }
+}
+
 /// What was read, before anything is saved.
 fn show_look(ui: &mut Ui, importing: &mut Import, colours: ColourMap) {
     let standing = importing.standing();
@@ -155,12 +160,4 @@ fn show_look(ui: &mut Ui, importing: &mut Import, colours: ColourMap) {
             ui.label(RichText::new(words).color(palette.dim));
         }
     }
-}
-
-/// The line that says what is wrong at a step, if something is.
-pub(crate) fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
-    let Some(failure) = failure.filter(|failure| failure.step == step) else {
-        return;
-    };
-    note(ui, &failure.line, Tone::Wrong);
 }

@@ -4,8 +4,8 @@ use eframe::egui::{Button, Ui, vec2};
 
 use crate::bench::command::Commands;
 use crate::kit::theme::{ROW, STEP};
+use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::import::view::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::tools::picture::draft::{Draft, Known};
 use crate::tools::picture::found::Step;
 use crate::tools::picture::{PictureCommand, Picturing};

@@ -13,11 +13,10 @@ pub(crate) mod plots;
 use eframe::egui::{Align, Label, Layout, RichText, Ui, UiBuilder, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
+use crate::kit::part::{dropped, inside, scrolled};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
-use crate::tools::import::view::files::dropped;
-use crate::tools::import::view::{inside, scrolled};
 pub(crate) use crate::tools::picture::view::cards::PictureTextures;
 use crate::tools::picture::{PictureCommand, Picturing};
 
