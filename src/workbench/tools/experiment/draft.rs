@@ -29,6 +29,19 @@ pub(crate) enum Mark {
     Type(String),
 }
 
+/// What a participant does in the view, or an experimenter who types for one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Act {
+    /// Go on from instructions, a movement or a break.
+    Pass,
+    /// A part of an answer.
+    Mark(Mark),
+    /// Hand the answer in.
+    Answer,
+    /// Play the vibration of this trial again, where that is allowed.
+    Play,
+}
+
 /// An answer on its way.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) enum Draft {

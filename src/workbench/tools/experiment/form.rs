@@ -6,11 +6,13 @@ use std::time::SystemTime;
 
 use crate::bench::session::title_of;
 use crate::bench::task::Task;
-use crate::tools::experiment::noise::NOISE_FILE;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
 use selvedge_experiment::session::{Found, find_sessions, log_path};
 use selvedge_experiment::{Course, Participant, Participants};
+
+/// The file of the masking noise in the folder of sessions.
+pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
 /// Which design is taken.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -23,10 +23,13 @@ pub(crate) mod now;
 pub(crate) mod participant;
 pub(crate) mod run_session;
 pub(crate) mod sessions;
+pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 pub(crate) mod view;
 pub(crate) mod who;
+
+pub(crate) use crate::tools::experiment::state::Experiment;
 
 use std::path::PathBuf;
 
@@ -38,71 +41,19 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::bench::pane::Pane;
 use crate::bench::settings::preferences::Preferences;
-use crate::bench::task::Task;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::{frame_as_armed, scrolled};
 use crate::kit::view_transform::{Pointed, PointerGround};
-use crate::tools::experiment::active_session::ActiveSession;
-use crate::tools::experiment::form::{Chosen, Form};
-use crate::tools::experiment::materials::Materials;
-use crate::tools::experiment::noise::NoiseView;
+use crate::tools::experiment::form::Chosen;
+use crate::tools::experiment::state::ParticipantsWindow;
 use crate::tools::experiment::view::ParticipantView;
-use selvedge_experiment::session::Session;
 
 /// The participant's window as it is opened, points.
 const PARTICIPANTS_WINDOW: [f32; 2] = [1000.0, 860.0];
 /// No smaller, points: what is answered with has room.
 const MIN_WINDOW: [f32; 2] = [700.0, 600.0];
 
-/// The window that shows a participant's view and nothing else.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ParticipantsWindow {
-    /// Whether it is open: the workbench shows no participant's view then.
-    pub is_open: bool,
-    /// Whether it is to fill its screen.
-    pub(crate) fills_screen: bool,
-}
-
-/// Experiments, as the window knows them: neither saved nor undoable.
-#[derive(Debug, Default)]
-pub(crate) struct Experiment {
-    /// What the next session is to be.
-    form: Form,
-    /// A session on its way.
-    beginning: Option<Task<Begun>>,
-    /// The session that is active.
-    session: Option<Box<ActiveSession>>,
-    /// A masking noise on its way to its file.
-    noise: Option<Task<()>>,
-    /// A window of the participant's own.
-    window: ParticipantsWindow,
-    /// Whether the participant sees nothing while a trial waits.
-    is_blank: bool,
-    /// Whether the next recording that ends is of a trial that nobody answered.
-    lets_recording_go: bool,
-}
-
-/// A session that is ready to become active.
-#[derive(Debug)]
-pub(crate) struct Begun {
-    /// The session.
-    pub session: Session,
-    /// What it presents.
-    pub materials: Materials,
-}
-
 impl Experiment {
-    /// How it stands with a masking noise, where the design asks for one.
-    fn noise(&self) -> Option<NoiseView> {
-        let form = &self.form;
-        let is_asked = match &self.session {
-            Some(session) => session.design.course.masking_noise,
-            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
-        };
-        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
-        is_asked.then(view)
-    }
-
     fn show_participant(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         if self.window.is_open {
             return participant::show_apart(ui, &mut self.window);

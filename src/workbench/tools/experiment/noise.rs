@@ -4,12 +4,10 @@ use std::path::Path;
 
 use crate::bench::Bench;
 use crate::bench::task::{Task, taken};
-use crate::tools::experiment::Experiment;
+use crate::tools::experiment::form::NOISE_FILE;
+use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::MaskingNoise;
 use selvedge_foundation::progress::Progress;
-
-/// The file in the folder of sessions.
-pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
 /// How it stands with the noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +32,17 @@ impl NoiseView {
 }
 
 impl Experiment {
+    /// How it stands with a masking noise, where the design asks for one.
+    pub(crate) fn noise(&self) -> Option<NoiseView> {
+        let form = &self.form;
+        let is_asked = match &self.session {
+            Some(session) => session.design.course.masking_noise,
+            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+        };
+        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
+        is_asked.then(view)
+    }
+
     /// Begins to write the noise into the folder of sessions.
     pub(crate) fn write_noise(&mut self, bench: &Bench) {
         if self.form.kept_folder().is_none() || self.noise.is_some() {

@@ -10,11 +10,11 @@ use crate::bench::task::taken;
 use crate::bench::view::Source;
 use crate::bench::{Bench, FRAME};
 use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::Mark;
 use crate::tools::experiment::now::{Began, Now, Pause};
-use crate::tools::experiment::participant::Act;
 use crate::tools::experiment::sessions::device_name;
-use crate::tools::experiment::{Begun, Experiment};
+use crate::tools::experiment::state::{Begun, Experiment};
 use selvedge_engine::{Command, InputSource};
 use selvedge_experiment::Answer;
 

@@ -7,7 +7,7 @@ use crate::bench::pane::Pane;
 use crate::bench::task::Task;
 use crate::tools::experiment::form::list;
 use crate::tools::experiment::materials::Materials;
-use crate::tools::experiment::{Begun, Experiment};
+use crate::tools::experiment::state::{Begun, Experiment};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{Origin, Session, Sidecar};
 use selvedge_foundation::progress::Progress;

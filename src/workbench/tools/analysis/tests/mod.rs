@@ -3,18 +3,22 @@
 
 pub(crate) mod drawn;
 
+use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use eframe::egui::vec2;
+use eframe::egui::{self, vec2};
 
 use super::*;
+use crate::bench::command::ShowCommand;
 use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
 use crate::shell::headless::Headless;
-use crate::tools::analysis::asked::Effort;
+use crate::tools::analysis::asked::{Asked, Choice, Effort};
+use crate::tools::analysis::findings::find_out;
 use selvedge_experiment::Simulation;
-use selvedge_experiment::analysis::analyse_folder;
+use selvedge_experiment::analysis::{Section, analyse_folder};
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;

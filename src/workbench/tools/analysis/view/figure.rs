@@ -11,10 +11,10 @@ use eframe::egui::{
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::toggle;
-use crate::tools::analysis::Analysis;
 use crate::tools::analysis::findings::Findings;
 use crate::tools::analysis::pictures::Wanted;
-use crate::tools::analysis::view::section::Looks;
+use crate::tools::analysis::state::Analysis;
+use crate::tools::analysis::view::columns::Looks;
 use selvedge_chart::Paper;
 use selvedge_experiment::analysis::Drawn;
 

@@ -10,8 +10,8 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, Tone, note, row_of, text};
 use crate::kit::widgets::fold;
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::analysis::Analysis;
 use crate::tools::analysis::asked::Effort;
+use crate::tools::analysis::state::Analysis;
 
 /// Width of a row's name, points.
 const NAME: f32 = 44.0;

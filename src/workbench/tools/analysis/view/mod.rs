@@ -21,9 +21,9 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::button;
-use crate::tools::analysis::Analysis;
 use crate::tools::analysis::findings::Findings;
 use crate::tools::analysis::pictures::Wanted;
+use crate::tools::analysis::state::Analysis;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;

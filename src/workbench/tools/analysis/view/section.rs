@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{ColorImage, Label, RichText, TextureHandle, Ui};
+use eframe::egui::{Label, RichText, Ui};
 
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::analysis::Analysis;
 use crate::tools::analysis::findings::Findings;
 use crate::tools::analysis::pictures::Wanted;
-use crate::tools::analysis::view::columns::TableLook;
+use crate::tools::analysis::state::Analysis;
 use crate::tools::analysis::view::{figure, table, words};
 use selvedge_experiment::analysis::Section;
 
@@ -18,37 +17,6 @@ use selvedge_experiment::analysis::Section;
 const MEASURE: f32 = 640.0;
 /// The bar at the right of what scrolls, points.
 const BAR: f32 = 12.0;
-
-/// Tables and figures of the section at hand as they are laid out.
-#[derive(Default)]
-pub(crate) struct Looks {
-    of: Option<(Arc<Findings>, usize)>,
-    /// By their place in the section.
-    pub(crate) tables: Vec<Option<TableLook>>,
-    /// The same; the picture that each was made of.
-    pub(crate) textures: Vec<Option<(Arc<ColorImage>, TextureHandle)>>,
-}
-
-impl Looks {
-    /// Forgets what belongs to another section.
-    fn turn_to(&mut self, found: &Arc<Findings>, nth: usize, section: &Section) {
-        let is_same = |(of, at): &(Arc<Findings>, usize)| Arc::ptr_eq(of, found) && *at == nth;
-        if self.of.as_ref().is_some_and(is_same) {
-            return;
-        }
-        self.of = Some((Arc::clone(found), nth));
-        self.tables = section.tables.iter().map(|_| None).collect();
-        self.textures = section.figures.iter().map(|_| None).collect();
-    }
-}
-
-impl std::fmt::Debug for Looks {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Looks")
-            .field("section", &self.of.as_ref().map(|(_, nth)| nth))
-            .finish_non_exhaustive()
-    }
-}
 
 /// Shows a section in a room of this width; says which figures are wanted, if it has any.
 pub(crate) fn show(

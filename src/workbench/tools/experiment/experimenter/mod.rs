@@ -13,7 +13,8 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, section};
 use crate::tools::experiment::noise::NoiseView;
-use crate::tools::experiment::{Experiment, ParticipantsWindow, participant};
+use crate::tools::experiment::participant;
+use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
 
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {

@@ -10,8 +10,8 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, text};
 use crate::kit::widgets::text::{button, mark, quiet_pair, section};
-use crate::tools::experiment::Experiment;
 use crate::tools::experiment::now::Pause;
+use crate::tools::experiment::state::Experiment;
 use crate::tools::experiment::view::{Course, Link, SessionView};
 use selvedge_foundation::quantity;
 

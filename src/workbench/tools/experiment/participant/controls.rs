@@ -6,8 +6,8 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark, Sure};
-use crate::tools::experiment::participant::Act;
 use crate::tools::experiment::participant::ground::count;
 use crate::tools::experiment::participant::{big, ranks};
 use crate::tools::experiment::view::TrialView;

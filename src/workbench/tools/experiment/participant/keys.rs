@@ -2,8 +2,8 @@
 
 use eframe::egui::{Key, Ui};
 
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark};
-use crate::tools::experiment::participant::Act;
 use crate::tools::experiment::view::TrialView;
 use selvedge_experiment::Grade;
 

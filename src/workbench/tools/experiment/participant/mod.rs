@@ -18,8 +18,8 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::view_transform::PointerGround;
 use crate::kit::widgets::text::button;
-use crate::tools::experiment::ParticipantsWindow;
-use crate::tools::experiment::draft::Mark;
+use crate::tools::experiment::draft::Act;
+use crate::tools::experiment::state::ParticipantsWindow;
 use crate::tools::experiment::view::{ParticipantView, TrialView};
 
 /// Height of the line that says what is asked, points.
@@ -32,19 +32,6 @@ const HINT: f32 = 24.0;
 const TYPED: f32 = 460.0;
 /// No line of words is longer, points.
 const LINE: f32 = 720.0;
-
-/// What a participant does in the view, or an experimenter who types for one.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Act {
-    /// Go on from instructions, a movement or a break.
-    Pass,
-    /// A part of an answer.
-    Mark(Mark),
-    /// Hand the answer in.
-    Answer,
-    /// Play the vibration of this trial again, where that is allowed.
-    Play,
-}
 
 /// Shows the participant's view; where the pointer feels, if there is such a place.
 pub(crate) fn show(

@@ -6,8 +6,8 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::Mark;
-use crate::tools::experiment::participant::Act;
 use crate::tools::experiment::participant::big;
 use crate::tools::experiment::participant::big::Face;
 use crate::tools::experiment::participant::ground::count;
