@@ -268,7 +268,7 @@ impl Draft {
     }
 
     /// What was said so far, for the experimenter.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         match self {
             Self::Ranks(order) => {
                 let name = |at: &Option<usize>| {
@@ -390,7 +390,7 @@ mod tests {
         for position in [2, 0, 2, 9, 3] {
             draft.take(&Mark::Place(position), 0.0);
         }
-        assert_eq!(draft.told(), "3 1 4 ·");
+        assert_eq!(draft.describe(), "3 1 4 ·");
         assert!(draft.answer().is_err(), "one is missing");
         draft.take(&Mark::TakeBack, 0.0);
         draft.take(&Mark::Place(1), 0.0);

@@ -154,7 +154,7 @@ impl Form {
             let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
             return Some(mend.to_owned());
         }
-        match self.who.told() {
+        match self.who.participant() {
             Err(line) => return Some(line),
             Ok(told) => {
                 let contradiction = self.participants.contradiction(&told);
@@ -173,13 +173,13 @@ impl Form {
     }
 
     /// What begins, if nothing is missing.
-    pub(crate) fn told(&self) -> Option<Told> {
+    pub(crate) fn plan(&self) -> Option<SessionPlan> {
         if self.refusal().is_some() {
             return None;
         }
-        Some(Told {
+        Some(SessionPlan {
             design: self.design.as_deref().ok()?.clone(),
-            participant: self.who.told().ok()?,
+            participant: self.who.participant().ok()?,
             session: self.session_number()?,
             folder: self.folder(),
         })
@@ -234,7 +234,7 @@ impl Form {
 
 /// A session that is to begin, and with whom.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct SessionPlan {
     /// By which design.
     pub design: Design,
     /// Who takes part.
@@ -245,7 +245,7 @@ pub(crate) struct Told {
     pub folder: PathBuf,
 }
 
-impl Told {
+impl SessionPlan {
     /// Enrols the participant in the study's table, as the command line does, and numbers the
     /// session.
     ///
@@ -341,8 +341,8 @@ mod tests {
         form.session = "0".to_owned();
         assert!(form.refusal().unwrap().contains("from 1"));
         form.session = "2".to_owned();
-        let told = form.told().unwrap();
-        assert_eq!((told.participant.pseudonym(), told.session), ("p07", 2));
+        let plan = form.plan().unwrap();
+        assert_eq!((plan.participant.pseudonym(), plan.session), ("p07", 2));
         form.who.age = "thirty".to_owned();
         assert!(form.refusal().unwrap().contains("whole years"));
         form.who.age = "300".to_owned();
@@ -353,6 +353,6 @@ mod tests {
         form.who.room.clear();
         assert_eq!(form.refusal(), None);
         form.choose(Chosen::File("/nowhere/design.toml".into()));
-        assert!(form.told().is_none() && form.refusal().unwrap().contains("nowhere"));
+        assert!(form.plan().is_none() && form.refusal().unwrap().contains("nowhere"));
     }
 }

@@ -33,15 +33,15 @@ impl Experiment {
     /// Begins the session that the form describes.
     pub(crate) fn begin_session(&mut self, bench: &Bench) {
         let form = &self.form;
-        let (Some(told), path) = (form.told(), form.chosen.path().to_owned()) else {
+        let (Some(plan), path) = (form.plan(), form.chosen.path().to_owned()) else {
             return;
         };
         let device = device_name(bench);
-        let (design, beside) = (told.design.clone(), path.clone());
+        let (design, beside) = (plan.design.clone(), path.clone());
         let open = move || {
-            let subject = told.enrolled()?;
+            let subject = plan.enrolled()?;
             let origin = Origin::file(&device, &beside);
-            let session = Session::create(&told.folder, told.design, subject, origin);
+            let session = Session::create(&plan.folder, plan.design, subject, origin);
             session.map_err(|error| error.to_string())
         };
         self.start_session(bench, move || Ok((design, path)), open);

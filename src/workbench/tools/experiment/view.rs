@@ -301,7 +301,7 @@ impl ActiveSession {
             lasted_s: self.lasted_s(now_s),
             left_s: self.left_s(now_s),
             last_response_s: self.last_response_s,
-            answered: self.draft.told(),
+            answered: self.draft.describe(),
             table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
             link,
             pause: self.pause,
