@@ -41,6 +41,7 @@ pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
 pub(crate) mod selection;
+pub(crate) mod session;
 pub(crate) mod settings;
 pub(crate) mod signals;
 pub(crate) mod source_file;
@@ -64,6 +65,7 @@ use crate::bench::preparing::Preparing;
 use crate::bench::recording::Take;
 use crate::bench::rendering::Rendering;
 use crate::bench::selection::Selection;
+use crate::bench::session::SessionInSight;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
 use crate::bench::trail::Trail;
 use crate::bench::transient::Transient;
@@ -71,7 +73,7 @@ use crate::bench::view::{LibraryDot, Marks, SceneView};
 use crate::kit::theme;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
-use selvedge_engine::{Command, Engine, EngineConfig, StopSwitch, TICK};
+use selvedge_engine::{Command, Engine, EngineConfig, Recording, StopSwitch, TICK};
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
@@ -119,6 +121,12 @@ pub(crate) struct Bench {
     pub(crate) executor: Executor,
     /// The exploration that can be replayed.
     pub(crate) take: Option<Take>,
+    /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
+    pub(crate) ended_recording: Option<Recording>,
+    /// The session of an experiment that is active.
+    pub(crate) session: Option<SessionInSight>,
+    /// Whether a participant's view has a window of its own.
+    pub(crate) has_participants_window: bool,
     /// The scene as the engine has it: with its textiles, and gains as they are felt.
     pub(crate) loaded: LoadedScene,
     /// The serial number of that scene.
@@ -206,6 +214,9 @@ impl Bench {
             },
             engine,
             take: None,
+            ended_recording: None,
+            session: None,
+            has_participants_window: false,
             scene_serial,
             rendering: opened.rendering,
             preparing: Preparing::new(opened.cache, opened.rendering),
@@ -240,8 +251,6 @@ impl Bench {
         self.workspace.scale = kept.amplitude;
         self.workspace.dot_style = kept.dots;
         self.workspace.greys_below = kept.greys_below;
-        let form = &mut self.transient.experiment.form;
-        form.take_up(kept.sessions_folder.as_deref(), kept.design.as_deref());
         self.workspace.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
         self.send(Command::SampleTicks(true));

@@ -22,11 +22,9 @@ impl Bench {
             self.transient.notices.give(failure);
         }
         self.poll_prepared();
-        self.transient.analysing.poll();
         self.take_notices();
         self.take_snapshot(ctx);
-        self.take_recording();
-        self.poll_experiment(ctx);
+        self.ended_recording = self.engine.take_recording();
         self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
@@ -59,9 +57,6 @@ impl Bench {
         }
         let snapshot = self.engine.snapshot();
         let transient = &mut self.transient;
-        if let Some(held) = &mut transient.experiment.held {
-            held.vibration = snapshot.vibration;
-        }
         let status = snapshot.link.and_then(|link| link.status);
         let interval_s = transient.interval.take(status.map(|s| (s.tick, s.dev_us)));
         transient.reference_db = snapshot.rendering.compression_reference_db;
@@ -109,8 +104,5 @@ impl Bench {
         kept.amplitude = self.workspace.scale;
         kept.dots = self.workspace.dot_style;
         kept.greys_below = self.workspace.greys_below;
-        let form = &self.transient.experiment.form;
-        kept.sessions_folder = form.kept_folder();
-        kept.design = form.chosen.word();
     }
 }

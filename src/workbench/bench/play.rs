@@ -88,12 +88,9 @@ impl Bench {
         self.send(selvedge_engine::Command::Play);
     }
 
-    /// Takes a recording that has ended: it can be replayed and saved.
+    /// Takes a recording that has ended and that no tool has taken: it can be replayed and saved.
     pub(crate) fn take_recording(&mut self) {
-        let Some(recording) = self.engine.take_recording() else {
-            return;
-        };
-        let Some(recording) = self.recording_of_trial(recording) else {
+        let Some(recording) = self.ended_recording.take() else {
             return;
         };
         // A recording that ended before its first tick is none.

@@ -144,6 +144,7 @@ pub(crate) fn live_view(
             felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),
         },
         input: input_view(&snapshot.pointer),
+        vibration: snapshot.vibration,
         bridge: snapshot
             .link
             .as_ref()

@@ -12,7 +12,7 @@
 use std::any::Any;
 use std::path::PathBuf;
 
-use eframe::egui::Ui;
+use eframe::egui::{Context, Ui};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Purpose};
@@ -51,6 +51,9 @@ pub(crate) trait Tool: Any {
 
     /// Draws what stands at the right end of the row of tabs while a pane of its is in front.
     fn corner(&mut self, _pane: Pane, _ui: &mut Ui, _context: &mut PaneContext<'_>) {}
+
+    /// Shows windows of its own. Once a frame, after all panes.
+    fn windows(&mut self, _ctx: &Context, _context: &mut PaneContext<'_>) {}
 
     /// Does its part of what the user wants; every tool hears every command.
     fn command(&mut self, _command: &Command, _bench: &mut Bench) {}

@@ -17,9 +17,6 @@ use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::trail::Trail;
 use crate::bench::view::{BridgeView, Hovered, Live};
-use crate::tools::analysis::Analysing;
-use crate::tools::analysis::view::section::Looks as AnalysisLooks;
-use crate::tools::experiment::Experiment;
 use selvedge_device::FaultWords;
 
 /// What is neither saved nor undoable.
@@ -51,12 +48,6 @@ pub(crate) struct Transient {
     pub(crate) history: History,
     /// The textiles of the library that are selected.
     pub(crate) library_selection: LibrarySelection,
-    /// Experiments and the session that is held.
-    pub experiment: Experiment,
-    /// Logs that are analysed.
-    pub analysing: Analysing,
-    /// Tables and figures of an analysis as they are laid out.
-    pub(crate) analysis_looks: AnalysisLooks,
     /// What the pointer rests on.
     pub hovered: Hovered,
     /// What is muted and what is felt alone.

@@ -201,6 +201,8 @@ pub(crate) struct Live {
     pub status: Status,
     /// How steadily positions come.
     pub input: InputView,
+    /// The step of a sequence of vibrations that is played.
+    pub(crate) vibration: Option<u16>,
     /// The device.
     pub bridge: Option<BridgeView>,
 }

@@ -1,8 +1,13 @@
-//! The space around what a pane shows.
+//! The space around what a pane shows, its parts, and the frame around a whole window.
 
-use eframe::egui::{Frame, Margin, Rect, ScrollArea, Ui, UiBuilder};
+use eframe::egui::{
+    Context, Frame, Id, LayerId, Margin, Order, Rect, ScrollArea, Stroke, StrokeKind, Ui, UiBuilder,
+};
 
-use crate::kit::theme::STEP;
+use crate::kit::theme::{Palette, STEP};
+
+/// Width of the frame around the window of an armed device, points.
+const ARMED_FRAME: f32 = 5.0;
 
 /// A pane with space around it.
 pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
@@ -41,4 +46,14 @@ pub(crate) fn scrolled_column(ui: &mut Ui, id: &str, content: impl FnOnce(&mut U
             let margin = Margin::symmetric(4, 0);
             Frame::new().inner_margin(margin).show(ui, content);
         });
+}
+
+/// Frames the whole window in red while high voltage is on: to be seen from across the room,
+/// whatever pane is in front.
+pub(crate) fn frame_as_armed(ctx: &Context) {
+    let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
+    let palette = Palette::of(ctx.theme());
+    let stroke = Stroke::new(ARMED_FRAME, palette.danger);
+    let painter = ctx.layer_painter(layer);
+    painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
 }

@@ -6,6 +6,7 @@ use crate::bench::background::Task;
 use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
+use crate::bench::tool::Tool;
 use crate::shell::window::Workbench;
 
 /// What it ends with: a table to be copied, or nothing where a file was written.
@@ -28,14 +29,12 @@ impl Workbench {
     /// # Errors
     /// There is nothing, and what to do about it.
     pub(crate) fn exported(&mut self, what: Exportable) -> Result<Exported, &'static str> {
-        let pane = match what {
-            Exportable::Pane(pane) => pane,
-            Exportable::Timeline => return self.shell.bar.export(&mut self.bench),
-            Exportable::Analysed => return self.bench.exported(what),
-        };
-        match self.tools.showing(pane) {
-            Some(tool) => tool.export(pane, &mut self.bench),
-            None => self.bench.exported(what),
+        match what {
+            Exportable::Timeline => self.shell.bar.export(&mut self.bench),
+            Exportable::Pane(pane) => match self.tools.showing(pane) {
+                Some(tool) => tool.export(pane, &mut self.bench),
+                None => Err("This pane shows no numbers to export"),
+            },
         }
     }
 
@@ -65,12 +64,16 @@ impl Workbench {
             )
         };
         let (folder, kind) = last.unwrap_or_else(beside);
-        let figure = self.bench.transient.analysing.figure();
-        match figure.filter(|_| what == Exportable::Analysed) {
-            Some((section, drawn)) => {
-                let ending = kind.ending();
-                folder.join(format!("{}-{}.{ending}", section.key, drawn.key))
+        let own = match what {
+            Exportable::Pane(pane) => {
+                let mut tools = self.tools.iter();
+                let tool = tools.find(|tool| tool.panes().contains(&pane));
+                tool.and_then(Tool::export_name)
             }
+            Exportable::Timeline => None,
+        };
+        match own {
+            Some(name) => folder.join(format!("{name}.{}", kind.ending())),
             None => folder.join(what.file_name(kind)),
         }
     }

@@ -2,9 +2,7 @@
 
 use std::sync::PoisonError;
 
-use eframe::egui::{
-    self, CentralPanel, Frame, Id, LayerId, Margin, Order, Panel, Rect, Stroke, StrokeKind, Ui,
-};
+use eframe::egui::{self, CentralPanel, Frame, Id, Margin, Panel, Rect, Ui};
 use egui_tiles::Tree;
 
 use crate::bench::Bench;
@@ -13,6 +11,7 @@ use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{Hovered, SceneView};
+use crate::kit::pane::frame_as_armed;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
@@ -22,8 +21,6 @@ use crate::shell::state::After;
 use crate::shell::tab_row::TabRow;
 use crate::shell::window::Workbench;
 
-/// Width of the frame around the window of an armed device, points.
-const ARMED_FRAME: f32 = 5.0;
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
 
@@ -42,7 +39,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
         (show_panes(window, ui, &scene, &mut commands), rect)
     });
     let (ground, rect) = panes.inner;
-    let apart = (window.bench).show_participants_window(ui.ctx(), &mut commands);
+    let apart = show_windows(window, ui, &scene, &mut commands);
     let over = ground.map_or(rect, |ground| ground.rect);
     show_overlays(window, ui, over, &mut commands);
     window.bench.transient.ground = ground.map(|ground| ground.rect);
@@ -54,14 +51,25 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     commands
 }
 
-/// Frames the whole window in red while high voltage is on: to be seen from across the room,
-/// whatever pane is in front.
-pub(crate) fn frame_as_armed(ctx: &egui::Context) {
-    let layer = LayerId::new(Order::Foreground, Id::unique("armed frame"));
-    let palette = Palette::of(ctx.theme());
-    let stroke = Stroke::new(ARMED_FRAME, palette.danger);
-    let painter = ctx.layer_painter(layer);
-    painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
+/// Shows the windows that tools have of their own; where the pointer feels there, if there is such
+/// a place.
+fn show_windows(
+    window: &mut Workbench,
+    ui: &Ui,
+    scene: &SceneView,
+    commands: &mut Commands,
+) -> Option<PointerGround> {
+    let mut ground = None;
+    let mut context = PaneContext {
+        bench: &mut window.bench,
+        scene,
+        commands,
+        ground: &mut ground,
+    };
+    for tool in window.tools.iter_mut() {
+        tool.windows(ui.ctx(), &mut context);
+    }
+    ground
 }
 
 /// Lets every view mark what the pointer rests on, from the next frame on if that has changed.

@@ -94,8 +94,6 @@ fn kind(command: &Command) -> &'static str {
         Command::Show(_)
         | Command::Lab(_)
         | Command::Render(_)
-        | Command::Experiment(_)
-        | Command::Analysis(_)
         | Command::Dismiss
         | Command::DismissNotice(_) => "View",
     }

@@ -11,6 +11,9 @@ use crate::bench::pane::Pane;
 use crate::shell::dialogs::Answer;
 use crate::shell::window::Workbench;
 
+/// The keyboard may be on its way from one window to the other for so long, s.
+const PASSING_S: f64 = 0.25;
+
 impl Workbench {
     /// Empties the inboxes.
     pub(crate) fn take_news(&mut self, ctx: &egui::Context) {
@@ -28,6 +31,7 @@ impl Workbench {
         for tool in self.tools.iter_mut() {
             tool.logic(&mut self.bench);
         }
+        self.bench.take_recording();
         self.settle();
         self.keep_settings();
         let now_s = ctx.input(|input| input.time);
@@ -41,8 +45,9 @@ impl Workbench {
 
     /// Whether the keyboard went to another program.
     fn is_keyboard_lost(&mut self, ctx: &egui::Context) -> bool {
-        let window = &mut self.bench.transient.experiment.window;
-        if !window.is_open {
+        let since_s = &mut self.shell.left_since_s;
+        if !self.bench.has_participants_window {
+            *since_s = None;
             let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
             return ctx.input(|input| input.events.iter().any(is_left));
         }
@@ -53,7 +58,7 @@ impl Workbench {
                 windows.any(|window| window.focused == Some(true)),
             )
         });
-        let wait_s = window.left_alone_s(now_s, has_any);
+        let wait_s = left_alone_s(since_s, now_s, has_any);
         if wait_s.is_some_and(|wait_s| wait_s > 0.0) {
             ctx.request_repaint_after(FRAME);
         }
@@ -73,10 +78,10 @@ impl Workbench {
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(Command::AllOff);
         }
-        let is_held = self.bench.transient.experiment.is_held();
+        let has_session = self.bench.has_session();
         for command in crate::bench::keys::pressed(ctx) {
             // A participant who presses a key is told nothing of what it does elsewhere.
-            if is_held && command != Command::AllOff {
+            if has_session && command != Command::AllOff {
                 continue;
             }
             self.dispatch(command);
@@ -98,5 +103,33 @@ impl Workbench {
         for tool in self.tools.iter() {
             tool.keep_preferences(&mut self.bench.settings.preferences);
         }
+    }
+}
+
+/// How long the windows must still be without the keyboard until another program is sure to have
+/// it, s; `None` while one of them has it.
+fn left_alone_s(since_s: &mut Option<f64>, now_s: f64, has_keyboard: bool) -> Option<f64> {
+    if has_keyboard {
+        *since_s = None;
+        return None;
+    }
+    let since_s = *since_s.get_or_insert(now_s);
+    Some((since_s + PASSING_S - now_s).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left_alone_s;
+
+    #[test]
+    fn the_keyboard_is_lost_only_when_neither_window_has_it_for_a_while() {
+        let mut since_s = None;
+        assert_eq!(left_alone_s(&mut since_s, 1.0, true), None);
+        let wait_s = left_alone_s(&mut since_s, 1.1, false).unwrap();
+        assert!((wait_s - 0.25).abs() < 1e-12);
+        let it_went_to_the_other = left_alone_s(&mut since_s, 1.2, true);
+        assert_eq!(it_went_to_the_other, None);
+        assert!(left_alone_s(&mut since_s, 2.0, false).unwrap() > 0.0);
+        assert_eq!(left_alone_s(&mut since_s, 2.3, false), Some(0.0));
     }
 }

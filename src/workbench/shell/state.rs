@@ -37,6 +37,8 @@ pub(crate) struct Shell {
     pub(crate) is_help_shown: bool,
     /// What is being exported.
     pub(crate) exports: Exports,
+    /// Since when none of several windows has had the keyboard, s.
+    pub(crate) left_since_s: Option<f64>,
     /// Scenes that tools have heard of.
     pub(crate) n_scenes: u64,
     /// How often each pane was drawn.
@@ -59,6 +61,7 @@ impl Shell {
             may_close: false,
             is_help_shown: false,
             exports: Exports::default(),
+            left_since_s: None,
             n_scenes: 0,
             n_drawn: [0; Pane::ALL.len()],
             tap: Arc::new(Mutex::new(tap)),

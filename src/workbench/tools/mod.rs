@@ -42,6 +42,8 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(contactors::Contactors),
         Box::new(tuning::Tuning::default()),
         Box::new(workspace::Workspace::default()),
+        Box::new(experiment::Experiment::default()),
+        Box::new(analysis::Analysis::default()),
     ]
 }
 

@@ -25,8 +25,6 @@ use crate::bench::probe::Probe;
 use crate::bench::rendering::Rendering;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::experiment::command::ExperimentCommand;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
 use selvedge_textile::tactile::Band;
@@ -59,10 +57,6 @@ pub(crate) enum Command {
     Keep(Keep),
     /// Begin a recipe in the textile lab.
     Lab(lab::Beginning),
-    /// Run an experiment.
-    Experiment(ExperimentCommand),
-    /// Analyse the logs of experiments.
-    Analysis(AnalysisCommand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.

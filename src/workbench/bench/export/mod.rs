@@ -24,7 +24,6 @@
 
 pub(crate) mod button;
 pub(crate) mod cells;
-pub(crate) mod gather;
 pub(crate) mod origin;
 #[cfg(test)]
 mod tests;
@@ -64,8 +63,6 @@ pub(crate) enum Exportable {
     Pane(Pane),
     /// The strips at the bottom.
     Timeline,
-    /// A figure of the section of an analysis that is at hand.
-    Analysed,
 }
 
 impl Exportable {
@@ -77,7 +74,6 @@ impl Exportable {
             Self::Pane(Pane::Bridge) => "Times on the link",
             Self::Pane(pane) => pane.title(),
             Self::Timeline => "Timeline",
-            Self::Analysed => "Analysis",
         }
     }
 

@@ -4,12 +4,13 @@
 
 pub(crate) mod tiles;
 
-use eframe::egui::Ui;
+use eframe::egui::{Label, RichText, Ui};
 
 use crate::bench::export::Exportable;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
-use crate::kit::pane::{framed, scrolled};
+use crate::kit::pane::framed;
+use crate::kit::theme::{Palette, STEP};
 use crate::shell::tab_row::TabRow;
 
 /// Everything that panes are drawn from, and what came of drawing them.
@@ -30,18 +31,20 @@ impl Desk<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
         self.n_drawn[pane.index()] += 1;
         if self.context.bench.is_veiled(pane) {
-            return framed(ui, 10, crate::tools::experiment::experimenter::show_veil);
+            return framed(ui, 10, show_veil);
         }
         if let Some(tool) = self.tools.showing(pane) {
-            return tool.ui(pane, ui, &mut self.context);
-        }
-        match pane {
-            Pane::Participant => self.show_participant(ui),
-            Pane::Experimenter => scrolled(ui, pane.title(), |ui| self.show_experimenter(ui)),
-            Pane::Analysis => framed(ui, 10, |ui| self.show_analysis(ui)),
-            _ => {}
+            tool.ui(pane, ui, &mut self.context);
         }
     }
+}
+
+/// What stands in the place of a pane that would tell too much.
+fn show_veil(ui: &mut Ui) {
+    let words = "Hidden while a session is held: what lies under the finger is not to be seen.";
+    let ink = Palette::in_ui(ui).dim;
+    ui.add_space(2.0 * STEP);
+    ui.add(Label::new(RichText::new(words).color(ink)).wrap());
 }
 
 /// The right end of a row of tabs: what belongs to the pane in front.

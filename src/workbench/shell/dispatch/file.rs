@@ -9,9 +9,6 @@ use crate::bench::opening::Origin;
 use crate::shell::ask::Ask;
 use crate::shell::state::After;
 use crate::shell::window::Workbench;
-use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::Chosen;
 
 impl Workbench {
     /// Does something with files.
@@ -50,13 +47,7 @@ impl Workbench {
             Purpose::OpenRecording => bench.open_recording(path),
             Purpose::SaveRecording => bench.save_recording(path),
             Purpose::Clip(kind) => bench.write_clip_to(kind, &path),
-            Purpose::OpenDesign => bench.commands.push(ExperimentCommand::Open(path).into()),
-            Purpose::OpenLogs => bench.commands.push(AnalysisCommand::Open(path).into()),
-            Purpose::WriteReport => bench.commands.push(AnalysisCommand::Write(path).into()),
-            Purpose::SaveScene
-            | Purpose::Export(_)
-            | Purpose::ImportFiles
-            | Purpose::OpenPicture => {}
+            _ => {}
         }
     }
 
@@ -83,17 +74,11 @@ impl Workbench {
             Purpose::OpenScene | Purpose::SaveScene => bench.document.path().cloned(),
             Purpose::Export(what) => Some(self.export_path(what)),
             Purpose::Clip(kind) => Some(bench.clip_path(kind)),
-            Purpose::OpenDesign => match &bench.transient.experiment.form.chosen {
-                Chosen::File(path) => Some(path.clone()),
-                Chosen::Shipped(_) => None,
-            },
-            Purpose::OpenLogs => bench.transient.analysing.fields.folder(),
-            Purpose::WriteReport => bench.transient.analysing.report_folder(),
             Purpose::OpenRecording | Purpose::SaveRecording => {
                 let take = bench.take.as_ref()?;
                 take.file().map(Path::to_owned)
             }
-            Purpose::ImportFiles | Purpose::OpenPicture => None,
+            _ => None,
         }
     }
 

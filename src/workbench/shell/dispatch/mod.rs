@@ -38,8 +38,9 @@ impl Workbench {
     }
 
     fn act(&mut self, command: Command) {
-        if !leaves_session(&command) && self.bench.refuses_in_session() {
-            return;
+        if self.bench.has_session() && !leaves_session(&command) {
+            let words = "A session is held: end it first, in the Experimenter pane";
+            return self.bench.transient.notices.give(words);
         }
         for tool in self.tools.iter_mut() {
             tool.command(&command, &mut self.bench);
@@ -68,12 +69,7 @@ impl Workbench {
 /// Whether a command leaves what is felt to the session.
 fn leaves_session(command: &Command) -> bool {
     match command {
-        Command::AllOff
-        | Command::Device(_)
-        | Command::Experiment(_)
-        | Command::Analysis(_)
-        | Command::Dismiss
-        | Command::DismissNotice(_) => true,
+        Command::AllOff | Command::Device(_) | Command::Dismiss | Command::DismissNotice(_) => true,
         Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
             matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
         }
@@ -110,8 +106,6 @@ impl Bench {
                 self.render_as_chosen();
             }
             Command::Keep(keep) => self.keep(keep),
-            Command::Experiment(command) => self.dispatch_experiment(ctx, command),
-            Command::Analysis(command) => self.dispatch_analysis(ctx, command),
             Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.transient.notices.dismiss(number),
             // Windows and tools have done these.
@@ -149,21 +143,6 @@ impl Bench {
             Chosen::Mute => ShowCommand::Mute(part).into(),
             Chosen::Solo => ShowCommand::Solo(part).into(),
         });
-    }
-
-    /// Whether a session of an experiment is under way.
-    pub(crate) fn has_session(&self) -> bool {
-        self.transient.experiment.is_held()
-    }
-
-    /// Whether what is shown and felt is the session's alone; says so.
-    pub(crate) fn refuses_in_session(&mut self) -> bool {
-        let is_held = self.has_session();
-        if is_held {
-            let words = "A session is held: end it first, in the Experimenter pane";
-            self.transient.notices.give(words);
-        }
-        is_held
     }
 
     /// Tells the engine what is wanted of it.

@@ -25,8 +25,8 @@ pub(crate) struct Choice {
     pub effort: Effort,
     /// Whether the stress of maps is compared with that of random ranks.
     pub(crate) has_random_data: bool,
-    /// Whether who takes part in a session under way counts too.
-    pub(crate) with_held: bool,
+    /// Whether who takes part in an active session counts too.
+    pub(crate) with_active: bool,
 }
 
 impl Default for Choice {
@@ -34,7 +34,7 @@ impl Default for Choice {
         Self {
             effort: Effort::default(),
             has_random_data: Options::default().n_random_data > 0,
-            with_held: false,
+            with_active: false,
         }
     }
 }

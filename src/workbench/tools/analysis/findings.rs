@@ -1,12 +1,14 @@
-//! The work: sessions of a folder, those under way left out, their analysis, and what a reader must
-//! know before looking at it.
+//! The work: sessions of a folder, those under way left out, their analysis, what a reader must
+//! know before looking at it, and what is taken along of it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use crate::bench::export::origin::Origin;
+use crate::bench::export::{Exported, Sheet};
+use crate::bench::session::title_of;
 use crate::tools::analysis::asked::Asked;
-use crate::tools::experiment::form::title_of;
-use selvedge_experiment::analysis::{Analysis, analyse_with_unread, sessions};
+use selvedge_experiment::analysis::{Analysis, Cell, Drawn, Table, analyse_with_unread, sessions};
 use selvedge_experiment::session::Found;
 use selvedge_foundation::progress::Progress;
 
@@ -44,16 +46,34 @@ impl Findings {
         written.map_err(|error| error.to_string())?;
         Ok(folder)
     }
+
+    /// A figure as it would stand in the report, and the points that it is drawn from.
+    pub(crate) fn exported(&self, drawn: &Drawn) -> Exported {
+        let program = selvedge_foundation::PROGRAM;
+        let options = self.asked.options();
+        let origin = Origin::default()
+            .and("program", program, "")
+            .and("analysed", &self.analysis.title, "")
+            .and("sessions", &self.n_sessions.to_string(), "")
+            .and("seed", &options.seed.to_string(), "")
+            .and("resamples", &options.n_resamples.to_string(), "")
+            .and("permutations", &options.n_permutations.to_string(), "");
+        Exported {
+            sheet: sheet(&drawn.points),
+            figure: drawn.figure.clone(),
+            origin,
+        }
+    }
 }
 
-/// Reads the sessions of a folder and analyses them. `held` is the log of the session that this
-/// window holds.
+/// Reads the sessions of a folder and analyses them. `active` is the log of the session that is
+/// active in this window.
 ///
 /// # Errors
 /// One line: there is no such folder, it holds no session that can be read, or it was stopped.
 pub(crate) fn find_out(
     asked: Asked,
-    held: Option<&Path>,
+    active: Option<&Path>,
     progress: &mut Progress<'_>,
 ) -> Result<Findings, String> {
     let folder = &asked.folder;
@@ -62,10 +82,10 @@ pub(crate) fn find_out(
         return Err(format!("there is no folder {folder}; check the path"));
     }
     let (mut found, unread) = sessions(folder).map_err(|error| error.to_string())?;
-    let left_out = if asked.choice.with_held {
+    let left_out = if asked.choice.with_active {
         Vec::new()
     } else {
-        leave_out(&mut found, held)
+        leave_out(&mut found, active)
     };
     if found.is_empty() {
         return Err(format!(
@@ -86,8 +106,8 @@ pub(crate) fn find_out(
 }
 
 /// Leaves out every session of whoever takes part in one that is being held; says who that is.
-fn leave_out(found: &mut Vec<Found>, held: Option<&Path>) -> Vec<String> {
-    let is_held = |one: &&Found| held == Some(one.log.as_path()) || one.is_held();
+fn leave_out(found: &mut Vec<Found>, active: Option<&Path>) -> Vec<String> {
+    let is_held = |one: &&Found| active == Some(one.log.as_path()) || one.is_held();
     let who = |one: &Found| (one.design.study.clone(), one.subject.pseudonym.clone());
     let held: BTreeSet<(String, String)> = found.iter().filter(is_held).map(who).collect();
     found.retain(|one| !held.contains(&who(one)));
@@ -116,4 +136,31 @@ fn interim(found: &[Found]) -> Vec<String> {
         })
     };
     subjects.values().filter_map(told).collect()
+}
+
+/// The same table by its columns; a cell is empty where there is no number.
+fn sheet(table: &Table) -> Sheet {
+    let mut sheet = Sheet::default();
+    for (at, column) in table.columns.iter().enumerate() {
+        let cells: Vec<&Cell> = table.rows.iter().filter_map(|row| row.get(at)).collect();
+        let has_words = cells.iter().any(|cell| matches!(cell, Cell::Text(_)));
+        let name = column.name.clone();
+        sheet = if has_words {
+            let words: Vec<String> = cells.into_iter().map(word).collect();
+            sheet.with(name, words)
+        } else {
+            let number = |cell: &Cell| cell.number().unwrap_or(f64::NAN);
+            let numbers: Vec<f64> = cells.into_iter().map(number).collect();
+            sheet.with(name, numbers)
+        };
+    }
+    sheet
+}
+
+fn word(cell: &Cell) -> String {
+    match cell {
+        Cell::Number(value) => value.to_string(),
+        Cell::Text(text) => text.clone(),
+        Cell::Undefined(_) => String::new(),
+    }
 }

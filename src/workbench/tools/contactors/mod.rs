@@ -174,7 +174,7 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
             style.scale = scale.locked_at(scale.most_um() * factor);
         }
     }
-    if style != before && !bench.refuses_in_session() {
+    if style != before {
         bench.settings.preferences.has_numbers = style.has_numbers;
         bench.workspace.greys_below = style.greys_below;
         bench.workspace.scale = style.scale;

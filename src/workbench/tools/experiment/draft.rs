@@ -29,6 +29,19 @@ pub(crate) enum Mark {
     Type(String),
 }
 
+/// What a participant does in the view, or an experimenter who types for one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Act {
+    /// Go on from instructions, a movement or a break.
+    Pass,
+    /// A part of an answer.
+    Mark(Mark),
+    /// Hand the answer in.
+    Answer,
+    /// Play the vibration of this trial again, where that is allowed.
+    Play,
+}
+
 /// An answer on its way.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) enum Draft {
@@ -255,7 +268,7 @@ impl Draft {
     }
 
     /// What was said so far, for the experimenter.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         match self {
             Self::Ranks(order) => {
                 let name = |at: &Option<usize>| {
@@ -377,7 +390,7 @@ mod tests {
         for position in [2, 0, 2, 9, 3] {
             draft.take(&Mark::Place(position), 0.0);
         }
-        assert_eq!(draft.told(), "3 1 4 ·");
+        assert_eq!(draft.describe(), "3 1 4 ·");
         assert!(draft.answer().is_err(), "one is missing");
         draft.take(&Mark::TakeBack, 0.0);
         draft.take(&Mark::Place(1), 0.0);

@@ -4,12 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::bench::session::title_of;
 use crate::bench::task::Task;
-use crate::tools::experiment::noise::NOISE_FILE;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
 use selvedge_experiment::session::{Found, find_sessions, log_path};
 use selvedge_experiment::{Course, Participant, Participants};
+
+/// The file of the masking noise in the folder of sessions.
+pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
 /// Which design is taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -151,7 +154,7 @@ impl Form {
             let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
             return Some(mend.to_owned());
         }
-        match self.who.told() {
+        match self.who.participant() {
             Err(line) => return Some(line),
             Ok(told) => {
                 let contradiction = self.participants.contradiction(&told);
@@ -170,13 +173,13 @@ impl Form {
     }
 
     /// What begins, if nothing is missing.
-    pub(crate) fn told(&self) -> Option<Told> {
+    pub(crate) fn plan(&self) -> Option<SessionPlan> {
         if self.refusal().is_some() {
             return None;
         }
-        Some(Told {
+        Some(SessionPlan {
             design: self.design.as_deref().ok()?.clone(),
-            participant: self.who.told().ok()?,
+            participant: self.who.participant().ok()?,
             session: self.session_number()?,
             folder: self.folder(),
         })
@@ -231,7 +234,7 @@ impl Form {
 
 /// A session that is to begin, and with whom.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct SessionPlan {
     /// By which design.
     pub design: Design,
     /// Who takes part.
@@ -242,7 +245,7 @@ pub(crate) struct Told {
     pub folder: PathBuf,
 }
 
-impl Told {
+impl SessionPlan {
     /// Enrols the participant in the study's table, as the command line does, and numbers the
     /// session.
     ///
@@ -301,15 +304,6 @@ fn row(found: Found) -> Row {
     }
 }
 
-/// What people call a design.
-pub(crate) fn title_of(design: &Design) -> String {
-    if design.title.is_empty() {
-        design.experiment.clone()
-    } else {
-        design.title.clone()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -347,8 +341,8 @@ mod tests {
         form.session = "0".to_owned();
         assert!(form.refusal().unwrap().contains("from 1"));
         form.session = "2".to_owned();
-        let told = form.told().unwrap();
-        assert_eq!((told.participant.pseudonym(), told.session), ("p07", 2));
+        let plan = form.plan().unwrap();
+        assert_eq!((plan.participant.pseudonym(), plan.session), ("p07", 2));
         form.who.age = "thirty".to_owned();
         assert!(form.refusal().unwrap().contains("whole years"));
         form.who.age = "300".to_owned();
@@ -359,6 +353,6 @@ mod tests {
         form.who.room.clear();
         assert_eq!(form.refusal(), None);
         form.choose(Chosen::File("/nowhere/design.toml".into()));
-        assert!(form.told().is_none() && form.refusal().unwrap().contains("nowhere"));
+        assert!(form.plan().is_none() && form.refusal().unwrap().contains("nowhere"));
     }
 }

@@ -1,8 +1,8 @@
 //! An experiment that is run in the window: one session, seen by participant and experimenter.
 //!
 //! ```text
-//! form ─▶ materials, session ─▶ held ─┬▶ participant's view: numbers of places alone
-//!                               │  ▲  └▶ experimenter's view: progress and device
+//! form ─▶ materials, log ─▶ active session ─┬▶ participant's view: numbers of places alone
+//!                               │  ▲        └▶ experimenter's view: progress and device
 //!                 trial's scene ▼  └ marks, answers ─▶ row on disk ─▶ next trial
 //!                            engine
 //! ```
@@ -12,129 +12,172 @@
 //! - the next trial begins only once the row of the last one is on disk
 //! - what participants and experimenters see does not depend on what is right
 
-pub(crate) mod command;
-pub(crate) mod dispatch;
+pub(crate) mod active_session;
 pub(crate) mod draft;
 pub(crate) mod experimenter;
 pub(crate) mod form;
 pub(crate) mod guide;
-pub(crate) mod held;
 pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;
-pub(crate) mod pane;
 pub(crate) mod participant;
+pub(crate) mod run_session;
 pub(crate) mod sessions;
+pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 pub(crate) mod view;
 pub(crate) mod who;
 
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::command::ExperimentCommand;
-pub(crate) use crate::tools::experiment::command::WindowAct;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::draft::Draft;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::draft::Mark;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::form::Chosen;
-pub(crate) use crate::tools::experiment::form::Form;
-pub(crate) use crate::tools::experiment::held::Held;
-pub(crate) use crate::tools::experiment::materials::Materials;
-pub(crate) use crate::tools::experiment::noise::NoiseView;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::now::Now;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::view::Ground;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::view::Link;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::view::ParticipantView;
-#[cfg(test)]
-pub(crate) use crate::tools::experiment::view::TrialView;
+pub(crate) use crate::tools::experiment::state::Experiment;
 
-use crate::bench::task::Task;
-use selvedge_experiment::session::Session;
+use std::path::PathBuf;
 
-/// The window that shows a participant's view and nothing else.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ParticipantsWindow {
-    /// Whether it is open: the workbench shows no participant's view then.
-    pub is_open: bool,
-    /// Whether it is to fill its screen.
-    pub(crate) fills_screen: bool,
-    /// Since when neither window has had the keyboard, s.
-    left_since_s: Option<f64>,
-}
+use eframe::egui::{
+    CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
+};
 
-/// The keyboard may be on its way from one window to the other for so long, s.
-const PASSING_S: f64 = 0.25;
+use crate::bench::Bench;
+use crate::bench::command::{Command, Commands, FileCommand, Purpose};
+use crate::bench::pane::Pane;
+use crate::bench::settings::preferences::Preferences;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::{frame_as_armed, scrolled};
+use crate::kit::view_transform::{Pointed, PointerGround};
+use crate::tools::experiment::form::Chosen;
+use crate::tools::experiment::state::ParticipantsWindow;
+use crate::tools::experiment::view::ParticipantView;
 
-impl ParticipantsWindow {
-    /// What becomes of it.
-    pub(crate) fn act(&mut self, act: WindowAct) {
-        match act {
-            WindowAct::Open => self.is_open = true,
-            WindowAct::Close => *self = Self::default(),
-            WindowAct::FillScreen(fills) => self.fills_screen = fills && self.is_open,
-        }
-    }
-
-    /// How long the windows must still be without the keyboard until another program is sure to
-    /// have it, s; `None` while one of them has it.
-    pub(crate) fn left_alone_s(&mut self, now_s: f64, has_keyboard: bool) -> Option<f64> {
-        if has_keyboard {
-            self.left_since_s = None;
-            return None;
-        }
-        let since_s = *self.left_since_s.get_or_insert(now_s);
-        Some((since_s + PASSING_S - now_s).max(0.0))
-    }
-}
-
-/// Experiments, as the window knows them: neither saved nor undoable.
-#[derive(Debug, Default)]
-pub(crate) struct Experiment {
-    /// What the next session is to be.
-    pub form: Form,
-    /// A session on its way.
-    pub beginning: Option<Task<Begun>>,
-    /// The session that is held.
-    pub held: Option<Box<Held>>,
-    /// A masking noise on its way to its file.
-    pub noise: Option<Task<()>>,
-    /// A window of the participant's own.
-    pub window: ParticipantsWindow,
-    /// Whether the participant sees nothing while a trial waits.
-    pub(crate) is_blank: bool,
-    /// Whether the next recording that ends is of a trial that nobody answered.
-    pub(crate) lets_recording_go: bool,
-}
-
-/// A session that is ready to be held.
-#[derive(Debug)]
-pub(crate) struct Begun {
-    /// The session.
-    pub session: Session,
-    /// What it presents.
-    pub materials: Materials,
-}
+/// The participant's window as it is opened, points.
+const PARTICIPANTS_WINDOW: [f32; 2] = [1000.0, 860.0];
+/// No smaller, points: what is answered with has room.
+const MIN_WINDOW: [f32; 2] = [700.0, 600.0];
 
 impl Experiment {
-    /// Whether a session is held.
-    pub(crate) fn is_held(&self) -> bool {
-        self.held.is_some()
+    fn show_participant(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        if self.window.is_open {
+            return participant::show_apart(ui, &mut self.window);
+        }
+        let now_s = ui.input(|input| input.time);
+        let mut acts = Vec::new();
+        let view = self.participant(&context.bench.transient.live, now_s);
+        let shown = participant::show(ui, &view, &mut acts);
+        if shown.is_some() {
+            *context.ground = shown;
+        }
+        self.take_acts(acts, context.bench);
     }
 
-    /// How it stands with a masking noise, where the design asks for one.
-    pub(crate) fn noise(&self) -> Option<NoiseView> {
-        let form = &self.form;
-        let is_asked = match &self.held {
-            Some(held) => held.design.course.masking_noise,
-            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
-        };
-        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
-        is_asked.then(view)
+    /// The participant's view in a window of its own; where the pointer feels there, if there is
+    /// such a place.
+    fn show_window(
+        &mut self,
+        ctx: &Context,
+        context: &mut PaneContext<'_>,
+    ) -> Option<PointerGround> {
+        let (mut window, mut acts) = (self.window, Vec::new());
+        let live = &context.bench.transient.live;
+        let view = self.participant(live, ctx.input(|input| input.time));
+        let builder = ViewportBuilder::default()
+            .with_title("Selvedge – participant")
+            .with_app_id("selvedge")
+            .with_inner_size(PARTICIPANTS_WINDOW)
+            .with_min_inner_size(MIN_WINDOW)
+            .with_fullscreen(window.fills_screen);
+        let id = ViewportId::from_hash_of("participant");
+        let shown = ctx.show_viewport_immediate(id, builder, |ui, class| {
+            if class == ViewportClass::EmbeddedWindow {
+                return participant::show(ui, &view, &mut acts);
+            }
+            take_window_keys(ui.ctx(), &mut window, context.commands);
+            if live.is_armed() {
+                frame_as_armed(ui.ctx());
+            }
+            let panel = CentralPanel::default().frame(Frame::new());
+            let shown = panel.show(ui, |ui| match &view {
+                ParticipantView::Nobody { is_coming } => {
+                    participant::show_before(ui, *is_coming);
+                    None
+                }
+                view => participant::show(ui, view, &mut acts),
+            });
+            let window = Pointed::Participant;
+            shown.inner.map(|ground| PointerGround { window, ..ground })
+        });
+        if self.window != window {
+            self.window = window;
+            ctx.request_repaint();
+        }
+        self.take_acts(acts, context.bench);
+        shown
+    }
+}
+
+impl Tool for Experiment {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Participant, Pane::Experimenter]
+    }
+
+    fn begin(&mut self, bench: &mut Bench) {
+        let preferences = &bench.settings.preferences;
+        let (folder, design) = (&preferences.sessions_folder, &preferences.design);
+        self.form.take_up(folder.as_deref(), design.as_deref());
+    }
+
+    fn logic(&mut self, bench: &mut Bench) {
+        self.poll(bench);
+    }
+
+    fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        if pane == Pane::Participant {
+            self.show_participant(ui, context);
+        } else {
+            scrolled(ui, pane.title(), |ui| experimenter::show(ui, self, context));
+        }
+    }
+
+    fn windows(&mut self, ctx: &Context, context: &mut PaneContext<'_>) {
+        if self.window.is_open {
+            *context.ground = self.show_window(ctx, context);
+        }
+        context.bench.has_participants_window = self.window.is_open;
+    }
+
+    fn command(&mut self, command: &Command, _bench: &mut Bench) {
+        if let Command::File(FileCommand::Use(Purpose::OpenDesign, path)) = command {
+            self.form.choose(Chosen::File(path.clone()));
+        }
+    }
+
+    fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
+        match &self.form.chosen {
+            Chosen::File(path) if purpose == Purpose::OpenDesign => Some(path.clone()),
+            _ => None,
+        }
+    }
+
+    fn keep_preferences(&self, preferences: &mut Preferences) {
+        preferences.sessions_folder = self.form.kept_folder();
+        preferences.design = self.form.chosen.word();
+    }
+}
+
+/// What the participant's window does besides showing its view: it closes, fills its screen by F11,
+/// and Esc switches everything off as everywhere.
+fn take_window_keys(ctx: &Context, window: &mut ParticipantsWindow, commands: &mut Commands) {
+    let (is_closed, is_toggled, is_off) = ctx.input(|input| {
+        (
+            input.viewport().close_requested(),
+            input.key_pressed(Key::F11),
+            input.key_pressed(Key::Escape),
+        )
+    });
+    if is_closed {
+        *window = ParticipantsWindow::default();
+    } else if is_toggled {
+        window.fills_screen = !window.fills_screen;
+    }
+    if is_off {
+        commands.push(Command::AllOff);
     }
 }

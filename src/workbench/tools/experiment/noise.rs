@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::bench::task::Task;
+use crate::bench::Bench;
+use crate::bench::task::{Task, taken};
+use crate::tools::experiment::form::NOISE_FILE;
+use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::MaskingNoise;
 use selvedge_foundation::progress::Progress;
-
-/// The file in the folder of sessions.
-pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
 /// How it stands with the noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +31,41 @@ impl NoiseView {
     }
 }
 
+impl Experiment {
+    /// How it stands with a masking noise, where the design asks for one.
+    pub(crate) fn noise(&self) -> Option<NoiseView> {
+        let form = &self.form;
+        let is_asked = match &self.session {
+            Some(session) => session.design.course.masking_noise,
+            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+        };
+        let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
+        is_asked.then(view)
+    }
+
+    /// Begins to write the noise into the folder of sessions.
+    pub(crate) fn write_noise(&mut self, bench: &Bench) {
+        if self.form.kept_folder().is_none() || self.noise.is_some() {
+            return;
+        }
+        let folder = self.form.folder();
+        let work = move |progress: &mut Progress<'_>| write_noise(&folder, progress);
+        let name = ("selvedge-noise", &bench.ctx);
+        self.noise = Some(Task::start(name, bench.is_stepped, work));
+    }
+
+    /// Takes what came of it.
+    pub(crate) fn poll_noise(&mut self, bench: &mut Bench) {
+        match taken(&mut self.noise) {
+            Some((Ok(()), _)) => self.form.has_noise = true,
+            Some((Err(line), _)) => bench.transient.notices.give(line),
+            None => {}
+        }
+    }
+}
+
 /// Writes the noise into a folder, which is made where it is missing.
-pub(crate) fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
+fn write_noise(folder: &Path, progress: &mut Progress<'_>) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let folder = folder.display();
         format!("cannot make the folder {folder}: {error}; choose another")

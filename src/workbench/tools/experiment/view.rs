@@ -3,12 +3,14 @@
 //! A participant's view holds numbers of places and the target's picture. No id, no level and no
 //! position of what is right is in it, nor in the experimenter's.
 
-use crate::bench::view::{BridgePhase, BridgeView, ClothPicture, Live};
+use crate::bench::Bench;
+use crate::bench::session::title_of;
+use crate::bench::view::{BridgePhase, ClothPicture, Live};
+use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::Draft;
-use crate::tools::experiment::form::title_of;
-use crate::tools::experiment::held::Held;
+use crate::tools::experiment::guide;
 use crate::tools::experiment::now::{Now, Pause};
-use crate::tools::experiment::{Experiment, guide};
+use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::design::{Design, Method, Source};
 use selvedge_experiment::layout::{Layout, on_the_table};
 use selvedge_experiment::{Task, Trial};
@@ -17,7 +19,7 @@ use selvedge_foundation::geometry::Point;
 /// What the participant sees.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ParticipantView<'a> {
-    /// No session is held; whether one is on its way.
+    /// No session is active; whether one is on its way.
     Nobody {
         /// One is being prepared.
         is_coming: bool,
@@ -99,18 +101,6 @@ impl TrialView<'_> {
     }
 }
 
-/// What the experimenter sees.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum ExperimenterView {
-    /// No session is held; how far the next one is prepared, 0…1.
-    Nobody {
-        /// 0…1; `None` while none is on its way.
-        share: Option<f32>,
-    },
-    /// A session is held.
-    Held(Box<HeldView>),
-}
-
 /// Where a session is in its course.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Course {
@@ -128,9 +118,9 @@ pub(crate) enum Course {
     Finished,
 }
 
-/// A session as the experimenter sees it.
+/// The active session as the experimenter sees it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HeldView {
+pub(crate) struct SessionView {
     /// The design's title.
     pub title: String,
     /// Who takes part, and which session it is.
@@ -180,17 +170,15 @@ pub(crate) struct Link {
 
 impl Link {
     /// The device that is connected, if one is.
-    pub(crate) fn of(
-        (bridge, name): (Option<&BridgeView>, Option<&str>),
-        is_stopped: bool,
-        limit_um: [f64; 2],
-    ) -> Self {
+    pub(crate) fn of(bench: &Bench) -> Self {
+        let live = &bench.transient.live;
+        let (bridge, name) = (live.bridge.as_ref(), bench.transient.target.as_deref());
         Self {
             name: name.unwrap_or("No device").to_owned(),
             state: bridge.map_or("not connected", |bridge| bridge.state),
             is_armed: bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Armed),
-            is_stopped,
-            limit_um,
+            is_stopped: live.is_stopped,
+            limit_um: bench.engine.profile().limit_um,
         }
     }
 }
@@ -198,11 +186,11 @@ impl Link {
 impl Experiment {
     /// What the participant sees.
     pub(crate) fn participant(&self, live: &Live, now_s: f64) -> ParticipantView<'_> {
-        match &self.held {
+        match &self.session {
             None => ParticipantView::Nobody {
                 is_coming: self.beginning.is_some(),
             },
-            Some(held) => match held.participant(live.centre, now_s) {
+            Some(session) => match session.participant(live.centre, now_s) {
                 ParticipantView::Trial(trial) if self.is_blank => {
                     ParticipantView::Blank(trial.ground)
                 }
@@ -210,19 +198,9 @@ impl Experiment {
             },
         }
     }
-
-    /// What the experimenter sees.
-    pub(crate) fn experimenter(&self, link: Link, now_s: f64) -> ExperimenterView {
-        match &self.held {
-            None => ExperimenterView::Nobody {
-                share: self.beginning.as_ref().map(crate::bench::task::Task::share),
-            },
-            Some(held) => ExperimenterView::Held(Box::new(held.experimenter(link, now_s))),
-        }
-    }
 }
 
-impl Held {
+impl ActiveSession {
     /// The trial whose answer the experimenter types, while the participant sees nothing.
     pub(crate) fn typed(&self, now_s: f64) -> Option<TrialView<'_>> {
         match self.participant(None, now_s) {
@@ -299,7 +277,8 @@ impl Held {
         }
     }
 
-    fn experimenter(&self, link: Link, now_s: f64) -> HeldView {
+    /// The session as the experimenter sees it.
+    pub(crate) fn view(&self, link: Link, now_s: f64) -> SessionView {
         let course = match &self.now {
             _ if self.pause == Pause::On => Course::Paused,
             Now::Instructions(_) => Course::Instructions,
@@ -309,7 +288,7 @@ impl Held {
             Now::Finished => Course::Finished,
         };
         let trial = self.trial();
-        HeldView {
+        SessionView {
             title: title_of(&self.design),
             subject: format!(
                 "{}, session {}",
@@ -322,7 +301,7 @@ impl Held {
             lasted_s: self.lasted_s(now_s),
             left_s: self.left_s(now_s),
             last_response_s: self.last_response_s,
-            answered: self.draft.told(),
+            answered: self.draft.describe(),
             table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
             link,
             pause: self.pause,

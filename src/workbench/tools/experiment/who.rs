@@ -67,7 +67,7 @@ impl Who {
     ///
     /// # Errors
     /// What is wrong with what was typed, and how to mend it.
-    pub(crate) fn told(&self) -> Result<Participant, String> {
+    pub(crate) fn participant(&self) -> Result<Participant, String> {
         let word = |typed: &'_ str| Some(typed.trim().to_owned()).filter(|word| !word.is_empty());
         let age_years = match word(&self.age).map(|age| age.parse()) {
             None => None,
@@ -144,15 +144,15 @@ mod tests {
             ..Who::default()
         };
         who.follow(&known);
-        assert_eq!(known.contradiction(&who.told().unwrap()), None);
+        assert_eq!(known.contradiction(&who.participant().unwrap()), None);
         who.handedness = "right".to_owned();
         who.follow(&known);
-        let line = known.contradiction(&who.told().unwrap()).unwrap();
+        let line = known.contradiction(&who.participant().unwrap()).unwrap();
         assert!(
             line.contains("handedness was left then, and is right now"),
             "{line}"
         );
         who.age = "12.5".to_owned();
-        assert!(who.told().unwrap_err().contains("whole years"));
+        assert!(who.participant().unwrap_err().contains("whole years"));
     }
 }

@@ -98,7 +98,7 @@ impl tool::Tool for Workspace {
         if let Some(pane) = context.bench.transient.ground {
             let mut next = self.view;
             tools::show(ui, &mut next, pane, context.scene.size_mm);
-            if next != self.view && !context.bench.refuses_in_session() {
+            if next != self.view {
                 self.take_up(ui, next);
             }
         }

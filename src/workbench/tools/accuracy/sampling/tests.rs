@@ -201,6 +201,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .send(selvedge_engine::Command::StopRecording)
         .unwrap();
     bench.engine.advance_ticks(1).unwrap();
+    bench.ended_recording = bench.engine.take_recording();
     bench.take_recording();
     accuracy.measure(&mut bench);
     while accuracy.measuring.is_some() {

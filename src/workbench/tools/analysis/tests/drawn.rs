@@ -26,9 +26,7 @@ impl Drawn {
         let mut tiles = Tiles::default();
         let root = arrangement::tabs(&mut tiles, &[Pane::Analysis]);
         drawn.window.workbench.shell.tree = Tree::new(Id::unique("alone"), root, tiles);
-        let analysing = &mut drawn.window.workbench.bench.transient.analysing;
-        analysing.fields.seed = asked.seed.to_string();
-        analysing.choice = asked.choice.clone();
+        ask(&mut drawn.window, asked);
         drawn
     }
 
@@ -81,12 +79,11 @@ fn sections_are_drawn_dark_and_light_wide_and_narrow() {
     ] {
         let mut drawn = Drawn::new(size, theme, &asked);
         let empty = drawn.picture(&format!("empty-{word}"));
-        drawn
-            .window
-            .dispatch(AnalysisCommand::Open(folder.0.clone()));
+        open(&mut drawn.window, &folder.0);
         drawn.pass(2);
-        let sections = analysing(&drawn.window)
-            .found()
+        let sections = analysis(&drawn.window)
+            .found
+            .as_ref()
             .unwrap()
             .analysis
             .sections
@@ -97,7 +94,7 @@ fn sections_are_drawn_dark_and_light_wide_and_narrow() {
             if !(is_drawn || is_looked_at) {
                 continue;
             }
-            drawn.window.dispatch(AnalysisCommand::Select(nth));
+            analysis_mut(&mut drawn.window).section = nth;
             let picture = drawn.picture(&format!("{word}-{}", section.key));
             assert_ne!(picture.rgba, empty.rgba, "{}", section.key);
             // No white paper in a dark window.

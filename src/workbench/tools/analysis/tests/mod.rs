@@ -3,20 +3,22 @@
 
 pub(crate) mod drawn;
 
+use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use eframe::egui::vec2;
+use eframe::egui::{self, vec2};
 
 use super::*;
 use crate::bench::command::ShowCommand;
-use crate::bench::pane::Pane;
+use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
 use crate::shell::headless::Headless;
-use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::Chosen;
+use crate::tools::analysis::asked::{Asked, Choice, Effort};
+use crate::tools::analysis::findings::find_out;
 use selvedge_experiment::Simulation;
-use selvedge_experiment::analysis::analyse_folder;
+use selvedge_experiment::analysis::{Section, analyse_folder};
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;
@@ -48,7 +50,7 @@ fn asked(folder: &Path) -> Asked {
         choice: Choice {
             effort: Effort::Quick,
             has_random_data: false,
-            with_held: false,
+            with_active: false,
         },
     }
 }
@@ -58,14 +60,33 @@ fn window(asked: &Asked) -> Headless {
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
     window.dispatch(ShowCommand::Pane(Pane::Analysis));
-    let analysing = &mut window.workbench.bench.transient.analysing;
-    analysing.fields.seed = asked.seed.to_string();
-    window.dispatch(AnalysisCommand::Choose(asked.choice.clone()));
+    ask(&mut window, asked);
     window
 }
 
-fn analysing(window: &Headless) -> &Analysing {
-    &window.workbench.bench.transient.analysing
+fn ask(window: &mut Headless, asked: &Asked) {
+    let analysis = analysis_mut(window);
+    analysis.fields.seed = asked.seed.to_string();
+    analysis.choice = asked.choice.clone();
+}
+
+fn analysis(window: &Headless) -> &Analysis {
+    window.workbench.tools.get().unwrap()
+}
+
+fn analysis_mut(window: &mut Headless) -> &mut Analysis {
+    window.workbench.tools.get_mut().unwrap()
+}
+
+/// Chooses a folder, as the dialog that asks for one does.
+fn open(window: &mut Headless, folder: &Path) {
+    window.dispatch(FileCommand::Use(Purpose::OpenLogs, folder.to_owned()));
+}
+
+fn begin(window: &mut Headless) {
+    let workbench = &mut window.workbench;
+    let analysis: &mut Analysis = workbench.tools.get_mut().unwrap();
+    analysis.begin(&workbench.bench);
 }
 
 #[test]
@@ -74,11 +95,11 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     study(&folder, 3);
     let asked = asked(&folder.0);
     let mut window = window(&asked);
-    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    open(&mut window, &folder.0);
     window.pass(3);
     let expected =
         unheard(|progress| analyse_folder(&folder.0, &asked.options(), progress)).unwrap();
-    let found = analysing(&window).found().unwrap();
+    let found = analysis(&window).found.as_ref().unwrap();
     assert_eq!(found.analysis, expected);
     assert_eq!((&found.asked, found.n_sessions), (&asked, 3));
     assert_eq!(found.left_out, [""; 0]);
@@ -88,17 +109,17 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     assert!(warning.contains("3 of 4 planned subjects"), "{warning}");
     assert!(warning.contains("p values"), "{warning}");
 
-    window.dispatch(AnalysisCommand::Write(folder.0.clone()));
+    window.dispatch(FileCommand::Use(Purpose::WriteReport, folder.0.clone()));
     window.pass(2);
     assert!(!folder.0.join("index.md").exists(), "not among the logs");
-    let out = analysing(&window).report_folder().unwrap();
-    assert_eq!(analysing(&window).view(None).written, Some(Ok(&*out)));
+    let out = analysis(&window).known_path(Purpose::WriteReport).unwrap();
+    assert_eq!(analysis(&window).written, Some(Ok(out.clone())));
     let page = fs::read_to_string(out.join("index.md")).unwrap();
     assert_eq!(page, expected.page());
     let beyond = out.join("index.md").join("beyond");
-    window.dispatch(AnalysisCommand::Write(beyond));
+    window.dispatch(FileCommand::Use(Purpose::WriteReport, beyond));
     window.pass(2);
-    let line = analysing(&window).view(None).written.unwrap().unwrap_err();
+    let line = analysis(&window).written.clone().unwrap().unwrap_err();
     assert!(line.contains("beyond") && !line.contains('\n'), "{line}");
     let again = unheard(|progress| find_out(asked.clone(), None, progress)).unwrap();
     assert_eq!(again.n_sessions, 3, "the report is no session");
@@ -110,33 +131,33 @@ fn a_folder_that_is_missing_or_empty_says_so_in_one_line_and_the_last_result_sta
     study(&folder, 2);
     fs::create_dir_all(&empty.0).unwrap();
     let mut window = window(&asked(&folder.0));
-    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    open(&mut window, &folder.0);
     window.pass(2);
-    let found = Arc::clone(analysing(&window).found().unwrap());
+    let found = Arc::clone(analysis(&window).found.as_ref().unwrap());
     let missing = empty.0.join("nowhere");
     for (path, words) in [
         (&empty.0, "holds no session"),
         (&missing, "there is no folder"),
     ] {
-        window.dispatch(AnalysisCommand::Open(path.clone()));
+        open(&mut window, path);
         window.pass(2);
-        let view = analysing(&window).view(None);
-        let line = view.failure.unwrap();
+        let analysis = analysis(&window);
+        let line = analysis.failure.as_ref().unwrap();
         assert!(
             line.contains(words) && line.contains(&*path.to_string_lossy()),
             "{line}"
         );
         assert!(!line.contains('\n'), "{line}");
         assert!(
-            Arc::ptr_eq(view.found.unwrap(), &found),
+            Arc::ptr_eq(analysis.found.as_ref().unwrap(), &found),
             "the last one stays"
         );
-        assert!(view.is_past, "and says that it is of another folder");
+        assert!(analysis.is_past(), "and says that it is of another folder");
     }
-    window.workbench.bench.transient.analysing.fields.seed = "seven".to_owned();
-    window.dispatch(AnalysisCommand::Begin);
+    analysis_mut(&mut window).fields.seed = "seven".to_owned();
+    begin(&mut window);
     window.pass(2);
-    let refusal = analysing(&window).view(None).refusal.unwrap();
+    let refusal = analysis(&window).refusal().unwrap();
     assert!(refusal.contains("whole number"), "{refusal}");
 }
 
@@ -145,30 +166,29 @@ fn an_analysis_that_is_cancelled_leaves_the_last_result() {
     let folder = Folder::new("cancelled");
     study(&folder, 2);
     let ctx = egui::Context::default();
-    let mut analysing = Analysing::default();
-    analysing.fields.folder = folder.0.display().to_string();
-    analysing.choice = asked(&folder.0).choice;
-    analysing.begin(&ctx, true, None);
-    analysing.poll();
-    let found = Arc::clone(analysing.found().unwrap());
-    analysing.choice = Choice {
+    let mut analysis = Analysis::default();
+    analysis.fields.folder = folder.0.display().to_string();
+    analysis.choice = asked(&folder.0).choice;
+    analysis.begin_with(&ctx, true, None);
+    analysis.poll();
+    let found = Arc::clone(analysis.found.as_ref().unwrap());
+    analysis.choice = Choice {
         effort: Effort::Full,
         has_random_data: true,
-        with_held: false,
+        with_active: false,
     };
-    analysing.begin(&ctx, false, None);
-    assert!(analysing.view(None).share.is_some());
-    analysing.stop();
+    analysis.begin_with(&ctx, false, None);
+    assert!(analysis.share().is_some());
+    analysis.stop();
     let began = Instant::now();
-    while analysing.view(None).share.is_some() {
+    while analysis.share().is_some() {
         assert!(began.elapsed() < Duration::from_mins(2), "it goes on");
         thread::sleep(Duration::from_millis(2));
-        analysing.poll();
+        analysis.poll();
     }
-    let view = analysing.view(None);
-    assert!(Arc::ptr_eq(view.found.unwrap(), &found));
-    assert_eq!(view.failure, None, "whoever cancels knows it");
-    assert!(view.is_past);
+    assert!(Arc::ptr_eq(analysis.found.as_ref().unwrap(), &found));
+    assert_eq!(analysis.failure, None, "whoever cancels knows it");
+    assert!(analysis.is_past());
 }
 
 #[test]
@@ -187,10 +207,10 @@ fn who_takes_part_in_a_session_under_way_is_left_out_unless_that_is_asked_for() 
     let found = find(&asked).unwrap();
     assert_eq!(found.left_out, ["o02"]);
     assert_eq!(found.n_sessions, 1, "neither of their sessions");
-    asked.choice.with_held = true;
+    asked.choice.with_active = true;
     let found = find(&asked).unwrap();
     assert_eq!((found.left_out.len(), found.n_sessions), (0, 3));
-    asked.choice.with_held = false;
+    asked.choice.with_active = false;
     let log = held.log().to_owned();
     drop(held);
     let found = find(&asked).unwrap();
@@ -218,41 +238,37 @@ fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
     let folder = Folder::new("figures");
     study(&folder, 2);
     let mut window = window(&asked(&folder.0));
-    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    open(&mut window, &folder.0);
     window.pass(4);
     let has_two = |s: &Section| s.figures.len() >= 2;
-    let sections = &analysing(&window).found().unwrap().analysis.sections;
+    let sections = &analysis(&window).found.as_ref().unwrap().analysis.sections;
     let map = sections.iter().position(has_two).unwrap();
-    assert_eq!(
-        analysing(&window).n_drawn(),
-        0,
-        "the first section has none"
-    );
-    window.dispatch(AnalysisCommand::Select(map));
+    assert_eq!(analysis(&window).n_drawn(), 0, "the first section has none");
+    analysis_mut(&mut window).section = map;
     window.pass(4);
-    assert_eq!(analysing(&window).n_drawn(), 1);
-    let pictures = Arc::clone(analysing(&window).view(None).pictures.unwrap());
+    assert_eq!(analysis(&window).n_drawn(), 1);
+    let pictures = Arc::clone(analysis(&window).pictures.found().unwrap());
     for image in &pictures.images[..2] {
         let image = image.as_ref().unwrap();
         let n_inked = image.pixels.iter().filter(|pixel| pixel.a() > 128).count();
         assert!(image.size[0] >= 540 && n_inked > 2000, "{n_inked} pixels");
     }
     window.pass(30);
-    assert_eq!(analysing(&window).n_drawn(), 1, "nothing has changed");
+    assert_eq!(analysis(&window).n_drawn(), 1, "nothing has changed");
     let toggle = ShowCommand::Pane(Pane::Analysis);
     window.dispatch(toggle.clone());
     assert!(!arrangement::is_shown(
         &window.workbench.shell.tree,
         Pane::Analysis
     ));
-    window.dispatch(AnalysisCommand::Select(map + 1));
-    window.dispatch(AnalysisCommand::Begin);
+    analysis_mut(&mut window).section = map + 1;
+    begin(&mut window);
     window.pass(10);
-    assert_eq!(analysing(&window).n_drawn(), 1, "nobody looks");
-    window.dispatch(AnalysisCommand::Select(map));
+    assert_eq!(analysis(&window).n_drawn(), 1, "nobody looks");
+    analysis_mut(&mut window).section = map;
     window.dispatch(toggle);
     window.pass(4);
-    assert_eq!(analysing(&window).n_drawn(), 2, "somebody does");
+    assert_eq!(analysis(&window).n_drawn(), 2, "somebody does");
 }
 
 #[test]
@@ -260,13 +276,17 @@ fn a_section_stays_at_hand_when_the_same_is_analysed_again() {
     let folder = Folder::new("stays");
     study(&folder, 2);
     let mut window = window(&asked(&folder.0));
-    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    open(&mut window, &folder.0);
     window.pass(2);
-    window.dispatch(AnalysisCommand::Select(2));
-    let key = analysing(&window).section().unwrap().key.clone();
-    window.dispatch(AnalysisCommand::Begin);
+    analysis_mut(&mut window).section = 2;
+    let key = analysis(&window).section().unwrap().key.clone();
+    begin(&mut window);
     window.pass(2);
-    assert_eq!(analysing(&window).section().unwrap().key, key);
+    assert_eq!(analysis(&window).section().unwrap().key, key);
+}
+
+fn is_covered(window: &Headless) -> bool {
+    analysis(window).is_covered(&window.workbench.bench)
 }
 
 #[test]
@@ -274,31 +294,33 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     let folder = Folder::new("covered");
     study(&folder, 2);
     let mut window = window(&asked(&folder.0));
-    window.dispatch(AnalysisCommand::Open(folder.0.clone()));
+    open(&mut window, &folder.0);
     window.pass(3);
-    let form = &mut window.workbench.bench.transient.experiment.form;
-    form.choose(Chosen::Shipped("threshold-40"));
-    form.folder = folder.0.display().to_string();
-    form.who.pseudonym = "p07".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
-    window.pass(3);
-    assert!(window.workbench.bench.transient.experiment.is_held());
-    window.dispatch(ShowCommand::Pane(Pane::Analysis));
+    let subject = Subject {
+        pseudonym: "p07".to_owned(),
+        nth: 2,
+        session: 1,
+    };
+    let design = Design::shipped("threshold-40").unwrap();
+    let active = Session::create(&folder.0, design, subject, "none").unwrap();
+    window.workbench.bench.session = Some(SessionInSight {
+        pseudonym: "p07".to_owned(),
+        log: active.log().to_owned(),
+    });
     window.pass(2);
-    assert!(analysing(&window).view(Some("p07")).is_covered);
-    window.dispatch(AnalysisCommand::Uncover(true));
+    assert!(is_covered(&window));
+    analysis_mut(&mut window).is_uncovered = true;
     window.pass(2);
-    assert!(!analysing(&window).view(Some("p07")).is_covered);
-    window.dispatch(AnalysisCommand::Begin);
+    assert!(!is_covered(&window));
+    begin(&mut window);
     window.pass(2);
     assert_eq!(window.workbench.notices(), [""; 0], "that is allowed");
-    let found = analysing(&window).found().unwrap();
+    let found = analysis(&window).found.as_ref().unwrap();
     assert_eq!(
         (found.n_sessions, &found.left_out[..]),
         (2, &["p07".to_owned()][..])
     );
-    window.dispatch(ExperimentCommand::End);
+    window.workbench.bench.session = None;
     window.pass(3);
-    assert!(!window.workbench.bench.transient.experiment.is_held());
-    assert!(!analysing(&window).is_uncovered, "the next one is covered");
+    assert!(!analysis(&window).is_uncovered, "the next one is covered");
 }

@@ -1,10 +1,13 @@
-//! How the columns of a table are laid out: decimals, words, widths.
+//! How the columns of a table are laid out: decimals, words, widths; and what is kept of that.
 
-use eframe::egui::{FontId, Ui};
+use std::sync::Arc;
+
+use eframe::egui::{ColorImage, FontId, TextureHandle, Ui};
 
 use crate::kit::theme;
+use crate::tools::analysis::findings::Findings;
 use crate::tools::analysis::view::words::plain;
-use selvedge_experiment::analysis::{Cell, Column, Table};
+use selvedge_experiment::analysis::{Cell, Column, Section, Table};
 use selvedge_foundation::quantity;
 
 /// Space between columns, points.
@@ -51,6 +54,37 @@ pub(crate) struct ColumnLook {
     pub(crate) decimals: Option<usize>,
     /// Its width, points.
     pub(crate) width: f32,
+}
+
+/// Tables and figures of the section at hand as they are laid out.
+#[derive(Default)]
+pub(crate) struct Looks {
+    of: Option<(Arc<Findings>, usize)>,
+    /// By their place in the section.
+    pub(crate) tables: Vec<Option<TableLook>>,
+    /// The same; the picture that each was made of.
+    pub(crate) textures: Vec<Option<(Arc<ColorImage>, TextureHandle)>>,
+}
+
+impl Looks {
+    /// Forgets what belongs to another section.
+    pub(crate) fn turn_to(&mut self, found: &Arc<Findings>, nth: usize, section: &Section) {
+        let is_same = |(of, at): &(Arc<Findings>, usize)| Arc::ptr_eq(of, found) && *at == nth;
+        if self.of.as_ref().is_some_and(is_same) {
+            return;
+        }
+        self.of = Some((Arc::clone(found), nth));
+        self.tables = section.tables.iter().map(|_| None).collect();
+        self.textures = section.figures.iter().map(|_| None).collect();
+    }
+}
+
+impl std::fmt::Debug for Looks {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Looks")
+            .field("section", &self.of.as_ref().map(|(_, nth)| nth))
+            .finish_non_exhaustive()
+    }
 }
 
 impl TableLook {

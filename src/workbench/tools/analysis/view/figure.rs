@@ -8,14 +8,13 @@ use eframe::egui::{
     Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::toggle;
-use crate::tools::analysis::AnalysisView;
-use crate::tools::analysis::command::AnalysisCommand;
-use crate::tools::analysis::view::Sight;
-use crate::tools::analysis::view::section::Looks;
+use crate::tools::analysis::findings::Findings;
+use crate::tools::analysis::pictures::Wanted;
+use crate::tools::analysis::state::Analysis;
+use crate::tools::analysis::view::columns::Looks;
 use selvedge_chart::Paper;
 use selvedge_experiment::analysis::Drawn;
 
@@ -29,8 +28,8 @@ fn width(room: f32) -> f32 {
     room.clamp(WIDTHS[0], WIDTHS[1])
 }
 
-/// How figures are wanted in a room of this width.
-pub(crate) fn sight(ui: &Ui, room: f32) -> Sight {
+/// How the figures of a section are wanted in a room of this width.
+pub(crate) fn wanted(ui: &Ui, room: f32, (findings, section): (Arc<Findings>, usize)) -> Wanted {
     let px = (width(room) * ui.ctx().pixels_per_point()).round();
     #[expect(
         clippy::cast_possible_truncation,
@@ -43,28 +42,35 @@ pub(crate) fn sight(ui: &Ui, room: f32) -> Sight {
     } else {
         Paper::OnLight
     };
-    Sight { width_px, paper }
+    Wanted {
+        findings,
+        section,
+        width_px,
+        paper,
+    }
 }
 
 /// The picture of a figure of the section at hand, if it is drawn; of whatever width.
-pub(crate) fn picture_of<'a>(
-    view: &AnalysisView<'a>,
+fn picture_of<'a>(
+    analysis: &'a Analysis,
+    found: &Arc<Findings>,
     nth: usize,
 ) -> Option<&'a Result<Arc<ColorImage>, String>> {
-    let pictures = view.pictures?;
+    let pictures = analysis.pictures.found()?;
     let wanted = &pictures.wanted;
-    let is_same = Arc::ptr_eq(&wanted.findings, view.found?) && wanted.section == view.section;
+    let is_same = Arc::ptr_eq(&wanted.findings, found) && wanted.section == analysis.section;
     pictures.images.get(nth).filter(|_| is_same)
 }
 
-/// Shows a figure in a room of this width.
+/// Shows a figure in a room of this width; says whether it is to be saved.
 pub(crate) fn show(
     ui: &mut Ui,
     (nth, drawn, room): (usize, &Drawn, f32),
-    picture: Option<&Result<Arc<ColorImage>, String>>,
-    looks: &mut Looks,
-    commands: &mut Commands,
-) {
+    found: &Arc<Findings>,
+    analysis: &mut Analysis,
+) -> bool {
+    let picture = picture_of(analysis, found, nth).cloned();
+    let looks = &mut analysis.looks;
     let [laid_width, laid_height] = drawn.figure.size_px();
     #[expect(clippy::cast_possible_truncation, reason = "a ratio, for the screen")]
     let size = vec2(1.0, (laid_height / laid_width) as f32) * width(room);
@@ -75,7 +81,7 @@ pub(crate) fn show(
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         let title = &drawn.figure.title;
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, title));
-        match picture {
+        match &picture {
             Some(Ok(image)) => paint(ui, rect, (nth, image), looks),
             Some(Err(line)) => say(ui, rect, line),
             None => say(ui, rect, title),
@@ -88,10 +94,9 @@ pub(crate) fn show(
         );
         let mut child = ui.new_child(UiBuilder::new().max_rect(corner));
         let label = format!("Save “{title}” as PNG, SVG or CSV");
-        if toggle(&mut child, "save…", false, &label) {
-            commands.push(AnalysisCommand::SaveFigure(nth).into());
-        }
-    });
+        toggle(&mut child, "save…", false, &label)
+    })
+    .inner
 }
 
 fn paint(ui: &Ui, rect: Rect, (nth, image): (usize, &Arc<ColorImage>), looks: &mut Looks) {

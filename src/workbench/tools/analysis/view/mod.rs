@@ -1,7 +1,7 @@
 //! Analysis: what the logs in a folder say, section by section.
 //!
 //! Folder, choices and the sections on the left; the section at hand on the right: what to know,
-//! its figures, its tables. Draws what `app::analysis` found; asks for everything by commands.
+//! its figures, its tables.
 
 pub(crate) mod columns;
 pub(crate) mod figure;
@@ -11,20 +11,19 @@ pub(crate) mod section;
 pub(crate) mod table;
 pub(crate) mod words;
 
+use std::sync::Arc;
+
 use eframe::egui::{Align, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-use crate::bench::command::Commands;
+use crate::bench::tool::PaneContext;
 use crate::kit::pane::{inside, scrolled_column as scrolled};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::button;
-use crate::tools::analysis::AnalysisView;
-use crate::tools::analysis::asked::Fields;
-use crate::tools::analysis::command::AnalysisCommand;
-use selvedge_chart::Paper;
-
-pub(crate) use crate::tools::analysis::view::section::Looks;
+use crate::tools::analysis::findings::Findings;
+use crate::tools::analysis::pictures::Wanted;
+use crate::tools::analysis::state::Analysis;
 
 /// A pane this wide has room for two columns, points.
 const WIDE: f32 = 640.0;
@@ -39,72 +38,53 @@ const EMPTY: [&str; 3] = [
     "Logs are read and never changed; a session may go on meanwhile.",
 ];
 
-/// What is typed in the pane, and what it keeps from frame to frame.
-pub(crate) struct AnalysisHands<'a> {
-    /// Folder and seed.
-    pub fields: &'a mut Fields,
-    /// Tables and figures as they are laid out.
-    pub looks: &'a mut Looks,
-}
-
-/// How the figures in sight are wanted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Sight {
-    /// How wide, px of the screen.
-    pub width_px: u32,
-    /// What is behind them.
-    pub paper: Paper,
-}
-
-/// Shows the pane; says how the figures in sight are wanted, if there are any.
+/// Shows the pane; says which figures are wanted, if any are in sight.
 pub(crate) fn show(
     ui: &mut Ui,
-    view: &AnalysisView<'_>,
-    hands: &mut AnalysisHands<'_>,
-    commands: &mut Commands,
-) -> Option<Sight> {
+    analysis: &mut Analysis,
+    context: &mut PaneContext<'_>,
+) -> Option<Wanted> {
     ui.spacing_mut().item_spacing.y = STEP;
     let whole = ui.available_rect_before_wrap();
-    let Some(found) = view.found else {
-        show_empty(ui, view, hands.fields, commands);
+    let Some(found) = analysis.found.clone() else {
+        show_empty(ui, analysis, context);
         return None;
     };
     let sections = &found.analysis.sections;
-    let mut sight = None;
+    let mut wanted = None;
     if whole.width() >= WIDE {
         let (left, right) = whole.split_left_right_at_x(whole.left() + LEFT);
         let hairline = (1.0, Palette::in_ui(ui).hairline);
         ui.painter().vline(left.right(), whole.y_range(), hairline);
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
             scrolled(ui, "analysis-left", |ui| {
-                form::show(ui, view, hands.fields, commands);
-                outline::show(ui, sections, view.section, commands);
-                form::show_report(ui, view, commands);
+                form::show(ui, analysis, context);
+                outline::show(ui, sections, &mut analysis.section);
+                form::show_report(ui, analysis, context);
             });
         });
         inside(ui, right.with_min_x(right.left() + 14.0), |ui| {
-            sight = show_found(ui, view, hands.looks, commands);
+            wanted = show_found(ui, &found, analysis, context);
         });
     } else {
         inside(ui, whole, |ui| {
-            form::show_folded(ui, view, hands.fields, commands);
-            outline::show_closed(ui, sections, view.section, commands);
+            form::show_folded(ui, analysis, context);
+            outline::show_closed(ui, sections, &mut analysis.section);
             ui.add_space(STEP);
-            sight = show_found(ui, view, hands.looks, commands);
+            wanted = show_found(ui, &found, analysis, context);
         });
     }
     ui.advance_cursor_after_rect(whole);
-    sight
+    wanted
 }
 
 /// The section at hand below what must be known before it is looked at.
 fn show_found(
     ui: &mut Ui,
-    view: &AnalysisView<'_>,
-    looks: &mut Looks,
-    commands: &mut Commands,
-) -> Option<Sight> {
-    let found = view.found?;
+    found: &Arc<Findings>,
+    analysis: &mut Analysis,
+    context: &mut PaneContext<'_>,
+) -> Option<Wanted> {
     // Room for the bar beside a line that matters.
     let room = ui.available_rect_before_wrap();
     inside_margin(ui, room, |ui| {
@@ -112,20 +92,20 @@ fn show_found(
             note(ui, warning, Tone::Wrong);
             ui.add_space(STEP);
         }
-        if let Some(who) = view.held {
-            show_held(ui, who, view.is_covered, commands);
+        if let Some(session) = &context.bench.session {
+            show_session(ui, &session.pseudonym, &mut analysis.is_uncovered);
         }
-        if view.is_covered {
+        if analysis.is_covered(context.bench) {
             return None;
         }
-        let at = found.analysis.sections.get(view.section)?;
+        let at = found.analysis.sections.get(analysis.section)?;
         let area = ScrollArea::vertical()
             .id_salt(("analysed", &at.key))
             .auto_shrink(false);
         // With or without a bar that scrolls, figures are as wide.
         let room = ui.available_width();
         area.show(ui, |ui| {
-            section::show(ui, view, (at, room), looks, commands)
+            section::show(ui, found, (at, room), analysis, context)
         })
         .inner
     })
@@ -137,8 +117,9 @@ fn inside_margin<R>(ui: &mut Ui, room: Rect, content: impl FnOnce(&mut Ui) -> R)
     content(&mut child)
 }
 
-/// What is said while a session is held in this window.
-fn show_held(ui: &mut Ui, who: &str, is_covered: bool, commands: &mut Commands) {
+/// What is said while a session is active in this window.
+fn show_session(ui: &mut Ui, who: &str, is_uncovered: &mut bool) {
+    let is_covered = !*is_uncovered;
     ui.horizontal_wrapped(|ui| {
         let words = if is_covered {
             format!(
@@ -158,13 +139,14 @@ fn show_held(ui: &mut Ui, who: &str, is_covered: bool, commands: &mut Commands) 
             ("Cover them", "Nobody who takes part ought to see results")
         };
         if button(ui, verb, tip, None) {
-            commands.push(AnalysisCommand::Uncover(is_covered).into());
+            *is_uncovered = is_covered;
+            ui.ctx().request_repaint();
         }
     });
 }
 
 /// What to do when there is nothing yet.
-fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, commands: &mut Commands) {
+fn show_empty(ui: &mut Ui, analysis: &mut Analysis, context: &mut PaneContext<'_>) {
     let palette = Palette::in_ui(ui);
     let whole = ui.available_rect_before_wrap();
     let size = vec2(whole.width().min(520.0), whole.height().min(420.0));
@@ -177,7 +159,8 @@ fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, command
         let words = "Choose the folder that the sessions were kept in.";
         ui.label(RichText::new(words).color(palette.text));
         ui.add_space(STEP);
-        if let Some(who) = view.held {
+        if let Some(session) = &context.bench.session {
+            let who = &session.pseudonym;
             let words = format!(
                 "A session of {who} is being held. Who takes part is left out unless you ask for \
                  it."
@@ -185,7 +168,7 @@ fn show_empty(ui: &mut Ui, view: &AnalysisView<'_>, fields: &mut Fields, command
             note(ui, &words, Tone::Quiet);
         }
         ui.add_space(STEP);
-        form::show(ui, view, fields, commands);
+        form::show(ui, analysis, context);
         ui.add_space(2.0 * STEP);
         for words in EMPTY {
             note(ui, words, Tone::Quiet);

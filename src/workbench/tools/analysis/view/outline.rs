@@ -2,13 +2,11 @@
 
 use eframe::egui::{Align2, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::bench::command::Commands;
 use crate::bench::query::capitalised;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
 use crate::kit::widgets::text::{paint_line, section};
-use crate::tools::analysis::command::AnalysisCommand;
 use selvedge_experiment::analysis::Section;
 
 /// Height of a row, points.
@@ -23,7 +21,7 @@ pub(crate) fn named(title: &str) -> (&str, String) {
 }
 
 /// Shows the sections.
-pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: usize, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: &mut usize) {
     let mut above = None;
     ui.add_space(STEP);
     for (nth, one) in sections.iter().enumerate() {
@@ -32,8 +30,9 @@ pub(crate) fn show(ui: &mut Ui, sections: &[Section], chosen: usize, commands: &
             section(ui, experiment);
             above = Some(experiment);
         }
-        if entry(ui, one, &about, nth == chosen) {
-            commands.push(AnalysisCommand::Select(nth).into());
+        if entry(ui, one, &about, nth == *chosen) {
+            *chosen = nth;
+            ui.ctx().request_repaint();
         }
     }
 }
@@ -85,18 +84,17 @@ fn tip(section: &Section) -> String {
 }
 
 /// The same as a closed list, where there is little room.
-pub(crate) fn show_closed(
-    ui: &mut Ui,
-    sections: &[Section],
-    chosen: usize,
-    commands: &mut Commands,
-) {
-    let now = sections.get(chosen).map_or("", |section| &section.title);
+pub(crate) fn show_closed(ui: &mut Ui, sections: &[Section], chosen: &mut usize) {
+    let now = sections.get(*chosen).map_or("", |section| &section.title);
     let width = ui.available_width();
     list(ui, ("analysis sections", "Section"), width, now, |ui| {
         for (nth, section) in sections.iter().enumerate() {
-            if ui.selectable_label(nth == chosen, &section.title).clicked() {
-                commands.push(AnalysisCommand::Select(nth).into());
+            if ui
+                .selectable_label(nth == *chosen, &section.title)
+                .clicked()
+            {
+                *chosen = nth;
+                ui.ctx().request_repaint();
             }
         }
     });

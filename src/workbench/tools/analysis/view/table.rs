@@ -9,11 +9,9 @@ use eframe::egui::{
     Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::toggle;
-use crate::tools::analysis::command::AnalysisCommand;
 use crate::tools::analysis::view::columns::{ColumnLook, GAP, TableLook, tip, told};
 use selvedge_experiment::analysis::{Cell, Table};
 
@@ -26,18 +24,17 @@ const MOST_HEAD_LINES: usize = 3;
 /// Tables with more rows say how many.
 const MANY: usize = 12;
 
-/// Shows a table.
+/// Shows a table; says whether it is to be copied.
 pub(crate) fn show(
     ui: &mut Ui,
     (nth, table): (usize, &Table),
     looks: &mut [Option<TableLook>],
-    commands: &mut Commands,
-) {
+) -> bool {
     let Some(look) = looks.get_mut(nth) else {
-        return;
+        return false;
     };
     let look = look.get_or_insert_with(|| TableLook::of(ui, table));
-    show_caption(ui, (nth, table), commands);
+    let is_copied = show_caption(ui, table);
     let area = ScrollArea::horizontal()
         .id_salt(("table", nth))
         .auto_shrink([false, true]);
@@ -57,9 +54,10 @@ pub(crate) fn show(
         sheet.show_rows(ui);
         sheet.show_head(ui);
     });
+    is_copied
 }
 
-fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), commands: &mut Commands) {
+fn show_caption(ui: &mut Ui, table: &Table) -> bool {
     let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), LINE + STEP);
     let line = Layout::left_to_right(Align::Center);
@@ -71,10 +69,9 @@ fn show_caption(ui: &mut Ui, (nth, table): (usize, &Table), commands: &mut Comma
             ui.label(RichText::new(n).font(theme::small()).color(palette.dim));
         }
         let label = format!("Copy “{}” as CSV", table.title);
-        if toggle(ui, "copy", false, &label) {
-            commands.push(AnalysisCommand::CopyTable(nth).into());
-        }
-    });
+        toggle(ui, "copy", false, &label)
+    })
+    .inner
 }
 
 /// Lines that a heading takes without its unit.

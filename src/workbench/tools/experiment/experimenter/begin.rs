@@ -2,12 +2,15 @@
 
 use eframe::egui::{ProgressBar, RichText, Ui, vec2};
 
+use crate::bench::Bench;
 use crate::bench::command::{Commands, FileCommand, Purpose};
+use crate::bench::session::title_of;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::fields::{Need, Tone, choose, note, row_of, text};
 use crate::kit::widgets::text::{button, choice, section};
-use crate::tools::experiment::command::ExperimentCommand;
-use crate::tools::experiment::form::{Chosen, Form, Row, title_of};
+use crate::tools::experiment::form::{Chosen, Form, Row};
+use crate::tools::experiment::state::Experiment;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
 use selvedge_experiment::{HANDS, SEXES};
@@ -19,10 +22,11 @@ const WIDE: f32 = f32::INFINITY;
 /// Width of a row's name, points.
 const NAME: f32 = 84.0;
 
-pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
+    let form = &mut experiment.form;
     section(ui, "New session");
     row_of(ui, NAME, ("design", ""), |ui, _| {
-        show_designs(ui, form, commands);
+        show_designs(ui, form, context.commands);
     });
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
@@ -32,22 +36,23 @@ pub(crate) fn show(ui: &mut Ui, form: &mut Form, share: Option<f32>, commands: &
     show_who(ui, &mut form.who);
     let refusal = form.refusal();
     ui.add_space(STEP);
-    if let Some(share) = share {
-        let bar = ProgressBar::new(share).desired_height(4.0);
+    if let Some(task) = &experiment.beginning {
+        let bar = ProgressBar::new(task.share()).desired_height(4.0);
         ui.add(bar);
         note(ui, "The textiles are being prepared", Tone::Quiet);
     } else {
         let tip = "Prepare every textile of the design, then open the log";
         if button(ui, "Begin the session", tip, refusal.as_deref()) {
-            commands.push(ExperimentCommand::Begin.into());
+            experiment.begin_session(context.bench);
+            ui.ctx().request_repaint();
         }
     }
-    if let Some(line) = &form.failure {
+    if let Some(line) = &experiment.form.failure {
         note(ui, line, Tone::Wrong);
     } else if let Some(line) = refusal {
         note(ui, &line, Tone::Quiet);
     }
-    show_found(ui, form, share.is_some(), commands);
+    show_found(ui, experiment, context.bench);
 }
 
 /// A field with its name.
@@ -95,7 +100,7 @@ fn one_of(ui: &mut Ui, name: &str, chosen: &mut String, words: &[&str]) {
     });
 }
 
-fn show_designs(ui: &mut Ui, form: &Form, commands: &mut Commands) {
+fn show_designs(ui: &mut Ui, form: &mut Form, commands: &mut Commands) {
     let now = match (&form.design, &form.chosen) {
         (Ok(design), _) => title_of(design),
         (Err(_), Chosen::File(path)) => path.display().to_string(),
@@ -107,7 +112,8 @@ fn show_designs(ui: &mut Ui, form: &Form, commands: &mut Commands) {
             let title = Design::shipped(name).map_or_else(|| name.to_owned(), |d| title_of(&d));
             let is_now = form.chosen == Chosen::Shipped(name);
             if ui.selectable_label(is_now, title).clicked() {
-                commands.push(ExperimentCommand::Choose(name).into());
+                form.choose(Chosen::Shipped(name));
+                ui.ctx().request_repaint();
             }
         }
         ui.separator();
@@ -140,20 +146,21 @@ fn about(design: &Design) -> String {
     )
 }
 
-fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, commands: &mut Commands) {
+fn show_found(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
     section(ui, "Sessions in the folder");
-    let no_folder = form.folder.trim().is_empty();
+    let no_folder = experiment.form.folder.trim().is_empty();
     let refusal = no_folder.then_some("Say in which folder first");
-    if button(
-        ui,
-        "List again",
-        "Look which sessions the folder holds",
-        refusal,
-    ) {
-        commands.push(ExperimentCommand::List.into());
+    let tip = "Look which sessions the folder holds";
+    if button(ui, "List again", tip, refusal) {
+        experiment.list_sessions(bench, true);
+        ui.ctx().request_repaint();
     }
+    let form = &experiment.form;
+    let mut resumed = None;
     for found in &form.found {
-        show_row(ui, found, is_busy, commands);
+        if show_row(ui, found) {
+            resumed = Some(found.log.clone());
+        }
     }
     for line in &form.unread {
         note(ui, line, Tone::Wrong);
@@ -162,9 +169,14 @@ fn show_found(ui: &mut Ui, form: &Form, is_busy: bool, commands: &mut Commands) 
         let words = "There is none yet. One that was interrupted is resumed from here.";
         note(ui, words, Tone::Quiet);
     }
+    if let Some(log) = resumed {
+        experiment.resume_session(log, bench);
+        ui.ctx().request_repaint();
+    }
 }
 
-fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, commands: &mut Commands) {
+/// A session of the folder; says whether it is to be resumed.
+fn show_row(ui: &mut Ui, found: &Row) -> bool {
     let (done, all) = found.progress;
     let name = format!(
         "{}, session {}",
@@ -177,10 +189,8 @@ fn show_row(ui: &mut Ui, found: &Row, is_busy: bool, commands: &mut Commands) {
             let text = RichText::new(words).color(crate::kit::theme::Palette::in_ui(ui).dim);
             ui.add(eframe::egui::Label::new(text).truncate());
         });
-        return;
+        return false;
     }
     let tip = format!("Resume {}", found.log.display());
-    if choice(ui, RichText::new(name), &detail, &tip) && !is_busy {
-        commands.push(ExperimentCommand::Resume(found.log.clone()).into());
-    }
+    choice(ui, RichText::new(name), &detail, &tip)
 }

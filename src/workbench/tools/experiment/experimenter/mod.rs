@@ -6,58 +6,46 @@ pub(crate) mod session;
 
 use eframe::egui::{ProgressBar, RichText, Ui};
 
-use crate::bench::command::Commands;
+use crate::bench::Bench;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, section};
-use crate::tools::experiment::ParticipantsWindow;
-use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
-use crate::tools::experiment::form::Form;
 use crate::tools::experiment::noise::NoiseView;
-use crate::tools::experiment::view::{ExperimenterView, TrialView};
-
-/// What is typed in the pane.
-pub(crate) struct ExperimenterHands<'a> {
-    /// The form of the next session.
-    pub form: &'a mut Form,
-    /// The note on the trial under way.
-    pub note: Option<&'a mut String>,
-    /// The trial whose answer is typed here, while the participant sees nothing.
-    pub typed: Option<&'a TrialView<'a>>,
-}
-
-/// Whether the participant's view is in a window of its own, and whether it is blank in trials.
-pub(crate) type Screen = (ParticipantsWindow, bool);
+use crate::tools::experiment::participant;
+use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
 
 /// Shows the pane.
-pub(crate) fn show(
-    ui: &mut Ui,
-    (view, noise, (window, is_blank)): (&ExperimenterView, Option<&NoiseView>, Screen),
-    hands: &mut ExperimenterHands<'_>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    show_window(ui, window, commands);
-    show_blank(ui, is_blank, commands);
-    if let Some(trial) = hands.typed {
+    show_window(ui, &mut experiment.window);
+    show_blank(ui, &mut experiment.is_blank);
+    show_typed(ui, experiment, context.bench);
+    if experiment.session.is_some() {
+        session::show(ui, experiment, context);
+    } else {
+        begin::show(ui, experiment, context);
+    }
+    if let Some(noise) = experiment.noise() {
+        show_noise(ui, &noise, experiment, context.bench);
+    }
+}
+
+/// The trial whose answer is typed here, while the participant sees nothing.
+fn show_typed(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
+    let now_s = ui.input(|input| input.time);
+    let session = experiment.session.as_ref().filter(|_| experiment.is_blank);
+    if let Some(trial) = session.and_then(|session| session.typed(now_s)) {
+        let mut acts = Vec::new();
         section(ui, "Answer, typed for the participant");
-        crate::tools::experiment::participant::show_typed(ui, trial, commands);
-    }
-    match view {
-        ExperimenterView::Nobody { share } => begin::show(ui, hands.form, *share, commands),
-        ExperimenterView::Held(held) => {
-            session::show(ui, held, hands.note.as_deref_mut(), commands);
-        }
-    }
-    if let Some(noise) = noise {
-        let has_folder = hands.form.kept_folder().is_some();
-        show_noise(ui, noise, has_folder, commands);
+        participant::show_typed(ui, &trial, &mut acts);
+        experiment.take_acts(acts, bench);
     }
 }
 
 /// How it stands with the masking noise that the design asks for.
-fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, commands: &mut Commands) {
+fn show_noise(ui: &mut Ui, noise: &NoiseView, experiment: &mut Experiment, bench: &Bench) {
     section(ui, "Masking noise");
     match noise {
         NoiseView::Writing(share) => {
@@ -75,18 +63,20 @@ fn show_noise(ui: &mut Ui, noise: &NoiseView, has_folder: bool, commands: &mut C
             let words = "The design asks for one; this program does not play it, but writes it as \
                          a sound file for any player.";
             note(ui, words, Tone::Quiet);
+            let has_folder = experiment.form.kept_folder().is_some();
             let refusal = (!has_folder).then_some("Say in which folder first");
             let tip = "Pink noise, 30 Hz to 6 kHz, ten minutes that repeat without a seam";
             if button(ui, "Write the noise", tip, refusal) {
-                commands.push(ExperimentCommand::Noise.into());
+                experiment.write_noise(bench);
+                ui.ctx().request_repaint();
             }
         }
     }
 }
 
 /// Whether the participant sees anything in trials.
-fn show_blank(ui: &mut Ui, is_blank: bool, commands: &mut Commands) {
-    let (words, tip) = if is_blank {
+fn show_blank(ui: &mut Ui, is_blank: &mut bool) {
+    let (words, tip) = if *is_blank {
         (
             "Show the screen",
             "The participant sees trials again and answers there",
@@ -98,17 +88,18 @@ fn show_blank(ui: &mut Ui, is_blank: bool, commands: &mut Commands) {
         )
     };
     if button(ui, words, tip, None) {
-        commands.push(ExperimentCommand::Blank(!is_blank).into());
+        *is_blank = !*is_blank;
+        ui.ctx().request_repaint();
     }
 }
 
 /// Where the participant's view is.
-fn show_window(ui: &mut Ui, window: ParticipantsWindow, commands: &mut Commands) {
-    let mut act = |act| commands.push(ExperimentCommand::Window(act).into());
+fn show_window(ui: &mut Ui, window: &mut ParticipantsWindow) {
     if !window.is_open {
         let tip = "The participant's view alone, to be dragged to a screen of its own";
         if button(ui, "Participant's window", tip, None) {
-            act(WindowAct::Open);
+            window.is_open = true;
+            ui.ctx().request_repaint();
         }
         return;
     }
@@ -124,19 +115,13 @@ fn show_window(ui: &mut Ui, window: ParticipantsWindow, commands: &mut Commands)
             )
         };
         if button(ui, words, tip, None) {
-            act(WindowAct::FillScreen(!window.fills_screen));
+            window.fills_screen = !window.fills_screen;
+            ui.ctx().request_repaint();
         }
         let tip = "Show the participant's view in the workbench again; the session goes on";
         if button(ui, "Close it", tip, None) {
-            act(WindowAct::Close);
+            *window = ParticipantsWindow::default();
+            ui.ctx().request_repaint();
         }
     });
-}
-
-/// What stands in the place of a pane that would tell too much.
-pub(crate) fn show_veil(ui: &mut Ui) {
-    let words = "Hidden while a session is held: what lies under the finger is not to be seen.";
-    let ink = Palette::in_ui(ui).dim;
-    ui.add_space(2.0 * STEP);
-    ui.add(eframe::egui::Label::new(RichText::new(words).color(ink)).wrap());
 }

@@ -1,24 +1,26 @@
-//! A session that is held.
+//! The session that is active.
 
 use eframe::egui::{ProgressBar, RichText, Ui};
 
+use crate::bench::Bench;
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
+use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, text};
 use crate::kit::widgets::text::{button, mark, quiet_pair, section};
-use crate::tools::experiment::command::ExperimentCommand;
 use crate::tools::experiment::now::Pause;
-use crate::tools::experiment::view::{Course, HeldView, Link};
+use crate::tools::experiment::state::Experiment;
+use crate::tools::experiment::view::{Course, Link, SessionView};
 use selvedge_foundation::quantity;
 
-pub(crate) fn show(
-    ui: &mut Ui,
-    view: &HeldView,
-    typed: Option<&mut String>,
-    commands: &mut Commands,
-) {
+pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
+    let (link, now_s) = (Link::of(context.bench), ui.input(|input| input.time));
+    let session = experiment.session.as_ref();
+    let Some(view) = session.map(|session| session.view(link, now_s)) else {
+        return;
+    };
     let palette = Palette::in_ui(ui);
     ui.label(
         RichText::new(&view.title)
@@ -26,23 +28,23 @@ pub(crate) fn show(
             .color(palette.text),
     );
     note(ui, &view.subject, Tone::Quiet);
-    show_progress(ui, view);
+    show_progress(ui, &view);
     if let Some(line) = &view.failure {
-        show_failure(ui, line, commands);
+        show_failure(ui, line, experiment, context.bench);
     }
-    show_table(ui, view);
-    show_step(ui, view, commands);
-    if let Some(typed) = typed {
+    show_table(ui, &view);
+    show_step(ui, &view, experiment, context.bench);
+    if let Some(session) = &mut experiment.session {
         row_of(ui, 44.0, ("note", ""), |ui, label| {
-            let hint = "on this trial";
-            text(ui, label, typed, (hint, f32::INFINITY, Need::Optional));
+            let about = ("on this trial", f32::INFINITY, Need::Optional);
+            text(ui, label, &mut session.note, about);
         });
     }
-    show_link(ui, &view.link, commands);
-    show_end(ui, view, commands);
+    show_link(ui, &view.link, context.commands);
+    show_end(ui, &view, experiment, context.bench);
 }
 
-fn show_progress(ui: &mut Ui, view: &HeldView) {
+fn show_progress(ui: &mut Ui, view: &SessionView) {
     let (done, all) = view.progress;
     #[expect(clippy::cast_precision_loss, reason = "some hundred trials")]
     let share = done as f32 / all.max(1) as f32;
@@ -86,16 +88,17 @@ fn show_progress(ui: &mut Ui, view: &HeldView) {
     }
 }
 
-fn show_failure(ui: &mut Ui, line: &str, commands: &mut Commands) {
+fn show_failure(ui: &mut Ui, line: &str, experiment: &mut Experiment, bench: &Bench) {
     ui.add_space(STEP);
     note(ui, &format!("Not on disk yet: {line}"), Tone::Wrong);
     let tip = "The answer is kept until it is on disk";
     if button(ui, "Write it again", tip, None) {
-        commands.push(ExperimentCommand::Retry.into());
+        experiment.retry(bench);
+        ui.ctx().request_repaint();
     }
 }
 
-fn show_table(ui: &mut Ui, view: &HeldView) {
+fn show_table(ui: &mut Ui, view: &SessionView) {
     if view.table.is_empty() {
         return;
     }
@@ -106,7 +109,7 @@ fn show_table(ui: &mut Ui, view: &HeldView) {
     }
 }
 
-fn show_step(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
+fn show_step(ui: &mut Ui, view: &SessionView, experiment: &mut Experiment, bench: &mut Bench) {
     section(ui, "Course");
     ui.horizontal_wrapped(|ui| {
         let is_trial = view.course == Course::Trial;
@@ -120,7 +123,8 @@ fn show_step(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
         let rests = matches!(view.course, Course::Paused | Course::Finished);
         let pass = other.or_else(|| rests.then_some("Nothing to go on from"));
         if button(ui, "Go on", "Go on for the participant, at once", pass) {
-            commands.push(ExperimentCommand::Pass.into());
+            experiment.pass(bench);
+            ui.ctx().request_repaint();
         }
         let pause = match view.pause {
             Pause::None => ("Pause", "Before the next trial", true),
@@ -130,12 +134,14 @@ fn show_step(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
         let (words, tip, is_wanted) = pause;
         let finished = (view.course == Course::Finished).then_some("The session is over");
         if button(ui, words, tip, finished) {
-            commands.push(ExperimentCommand::Pause(is_wanted).into());
+            experiment.pause(is_wanted, bench);
+            ui.ctx().request_repaint();
         }
         let tip = "Give this trial up: a row says so, and it comes again";
         let abort = writing.or_else(|| (!is_trial).then_some("No trial is under way"));
         if button(ui, "Abort the trial", tip, abort) {
-            commands.push(ExperimentCommand::Abort.into());
+            experiment.end_trial(None, bench);
+            ui.ctx().request_repaint();
         }
     });
 }
@@ -179,13 +185,14 @@ fn show_link(ui: &mut Ui, link: &Link, commands: &mut Commands) {
     }
 }
 
-fn show_end(ui: &mut Ui, view: &HeldView, commands: &mut Commands) {
+fn show_end(ui: &mut Ui, view: &SessionView, experiment: &mut Experiment, bench: &mut Bench) {
     section(ui, "Session");
     note(ui, &view.log, Tone::Quiet);
     let is_stuck = view.failure.is_some();
     let waits = (view.is_writing && !is_stuck).then_some("The row is being written");
     let tip = "What is answered is on disk; the session can be resumed";
     if button(ui, "End the session", tip, waits) {
-        commands.push(ExperimentCommand::End.into());
+        experiment.end(bench);
+        ui.ctx().request_repaint();
     }
 }

@@ -4,10 +4,9 @@ use eframe::egui::{
     self, Align, Key, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark, Sure};
 use crate::tools::experiment::participant::ground::count;
 use crate::tools::experiment::participant::{big, ranks};
@@ -44,63 +43,63 @@ pub(crate) fn height(draft: &Draft, room: f32) -> f32 {
 }
 
 /// Shows what the trial is answered with, and the button that hands the answer in.
-pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     match trial.draft {
         Draft::Nothing => {}
         Draft::Ranks(order) => {
             let is_wide = is_wide(ui.available_width());
             row(ui, ranks::width() + DONE, |ui| {
-                ranks::show(ui, order, commands);
+                ranks::show(ui, order, acts);
                 if is_wide {
                     ui.add_space(2.0 * STEP);
-                    show_done(ui, trial, commands);
+                    show_done(ui, trial, acts);
                 }
             });
             if !is_wide {
                 // What the first and the last rank mean stands between.
                 ui.add_space(5.0 * STEP);
-                row(ui, DONE, |ui| show_done(ui, trial, commands));
+                row(ui, DONE, |ui| show_done(ui, trial, acts));
             }
         }
         Draft::Odd { position, grade } => {
-            show_numbers(ui, N_TRIAD, *position, commands);
+            show_numbers(ui, N_TRIAD, *position, acts);
             row(ui, 3.0 * 128.0 + 160.0, |ui| {
                 for one in Grade::ALL {
                     let mark = Mark::Grade(one);
-                    choose(ui, one.name(), *grade == Some(one), mark, commands);
+                    choose(ui, one.name(), *grade == Some(one), mark, acts);
                 }
                 ui.add_space(4.0 * STEP);
-                show_done(ui, trial, commands);
+                show_done(ui, trial, acts);
             });
         }
         Draft::Choose { n, position, sure } => {
-            show_numbers(ui, *n, *position, commands);
-            show_sure(ui, trial, *sure, commands);
+            show_numbers(ui, *n, *position, acts);
+            show_sure(ui, trial, *sure, acts);
         }
         Draft::Judge { is_real, sure } => {
             row(ui, 2.0 * 172.0, |ui| {
                 for (words, said) in [("real", true), ("generated", false)] {
                     let is_on = *is_real == Some(said);
-                    choose(ui, words, is_on, Mark::Real(said), commands);
+                    choose(ui, words, is_on, Mark::Real(said), acts);
                 }
             });
-            show_sure(ui, trial, *sure, commands);
+            show_sure(ui, trial, *sure, acts);
         }
-        Draft::Magnitude(text) => show_number(ui, trial, text, commands),
+        Draft::Magnitude(text) => show_number(ui, trial, text, acts),
         Draft::Adjust {
             values, parameters, ..
         } => {
             for (at, (value, parameter)) in values.iter().zip(parameters).enumerate() {
-                show_parameter(ui, (at, parameters.len()), (*value, parameter), commands);
+                show_parameter(ui, (at, parameters.len()), (*value, parameter), acts);
             }
-            row(ui, 160.0, |ui| show_done(ui, trial, commands));
+            row(ui, 160.0, |ui| show_done(ui, trial, acts));
         }
         Draft::Ratings { values, scales } => {
             focus_first(ui, trial, scales);
             for (at, (value, scale)) in values.iter().zip(scales).enumerate() {
-                show_scale(ui, at, (*value, scale), commands);
+                show_scale(ui, at, (*value, scale), acts);
             }
-            row(ui, 160.0, |ui| show_done(ui, trial, commands));
+            row(ui, 160.0, |ui| show_done(ui, trial, acts));
         }
     }
 }
@@ -144,28 +143,28 @@ fn row(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
 }
 
 /// A large button that says something, chosen or not.
-fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, commands: &mut Commands) {
+fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, acts: &mut Vec<Act>) {
     let least = if words.chars().count() > 1 {
         112.0
     } else {
         72.0
     };
     if big::button(ui, (words, words), least, is_on).clicked() {
-        commands.push(ExperimentCommand::Mark(mark).into());
+        acts.push(Act::Mark(mark));
     }
 }
 
-fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, commands: &mut Commands) {
+fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, acts: &mut Vec<Act>) {
     row(ui, count(n) * 80.0, |ui| {
         for at in 0..n {
             let words = (at + 1).to_string();
-            choose(ui, &words, chosen == Some(at), Mark::Place(at), commands);
+            choose(ui, &words, chosen == Some(at), Mark::Place(at), acts);
         }
     });
 }
 
 /// How sure somebody is, where that is asked, and the button that ends the trial.
-fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, commands: &mut Commands) {
+fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, acts: &mut Vec<Act>) {
     if sure.n_grades > 0 {
         let width = f32::from(sure.n_grades) * 80.0 + 220.0;
         let n = f32::from(sure.n_grades);
@@ -176,14 +175,14 @@ fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, commands: &mut Comm
                 let is_on = sure.grade == Some(grade);
                 let (words, label) = (grade.to_string(), format!("Sure {grade}"));
                 if big::button(ui, (&words, &label), side, is_on).clicked() {
-                    commands.push(ExperimentCommand::Mark(Mark::Confidence(grade)).into());
+                    acts.push(Act::Mark(Mark::Confidence(grade)));
                 }
             }
             show_end(ui, "certain");
         });
     }
     if !trial.ends_at_once() {
-        row(ui, 160.0, |ui| show_done(ui, trial, commands));
+        row(ui, 160.0, |ui| show_done(ui, trial, acts));
     }
 }
 
@@ -194,9 +193,9 @@ fn show_end(ui: &mut Ui, words: &str) {
 }
 
 /// The button that hands the answer in; grey, with what is missing as its tip.
-fn show_done(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
+fn show_done(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     if trial.may_play && big::button(ui, ("Again", "Again"), 112.0, false).clicked() {
-        commands.push(ExperimentCommand::Play.into());
+        acts.push(Act::Play);
     }
     let missing = trial.draft.answer().err();
     let words = if trial.is_open { "Done" } else { "…" };
@@ -207,11 +206,11 @@ fn show_done(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
         .inner
         .on_disabled_hover_text(missing.unwrap_or_default());
     if response.clicked() {
-        commands.push(ExperimentCommand::Answer.into());
+        acts.push(Act::Answer);
     }
 }
 
-fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, commands: &mut Commands) {
+fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Act>) {
     row(ui, 420.0, |ui| {
         let label = ui.label(RichText::new("Number").font(theme::large()));
         let mut typed = text.to_owned();
@@ -223,16 +222,16 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, commands: &mut Co
         let response = ui.add(field).labelled_by(label.id);
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.changed() {
-            commands.push(ExperimentCommand::Mark(Mark::Type(typed)).into());
+            acts.push(Act::Mark(Mark::Type(typed)));
         }
         if is_entered && trial.draft.answer().is_ok() {
-            commands.push(ExperimentCommand::Answer.into());
+            acts.push(Act::Answer);
         }
         let is_free = ui.memory(|memory| memory.focused().is_none());
         if trial.is_open && is_free && !is_entered {
             response.request_focus();
         }
-        show_done(ui, trial, commands);
+        show_done(ui, trial, acts);
     });
 }
 
@@ -241,7 +240,7 @@ fn show_parameter(
     ui: &mut Ui,
     (at, n): (usize, usize),
     (value, parameter): (f64, &TunedParameter),
-    commands: &mut Commands,
+    acts: &mut Vec<Act>,
 ) {
     let name = match (n, at) {
         (1, _) => "Control",
@@ -258,16 +257,11 @@ fn show_parameter(
     };
     if let Some(share) = line(ui, &rail) {
         let to = parameter.from + share * range;
-        commands.push(ExperimentCommand::Mark(Mark::Set(at, to)).into());
+        acts.push(Act::Mark(Mark::Set(at, to)));
     }
 }
 
-fn show_scale(
-    ui: &mut Ui,
-    at: usize,
-    (value, scale): (Option<f64>, &Scale),
-    commands: &mut Commands,
-) {
+fn show_scale(ui: &mut Ui, at: usize, (value, scale): (Option<f64>, &Scale), acts: &mut Vec<Act>) {
     let [low, high] = scale.bounds();
     let is_in_steps = scale.points > 0;
     let rail = Rail {
@@ -284,7 +278,7 @@ fn show_scale(
     if let Some(share) = line(ui, &rail) {
         let to = low + share * (high - low);
         let to = if is_in_steps { to.round() } else { to };
-        commands.push(ExperimentCommand::Mark(Mark::Rate(at, to)).into());
+        acts.push(Act::Mark(Mark::Rate(at, to)));
     }
 }
 

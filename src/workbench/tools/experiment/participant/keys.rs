@@ -2,8 +2,7 @@
 
 use eframe::egui::{Key, Ui};
 
-use crate::bench::command::Commands;
-use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::view::TrialView;
 use selvedge_experiment::Grade;
@@ -32,7 +31,7 @@ const ARROWS: [Key; 4] = [
 
 /// Takes the keys that were pressed, unless words are being typed. Enter, Space and arrows belong
 /// to a button or line that has the focus.
-pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, commands: &mut Commands) {
+pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -43,13 +42,13 @@ pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, commands: &mut Commands) {
     };
     let is_pressed = |key| is_own(key) && ui.input(|input| input.key_pressed(key));
     for mark in marks(trial.draft, is_pressed) {
-        commands.push(ExperimentCommand::Mark(mark).into());
+        acts.push(Act::Mark(mark));
     }
     if is_pressed(Key::Enter) && trial.draft.answer().is_ok() {
-        commands.push(ExperimentCommand::Answer.into());
+        acts.push(Act::Answer);
     }
     if is_pressed(Key::Space) && trial.may_play {
-        commands.push(ExperimentCommand::Play.into());
+        acts.push(Act::Play);
     }
 }
 

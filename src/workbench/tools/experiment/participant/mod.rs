@@ -14,12 +14,12 @@ use eframe::egui::{
     WidgetText, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::view_transform::PointerGround;
 use crate::kit::widgets::text::button;
-use crate::tools::experiment::command::{ExperimentCommand, WindowAct};
+use crate::tools::experiment::draft::Act;
+use crate::tools::experiment::state::ParticipantsWindow;
 use crate::tools::experiment::view::{ParticipantView, TrialView};
 
 /// Height of the line that says what is asked, points.
@@ -37,7 +37,7 @@ const LINE: f32 = 720.0;
 pub(crate) fn show(
     ui: &mut Ui,
     view: &ParticipantView<'_>,
-    commands: &mut Commands,
+    acts: &mut Vec<Act>,
 ) -> Option<PointerGround> {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
@@ -54,7 +54,7 @@ pub(crate) fn show(
             left_s,
         } => {
             show_words(ui, title, words);
-            show_pass(ui, *left_s, commands);
+            show_pass(ui, *left_s, acts);
             None
         }
         ParticipantView::Movement {
@@ -72,10 +72,10 @@ pub(crate) fn show(
             let shown = ground::show(ui, rect, ground);
             ground::paint_guide(ui, &shown.view, ground, (*is_circle, *guide));
             let mut ui = ui.new_child(UiBuilder::new().max_rect(foot));
-            show_pass(&mut ui, Some(*left_s), commands);
+            show_pass(&mut ui, Some(*left_s), acts);
             Some(shown)
         }
-        ParticipantView::Trial(trial) => Some(show_trial(ui, trial, commands)),
+        ParticipantView::Trial(trial) => Some(show_trial(ui, trial, acts)),
         ParticipantView::Blank(ground) => {
             let rect = ui.max_rect();
             Some(ground::show_unseen(ui, rect, (ground, "Blank screen")))
@@ -84,7 +84,7 @@ pub(crate) fn show(
 }
 
 /// What a trial is answered with, for an experimenter who types while the participant sees nothing.
-pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) {
+pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     let width = ui.available_width().max(TYPED);
     ui.add(eframe::egui::Label::new(sentence(&trial.question)).wrap());
     let height = controls::height(trial.draft, width);
@@ -97,17 +97,17 @@ pub(crate) fn show_typed(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Comm
                 ui.disable();
             }
             ui.allocate_ui(vec2(width, height), |ui| {
-                controls::show(ui, trial, commands);
+                controls::show(ui, trial, acts);
             });
         });
     let hint = RichText::new(keys::hint(trial)).color(Palette::in_ui(ui).dim);
     ui.add(eframe::egui::Label::new(hint).wrap());
     if trial.is_open {
-        keys::take(ui, trial, commands);
+        keys::take(ui, trial, acts);
     }
 }
 
-/// Stands in a window of the participant's own while no session is held.
+/// Stands in a window of the participant's own while no session is active.
 pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
     let (frame, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     ui.painter().rect_filled(frame, 0, Palette::in_ui(ui).floor);
@@ -121,7 +121,7 @@ pub(crate) fn show_before(ui: &mut Ui, is_coming: bool) {
 }
 
 /// Stands where the view was before it went to a window of its own.
-pub(crate) fn show_apart(ui: &mut Ui, commands: &mut Commands) {
+pub(crate) fn show_apart(ui: &mut Ui, window: &mut ParticipantsWindow) {
     let palette = Palette::in_ui(ui);
     ui.painter().rect_filled(ui.max_rect(), 0, palette.floor);
     let height = ui.available_height();
@@ -134,12 +134,13 @@ pub(crate) fn show_apart(ui: &mut Ui, commands: &mut Commands) {
         ui.add_space(2.0 * STEP);
         let tip = "Close that window and show the view here";
         if button(ui, "Show it here again", tip, None) {
-            commands.push(ExperimentCommand::Window(WindowAct::Close).into());
+            *window = ParticipantsWindow::default();
+            ui.ctx().request_repaint();
         }
     });
 }
 
-fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) -> PointerGround {
+fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) -> PointerGround {
     let [rect, foot] = split(
         ui,
         &sentence(&trial.question),
@@ -153,14 +154,14 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, commands: &mut Commands) -> Po
     if !trial.is_open {
         ui.disable();
     }
-    controls::show(&mut ui, trial, commands);
+    controls::show(&mut ui, trial, acts);
     let palette = Palette::in_ui(&ui);
     let (at, font) = (foot.center_bottom(), theme::body());
     let hint = keys::hint(trial);
     ui.painter()
         .text(at, Align2::CENTER_BOTTOM, hint, font, palette.dim);
     if trial.is_open {
-        keys::take(&ui, trial, commands);
+        keys::take(&ui, trial, acts);
     }
     shown
 }
@@ -215,7 +216,7 @@ fn show_words(ui: &mut Ui, title: &str, words: &str) {
 }
 
 /// The button that goes on, with the seconds until it does.
-fn show_pass(ui: &mut Ui, left_s: Option<f64>, commands: &mut Commands) {
+fn show_pass(ui: &mut Ui, left_s: Option<f64>, acts: &mut Vec<Act>) {
     let Some(left_s) = left_s else { return };
     let may_pass = left_s <= 0.0;
     let words = if may_pass {
@@ -231,7 +232,7 @@ fn show_pass(ui: &mut Ui, left_s: Option<f64>, commands: &mut Commands) {
         let is_free = !ui.ctx().text_edit_focused();
         let is_key = is_free && ui.input(|input| input.key_pressed(Key::Enter));
         if may_pass && (is_clicked || is_key) {
-            commands.push(ExperimentCommand::Pass.into());
+            acts.push(Act::Pass);
         }
     });
 }

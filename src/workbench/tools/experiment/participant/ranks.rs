@@ -4,10 +4,9 @@ use eframe::egui::{
     self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::bench::command::Commands;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::experiment::command::ExperimentCommand;
+use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::Mark;
 use crate::tools::experiment::participant::big;
 use crate::tools::experiment::participant::big::Face;
@@ -18,7 +17,7 @@ use selvedge_experiment::N_RANKED;
 const SIDE: f32 = 64.0;
 
 /// Shows the numbers that are not ranked yet, and the ranks.
-pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], acts: &mut Vec<Act>) {
     ui.spacing_mut().item_spacing.x = 2.0 * STEP;
     for position in 0..N_RANKED {
         let is_free = !order.contains(&Some(position));
@@ -32,7 +31,7 @@ pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], commands: &mu
         paint_place(ui, rect, Some(position), response.hovered());
         big::ring(ui, rect, &response);
         if response.clicked() {
-            commands.push(ExperimentCommand::Mark(Mark::Place(position)).into());
+            acts.push(Act::Mark(Mark::Place(position)));
         }
     }
     ui.add_space(4.0 * STEP);
@@ -40,11 +39,11 @@ pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], commands: &mu
     paint_arrow(ui, rect);
     ui.add_space(4.0 * STEP);
     for (rank, ranked) in order.iter().enumerate() {
-        show_rank(ui, rank, *ranked, commands);
+        show_rank(ui, rank, *ranked, acts);
     }
 }
 
-fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, commands: &mut Commands) {
+fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, acts: &mut Vec<Act>) {
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
     let what = ranked.map_or_else(|| "empty".to_owned(), |at| format!("fabric {}", at + 1));
     name(ui, &response, &format!("Rank {}: {what}", rank + 1));
@@ -65,7 +64,7 @@ fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, commands: &mut Com
     ui.painter()
         .text(below, Align2::CENTER_TOP, words, font, palette.dim);
     if let Some(position) = response.dnd_release_payload::<usize>() {
-        commands.push(ExperimentCommand::Mark(Mark::Rank(*position, rank)).into());
+        acts.push(Act::Mark(Mark::Rank(*position, rank)));
     }
 }
 

@@ -26,33 +26,28 @@ fn trial(draft: &Draft) -> TrialView<'_> {
 }
 
 /// A window with nothing in it but a participant's view, and what is wished for in it.
-fn window(view: ParticipantView<'_>) -> Harness<'_, Commands> {
+fn window(view: ParticipantView<'_>) -> Harness<'_, Vec<Act>> {
     window_of(view, vec2(900.0, 700.0))
 }
 
-fn window_of(view: ParticipantView<'_>, size: eframe::egui::Vec2) -> Harness<'_, Commands> {
+fn window_of(view: ParticipantView<'_>, size: eframe::egui::Vec2) -> Harness<'_, Vec<Act>> {
     let mut is_styled = false;
     Harness::builder().with_size(size).build_ui_state(
-        move |ui, commands| {
+        move |ui, acts| {
             if !is_styled {
                 theme::install(ui.ctx());
                 is_styled = true;
             }
-            show(ui, &view, commands);
+            show(ui, &view, acts);
         },
-        Commands::new(),
+        Vec::new(),
     )
 }
 
-fn marks(harness: &Harness<'_, Commands>) -> Vec<ExperimentCommand> {
+fn marks(harness: &Harness<'_, Vec<Act>>) -> Vec<Act> {
     let mut all = harness.state().clone();
     all.dedup();
-    all.into_iter()
-        .filter_map(|command| match command {
-            crate::bench::command::Command::Experiment(command) => Some(command),
-            _ => None,
-        })
-        .collect()
+    all
 }
 
 #[test]
@@ -62,11 +57,11 @@ fn ranks_are_given_by_click_by_digit_and_by_drag() {
     harness.run();
     harness.get_by_label("Fabric 3").click();
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(2))]);
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Place(2))]);
     harness.state_mut().clear();
     harness.key_press(Key::Num4);
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(3))]);
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Place(3))]);
     harness.state_mut().clear();
     let from = harness.get_by_label("Fabric 2").rect().center();
     let to = harness.get_by_label("Rank 4: empty").rect().center();
@@ -78,7 +73,7 @@ fn ranks_are_given_by_click_by_digit_and_by_drag() {
     harness.run_steps(2);
     harness.drop_at(to);
     harness.run_steps(3);
-    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Rank(1, 3))]);
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Rank(1, 3))]);
     harness.get_by_label("Rank 1: fabric 1");
     assert!(harness.query_by_label("Fabric 1").is_none(), "it is ranked");
 }
@@ -97,7 +92,7 @@ fn nothing_is_handed_in_before_all_is_answered() {
     harness.run();
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Answer]);
+    assert_eq!(marks(&harness), [Act::Answer]);
 }
 
 #[test]
@@ -117,7 +112,7 @@ fn a_break_counts_down_before_anybody_goes_on() {
     harness.run();
     harness.get_by_label("Go on").click();
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Pass]);
+    assert_eq!(marks(&harness), [Act::Pass]);
 }
 
 #[test]
@@ -132,7 +127,7 @@ fn a_number_is_typed_and_a_line_answers_keys() {
     );
     harness.event(eframe::egui::Event::Text("7".to_owned()));
     harness.run();
-    let typed = ExperimentCommand::Mark(Mark::Type("7".to_owned()));
+    let typed = Act::Mark(Mark::Type("7".to_owned()));
     assert_eq!(marks(&harness), [typed]);
     let scale = selvedge_experiment::design::Scale {
         key: "roughness".to_owned(),
@@ -150,7 +145,7 @@ fn a_number_is_typed_and_a_line_answers_keys() {
     line.click();
     harness.run();
     let marked = marks(&harness);
-    let [ExperimentCommand::Mark(Mark::Rate(0, value))] = marked[..] else {
+    let [Act::Mark(Mark::Rate(0, value))] = marked[..] else {
         panic!("{marked:?}")
     };
     assert!((value - 50.0).abs() < 2.0, "{value}");
@@ -176,7 +171,7 @@ fn scales_are_answered_by_keys_alone_and_whole_steps_stay_whole() {
     harness.key_press(Key::ArrowRight);
     harness.run();
     let marked = marks(&harness);
-    let [ExperimentCommand::Mark(Mark::Rate(0, value))] = marked[..] else {
+    let [Act::Mark(Mark::Rate(0, value))] = marked[..] else {
         panic!("the first scale has the keys: {marked:?}")
     };
     assert!((value - 55.0).abs() < 1e-9, "{value}");
@@ -185,14 +180,11 @@ fn scales_are_answered_by_keys_alone_and_whole_steps_stay_whole() {
     harness.run();
     harness.key_press(Key::ArrowLeft);
     harness.run();
-    assert_eq!(
-        marks(&harness),
-        [ExperimentCommand::Mark(Mark::Rate(1, 3.0))]
-    );
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Rate(1, 3.0))]);
     harness.state_mut().clear();
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Answer]);
+    assert_eq!(marks(&harness), [Act::Answer]);
 }
 
 #[test]
@@ -207,13 +199,13 @@ fn keys_go_to_the_answer_though_a_button_was_reached_by_tab() {
     harness.run();
     harness.key_press(Key::Num3);
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(2))]);
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Place(2))]);
     harness.state_mut().clear();
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(
         marks(&harness),
-        [ExperimentCommand::Mark(Mark::Place(0))],
+        [Act::Mark(Mark::Place(0))],
         "Enter presses the button that has the keys"
     );
 }
@@ -234,7 +226,7 @@ fn where_choosing_is_all_there_is_nothing_to_hand_in() {
     assert!(harness.query_by_label("Done").is_none());
     harness.get_by_label("2").click();
     harness.run();
-    assert_eq!(marks(&harness), [ExperimentCommand::Mark(Mark::Place(1))]);
+    assert_eq!(marks(&harness), [Act::Mark(Mark::Place(1))]);
 }
 
 #[test]
@@ -301,12 +293,9 @@ fn while_the_screen_is_blank_answers_are_typed_in_the_experimenters_pane_alone()
 
     let mut typed = Harness::builder()
         .with_size(vec2(300.0, 500.0))
-        .build_ui_state(
-            |ui, commands| show_typed(ui, &trial(&draft), commands),
-            Commands::new(),
-        );
+        .build_ui_state(|ui, acts| show_typed(ui, &trial(&draft), acts), Vec::new());
     typed.run();
     typed.key_press(Key::Num4);
     typed.run();
-    assert_eq!(marks(&typed), [ExperimentCommand::Mark(Mark::Place(3))]);
+    assert_eq!(marks(&typed), [Act::Mark(Mark::Place(3))]);
 }

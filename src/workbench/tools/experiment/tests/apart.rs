@@ -1,11 +1,10 @@
 //! The participant's window: the view goes there and comes back, and the session goes on.
 
 use super::*;
-use crate::bench::pane::Pane;
 use crate::kit::view_transform::Pointed;
 
-fn window_act(window: &mut Headless, act: WindowAct) {
-    window.dispatch(ExperimentCommand::Window(act));
+fn open(window: &mut Headless, is_open: bool) {
+    experiment_mut(window).window.is_open = is_open;
     window.pass(2);
 }
 
@@ -16,7 +15,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     to_trial(&mut window);
     let before = window.workbench.bench.transient.ground;
     assert!(before.is_some());
-    window_act(&mut window, WindowAct::Open);
+    open(&mut window, true);
     assert_eq!(
         window.workbench.bench.transient.ground, None,
         "the workbench shows one line in its place"
@@ -25,9 +24,9 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     let at = window
         .ctx
         .memory(|memory| {
-            memory.area_rect(eframe::egui::Id::unique(
-                eframe::egui::ViewportId::from_hash_of("participant"),
-            ))
+            memory.area_rect(eframe::egui::Id::unique(ViewportId::from_hash_of(
+                "participant",
+            )))
         })
         .unwrap();
     for n in 0..30_u8 {
@@ -45,11 +44,11 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     let amplitudes_um = window.workbench.amplitudes_um();
     assert!(amplitudes_um.iter().flatten().any(|um| *um > 0.0));
     mark(&mut window, Mark::Place(1));
-    window_act(&mut window, WindowAct::Close);
+    open(&mut window, false);
     assert_eq!(window.workbench.bench.transient.ground, before);
-    assert!(held(&window).trial().is_some(), "the session goes on");
+    assert!(session(&window).trial().is_some(), "the session goes on");
     assert!(matches!(
-        held(&window).draft,
+        session(&window).draft,
         Draft::Odd {
             position: Some(1),
             ..
@@ -62,41 +61,23 @@ fn a_session_that_begins_while_the_window_is_open_brings_no_second_view() {
     let folder = Folder::new("apart-first");
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
-    window_act(&mut window, WindowAct::Open);
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    open(&mut window, true);
+    let form = &mut experiment_mut(&mut window).form;
     form.choose(small(&folder, "odd-one-out"));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p01".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
-    assert!(window.workbench.bench.transient.experiment.is_held());
+    assert!(experiment(&window).session.is_some());
     assert_eq!(window.workbench.bench.transient.ground, None);
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    assert!(window.workbench.bench.transient.experiment.window.is_open);
+    assert!(experiment(&window).window.is_open);
     assert!(arrangement_shows(&window, Pane::Experimenter));
 }
 
 fn arrangement_shows(window: &Headless, pane: Pane) -> bool {
     crate::shell::arrangement::is_shown(&window.workbench.shell.tree, pane)
-}
-
-#[test]
-fn the_keyboard_is_lost_only_when_neither_window_has_it_for_a_while() {
-    let mut window = ParticipantsWindow::default();
-    window.act(WindowAct::Open);
-    assert_eq!(window.left_alone_s(1.0, true), None);
-    let wait_s = window.left_alone_s(1.1, false).unwrap();
-    assert!((wait_s - 0.25).abs() < 1e-12);
-    assert_eq!(window.left_alone_s(1.2, true), None, "it went to the other");
-    assert!(window.left_alone_s(2.0, false).unwrap() > 0.0);
-    assert_eq!(window.left_alone_s(2.3, false), Some(0.0));
-    window.act(WindowAct::FillScreen(true));
-    assert!(window.fills_screen);
-    window.act(WindowAct::Close);
-    assert_eq!(window, ParticipantsWindow::default());
-    window.act(WindowAct::FillScreen(true));
-    assert!(!window.fills_screen, "there is no window to fill it");
 }
 
 #[test]

@@ -6,21 +6,21 @@ use super::*;
 fn who_takes_part_stands_in_the_table_of_the_study_and_is_not_changed_silently() {
     let folder = Folder::new("particulars");
     let mut window = begun(&folder, "odd-one-out", "p01");
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     form.who.pseudonym = "p02".to_owned();
     form.who.age = "44".to_owned();
     form.who.experience = "practised".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
     let table = fs::read_to_string(folder.0.join("participants.csv")).unwrap();
     let rows: Vec<&str> = table.lines().collect();
     assert!(rows[1].starts_with("p01,,,,,,"), "{table}");
     assert!(rows[2].starts_with("p02,44,,,practised,,"), "{table}");
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     assert!(form.who.is_known() && form.refusal().is_none());
     form.session = "2".to_owned();
     form.who.age = "45".to_owned();
@@ -29,9 +29,9 @@ fn who_takes_part_stands_in_the_table_of_the_study_and_is_not_changed_silently()
         refusal.contains("age_years was 44 then, and is 45 now"),
         "{refusal}"
     );
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
-    assert!(!window.workbench.bench.transient.experiment.is_held());
+    assert!(experiment(&window).session.is_none());
     assert_eq!(
         fs::read_to_string(folder.0.join("participants.csv")).unwrap(),
         table
@@ -42,27 +42,24 @@ fn who_takes_part_stands_in_the_table_of_the_study_and_is_not_changed_silently()
 fn a_folder_that_was_typed_is_listed_and_a_noise_is_written_into_it() {
     let folder = Folder::new("followed");
     let mut window = begun(&folder, "odd-one-out", "p01");
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     form.folder = folder.0.join("other").display().to_string();
     form.choose(Chosen::Shipped("ranking-virtual-target"));
     window.pass(2);
-    let experiment = &window.workbench.bench.transient.experiment;
-    assert!(experiment.form.found.is_empty() && experiment.form.failure.is_none());
-    assert_eq!(experiment.noise(), Some(NoiseView::Missing));
-    window.dispatch(ExperimentCommand::Noise);
+    let tool = experiment(&window);
+    assert!(tool.form.found.is_empty() && tool.form.failure.is_none());
+    assert_eq!(tool.noise(), Some(NoiseView::Missing));
+    act(&mut window, |one, bench| one.write_noise(bench));
     window.pass(2);
     let at = folder.0.join("other").join("masking-noise.wav");
-    let experiment = &mut window.workbench.bench.transient.experiment;
-    assert_eq!(
-        experiment.noise(),
-        Some(NoiseView::At(at.display().to_string()))
-    );
+    let tool = experiment_mut(&mut window);
+    assert_eq!(tool.noise(), Some(NoiseView::At(at.display().to_string())));
     assert!(fs::metadata(&at).unwrap().len() > 50_000_000, "ten minutes");
-    experiment.form.folder = folder.0.display().to_string();
+    tool.form.folder = folder.0.display().to_string();
     window.pass(2);
-    let form = &window.workbench.bench.transient.experiment.form;
+    let form = &experiment(&window).form;
     assert_eq!((form.found.len(), form.has_noise), (1, false));
 }
 
@@ -80,26 +77,28 @@ fn a_session_with_a_library_of_ones_own_is_resumed_wherever_its_log_lies() {
     copy(std::path::Path::new(library), &folder.0.join("cloth"));
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     form.choose(Chosen::File(design));
     form.folder = folder.0.join("logs").display().to_string();
     form.who.pseudonym = "p01".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
     let log = log_of(&window);
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    window.dispatch(ExperimentCommand::Resume(log.clone()));
+    act(&mut window, |one, bench| {
+        one.resume_session(log.clone(), bench)
+    });
     window.pass(3);
-    assert!(window.workbench.bench.transient.experiment.is_held());
-    window.dispatch(ExperimentCommand::End);
+    assert!(experiment(&window).session.is_some());
+    end(&mut window);
     window.pass(3);
     fs::rename(folder.0.join("cloth"), folder.0.join("away")).unwrap();
-    window.dispatch(ExperimentCommand::Resume(log));
+    act(&mut window, |one, bench| one.resume_session(log, bench));
     window.pass(3);
-    let experiment = &window.workbench.bench.transient.experiment;
-    let line = experiment.form.failure.clone().unwrap();
-    assert!(!experiment.is_held());
+    let tool = experiment(&window);
+    let line = tool.form.failure.clone().unwrap();
+    assert!(tool.session.is_none());
     assert!(line.contains("the library of its design is gone"), "{line}");
     assert_eq!(line.lines().count(), 1);
 }

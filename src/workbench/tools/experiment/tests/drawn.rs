@@ -40,20 +40,13 @@ impl Drawn {
             rasteriser: crate::shell::raster::Rasteriser::default(),
         };
         drawn.pass(2);
-        let form = &mut drawn.window.workbench.bench.transient.experiment.form;
+        let form = &mut experiment_mut(&mut drawn.window).form;
         form.choose(chosen);
         form.folder = folder.0.display().to_string();
         form.who.pseudonym = pseudonym.to_owned();
-        drawn.window.dispatch(ExperimentCommand::Begin);
+        begin(&mut drawn.window);
         drawn.pass(3);
-        let failure = &drawn
-            .window
-            .workbench
-            .bench
-            .transient
-            .experiment
-            .form
-            .failure;
+        let failure = &experiment(&drawn.window).form.failure;
         assert_eq!(*failure, None);
         drawn
     }
@@ -61,7 +54,7 @@ impl Drawn {
     /// Goes on until a trial waits.
     fn go_to_trial(&mut self) {
         for _ in 0..6 {
-            self.window.dispatch(ExperimentCommand::Pass);
+            pass(&mut self.window);
             self.pass(2);
         }
     }
@@ -127,7 +120,7 @@ fn differing(
 
 #[test]
 fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone() {
-    let target = |drawn: &Drawn| match held(&drawn.window).trial().map(|trial| &trial.task) {
+    let target = |drawn: &Drawn| match session(&drawn.window).trial().map(|trial| &trial.task) {
         Some(Task::Rank { target, .. }) => *target,
         _ => panic!("a ranking"),
     };
@@ -136,7 +129,7 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
         let mut drawn = Drawn::trial(&folder, "ranking-virtual-target", name, Theme::Dark);
         let picture = drawn.picture();
         let pane = drawn.window.workbench.bench.transient.ground.unwrap();
-        let size_mm = held(&drawn.window).layout.size_mm;
+        let size_mm = session(&drawn.window).layout.size_mm;
         (
             target(&drawn),
             picture,
@@ -237,7 +230,7 @@ fn every_kind_of_trial_is_drawn_in_both_themes_in_wide_and_narrow_windows() {
             mark(&mut drawn.window, one);
         }
         drawn.keep_picture(&format!("{design}-{theme:?}-{}", size[0]));
-        assert!(held(&drawn.window).trial().is_some(), "{design}");
+        assert!(session(&drawn.window).trial().is_some(), "{design}");
     }
 }
 
@@ -253,7 +246,7 @@ fn judgements_are_drawn_of_one_fabric_and_of_pairs() {
         }
         mark(&mut drawn.window, Mark::Place(0));
         drawn.keep_picture(&format!("judgement-{name}"));
-        assert!(held(&drawn.window).trial().is_some());
+        assert!(session(&drawn.window).trial().is_some());
     }
 }
 
@@ -264,50 +257,39 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
     let mut drawn = Drawn::begun(&folder, chosen, "p01", (Theme::Dark, SIZE));
     let name = |step: &str| format!("step-{step}");
     drawn.keep_picture(&name("1-instructions"));
-    drawn.window.dispatch(ExperimentCommand::Pass);
+    pass(&mut drawn.window);
     drawn.pass(2);
     drawn.keep_picture(&name("2-familiarisation"));
-    drawn.window.dispatch(ExperimentCommand::Pause(true));
+    act(&mut drawn.window, |one, bench| one.pause(true, bench));
     drawn.pass(2);
     drawn.keep_picture(&name("3-pause"));
-    drawn.window.dispatch(ExperimentCommand::Pause(false));
+    act(&mut drawn.window, |one, bench| one.pause(false, bench));
     drawn.pass(2);
     let mut has_rested = false;
-    while !matches!(held(&drawn.window).now, Now::Finished) {
-        if held(&drawn.window).trial().is_none() {
-            if matches!(held(&drawn.window).now, Now::Break { .. }) && !has_rested {
+    while !matches!(session(&drawn.window).now, Now::Finished) {
+        if session(&drawn.window).trial().is_none() {
+            if matches!(session(&drawn.window).now, Now::Break { .. }) && !has_rested {
                 has_rested = true;
                 drawn.keep_picture(&name("4-break"));
             }
-            drawn.window.dispatch(ExperimentCommand::Pass);
+            pass(&mut drawn.window);
         } else {
             mark(&mut drawn.window, Mark::Place(1));
             mark(
                 &mut drawn.window,
                 Mark::Grade(selvedge_experiment::Grade::Hard),
             );
-            drawn.window.dispatch(ExperimentCommand::Answer);
+            answer(&mut drawn.window);
         }
         drawn.pass(3);
     }
     drawn.keep_picture(&name("5-end"));
-    drawn.window.dispatch(ExperimentCommand::End);
+    end(&mut drawn.window);
     drawn.pass(3);
-    let form = &mut drawn.window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut drawn.window).form;
     form.choose(Chosen::Shipped("ranking-real-target"));
     drawn.keep_picture(&name("6-form"));
-    assert_eq!(
-        drawn
-            .window
-            .workbench
-            .bench
-            .transient
-            .experiment
-            .form
-            .found
-            .len(),
-        1
-    );
+    assert_eq!(experiment(&drawn.window).form.found.len(), 1);
 }
 
 #[test]
@@ -315,7 +297,7 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     let folder = Folder::new("drawn-blank");
     let mut drawn = Drawn::trial(&folder, "odd-one-out", "p01", Theme::Dark);
     assert!(drawn.window.workbench.bench.transient.ground.is_some());
-    drawn.window.dispatch(ExperimentCommand::Blank(true));
+    experiment_mut(&mut drawn.window).is_blank = true;
     drawn.pass(2);
     let ground = drawn.window.workbench.bench.transient.ground;
     assert!(ground.is_some(), "what lies there is still felt");
@@ -330,24 +312,13 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     drawn.keep_picture("blank");
 
     let grade = Mark::Grade(selvedge_experiment::Grade::Easy);
-    for command in [
-        ExperimentCommand::Mark(Mark::Place(1)),
-        ExperimentCommand::Mark(grade),
-    ] {
-        drawn.window.dispatch(command);
-    }
-    drawn.window.dispatch(ExperimentCommand::Answer);
+    mark(&mut drawn.window, Mark::Place(1));
+    mark(&mut drawn.window, grade);
+    answer(&mut drawn.window);
     drawn.pass(4);
-    let held = drawn
-        .window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .held
-        .as_ref();
-    assert_eq!(held.unwrap().progress.0, 1, "typed by the experimenter");
-    drawn.window.dispatch(ExperimentCommand::Blank(false));
+    let progress = session(&drawn.window).progress;
+    assert_eq!(progress.0, 1, "typed by the experimenter");
+    experiment_mut(&mut drawn.window).is_blank = false;
     drawn.pass(2);
     let mut seen = drawn
         .picture()

@@ -16,6 +16,11 @@ use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::edit::Edit;
 use crate::bench::view::Live;
 use crate::shell::headless::Headless;
+use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::draft::{Draft, Mark};
+use crate::tools::experiment::noise::NoiseView;
+use crate::tools::experiment::now::Now;
+use crate::tools::experiment::view::{Ground, Link, TrialView};
 use selvedge_experiment::Task;
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{find_sessions, path_file, samples_file};
@@ -26,15 +31,15 @@ use selvedge_scratch::ScratchFolder as Folder;
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     form.choose(small(folder, design));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = pseudonym.to_owned();
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
-    let experiment = &window.workbench.bench.transient.experiment;
-    assert_eq!(experiment.form.failure, None);
-    assert!(experiment.is_held());
+    let tool = experiment(&window);
+    assert_eq!(tool.form.failure, None);
+    assert!(tool.session.is_some());
     window
 }
 
@@ -53,27 +58,54 @@ fn small(folder: &Folder, design: &'static str) -> Chosen {
     Chosen::File(path)
 }
 
-fn held(window: &Headless) -> &Held {
-    window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .held
-        .as_deref()
-        .unwrap()
+fn experiment(window: &Headless) -> &Experiment {
+    window.workbench.tools.get().unwrap()
+}
+
+fn experiment_mut(window: &mut Headless) -> &mut Experiment {
+    window.workbench.tools.get_mut().unwrap()
+}
+
+fn session(window: &Headless) -> &ActiveSession {
+    experiment(window).session.as_deref().unwrap()
+}
+
+/// Does something that a button or a key does.
+fn act(window: &mut Headless, act: impl FnOnce(&mut Experiment, &mut Bench)) {
+    let workbench = &mut window.workbench;
+    act(workbench.tools.get_mut().unwrap(), &mut workbench.bench);
+}
+
+fn begin(window: &mut Headless) {
+    act(window, |one, bench| one.begin_session(bench));
+}
+
+fn pass(window: &mut Headless) {
+    act(window, Experiment::pass);
+}
+
+fn mark(window: &mut Headless, mark: Mark) {
+    act(window, |one, bench| one.mark(&mark, bench));
+}
+
+fn answer(window: &mut Headless) {
+    act(window, Experiment::hand_in);
+}
+
+fn end(window: &mut Headless) {
+    act(window, Experiment::end);
 }
 
 /// Goes on until a trial waits.
 fn to_trial(window: &mut Headless) {
     for _ in 0..6 {
-        if held(window).trial().is_some() {
+        if session(window).trial().is_some() {
             break;
         }
-        window.dispatch(ExperimentCommand::Pass);
+        pass(window);
         window.pass(2);
     }
-    assert!(held(window).trial().is_some());
+    assert!(session(window).trial().is_some());
 }
 
 /// Moves the finger to and fro for so many ticks.
@@ -92,20 +124,16 @@ fn explore(window: &mut Headless, n_ticks: u16) {
     }
 }
 
-fn mark(window: &mut Headless, mark: Mark) {
-    window.dispatch(ExperimentCommand::Mark(mark));
-}
-
 fn rank(window: &mut Headless, order: [usize; 4]) {
     for position in order {
         mark(window, Mark::Place(position));
     }
-    window.dispatch(ExperimentCommand::Answer);
+    answer(window);
     window.pass(4);
 }
 
 fn log_of(window: &Headless) -> PathBuf {
-    held(window).log.clone()
+    session(window).log.clone()
 }
 
 #[test]
@@ -122,9 +150,9 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
             .flatten()
             .any(|um| *um > 0.0)
     );
-    let trial = held(&window).trial().unwrap().clone();
+    let trial = session(&window).trial().unwrap().clone();
     rank(&mut window, [2, 0, 1, 3]);
-    assert_eq!(held(&window).progress, (1, 8));
+    assert_eq!(session(&window).progress, (1, 8));
     let log = log_of(&window);
     let path = ExplorationPath::read(&path_file(&log, &trial, 1)).unwrap();
     assert!(path.n_ticks() >= 60, "{}", path.n_ticks());
@@ -140,9 +168,9 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
         "{}",
         rows.len()
     );
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    assert!(!window.workbench.bench.transient.experiment.is_held());
+    assert!(experiment(&window).session.is_none());
     assert_eq!(
         window.workbench.bench.take.as_ref().map(|_| ()),
         None,
@@ -158,11 +186,11 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
         Some(selvedge_experiment::Answer::Ranks([2, 3, 1, 4]))
     );
     assert!(!one.records[0].apparatus.stimulus_hash.is_empty());
-    window.dispatch(ExperimentCommand::Resume(log));
+    act(&mut window, |one, bench| one.resume_session(log, bench));
     window.pass(3);
     to_trial(&mut window);
-    assert_eq!(held(&window).progress, (1, 8));
-    assert_ne!(held(&window).trial(), Some(&trial), "the next one");
+    assert_eq!(session(&window).progress, (1, 8));
+    assert_ne!(session(&window).trial(), Some(&trial), "the next one");
 }
 
 #[test]
@@ -173,11 +201,11 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     window.dispatch(Edit::MasterGain(-7.5));
     window.dispatch(Edit::RemoveCloth(2));
     let before = window.workbench.bench.document.scene().clone();
-    let form = &mut window.workbench.bench.transient.experiment.form;
+    let form = &mut experiment_mut(&mut window).form;
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p01".to_owned();
     form.choose(small(&folder, "ranking-virtual-target"));
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
     to_trial(&mut window);
     window.dispatch(Edit::MasterGain(3.0));
@@ -193,7 +221,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
         told.iter().any(|line| line.contains("end it first")),
         "{told:?}"
     );
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
     assert_eq!(window.workbench.bench.document.scene(), &before);
     let serial = window.workbench.bench.scene_serial;
@@ -208,33 +236,28 @@ fn a_row_that_cannot_be_written_waits_with_its_answer_until_it_is() {
     let mut window = begun(&folder, "ranking-virtual-target", "p01");
     to_trial(&mut window);
     let log = log_of(&window);
-    let trial = held(&window).trial().unwrap().clone();
+    let trial = session(&window).trial().unwrap().clone();
     // A file stands where the folder of paths must be.
     let paths = path_file(&log, &trial, 1).parent().unwrap().to_owned();
     fs::write(&paths, "").unwrap();
     explore(&mut window, 10);
     rank(&mut window, [0, 1, 2, 3]);
-    let stuck = held(&window);
+    let stuck = session(&window);
     assert!(
         stuck.failure.is_some() && stuck.is_writing(),
         "{:?}",
         stuck.failure
     );
     assert_eq!((stuck.progress.0, stuck.trial()), (0, Some(&trial)));
-    let view = window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .participant(&Live::default(), 0.0);
+    let view = experiment(&window).participant(&Live::default(), 0.0);
     assert!(
         matches!(view, ParticipantView::Words { left_s: None, .. }),
         "{view:?}"
     );
     fs::remove_file(&paths).unwrap();
-    window.dispatch(ExperimentCommand::Retry);
+    act(&mut window, |one, bench| one.retry(bench));
     window.pass(4);
-    let (failure, progress) = (held(&window).failure.clone(), held(&window).progress);
+    let (failure, progress) = (session(&window).failure.clone(), session(&window).progress);
     assert_eq!((failure, progress.0), (None, 1));
     assert!(path_file(&log, &trial, 1).exists());
 }
@@ -247,13 +270,12 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
         let folder = Folder::new(pseudonym);
         let mut window = begun(&folder, "ranking-virtual-target", pseudonym);
         to_trial(&mut window);
-        let Task::Rank { target, .. } = held(&window).trial().unwrap().task else {
+        let Task::Rank { target, .. } = session(&window).trial().unwrap().task else {
             panic!("a ranking")
         };
-        let link = Link::of((None, None), false, [1.0; 2]);
-        let experiment = &window.workbench.bench.transient.experiment;
-        let told = format!("{:?}", experiment.experimenter(link, 0.0));
-        let view = experiment.participant(&Live::default(), 0.0);
+        let link = Link::of(&window.workbench.bench);
+        let told = format!("{:?}", session(&window).view(link, 0.0));
+        let view = experiment(&window).participant(&Live::default(), 0.0);
         let words = format!("{view:?}");
         for stimulus in &design.stimuli {
             assert!(!words.contains(&stimulus.id), "{words}");
@@ -287,7 +309,7 @@ fn nothing_that_tells_what_is_felt_is_drawn_while_a_session_is_held() {
     let trail = window.workbench.shell.n_drawn;
     explore(&mut window, 20);
     assert_eq!(window.workbench.columns_computed(), columns);
-    let participant = crate::bench::pane::Pane::Participant.index();
+    let participant = Pane::Participant.index();
     assert!(window.workbench.shell.n_drawn[participant] > trail[participant]);
 }
 
@@ -296,33 +318,29 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     let folder = Folder::new("abort");
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
-    let trial = held(&window).trial().unwrap().clone();
-    window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .held
-        .as_mut()
-        .unwrap()
-        .note = "a cough".to_owned();
-    window.dispatch(ExperimentCommand::Abort);
+    let trial = session(&window).trial().unwrap().clone();
+    let session_mut = experiment_mut(&mut window).session.as_mut();
+    session_mut.unwrap().note = "a cough".to_owned();
+    act(&mut window, |one, bench| one.end_trial(None, bench));
     window.pass(4);
     assert_eq!(
-        (held(&window).trial(), held(&window).progress.0),
+        (session(&window).trial(), session(&window).progress.0),
         (Some(&trial), 0)
     );
-    assert_eq!(held(&window).note, "", "it is in the row");
-    window.dispatch(ExperimentCommand::Pause(true));
-    assert!(held(&window).trial().is_some(), "it is finished first");
+    assert_eq!(session(&window).note, "", "it is in the row");
+    act(&mut window, |one, bench| one.pause(true, bench));
+    assert!(session(&window).trial().is_some(), "it is finished first");
     mark(&mut window, Mark::Place(1));
     mark(&mut window, Mark::Grade(selvedge_experiment::Grade::Easy));
-    window.dispatch(ExperimentCommand::Answer);
+    answer(&mut window);
     window.pass(4);
-    assert_eq!((held(&window).trial(), held(&window).progress.0), (None, 1));
-    window.dispatch(ExperimentCommand::Pause(false));
+    assert_eq!(
+        (session(&window).trial(), session(&window).progress.0),
+        (None, 1)
+    );
+    act(&mut window, |one, bench| one.pause(false, bench));
     window.pass(2);
-    assert!(held(&window).trial().is_some_and(|next| *next != trial));
+    assert!(session(&window).trial().is_some_and(|next| *next != trial));
     let found = find_sessions(&folder.0).unwrap().0;
     let rows = &found[0].records;
     assert_eq!(
@@ -346,15 +364,15 @@ fn what_is_turned_is_felt_at_once_and_logged() {
             .tuning
             .gain_db
     };
-    let start = held(&window).tuning().gain_db;
+    let start = session(&window).tuning().gain_db;
     assert!((felt_db(&mut window) - start).abs() < 1e-9);
     mark(&mut window, Mark::Turn(0, 2));
     mark(&mut window, Mark::Turn(0, -1));
     window.pass(2);
-    let turned = held(&window).tuning().gain_db;
+    let turned = session(&window).tuning().gain_db;
     assert!((turned - start).abs() > 0.5, "{start} {turned}");
     assert!((felt_db(&mut window) - turned).abs() < 1e-9);
-    window.dispatch(ExperimentCommand::Answer);
+    answer(&mut window);
     window.pass(4);
     let found = find_sessions(&folder.0).unwrap().0;
     let Some(selvedge_experiment::Answer::Adjusted { values, steps }) =
@@ -377,25 +395,25 @@ fn a_vibration_is_played_at_the_beginning_of_its_trial_and_again_when_asked() {
     };
     window.pass(40);
     assert!(loudest(&window) > 0.1, "after the silence it begins with");
-    assert_eq!(held(&window).interval(), Some(0));
+    assert_eq!(session(&window).interval(), Some(0));
     window.pass(40);
-    assert!(loudest(&window) <= 0.0 && held(&window).may_play_again());
-    window.dispatch(ExperimentCommand::Play);
+    assert!(loudest(&window) <= 0.0 && session(&window).may_play_again());
+    act(&mut window, |one, bench| one.play_again(bench));
     window.pass(35);
     assert!(loudest(&window) > 0.1);
     mark(&mut window, Mark::Type("12.5".to_owned()));
-    window.dispatch(ExperimentCommand::Answer);
+    answer(&mut window);
     window.pass(4);
-    assert_eq!(held(&window).progress.0, 1);
+    assert_eq!(session(&window).progress.0, 1);
 }
 
 #[test]
 fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     let folder = Folder::new("list");
     let mut window = begun(&folder, "odd-one-out", "p01");
-    window.dispatch(ExperimentCommand::End);
+    end(&mut window);
     window.pass(3);
-    let form = &window.workbench.bench.transient.experiment.form;
+    let form = &experiment(&window).form;
     let [row] = &form.found[..] else {
         panic!("one session")
     };
@@ -403,26 +421,12 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
         (row.subject.pseudonym.as_str(), row.progress),
         ("p01", (0, 9))
     );
-    window.dispatch(ExperimentCommand::Begin);
+    begin(&mut window);
     window.pass(3);
-    let failure = window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .form
-        .failure
-        .clone();
+    let failure = experiment(&window).form.failure.clone();
     assert!(failure.unwrap().contains("resume it below"));
-    window
-        .workbench
-        .bench
-        .transient
-        .experiment
-        .form
-        .who
-        .pseudonym = "p02".to_owned();
-    window.dispatch(ExperimentCommand::Begin);
+    experiment_mut(&mut window).form.who.pseudonym = "p02".to_owned();
+    begin(&mut window);
     window.pass(3);
-    assert_eq!(held(&window).subject.nth, 1, "the second of the study");
+    assert_eq!(session(&window).subject.nth, 1, "the second of the study");
 }

@@ -1,4 +1,4 @@
-//! A session that is being held: what happens now, what was answered so far, and the row that is
+//! The session that is active: what happens now, what was answered so far, and the row that is
 //! on its way to the disk. A trial ends when its row is there, not before.
 
 use std::path::PathBuf;
@@ -15,6 +15,7 @@ use selvedge_experiment::design::{Design, Method, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
 use selvedge_experiment::{Answer, Apparatus, Outcome, Task as Asked, Timing, Trial};
+use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_textile::tactile::Tuning;
 
@@ -39,9 +40,9 @@ struct Written {
     outcome: Result<(), String>,
 }
 
-/// A session that is being held.
+/// The session that is active.
 #[derive(Debug)]
-pub(crate) struct Held {
+pub(crate) struct ActiveSession {
     /// Away while a row is written.
     session: Option<Session>,
     writing: Option<Task<Written>>,
@@ -83,7 +84,7 @@ pub(crate) struct Held {
     recording: Option<Recording>,
 }
 
-impl Held {
+impl ActiveSession {
     /// A session that was just opened.
     pub(crate) fn new(
         session: Session,
@@ -91,7 +92,7 @@ impl Held {
         device: String,
         began: Began,
     ) -> Self {
-        let mut held = Self {
+        let mut active = Self {
             design: session.design().clone(),
             subject: session.subject().clone(),
             log: session.log().to_owned(),
@@ -114,13 +115,13 @@ impl Held {
             is_recording: false,
             recording: None,
         };
-        for stimulus in &held.design.stimuli {
+        for stimulus in &active.design.stimuli {
             if let Source::Textile { id, .. } = &stimulus.source {
-                held.materials.library_view.want(id);
+                active.materials.library_view.want(id);
             }
         }
-        held.look(began);
-        held
+        active.look(began);
+        active
     }
 
     /// Sees what happens now.
@@ -330,7 +331,7 @@ impl Held {
             tuning: pending.tuning,
             stimulus_hash: self.materials.hash.clone(),
         };
-        let work = move |_: &mut selvedge_foundation::progress::Progress<'_>| {
+        let work = move |_: &mut Progress<'_>| {
             let circumstances = Circumstances {
                 timing: pending.timing,
                 apparatus,
@@ -350,11 +351,6 @@ impl Held {
         let task = Task::start(("selvedge-session", ctx), is_at_once, work);
         self.writing = Some(task);
         ctx.request_repaint();
-    }
-
-    /// Tries again to write what could not be written.
-    pub(crate) fn retry(&mut self) {
-        self.failure = None;
     }
 
     /// Takes what came back from the disk: whether the next step begins.

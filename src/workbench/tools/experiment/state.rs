@@ -1,0 +1,44 @@
+//! What the window knows of experiments: the form, the session, the participant's window.
+
+use crate::bench::task::Task;
+use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::form::Form;
+use crate::tools::experiment::materials::Materials;
+use selvedge_experiment::session::Session;
+
+/// The window that shows a participant's view and nothing else.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ParticipantsWindow {
+    /// Whether it is open: the workbench shows no participant's view then.
+    pub is_open: bool,
+    /// Whether it is to fill its screen.
+    pub(crate) fills_screen: bool,
+}
+
+/// Experiments, as the window knows them: neither saved nor undoable.
+#[derive(Debug, Default)]
+pub(crate) struct Experiment {
+    /// What the next session is to be.
+    pub(super) form: Form,
+    /// A session on its way.
+    pub(super) beginning: Option<Task<Begun>>,
+    /// The session that is active.
+    pub(super) session: Option<Box<ActiveSession>>,
+    /// A masking noise on its way to its file.
+    pub(super) noise: Option<Task<()>>,
+    /// A window of the participant's own.
+    pub(super) window: ParticipantsWindow,
+    /// Whether the participant sees nothing while a trial waits.
+    pub(super) is_blank: bool,
+    /// Whether the next recording that ends is of a trial that nobody answered.
+    pub(super) lets_recording_go: bool,
+}
+
+/// A session that is ready to become active.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    /// The session.
+    pub session: Session,
+    /// What it presents.
+    pub materials: Materials,
+}
