@@ -1,7 +1,8 @@
 //! Known configurations under noise: how much of the map is lost.
 
 use super::{Bench, Dissimilarities, Findings, Mds, ReportError, Row, made};
-use selvedge_chart::{Axis, Chart, Series};
+use crate::chart::{chart, series};
+use selvedge_chart::{Axis, Style};
 use selvedge_foundation::numerics::{Random, median};
 use selvedge_statistics::procrustes::Procrustes;
 
@@ -10,40 +11,30 @@ const NOISE: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
 
 /// Adds what is lost of maps in the plane, by objects and noise.
 pub(super) fn add(bench: &mut Bench<'_>, findings: &mut Findings) -> Result<(), ReportError> {
-    let counts = bench.effort.pick(vec![16], vec![7, 16, 30]);
+    let counts = bench.effort.pick(&[16][..], &[7, 16, 30][..]);
     let n_sets = bench.effort.pick(3, 15);
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     for (n_done, &n) in counts.iter().enumerate() {
         bench.step(0.6 + 0.4 * n_done as f64 / counts.len() as f64, "recovery")?;
         let mut points = Vec::new();
         for noise in NOISE {
             let (m2, stress) = lost(n, noise, n_sets, bench.seed);
             points.push([noise, m2]);
-            findings.rows.push(Row {
-                method: "recovery".to_owned(),
-                setting: format!("noise {noise}"),
-                case: format!("{n} points of a plane"),
-                more: vec![
-                    ("m2", format!("{m2:.5}")),
-                    ("stress1", format!("{stress:.5}")),
-                ],
-                ..Row::default()
-            });
+            let case = format!("{n} points of a plane");
+            let row = Row::of("recovery", format!("noise {noise}"), case);
+            findings
+                .rows
+                .push(row.number("m2", 5, m2).number("stress1", 5, stress));
         }
-        series.push(Series {
-            name: format!("{n} objects"),
-            points,
-            ..Series::default()
-        });
+        all.push(series(format!("{n} objects"), Style::Dots, points));
     }
-    let plot = Chart {
-        title: "Mds: what noise takes from a known map".to_owned(),
-        x: Axis::linear("noise, standard deviation of the logarithm"),
-        y: Axis::linear("m² left over after Procrustes"),
-        series,
-        footnote: "Medians over random configurations in a plane. Numbers: mds.csv.".to_owned(),
-        ..Chart::default()
-    };
+    let plot = chart(
+        "Mds: what noise takes from a known map",
+        Axis::linear("noise, standard deviation of the logarithm"),
+        Axis::linear("m² left over after Procrustes"),
+        all,
+        "Medians over random configurations in a plane. Numbers: mds.csv.",
+    );
     findings.plots.push(("mds-recovery".to_owned(), plot));
     Ok(())
 }
@@ -59,14 +50,10 @@ pub(super) fn lost(n: usize, noise: f64, n_sets: usize, seed: u64) -> (f64, f64)
     for set in 0..n_sets {
         let mut random = Random::new(seed).branch(&format!("recovery {n}, {set}"));
         let truth = thrown(n, 2, &mut random);
-        let mut values = vec![None; n * n];
-        for i in 0..n {
-            for j in i + 1..n {
-                let error = (noise * random.normal()).exp();
-                values[i * n + j] = Some(apart(&truth[i], &truth[j]) * error);
-            }
-        }
-        let map = made(&mds, &named(&values, n), 2);
+        let data = between(&truth, |distance| {
+            distance * (noise * random.normal()).exp()
+        });
+        let map = made(&mds, &data, 2);
         let laid = map.as_ref().map(|map| Procrustes::of(&map.points, &truth));
         if let (Some(map), Some(Ok(laid))) = (&map, laid) {
             m2.push(laid.m2);
@@ -81,17 +68,23 @@ pub(super) fn thrown(n: usize, k: usize, random: &mut Random) -> Vec<Vec<f64>> {
     (0..n).map(|_| point(random)).collect()
 }
 
-pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
-    let squares = a.iter().zip(b).map(|(p, q)| (p - q).powi(2));
-    squares.sum::<f64>().sqrt()
-}
-
-/// Dissimilarities of numbered objects.
+/// Dissimilarities of numbered objects at places, of what is made of their distances.
 ///
 /// # Panics
-/// The numbers are no dissimilarities: those of this study are.
+/// They are no dissimilarities: those of this study are.
 #[expect(clippy::expect_used, reason = "made here, whole and positive")]
-pub(super) fn named(values: &[Option<f64>], n: usize) -> Dissimilarities {
+pub(super) fn between(places: &[Vec<f64>], mut felt: impl FnMut(f64) -> f64) -> Dissimilarities {
+    let n = places.len();
+    let mut values = vec![None; n * n];
+    for i in 0..n {
+        for j in i + 1..n {
+            let squares = places[i]
+                .iter()
+                .zip(&places[j])
+                .map(|(p, q)| (p - q).powi(2));
+            values[i * n + j] = Some(felt(squares.sum::<f64>().sqrt()));
+        }
+    }
     let names = (0..n).map(|i| format!("object {}", i + 1)).collect();
-    Dissimilarities::new(names, values).expect("whole and positive")
+    Dissimilarities::new(names, &values).expect("whole and positive")
 }

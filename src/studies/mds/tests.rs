@@ -5,7 +5,7 @@ use crate::tests::quick;
 
 #[test]
 fn the_study_repeats_and_keeps_its_promises() {
-    let (first, second) = (quick(&MdsStudy, 3), quick(&MdsStudy, 3));
+    let (first, second) = (quick(&STUDY, 3), quick(&STUDY, 3));
     assert_eq!(
         first.n_broken(),
         0,

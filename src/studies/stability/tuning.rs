@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use super::cloth::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
+use super::scene::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
 use selvedge_foundation::geometry::Point;
@@ -92,10 +92,8 @@ fn finite_with_gain(gain_db: f64) -> Verdict {
         .iter()
         .all(|[low, high]| u32::from(*low) + u32::from(*high) <= 65_535);
     let is_number = heard.iter().flatten().all(|um| !um.is_nan());
-    verdict(
-        is_bounded && is_number,
-        format!("{}, codes within full drive", range_um(heard[0])),
-    )
+    let came_back = format!("{}, codes within full drive", range_um(heard[0]));
+    verdict(is_bounded && is_number, came_back)
 }
 
 /// What every method gives at 100 mm/s with a gain.
