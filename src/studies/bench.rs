@@ -61,18 +61,7 @@ pub struct Bench<'a> {
     pub effort: Effort,
     /// What its random numbers begin with.
     pub seed: u64,
-    progress: &'a mut (dyn Heard + 'a),
-}
-
-/// Who hears how far a study is; a [`Progress`] without its own lifetime.
-trait Heard {
-    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled>;
-}
-
-impl Heard for Progress<'_> {
-    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled> {
-        Progress::step(self, share, doing)
-    }
+    step: Box<dyn FnMut(f64, &str) -> Result<(), Cancelled> + 'a>,
 }
 
 impl std::fmt::Debug for Bench<'_> {
@@ -90,7 +79,7 @@ impl<'a> Bench<'a> {
         Self {
             effort,
             seed,
-            progress,
+            step: Box::new(|share, doing| progress.step(share, doing)),
         }
     }
 
@@ -99,9 +88,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// It should stop.
     pub fn step(&mut self, share: f64, doing: &str) -> Result<(), ReportError> {
-        self.progress
-            .step(share, doing)
-            .map_err(|_cancelled| ReportError::Cancelled)
+        (self.step)(share, doing).map_err(|_cancelled| ReportError::Cancelled)
     }
 
     /// Measures `work`, which does `n_units` of what is counted and is repeated until its own time

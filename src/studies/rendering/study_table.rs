@@ -39,13 +39,11 @@ pub(super) fn table_rows(bench: &mut Bench<'_>, case: &Case) -> Result<Vec<Row>,
 }
 
 /// A number as a table holds it.
-pub(super) trait Digits: Copy + Add<Output = Self> + Mul<Output = Self> {
+pub(super) trait Digits: Copy + Add<Output = Self> + Mul<Output = Self> + Into<f64> {
     /// What it is called.
     const NAME: &'static str;
     /// The nearest to a number.
     fn of(x: f64) -> Self;
-    /// With all its digits.
-    fn wide(self) -> f64;
 }
 
 impl Digits for f32 {
@@ -55,10 +53,6 @@ impl Digits for f32 {
     fn of(x: f64) -> Self {
         x as Self
     }
-
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
 }
 
 impl Digits for f64 {
@@ -66,10 +60,6 @@ impl Digits for f64 {
 
     fn of(x: f64) -> Self {
         x
-    }
-
-    fn wide(self) -> f64 {
-        self
     }
 }
 
@@ -243,7 +233,7 @@ fn powers_at(nodes: &Nodes, spectra: &LocalSpectra, filters: &Filters) -> Vec<[f
 impl<T: Digits> StudyTable<T> {
     /// The same tables read in another way, with other digits.
     pub(super) fn as_read<U: Digits>(&self, reading: Reading) -> StudyTable<U> {
-        let digits = |rows: &Vec<[T; 2]>| rows.iter().map(|p| p.map(|x| U::of(x.wide()))).collect();
+        let digits = |rows: &Vec<[T; 2]>| rows.iter().map(|p| p.map(|x| U::of(x.into()))).collect();
         StudyTable {
             nodes: Arc::clone(&self.nodes),
             reading,
@@ -303,7 +293,7 @@ impl<T: Digits> StudyTable<T> {
         }
         for (out, power) in amplitudes_um.iter_mut().zip(powers) {
             // A cubic may swing below nothing.
-            *out = power.map(|power| power.wide().max(0.0).sqrt());
+            *out = power.map(|power| power.into().max(0.0).sqrt());
         }
     }
 }

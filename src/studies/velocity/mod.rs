@@ -11,11 +11,11 @@ mod verdict;
 
 use std::time::{Duration, Instant};
 
-use selvedge_engine::{PointerSample, TICKS_PER_S, VelocityEstimator};
+use selvedge_engine::{PointerSample, TICKS_PER_S, VelocityEstimator, VelocityMethod};
 use selvedge_foundation::numerics::Random;
 
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use candidates::{Candidate, candidates};
+use candidates::{candidates, setting};
 use pointers::{POINTERS, Pointer, QUICK_POINTERS, Sample};
 use strokes::{QUICK_STROKES, STROKES};
 use tally::{Estimated, Tally};
@@ -24,8 +24,9 @@ use tally::{Estimated, Tally};
 const FROM_S: f64 = 0.3;
 
 /// A method on a pointer, over all strokes.
+#[derive(Clone)]
 struct Outcome {
-    candidate: Candidate,
+    method: VelocityMethod,
     pointer: Pointer,
     cost: Timing,
     tally: Tally,
@@ -60,7 +61,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
 /// Every candidate on one pointer; a row a stroke, and one for all strokes.
 fn on_pointer(
     pointer: Pointer,
-    candidates: &[Candidate],
+    candidates: &[VelocityMethod],
     bench: &mut Bench<'_>,
     rows: &mut Vec<Row>,
 ) -> Vec<Outcome> {
@@ -75,8 +76,8 @@ fn on_pointer(
     let busiest = drawings.iter().max_by_key(|samples| samples.len());
     let busiest = busiest.map_or(&[][..], Vec::as_slice);
     let mut results = Vec::new();
-    for candidate in candidates {
-        let mut estimator = VelocityEstimator::new(candidate.method);
+    for &method in candidates {
+        let mut estimator = VelocityEstimator::new(method);
         let cost = bench.time(busiest.len(), || {
             estimates(&mut estimator, busiest, duration_s)
         });
@@ -89,12 +90,12 @@ fn on_pointer(
             }
             all.add(&tally);
             let case = format!("{}; {}", pointer.label, stroke.label);
-            rows.push(row(candidate, case, &tally, cost));
+            rows.push(row(method, case, &tally, cost));
         }
         let case = format!("{}; all strokes", pointer.label);
-        rows.push(row(candidate, case, &all, cost));
+        rows.push(row(method, case, &all, cost));
         results.push(Outcome {
-            candidate: candidate.clone(),
+            method,
             pointer,
             cost,
             tally: all,
@@ -131,8 +132,8 @@ fn estimates(
     found
 }
 
-fn row(candidate: &Candidate, case: String, tally: &Tally, cost: Timing) -> Row {
-    Row::of(candidate.method.label(), &candidate.setting, case)
+fn row(method: VelocityMethod, case: String, tally: &Tally, cost: Timing) -> Row {
+    Row::of(method.label(), setting(method), case)
         .error(tally.rms_mm_per_s())
         .p99(tally.p99_mm_per_s())
         .cost(cost)

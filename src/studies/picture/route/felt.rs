@@ -49,6 +49,11 @@ impl Felt {
         [0, 1].map(|band| self.levels_db[band] - other.levels_db[band])
     }
 
+    /// How far its roughness is from another's, %.
+    pub(super) fn smd_off_percent(&self, truth: &Self) -> f64 {
+        100.0 * (self.smd_um / truth.smd_um - 1.0)
+    }
+
     /// Rms of the difference of amplitudes over all bins, as a share of the other's rms, %. Phases
     /// do not enter: a restored profile and a mean cell have their own.
     pub(super) fn spectrum_off_percent(&self, truth: &Self) -> f64 {

@@ -73,9 +73,8 @@ pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings:
     if is_drawn {
         findings.notes.push(claim(results));
         for (band, name) in [(0, "40"), (1, "320")] {
-            findings
-                .plots
-                .push((format!("levels-{name}"), levels(results, band, name)));
+            let plot = levels(results, band, name);
+            findings.plots.push((format!("levels-{name}"), plot));
         }
         if let Some(fine) = results.first() {
             findings.plots.push(("spectrum".to_owned(), spectra(fine)));
@@ -85,9 +84,8 @@ pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings:
 
 fn with_setting(mut row: Row, way: Way, setting: &str) -> Row {
     if way.is_picture() {
-        row.setting = [setting, &row.setting].join(": ");
-        row.setting
-            .truncate(row.setting.trim_end_matches(": ").len());
+        let both = [setting, &row.setting].join(": ");
+        row.setting = both.trim_end_matches(": ").to_owned();
     }
     row
 }
@@ -99,6 +97,7 @@ fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing
     };
     let truth = &tried.truth;
     let apart_db = felt.apart_db(truth);
+    let spectrum_percent = felt.spectrum_off_percent(truth);
     Row::of(way.name(), "", &tried.name)
         .error(apart_db[0].abs().max(apart_db[1].abs()))
         .cost(cost)
@@ -109,16 +108,8 @@ fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing
         .number("a40_error_db", 3, apart_db[0])
         .number("a320_error_db", 3, apart_db[1])
         .number("true_smd_um", 3, truth.smd_um)
-        .number(
-            "smd_error_percent",
-            3,
-            100.0 * (felt.smd_um / truth.smd_um - 1.0),
-        )
-        .number(
-            "spectrum_error_percent",
-            3,
-            felt.spectrum_off_percent(truth),
-        )
+        .number("smd_error_percent", 3, felt.smd_off_percent(truth))
+        .number("spectrum_error_percent", 3, spectrum_percent)
 }
 
 /// A route over all cloths.
@@ -178,7 +169,7 @@ impl Summary {
             n_cloths: single().count(),
             median_db: of_pairs(&|truth, felt| larger(felt.apart_db(truth))),
             median_spectrum_percent: of_pairs(&|truth, felt| felt.spectrum_off_percent(truth)),
-            median_smd_percent: of_pairs(&|t, f| 100.0 * (f.smd_um / t.smd_um - 1.0).abs()),
+            median_smd_percent: of_pairs(&|truth, felt| felt.smd_off_percent(truth).abs()),
             ranks: [
                 ranks(&|felt| felt.smd_um),
                 ranks(&|felt| felt.levels_db[0]),
