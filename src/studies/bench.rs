@@ -55,13 +55,16 @@ impl Timing {
     }
 }
 
+/// Hears how far a study is.
+type Step<'a> = dyn FnMut(f64, &str) -> Result<(), Cancelled> + 'a;
+
 /// What a study measures with, and how far it may go.
 pub struct Bench<'a> {
     /// How much work it may take.
     pub effort: Effort,
     /// What its random numbers begin with.
     pub seed: u64,
-    step: Box<dyn FnMut(f64, &str) -> Result<(), Cancelled> + 'a>,
+    step: Box<Step<'a>>,
 }
 
 impl std::fmt::Debug for Bench<'_> {

@@ -83,24 +83,18 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     } else {
         "release"
     };
+    let cores = format!("{} cores, {}", machine.n_cores, cell(&machine.cpu));
+    let program = format!("{}, {}, {build}", machine.program, machine.compiler);
+    let command = format!("`{}`", options.command.replace('`', "'"));
     out.push("| | |\n|---|---|".to_owned());
     for (what, value) in [
-        (
-            "machine",
-            format!("{} cores, {}", machine.n_cores, cell(&machine.cpu)),
-        ),
+        ("machine", cores),
         ("system", cell(&machine.system)),
-        (
-            "program",
-            format!("{}, {}, {build}", machine.program, machine.compiler),
-        ),
+        ("program", program),
         ("seed", options.seed.to_string()),
         ("effort", effort.to_owned()),
         ("date", about.date.to_owned()),
-        (
-            "to repeat it",
-            format!("`{}`", options.command.replace('`', "'")),
-        ),
+        ("to repeat it", command),
     ] {
         out.push(format!("| {what} | {value} |"));
     }

@@ -141,6 +141,10 @@ impl Row {
 
     /// With a further column.
     #[must_use]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "cells are made where they are given"
+    )]
     pub fn with(mut self, column: &'static str, cell: impl ToString) -> Self {
         self.more.push((column, cell.to_string()));
         self

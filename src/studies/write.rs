@@ -70,9 +70,12 @@ fn fixed_columns(unit: &str) -> Vec<String> {
     let key = key_of_unit(unit);
     let of_error =
         |name: &str| !key.is_empty() && ["error", "error_p99", "promised"].contains(&name);
-    let named = |name: &str| match of_error(name) {
-        true => format!("{name}_{key}"),
-        false => name.to_owned(),
+    let named = |name: &str| {
+        if of_error(name) {
+            format!("{name}_{key}")
+        } else {
+            name.to_owned()
+        }
     };
     COLUMNS.into_iter().map(named).collect()
 }

@@ -185,7 +185,7 @@ fn on_a_line_the_best_of_all_orders_is_found() {
                 x.push(left.remove(code % n));
                 code /= n;
             }
-            best = best.min(search::downhill(&mut fit, &search::Plan { k: 1, mds }, &mut x).sqrt());
+            best = best.min(search::downhill(&mut fit, &Plan { k: 1, mds }, &mut x).sqrt());
         }
         assert!(
             found <= best + 1e-6,

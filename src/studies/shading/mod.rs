@@ -238,16 +238,13 @@ fn of_sweep(
             let mut random = Random::new(bench.seed).branch("noise");
             let picture = weave.picture(light, noise, &mut random);
             let case = format!("{}, {name} {value}", WEAVE.name());
-            match found(&picture, light, &options(method, None)) {
-                Some(shape) => {
-                    let near = Near::of(&shape, &weave.height_px);
-                    points.push([value, near.correlation]);
-                    rows.push(near.row(method, format!("by {name}"), case));
-                }
-                None => {
-                    let setting = format!("by {name}: refused");
-                    rows.push(Row::of(method.label(), setting, case));
-                }
+            if let Some(shape) = found(&picture, light, &options(method, None)) {
+                let near = Near::of(&shape, &weave.height_px);
+                points.push([value, near.correlation]);
+                rows.push(near.row(method, format!("by {name}"), case));
+            } else {
+                let setting = format!("by {name}: refused");
+                rows.push(Row::of(method.label(), setting, case));
             }
         }
         curves.push(series(method.label(), Style::Line, points));

@@ -11,7 +11,6 @@ use selvedge_foundation::quantity;
 use super::chart::{chart, lines_by};
 use super::readable::{mean, rms};
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use selvedge_statistics::Undefined;
 use ways::{Observer, WAYS, Way, large_quest};
 
 /// Trials after which every way is asked for its threshold.
@@ -120,16 +119,12 @@ impl Tally {
 /// What a trial costs, and the threshold at the end.
 type Cost = [Timing; 2];
 
-fn failed(reason: Undefined) -> ReportError {
-    ReportError::Study(reason.to_string())
-}
-
 /// Eighty trials of one observer, and the threshold that they come to.
 fn cost(bench: &Bench<'_>, way: Way) -> Result<Cost, ReportError> {
     let observer = &Observer::all()[0];
     let n_trials = 80;
     let run = || way.run(observer, n_trials, (3, 0));
-    let done = run().map_err(failed)?;
+    let done = run()?;
     let making = bench.time_repeated(3, 1, || (way.session)((3, 0), n_trials).is_ok());
     let all = bench.time_repeated(3, 1, || run().is_ok());
     let estimate = bench.time_repeated(3, 1, || way.threshold_db(&done).is_ok());
@@ -149,7 +144,7 @@ fn cost(bench: &Bench<'_>, way: Way) -> Result<Cost, ReportError> {
 
 /// QUEST+ on as large a grid as anybody asks for: cost alone.
 fn large_grid(bench: &Bench<'_>) -> Result<Row, ReportError> {
-    let fresh = large_quest().map_err(failed)?;
+    let fresh = large_quest()?;
     let observer = &Observer::all()[0];
     let n_trials = 4;
     let cost = bench.time_repeated(bench.effort.pick(1, 5), n_trials, || {

@@ -85,7 +85,7 @@ pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings:
 fn with_setting(mut row: Row, way: Way, setting: &str) -> Row {
     if way.is_picture() {
         let both = [setting, &row.setting].join(": ");
-        row.setting = both.trim_end_matches(": ").to_owned();
+        both.trim_end_matches(": ").clone_into(&mut row.setting);
     }
     row
 }
