@@ -46,22 +46,14 @@ pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
     }
 }
 
-fn list(studies: &[Box<dyn Study>]) -> Result<(), CliError> {
-    let width = studies.iter().map(|study| study.name().len()).max();
+fn list(studies: &[Study]) -> Result<(), CliError> {
+    let width = studies.iter().map(|study| study.name.len()).max();
     let width = width.unwrap_or_default();
-    let line = |study: &dyn Study| {
-        let when = if study.is_long() {
-            " (with --long)"
-        } else {
-            ""
-        };
-        format!("{:width$}  {}{when}\n", study.name(), study.question())
-    };
-    let lines = studies.iter().map(|study| line(study.as_ref()));
-    output::print(&lines.collect::<String>())
+    let line = |study: &Study| format!("{:width$}  {}\n", study.name, study.question);
+    output::print(&studies.iter().map(line).collect::<String>())
 }
 
-fn make(args: &ReportArgs, studies: &[Box<dyn Study>], out: &Path) -> Result<(), CliError> {
+fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError> {
     fs::create_dir_all(out).map_err(|error| {
         let out = out.display();
         CliError::Input(format!(
@@ -76,7 +68,6 @@ fn make(args: &ReportArgs, studies: &[Box<dyn Study>], out: &Path) -> Result<(),
             Effort::Full
         },
         seed: args.seed,
-        is_long: args.long,
         command: command(args, out),
     };
     let cancel = CancelFlag::shared(signals::stop_flag()?);

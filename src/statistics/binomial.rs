@@ -2,7 +2,7 @@
 
 use super::distribution::{binomial_at_least, binomial_at_most, binomial_mass};
 use super::interval::wilson;
-use super::{Computed, Freedom, Named, Outcome, Sides, Undefined};
+use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
 
 /// Masses this much above that of what was seen still count as equally rare: rounding.
 const SAME: f64 = 1.0 + 1e-7;
@@ -17,7 +17,7 @@ const SAME: f64 = 1.0 + 1e-7;
 pub fn exact_binomial(hits: u64, trials: u64, expected: f64, sides: Sides) -> Computed<Outcome> {
     if trials == 0 || hits > trials || !(expected > 0.0 && expected < 1.0) {
         let reason = format!("{hits} of {trials} trials against a chance of {expected}");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let p = match sides {
         Sides::Greater => binomial_at_least(hits, trials, expected),
@@ -29,21 +29,12 @@ pub fn exact_binomial(hits: u64, trials: u64, expected: f64, sides: Sides) -> Co
     Ok(Outcome {
         test: "exact binomial",
         n: vec![usize::try_from(trials).unwrap_or(usize::MAX)],
-        statistic: Named {
-            symbol: "hits",
-            value: hits as f64,
-        },
+        statistic: Named::of("hits", hits as f64),
         df: Freedom::None,
         p,
         sides,
-        effect: Ok(Named {
-            symbol: "h",
-            value: angle(share) - angle(expected),
-        }),
-        estimate: Ok(Named {
-            symbol: "share",
-            value: share,
-        }),
+        effect: Ok(Named::of("h", angle(share) - angle(expected))),
+        estimate: Ok(Named::of("share", share)),
         interval: wilson(hits, trials, 0.95),
         notes: Vec::new(),
     })

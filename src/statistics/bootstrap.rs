@@ -4,8 +4,8 @@
 use selvedge_foundation::numerics::{Random, quantile};
 
 use super::distribution::{normal_lower, normal_quantile};
-use super::summary::{centred, sum_of_squares};
-use super::{Computed, Interval, Undefined};
+use super::summary::{centred, deviation, sum_of_squares};
+use super::{Computed, Interval, Undefined, undefined};
 
 /// How to draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,10 +46,10 @@ pub fn bootstrap(
     how: Resampling,
 ) -> Computed<Bootstrap> {
     if n_subjects < 2 || how.n_resamples < 100 || !(how.level > 0.0 && how.level < 1.0) {
-        return Err(Undefined::because(format!(
+        return undefined(format!(
             "{n_subjects} subjects and {} resamples at level {} give no bootstrap interval",
             how.n_resamples, how.level
-        )));
+        ));
     }
     let everyone: Vec<usize> = (0..n_subjects).collect();
     let estimate = statistic(&everyone)?;
@@ -66,10 +66,9 @@ pub fn bootstrap(
             "undefined in {n_undefined} of {} resamples",
             how.n_resamples
         );
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
-    let (_, deviations) = centred(&values);
-    let se = (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt();
+    let se = deviation(&values);
     let tails = [0.5 * (1.0 - how.level), 0.5 * (1.0 + how.level)];
     let bca = acceleration(&everyone, &statistic)
         .and_then(|a| shifted(&values, estimate, a, tails))
@@ -99,7 +98,7 @@ pub fn bootstrap_errors(
         let reason = format!(
             "an error over subjects needs two of them and 20 draws, not {n_subjects} and {n_draws}"
         );
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let mut random = Random::new(seed).branch("errors over subjects");
     let mut drawn = vec![0; n_subjects];
@@ -115,12 +114,11 @@ pub fn bootstrap_errors(
     if 2 * draws.len() < n_draws {
         let n_undefined = n_draws - draws.len();
         let reason = format!("undefined in {n_undefined} of {n_draws} draws of subjects: {why}");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let error = |at: usize| {
         let values: Vec<f64> = draws.iter().map(|draw| draw[at]).collect();
-        let (_, deviations) = centred(&values);
-        (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt()
+        deviation(&values)
     };
     let n_values = draws.iter().map(Vec::len).min().unwrap_or(0);
     Ok((0..n_values).map(error).collect())
@@ -137,7 +135,7 @@ pub fn jackknife_errors(
 ) -> Computed<Vec<f64>> {
     if n_subjects < 2 {
         let reason = format!("an error over subjects needs two of them, not {n_subjects}");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let without = |left_out: usize| {
         let rest: Vec<usize> = (0..n_subjects).filter(|at| *at != left_out).collect();
@@ -175,7 +173,7 @@ fn acceleration(everyone: &[usize], statistic: &impl Fn(&[usize]) -> Computed) -
     let (_, deviations) = centred(&values);
     let squares = sum_of_squares(&deviations);
     if squares <= 0.0 {
-        return Err(Undefined::because("leaving out any one changes nothing"));
+        return undefined("leaving out any one changes nothing");
     }
     let cubes: f64 = deviations.iter().map(|d| -d.powi(3)).sum();
     Ok(cubes / (6.0 * squares.powf(1.5)))
@@ -192,7 +190,7 @@ fn shifted(values: &[f64], estimate: f64, a: f64, tails: [f64; 2]) -> Computed<[
         let z = bias + normal_quantile(tail)?;
         let stretch = 1.0 - a * z;
         if stretch <= 0.0 {
-            return Err(Undefined::because("the acceleration is too strong"));
+            return undefined("the acceleration is too strong");
         }
         Ok(normal_lower(bias + z / stretch))
     };

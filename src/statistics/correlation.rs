@@ -2,9 +2,9 @@
 
 use super::distribution::t_two_sided;
 use super::interval::{fisher_z, fisher_z_with};
-use super::summary::{at_least, centred, is_rounding, largest, sum_of_squares};
+use super::summary::{at_least, centred, dot, is_rounding, largest, sum_of_squares};
 use super::wilcoxon::Ranks;
-use super::{Computed, Freedom, Named, Outcome, Sides, Undefined};
+use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
 
 /// Up to so many pairs Spearman's p is exact: 8! orders.
 const MOST_EXACT: usize = 8;
@@ -29,8 +29,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Computed<Outcome> {
 /// As [`pearson`], but for points on a line.
 pub fn pearson_r(x: &[f64], y: &[f64]) -> Computed {
     if x.len() != y.len() {
-        let reason = format!("{} values against {}: not pairs", x.len(), y.len());
-        return Err(Undefined::because(reason));
+        return undefined(format!("{} values against {}: not pairs", x.len(), y.len()));
     }
     at_least(x, 3)?;
     at_least(y, 3)?;
@@ -39,7 +38,7 @@ pub fn pearson_r(x: &[f64], y: &[f64]) -> Computed {
         let squares = sum_of_squares(&deviations);
         if is_rounding(squares, values.len(), largest(values)) {
             let reason = format!("all {} values of {side} equal {mean}", values.len());
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         Ok((deviations, squares.sqrt()))
     };
@@ -84,8 +83,27 @@ pub fn spearman(x: &[f64], y: &[f64]) -> Computed<Outcome> {
     Ok(outcome)
 }
 
+/// The correlation of ranks alone, of any number of pairs; equal values share the mean of their
+/// ranks.
+///
+/// # Errors
+/// All values of one side are equal.
+pub fn rank_correlation(a: &[f64], b: &[f64]) -> Computed {
+    let middle = 0.5 * (a.len() as f64 + 1.0);
+    let about = |values: &[f64]| -> Vec<f64> {
+        Ranks::of(values).ranks.iter().map(|r| r - middle).collect()
+    };
+    let (a, b) = (about(a), about(b));
+    let spread = (dot(&a, &a) * dot(&b, &b)).sqrt();
+    if spread > 0.0 {
+        Ok(dot(&a, &b) / spread)
+    } else {
+        undefined("all distances are equal")
+    }
+}
+
 fn blank(test: &'static str, symbol: &'static str, r: f64, n: usize) -> Outcome {
-    let named = Named { symbol, value: r };
+    let named = Named::of(symbol, r);
     Outcome {
         test,
         n: vec![n],
@@ -95,7 +113,7 @@ fn blank(test: &'static str, symbol: &'static str, r: f64, n: usize) -> Outcome 
         sides: Sides::Two,
         effect: Ok(named),
         estimate: Ok(named),
-        interval: Err(Undefined::because("no interval")),
+        interval: undefined("no interval"),
         notes: Vec::new(),
     }
 }
@@ -104,15 +122,11 @@ fn with_t(test: &'static str, symbol: &'static str, r: f64, n: usize) -> Compute
     let df = n as f64 - 2.0;
     let rest = (1.0 - r) * (1.0 + r);
     if rest <= 0.0 {
-        let reason = format!("{symbol} = {r:+}: in perfect order, t is infinite");
-        return Err(Undefined::because(reason));
+        return undefined(format!("{symbol} = {r:+}: in perfect order, t is infinite"));
     }
     let t = r * (df / rest).sqrt();
     let mut outcome = blank(test, symbol, r, n);
-    outcome.statistic = Named {
-        symbol: "t",
-        value: t,
-    };
+    outcome.statistic = Named::of("t", t);
     outcome.df = Freedom::One(df);
     outcome.p = t_two_sided(t, df)?;
     Ok(outcome)
@@ -168,6 +182,18 @@ mod tests {
         assert!((r - 6.0 / 50.0_f64.sqrt()).abs() < 1e-14, "{r}");
         let far: Vec<f64> = x.iter().map(|v| v + 1e12).collect();
         assert!((pearson_r(&far, &y)? - r).abs() < 1e-14, "offset");
+        Ok(())
+    }
+
+    #[test]
+    fn ranks_agree_whatever_the_values_and_disagree_when_turned_round() -> Computed<()> {
+        let places = [1.0, 2.0, 3.0, 4.0];
+        let rising = [10.0, 11.0, 1000.0, 1001.0];
+        assert!((rank_correlation(&places, &rising)? - 1.0).abs() < 1e-12);
+        assert!((rank_correlation(&places, &rising.map(|y| -y))? + 1.0).abs() < 1e-12);
+        let one_swapped = [1.0, 3.0, 2.0, 4.0];
+        assert!((rank_correlation(&places, &one_swapped)? - 0.8).abs() < 1e-12);
+        assert!(rank_correlation(&[1.0], &[1.0]).is_err(), "one pair");
         Ok(())
     }
 

@@ -10,7 +10,7 @@
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use statrs::function::{beta, erf, gamma};
 
-use super::{Computed, Undefined};
+use super::{Computed, Undefined, undefined};
 
 /// P(Z > z) of the standard normal.
 pub(crate) fn normal_upper(z: f64) -> f64 {
@@ -41,7 +41,7 @@ pub(crate) fn normal_density(z: f64) -> f64 {
 /// `p` outside (0, 1): z would be infinite.
 pub fn normal_quantile(p: f64) -> Computed {
     if !(p > 0.0 && p < 1.0) {
-        return Err(Undefined::because(format!("the z of a share of {p}")));
+        return undefined(format!("the z of a share of {p}"));
     }
     // By the nearer tail, then one Newton step on that tail.
     let tail = p.min(1.0 - p);
@@ -63,7 +63,7 @@ pub(crate) fn t_two_sided(t: f64, df: f64) -> Computed {
 /// The t that T exceeds with probability `tail` < 0.5: 0.025 for a two-sided 95 %.
 pub fn t_quantile_upper(tail: f64, df: f64) -> Computed {
     if !(tail > 0.0 && tail < 0.5) {
-        return Err(Undefined::because(format!("the t of a tail of {tail}")));
+        return undefined(format!("the t of a tail of {tail}"));
     }
     let distribution = student(0.0, df)?;
     let mut t = -distribution.inverse_cdf(tail);
@@ -85,8 +85,7 @@ fn student(t: f64, df: f64) -> Computed<StudentsT> {
 /// P(F > f) of Fisher's F.
 pub fn f_upper(f: f64, df_effect: f64, df_error: f64) -> Computed {
     if !(f >= 0.0 && f.is_finite() && df_effect > 0.0 && df_error > 0.0) {
-        let reason = format!("F = {f} with df = {df_effect}, {df_error}");
-        return Err(Undefined::because(reason));
+        return undefined(format!("F = {f} with df = {df_effect}, {df_error}"));
     }
     let share = df_error / (df_error + df_effect * f);
     Ok(beta::beta_reg(0.5 * df_error, 0.5 * df_effect, share))
@@ -95,7 +94,7 @@ pub fn f_upper(f: f64, df_effect: f64, df_error: f64) -> Computed {
 /// P(X > x) of chi-squared.
 pub(crate) fn chi_squared_upper(x: f64, df: f64) -> Computed {
     if !(x >= 0.0 && x.is_finite() && df > 0.0) {
-        return Err(Undefined::because(format!("χ² = {x} with df = {df}")));
+        return undefined(format!("χ² = {x} with df = {df}"));
     }
     let half = 0.5 * x;
     Ok(if half > 0.0 {

@@ -1,7 +1,7 @@
 //! Equivalence and power: what a test that finds nothing does say.
 
 use super::distribution::{ln_gamma, normal_lower, normal_upper, t_quantile_upper, t_upper};
-use super::{Computed, Interval, Summary, Undefined};
+use super::{Computed, Interval, Summary, undefined};
 
 /// Steps of the integral over the spread that a sample happens to have.
 const STEPS: u32 = 2000;
@@ -38,7 +38,7 @@ pub fn tost(sample: &Summary, [low, high]: [f64; 2], alpha: f64) -> Computed<Equ
     let is_ordered = low < high && low.is_finite() && high.is_finite();
     if !(is_ordered && alpha > 0.0 && alpha < 0.5) {
         let reason = format!("bounds {low} and {high} at α = {alpha} leave nothing to test");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let interval = sample.interval(1.0 - 2.0 * alpha)?;
     let df = sample.n as f64 - 1.0;

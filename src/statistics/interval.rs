@@ -1,7 +1,7 @@
 //! Intervals of shares and of correlations.
 
 use super::distribution::{finite, normal_quantile};
-use super::{Computed, Interval, Undefined};
+use super::{Computed, Interval, undefined};
 
 /// The interval of a share of `hits` in `trials` by Wilson (1927): the shares that a score test
 /// does not reject, never outside 0…1 and of use with few trials.
@@ -10,8 +10,7 @@ use super::{Computed, Interval, Undefined};
 /// No trials, more hits than trials, a level outside (0, 1).
 pub fn wilson(hits: u64, trials: u64, level: f64) -> Computed<Interval> {
     if trials == 0 || hits > trials {
-        let reason = format!("{hits} of {trials} trials is no share");
-        return Err(Undefined::because(reason));
+        return undefined(format!("{hits} of {trials} trials is no share"));
     }
     let z = normal_quantile(0.5 + 0.5 * level)?;
     let n = trials as f64;
@@ -38,7 +37,7 @@ pub fn fisher_z(r: f64, n: usize, level: f64) -> Computed<Interval> {
 pub(super) fn fisher_z_with(r: f64, n: usize, inflation: f64, level: f64) -> Computed<Interval> {
     if n < 4 {
         let reason = format!("{n} pairs give no interval of a correlation, 4 are needed");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let middle = finite(r.atanh(), "Fisher z of a correlation of one")?;
     let half = normal_quantile(0.5 + 0.5 * level)? * (inflation / (n as f64 - 3.0)).sqrt();

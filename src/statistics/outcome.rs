@@ -3,6 +3,8 @@
 
 use thiserror::Error;
 
+use super::distribution::chi_squared_upper;
+
 /// A number, or why there is none.
 pub type Computed<T = f64> = Result<T, Undefined>;
 
@@ -34,7 +36,21 @@ pub struct Interval {
     pub level: f64,
 }
 
+/// What cannot be computed, for this reason.
+pub(crate) fn undefined<T>(reason: impl Into<String>) -> Computed<T> {
+    Err(Undefined::because(reason))
+}
+
 impl Interval {
+    /// So far to either side of its middle.
+    pub(crate) fn about(middle: f64, half: f64, level: f64) -> Self {
+        Self {
+            low: middle - half,
+            high: middle + half,
+            level,
+        }
+    }
+
     /// Whether a value lies inside, ends included.
     pub fn holds(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
@@ -48,6 +64,13 @@ pub struct Named {
     pub symbol: &'static str,
     /// The number.
     pub value: f64,
+}
+
+impl Named {
+    /// A number with its symbol.
+    pub(crate) const fn of(symbol: &'static str, value: f64) -> Self {
+        Self { symbol, value }
+    }
 }
 
 /// Degrees of freedom.
@@ -95,4 +118,27 @@ pub struct Outcome {
     pub interval: Computed<Interval>,
     /// Remarks for the reader: zeros left out, ties, exact or approximate.
     pub notes: Vec<String>,
+}
+
+/// A test whose statistic follows χ² and rises with what it is evidence of; `no_estimate` says why
+/// it estimates nothing.
+pub(crate) fn by_chi_squared(
+    test: &'static str,
+    n: Vec<usize>,
+    (statistic, df): (Named, f64),
+    effect: Computed<Named>,
+    no_estimate: &str,
+) -> Computed<Outcome> {
+    Ok(Outcome {
+        test,
+        n,
+        statistic,
+        df: Freedom::One(df),
+        p: chi_squared_upper(statistic.value, df)?,
+        sides: Sides::Greater,
+        effect,
+        estimate: undefined(no_estimate),
+        interval: undefined(no_estimate),
+        notes: vec!["p by χ²".to_owned()],
+    })
 }

@@ -4,7 +4,7 @@
 use selvedge_foundation::numerics::Random;
 
 use super::summary::{at_least, largest};
-use super::{Computed, Freedom, Named, Outcome, Sides, Undefined};
+use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
 
 /// Up to so many subjects all patterns are tried.
 const MOST_EXACT: usize = 20;
@@ -24,12 +24,12 @@ pub fn sign_flip(differences: &[f64], n_random: usize, seed: u64) -> Computed<Ou
     let n = differences.len();
     if n > MOST_EXACT && n_random < 99 {
         let reason = format!("{n_random} random sign patterns are too few, 99 are needed");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let sum: f64 = differences.iter().sum();
     let size = largest(differences);
     if size <= 0.0 {
-        return Err(Undefined::because(format!("all {n} differences are zero")));
+        return undefined(format!("all {n} differences are zero"));
     }
     // Patterns that tie but for rounding are as extreme.
     let least = sum.abs() - 1e-12 * size * n as f64;
@@ -50,22 +50,13 @@ pub fn sign_flip(differences: &[f64], n_random: usize, seed: u64) -> Computed<Ou
     Ok(Outcome {
         test: "sign-flip permutation",
         n: vec![n],
-        statistic: Named {
-            symbol: "mean",
-            value: mean,
-        },
+        statistic: Named::of("mean", mean),
         df: Freedom::None,
         p,
         sides: Sides::Two,
-        effect: Ok(Named {
-            symbol: "mean/rms",
-            value: mean / size / square.sqrt(),
-        }),
-        estimate: Ok(Named {
-            symbol: "mean difference",
-            value: mean,
-        }),
-        interval: Err(Undefined::because("a permutation test gives no interval")),
+        effect: Ok(Named::of("mean/rms", mean / size / square.sqrt())),
+        estimate: Ok(Named::of("mean difference", mean)),
+        interval: undefined("a permutation test gives no interval"),
         notes: vec![note],
     })
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::DMatrix;
 
-use super::Undefined;
+use crate::{Undefined, undefined};
 use selvedge_foundation::numerics::Random;
 
 /// One configuration laid over another.
@@ -33,11 +33,11 @@ impl Procrustes {
         let (y, middle) = centred(target, k)?;
         if x.nrows() != y.nrows() {
             let (n, m) = (x.nrows(), y.nrows());
-            return Err(Undefined::because(format!("{n} points against {m}")));
+            return undefined(format!("{n} points against {m}"));
         }
         let svd = (x.transpose() * &y).svd(true, true);
         let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
-            return Err(Undefined::because("the configurations have no turn"));
+            return undefined("the configurations have no turn");
         };
         let trace = svd.singular_values.sum();
         let turn = u * v;
@@ -86,12 +86,12 @@ fn width(points: &[Vec<f64>]) -> usize {
 /// The points as a matrix about their middle, and the middle.
 fn centred(points: &[Vec<f64>], k: usize) -> Result<(DMatrix<f64>, Vec<f64>), Undefined> {
     if points.is_empty() || k == 0 {
-        return Err(Undefined::because("there are no points"));
+        return undefined("there are no points");
     }
     let at = |i: usize, axis: usize| points[i].get(axis).copied().unwrap_or(0.0);
     let mut matrix = DMatrix::from_fn(points.len(), k, at);
     if matrix.iter().any(|x| !x.is_finite()) {
-        return Err(Undefined::because("a coordinate is not finite"));
+        return undefined("a coordinate is not finite");
     }
     let size = matrix.amax();
     let mut middle = Vec::with_capacity(k);
@@ -101,7 +101,7 @@ fn centred(points: &[Vec<f64>], k: usize) -> Result<(DMatrix<f64>, Vec<f64>), Un
         middle.push(mean);
     }
     if matrix.amax() <= 1e-14 * size {
-        return Err(Undefined::because("all points stand on one place"));
+        return undefined("all points stand on one place");
     }
     Ok((matrix, middle))
 }

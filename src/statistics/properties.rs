@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Undefined;
 use super::procrustes::Procrustes;
+use super::summary::dot;
+use crate::{Undefined, undefined};
 use selvedge_foundation::numerics::Random;
 
 /// Turns tried before the best is refined.
@@ -39,7 +40,7 @@ impl PropertyVector {
             let m = property.len();
             let what =
                 format!("{n} points in {k} dimensions and {m} measures: too few, or unequal");
-            return Err(Undefined::because(what));
+            return undefined(what);
         }
         let mut x = DMatrix::from_fn(n, k, |i, axis| points[i][axis]);
         for mut axis in x.column_iter_mut() {
@@ -50,13 +51,11 @@ impl PropertyVector {
         let (mean, size) = (y.mean(), y.amax());
         y.add_scalar_mut(-mean);
         if !y.amax().is_finite() || y.amax() <= 1e-12 * size {
-            return Err(Undefined::because("the property is the same for all"));
+            return undefined("the property is the same for all");
         }
         let svd = x.clone().svd(true, true);
         if svd.singular_values.min() <= 1e-10 * svd.singular_values.max() {
-            return Err(Undefined::because(
-                "the points do not fill the dimensions of the map",
-            ));
+            return undefined("the points do not fill the dimensions of the map");
         }
         let no_fit = |why: &str| Undefined::because(why);
         let slopes = svd.solve(&y, 0.0).map_err(no_fit)?;
@@ -95,13 +94,11 @@ impl BestTurn {
     /// No plane map, unequal numbers, a property or an axis without spread.
     pub fn of(points: &[Vec<f64>], properties: [&[f64]; 2]) -> Result<Self, Undefined> {
         if points.len() < 3 || points.iter().any(|p| p.len() != 2) {
-            return Err(Undefined::because(
-                "a turn needs three points of a plane map",
-            ));
+            return undefined("a turn needs three points of a plane map");
         }
         let unit = [standardised(properties[0])?, standardised(properties[1])?];
         if unit.iter().any(|property| property.len() != points.len()) {
-            return Err(Undefined::because("points and measures are not as many"));
+            return undefined("points and measures are not as many");
         }
         let x = [0, 1].map(|axis| centred(points.iter().map(|p| p[axis])));
         let moments = Moments::of(&x, &unit);
@@ -121,9 +118,7 @@ impl BestTurn {
         let angle = golden([angle - step, angle + step], sum);
         let r = moments.correlations(angle, mirror);
         if r.iter().any(|r| !r.is_finite()) {
-            return Err(Undefined::because(
-                "the points stand on a line or on one place",
-            ));
+            return undefined("the points stand on a line or on one place");
         }
         let (sin, cos) = angle.sin_cos();
         let turned = |p: &Vec<f64>| {
@@ -207,10 +202,6 @@ fn golden([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(p, q)| p * q).sum()
-}
-
 fn centred(values: impl ExactSizeIterator<Item = f64> + Clone) -> Vec<f64> {
     let mean = values.clone().sum::<f64>() / values.len() as f64;
     values.map(|x| x - mean).collect()
@@ -222,9 +213,7 @@ fn standardised(values: &[f64]) -> Result<Vec<f64>, Undefined> {
     let length = dot(&about, &about).sqrt();
     let size = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     if !length.is_finite() || length <= 1e-12 * size * (values.len() as f64).sqrt() {
-        return Err(Undefined::because(
-            "a property is the same for all, or not finite",
-        ));
+        return undefined("a property is the same for all, or not finite");
     }
     Ok(about.into_iter().map(|x| x / length).collect())
 }
@@ -253,15 +242,14 @@ pub fn bootstrap_ellipses(
     share: f64,
 ) -> Result<Vec<Ellipse>, Undefined> {
     if maps.len() < 3 || !(share > 0.0 && share < 1.0) {
-        let what = "ellipses need three maps and a share between 0 and 1";
-        return Err(Undefined::because(what));
+        return undefined("ellipses need three maps and a share between 0 and 1");
     }
     if reference
         .iter()
         .chain(maps.iter().flatten())
         .any(|p| p.len() != 2)
     {
-        return Err(Undefined::because("ellipses are for plane maps"));
+        return undefined("ellipses are for plane maps");
     }
     let aligned: Result<Vec<_>, _> = maps
         .iter()

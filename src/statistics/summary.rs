@@ -1,7 +1,7 @@
 //! Mean, spread and standard error of a sample, by sums about the mean in two passes.
 
 use super::distribution::t_quantile_upper;
-use super::{Computed, Interval, Undefined};
+use super::{Computed, Interval, Undefined, undefined};
 
 /// Rounding of a difference, as a multiple of the larger number.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -42,9 +42,7 @@ impl Summary {
     /// `n` < 2, or a spread that is negative or not finite.
     pub fn of_mean_and_se(n: usize, mean: f64, se: f64) -> Computed<Self> {
         if n < 2 || !mean.is_finite() || !se.is_finite() || se < 0.0 {
-            return Err(Undefined::because(format!(
-                "n = {n}, mean {mean}, SE {se} describe no sample"
-            )));
+            return undefined(format!("n = {n}, mean {mean}, SE {se} describe no sample"));
         }
         let sd = se * (n as f64).sqrt();
         Ok(Self { n, mean, sd, se })
@@ -74,11 +72,7 @@ impl Summary {
             return Err(self.without_spread());
         }
         let half = t_quantile_upper(0.5 * (1.0 - level), self.n as f64 - 1.0)? * self.se;
-        Ok(Interval {
-            low: self.mean - half,
-            high: self.mean + half,
-            level,
-        })
+        Ok(Interval::about(self.mean, half, level))
     }
 
     pub(super) fn without_spread(&self) -> Undefined {
@@ -102,21 +96,20 @@ pub fn mean(values: &[f64]) -> Computed {
 pub(super) fn at_least(values: &[f64], n: usize) -> Computed<()> {
     if let Some(place) = values.iter().position(|v| !v.is_finite()) {
         let reason = format!("value {} of {} is not finite", place + 1, values.len());
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     match values.len() {
         found if found >= n => Ok(()),
-        0 => Err(Undefined::because("no values")),
-        1 => Err(Undefined::because("one value alone")),
-        found => Err(Undefined::because(format!("{found} values, {n} needed"))),
+        0 => undefined("no values"),
+        1 => undefined("one value alone"),
+        found => undefined(format!("{found} values, {n} needed")),
     }
 }
 
 /// The differences `a − b` of as many values of each.
 pub(super) fn differences(a: &[f64], b: &[f64]) -> Computed<Vec<f64>> {
     if a.len() != b.len() {
-        let reason = format!("{} values against {}: not pairs", a.len(), b.len());
-        return Err(Undefined::because(reason));
+        return undefined(format!("{} values against {}: not pairs", a.len(), b.len()));
     }
     Ok(a.iter().zip(b).map(|(a, b)| a - b).collect())
 }
@@ -135,6 +128,16 @@ pub(super) fn centred(values: &[f64]) -> (f64, Vec<f64>) {
 
 pub(super) fn sum_of_squares(deviations: &[f64]) -> f64 {
     deviations.iter().map(|d| d * d).sum()
+}
+
+/// Standard deviation over n − 1.
+pub(super) fn deviation(values: &[f64]) -> f64 {
+    let (_, deviations) = centred(values);
+    (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt()
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(p, q)| p * q).sum()
 }
 
 pub(super) fn largest(values: &[f64]) -> f64 {

@@ -7,7 +7,7 @@
 //! variance.
 
 use super::distribution::{t_quantile_upper, t_two_sided};
-use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Summary, Undefined};
+use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Summary, undefined};
 
 const LEVEL: f64 = 0.95;
 
@@ -25,10 +25,7 @@ pub struct TwoSamples {
 /// # Errors
 /// A sample without spread.
 pub fn one_sample_t(sample: &Summary, expected: f64) -> Computed<Outcome> {
-    let effect = Named {
-        symbol: "d",
-        value: (sample.mean - expected) / sample.sd,
-    };
+    let effect = Named::of("d", (sample.mean - expected) / sample.sd);
     let difference = Difference {
         mean: sample.mean - expected,
         se: sample.se,
@@ -38,10 +35,7 @@ pub fn one_sample_t(sample: &Summary, expected: f64) -> Computed<Outcome> {
         return Err(sample.without_spread());
     }
     let mut outcome = difference.outcome("Student t, one sample", vec![sample.n], effect)?;
-    outcome.estimate = Ok(Named {
-        symbol: "mean",
-        value: sample.mean,
-    });
+    outcome.estimate = Ok(Named::of("mean", sample.mean));
     outcome.interval = sample.interval(LEVEL);
     Ok(outcome)
 }
@@ -68,7 +62,7 @@ pub fn paired_t(a: &[f64], b: &[f64]) -> Computed<Outcome> {
 /// Both samples without spread.
 pub fn two_sample_t(a: &Summary, b: &Summary) -> Computed<TwoSamples> {
     if a.sd <= 0.0 && b.sd <= 0.0 {
-        return Err(Undefined::because("neither sample has any spread"));
+        return undefined("neither sample has any spread");
     }
     let n = vec![a.n, b.n];
     let (n_a, n_b) = (a.n as f64, b.n as f64);
@@ -87,10 +81,7 @@ pub fn two_sample_t(a: &Summary, b: &Summary) -> Computed<TwoSamples> {
         se: (pooled * (1.0 / n_a + 1.0 / n_b)).sqrt(),
         df,
     };
-    let d = |variance: f64| Named {
-        symbol: "d",
-        value: mean / variance.sqrt(),
-    };
+    let d = |variance: f64| Named::of("d", mean / variance.sqrt());
     let halved = 0.5 * (a.sd * a.sd + b.sd * b.sd);
     Ok(TwoSamples {
         welch: unequal.outcome("Welch t, two samples", n.clone(), d(halved))?,
@@ -112,23 +103,13 @@ impl Difference {
         Ok(Outcome {
             test,
             n,
-            statistic: Named {
-                symbol: "t",
-                value: t,
-            },
+            statistic: Named::of("t", t),
             df: Freedom::One(self.df),
             p: t_two_sided(t, self.df)?,
             sides: Sides::Two,
             effect: Ok(effect),
-            estimate: Ok(Named {
-                symbol: "difference",
-                value: self.mean,
-            }),
-            interval: Ok(Interval {
-                low: self.mean - half,
-                high: self.mean + half,
-                level: LEVEL,
-            }),
+            estimate: Ok(Named::of("difference", self.mean)),
+            interval: Ok(Interval::about(self.mean, half, LEVEL)),
             notes: Vec::new(),
         })
     }

@@ -4,7 +4,7 @@ use selvedge_foundation::numerics::median;
 
 use super::distribution::normal_upper;
 use super::summary::{at_least, largest, rounding};
-use super::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined};
+use super::{Computed, Freedom, Interval, Named, Outcome, Sides, undefined};
 
 /// Up to so many differences that are not zero every pattern of signs is counted.
 const MOST_EXACT: usize = 50;
@@ -51,8 +51,7 @@ fn signed_rank(differences: Vec<f64>, expected: f64, scale: f64) -> Computed<Out
         .filter(|d| d.abs() > 0.0)
         .collect();
     if kept.is_empty() {
-        let reason = format!("all {} differences are zero", differences.len());
-        return Err(Undefined::because(reason));
+        return undefined(format!("all {} differences are zero", differences.len()));
     }
     let sizes: Vec<f64> = kept.iter().map(|d| d.abs()).collect();
     let signed = SignedRanks::of(&kept, Ranks::of(&sizes));
@@ -62,10 +61,7 @@ fn signed_rank(differences: Vec<f64>, expected: f64, scale: f64) -> Computed<Out
     Ok(Outcome {
         test: "Wilcoxon signed rank",
         n: vec![kept.len()],
-        statistic: Named {
-            symbol: "V",
-            value: signed.positive,
-        },
+        statistic: Named::of("V", signed.positive),
         df: Freedom::None,
         p: if is_exact {
             signed.exact_p()
@@ -73,14 +69,11 @@ fn signed_rank(differences: Vec<f64>, expected: f64, scale: f64) -> Computed<Out
             signed.normal_p()
         },
         sides: Sides::Two,
-        effect: Ok(Named {
-            symbol: "r_rb",
-            value: (2.0 * signed.positive - total) / total,
-        }),
-        estimate: Ok(Named {
-            symbol: "pseudomedian",
-            value: expected + median(&mut walsh_means(&differences)),
-        }),
+        effect: Ok(Named::of("r_rb", (2.0 * signed.positive - total) / total)),
+        estimate: Ok(Named::of(
+            "pseudomedian",
+            expected + median(&mut walsh_means(&differences)),
+        )),
         interval: signed.interval(&differences, expected, n_zero),
         notes: notes(n_zero, kept.len(), signed.ranks.tie_sum),
     })
@@ -159,7 +152,7 @@ impl SignedRanks {
         let n = values.len();
         if n_zero > 0 || self.ranks.tie_sum > 0.0 || n > MOST_EXACT {
             let reason = "the exact interval wants up to 50 differences without ties or zeros";
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let mut tail = 0.0;
         let is_rejected = |share: &f64| {
@@ -170,8 +163,7 @@ impl SignedRanks {
         let shares: Vec<f64> = self.distribution().into_iter().step_by(2).collect();
         let n_rejected = shares.iter().copied().take_while(is_rejected).count();
         if n_rejected == 0 {
-            let reason = format!("{n} differences cannot reach 95 %");
-            return Err(Undefined::because(reason));
+            return undefined(format!("{n} differences cannot reach 95 %"));
         }
         let mut means = walsh_means(values);
         means.sort_by(f64::total_cmp);

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::ReportError;
 use selvedge_foundation::numerics::{median, quantile};
-use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress, thread_cpu_seconds};
+use selvedge_foundation::progress::{Cancelled, Progress, thread_cpu_seconds};
 
 /// How much work a report may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,24 +43,28 @@ pub struct Timing {
     pub n_repeats: usize,
 }
 
+impl Timing {
+    /// That of so many times the work, or of a part of it.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self {
+            cpu_s: factor * self.cpu_s,
+            cpu_quartiles_s: self.cpu_quartiles_s.map(|s| factor * s),
+            wall_s: factor * self.wall_s,
+            ..self
+        }
+    }
+}
+
+/// Hears how far a study is.
+type Step<'a> = dyn FnMut(f64, &str) -> Result<(), Cancelled> + 'a;
+
 /// What a study measures with, and how far it may go.
 pub struct Bench<'a> {
     /// How much work it may take.
     pub effort: Effort,
     /// What its random numbers begin with.
     pub seed: u64,
-    progress: &'a mut (dyn Heard + 'a),
-}
-
-/// Who hears how far a study is; a [`Progress`] without its own lifetime.
-trait Heard {
-    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled>;
-}
-
-impl Heard for Progress<'_> {
-    fn step(&mut self, share: f64, doing: &str) -> Result<(), Cancelled> {
-        Progress::step(self, share, doing)
-    }
+    step: Box<Step<'a>>,
 }
 
 impl std::fmt::Debug for Bench<'_> {
@@ -78,7 +82,7 @@ impl<'a> Bench<'a> {
         Self {
             effort,
             seed,
-            progress,
+            step: Box::new(|share, doing| progress.step(share, doing)),
         }
     }
 
@@ -87,21 +91,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// It should stop.
     pub fn step(&mut self, share: f64, doing: &str) -> Result<(), ReportError> {
-        self.progress
-            .step(share, doing)
-            .map_err(|_cancelled| ReportError::Cancelled)
-    }
-
-    /// Work that tells progress of its own: what it tells is told of the study, and what stops the
-    /// study stops it.
-    pub fn heard<T>(&mut self, work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
-        let cancel = CancelFlag::new();
-        let mut report = |share: f64, doing: &str| {
-            if self.progress.step(share, doing).is_err() {
-                cancel.cancel();
-            }
-        };
-        work(&mut Progress::new(&mut report, cancel.clone()))
+        (self.step)(share, doing).map_err(|_cancelled| ReportError::Cancelled)
     }
 
     /// Measures `work`, which does `n_units` of what is counted and is repeated until its own time
@@ -132,35 +122,19 @@ impl<'a> Bench<'a> {
         n_units: usize,
         works: Vec<impl FnMut() -> T>,
     ) -> Vec<(Timing, f64)> {
-        let rounds = (self.effort.pick(5, 15), self.least_s());
-        let all = Self::time_rounds(rounds, n_units, works);
-        let first_s = all.first().map(|(_, cpu_s)| cpu_s.clone());
-        let first_s = first_s.unwrap_or_default();
-        let with_multiple = |(timing, cpu_s): (Timing, Vec<f64>)| {
-            let pairs = cpu_s.iter().zip(&first_s);
-            let mut multiples: Vec<f64> = pairs.map(|(own_s, first_s)| own_s / first_s).collect();
-            (timing, median(&mut multiples))
-        };
-        all.into_iter().map(with_multiple).collect()
-    }
-
-    /// The same in so many rounds, each of which repeats every work until it took `least_s`. Beside
-    /// each timing stand its CPU times, round by round, s.
-    pub(crate) fn time_rounds<T>(
-        (n_rounds, least_s): (usize, f64),
-        n_units: usize,
-        works: Vec<impl FnMut() -> T>,
-    ) -> Vec<(Timing, Vec<f64>)> {
-        let runs = |work| Runs::new(least_s, n_units, work);
+        let runs = |work| Runs::new(self.least_s(), n_units, work);
         let mut all: Vec<_> = works.into_iter().map(runs).collect();
-        for _ in 0..n_rounds {
+        for _ in 0..self.effort.pick(5, 15) {
             all.iter_mut().for_each(Runs::run);
         }
-        let with_rounds = |runs: Runs<_>| {
-            let cpu_s = runs.cpu_s.clone();
-            (runs.timing(), cpu_s)
+        let first_s = all.first().map(|first| first.cpu_s.clone());
+        let first_s = first_s.unwrap_or_default();
+        let with_multiple = |runs: Runs<_>| {
+            let pairs = runs.cpu_s.iter().zip(&first_s);
+            let mut multiples: Vec<f64> = pairs.map(|(own_s, first_s)| own_s / first_s).collect();
+            (runs.timing(), median(&mut multiples))
         };
-        all.into_iter().map(with_rounds).collect()
+        all.into_iter().map(with_multiple).collect()
     }
 
     /// Least time of one measurement, s.
@@ -229,6 +203,7 @@ fn inner_repeats<T>(least_s: f64, work: &mut impl FnMut() -> T) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use selvedge_foundation::progress::CancelFlag;
 
     #[test]
     fn work_is_measured_for_each_unit_and_counted() {

@@ -1,4 +1,5 @@
-//! The plot of a study: error against CPU time, both by their logarithm, one series a method.
+//! The plots of studies: error against CPU time, both by their logarithm, one series a method; and
+//! what plots of any study are made of.
 
 use super::pareto::error_and_cost;
 use super::readable;
@@ -8,25 +9,74 @@ use selvedge_chart::{Axis, Chart, Series, Style};
 /// More promises than this are not drawn.
 const MOST_PROMISES: usize = 4;
 
+/// A chart of series with a footnote.
+pub(super) fn chart(
+    title: impl Into<String>,
+    x: Axis,
+    y: Axis,
+    series: Vec<Series>,
+    footnote: impl Into<String>,
+) -> Chart {
+    Chart {
+        title: title.into(),
+        x,
+        y,
+        series,
+        footnote: footnote.into(),
+        ..Chart::default()
+    }
+}
+
+/// A series of points.
+pub(super) fn series(
+    name: impl Into<String>,
+    style: Style,
+    points: impl IntoIterator<Item = [f64; 2]>,
+) -> Series {
+    Series {
+        name: name.into(),
+        points: points.into_iter().collect(),
+        style,
+        ..Series::default()
+    }
+}
+
+/// Lines and dots, one for every name among rows in the order in which names come: a dot a row that
+/// has a point.
+pub(super) fn lines_by<'a>(
+    rows: impl IntoIterator<Item = &'a Row>,
+    name: fn(&Row) -> &str,
+    point: impl Fn(&Row) -> Option<[f64; 2]>,
+) -> Vec<Series> {
+    let mut lines: Vec<Series> = Vec::new();
+    for row in rows {
+        let index = place(&mut lines, name(row), Style::LineAndDots);
+        lines[index].points.extend(point(row));
+    }
+    lines
+}
+
+/// Where the series of a name stands, which is added if there is none.
+pub(super) fn place(all: &mut Vec<Series>, name: &str, style: Style) -> usize {
+    let known = all.iter().position(|series| series.name == name);
+    known.unwrap_or_else(|| {
+        all.push(series(name, style, []));
+        all.len() - 1
+    })
+}
+
 /// The plot of error against run time; `None` where no row has both.
-pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Option<Chart> {
+pub(super) fn error_against_time(study: &Study, findings: &Findings) -> Option<Chart> {
     let on_front = pareto(&findings.rows);
     let mut series: Vec<Series> = Vec::new();
-    let (mut soonest_s, mut latest_s) = (f64::INFINITY, 0.0_f64);
+    let mut ends_s = [f64::INFINITY, 0.0_f64];
     for (row, is_on_front) in findings.rows.iter().zip(on_front) {
         let Some((error, cost_s)) = error_and_cost(row) else {
             continue;
         };
-        (soonest_s, latest_s) = (soonest_s.min(cost_s), latest_s.max(cost_s));
-        let known = series.iter().position(|series| series.name == row.method);
-        let place = known.unwrap_or_else(|| {
-            series.push(Series {
-                name: row.method.clone(),
-                ..Series::default()
-            });
-            series.len() - 1
-        });
-        let series = &mut series[place];
+        ends_s = [ends_s[0].min(cost_s), ends_s[1].max(cost_s)];
+        let index = place(&mut series, &row.method, Style::default());
+        let series = &mut series[index];
         if is_on_front == Some(true) {
             series.marked.push(series.points.len());
         }
@@ -35,33 +85,24 @@ pub(super) fn error_against_time(study: &dyn Study, findings: &Findings) -> Opti
     if series.is_empty() {
         return None;
     }
-    series.extend(promises(
-        &findings.rows,
-        [soonest_s, latest_s],
-        study.error_measure().1,
-    ));
-    let (measure, unit) = study.error_measure();
-    let y_label = if unit.is_empty() {
-        measure.to_owned()
-    } else {
-        format!("{measure}, {unit}")
-    };
-    Some(Chart {
-        title: format!("{}: {measure} against run time", titled(study.name())),
-        x: Axis::log(format!("CPU time a {}, s", study.cost_of())),
-        y: Axis::log(y_label),
+    let (measure, unit) = study.error;
+    series.extend(promises(&findings.rows, ends_s, unit));
+    let y_label = [measure, unit].join(", ");
+    Some(chart(
+        format!("{}: {measure} against run time", titled(study.name)),
+        Axis::log(format!("CPU time a {}, s", study.cost_of)),
+        Axis::log(y_label.trim_end_matches(", ")),
         series,
-        footnote: format!(
+        format!(
             "Ringed: on its case nothing else is both cheaper and more exact. An error of \
              exactly 0 has no place. Numbers: {}.csv.",
-            study.name()
+            study.name
         ),
-        ..Chart::default()
-    })
+    ))
 }
 
 /// The promises as dashed lines, unless there are too many different ones.
-fn promises(rows: &[Row], [soonest_s, latest_s]: [f64; 2], unit: &str) -> Vec<Series> {
+fn promises(rows: &[Row], ends_s: [f64; 2], unit: &str) -> Vec<Series> {
     let mut promised: Vec<f64> = Vec::new();
     let drawn = rows.iter().filter(|row| row.cost.is_some());
     for promise in drawn.filter_map(|row| row.promised) {
@@ -72,13 +113,9 @@ fn promises(rows: &[Row], [soonest_s, latest_s]: [f64; 2], unit: &str) -> Vec<Se
     if promised.len() > MOST_PROMISES {
         return Vec::new();
     }
-    let line = |promise: f64| Series {
-        name: format!("promised: {} {unit}", readable::number(promise))
-            .trim()
-            .to_owned(),
-        points: vec![[soonest_s, promise], [latest_s, promise]],
-        style: Style::Dashed,
-        ..Series::default()
+    let line = |promise: f64| {
+        let name = format!("promised: {} {unit}", readable::number(promise));
+        series(name.trim(), Style::Dashed, ends_s.map(|x| [x, promise]))
     };
     promised.into_iter().map(line).collect()
 }

@@ -5,6 +5,7 @@ use selvedge_engine::EngineError;
 use selvedge_foundation::files::FileError;
 use selvedge_render::RenderError;
 use selvedge_render::scene::SceneError;
+use selvedge_statistics::Undefined;
 use selvedge_textile::TextileError;
 
 /// Why a report, or a study of it, was not made.
@@ -39,6 +40,9 @@ pub enum ReportError {
     /// The engine cannot do what a study asks.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// What a study simulates cannot be computed.
+    #[error(transparent)]
+    Statistics(#[from] Undefined),
     /// A study of a floor above cannot do its work.
     #[error("{0}")]
     Study(String),

@@ -1,10 +1,10 @@
 //! `index.md`: what was asked, what was found, on which machine, and how to repeat it.
 
 use super::listing::{cell, table};
+use super::machine::Machine;
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
-use super::write::further_cell;
-use super::{Effort, Findings, Machine, Row, Study, chart, write};
+use super::{Effort, Findings, Row, Study, chart, write};
 
 /// Where and how a report was made.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +18,7 @@ pub(super) struct About<'a> {
 }
 
 /// The whole text.
-pub(super) fn text(studies: &[Box<dyn Study>], report: &Report, about: &About<'_>) -> String {
+pub(super) fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
     let mut out = vec!["# Error against run time, stability, and what is left out\n".to_owned()];
     if report.is_cancelled {
         out.push("**Stopped before it was done.** What was finished is below.\n".to_owned());
@@ -28,7 +28,7 @@ pub(super) fn text(studies: &[Box<dyn Study>], report: &Report, about: &About<'_
             .iter()
             .zip(&report.outcomes)
             .filter_map(|(study, (_, outcome))| match outcome {
-                Outcome::Done { findings, took } => Some((study.as_ref(), findings, took)),
+                Outcome::Done { findings, took } => Some((study, findings, took)),
                 _ => None,
             })
     };
@@ -47,24 +47,24 @@ pub(super) fn text(studies: &[Box<dyn Study>], report: &Report, about: &About<'_
 }
 
 /// What promised too much, on top where nobody overlooks it.
-fn broken(study: &dyn Study, findings: &Findings, out: &mut Vec<String>) {
+fn broken(study: &Study, findings: &Findings, out: &mut Vec<String>) {
     let rows: Vec<&Row> = findings.broken().collect();
     if rows.is_empty() {
         return;
     }
-    out.push(format!("## Broken promises: {}\n", study.name()));
+    out.push(format!("## Broken promises: {}\n", study.name));
     for row in rows {
         let parts = [&row.method, &row.setting, &row.case].map(|part| cell(part));
         let named: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        let unit = study.error_measure().1;
+        let unit = study.error.1;
         let error = row.error.map_or_else(|| "nothing".to_owned(), number);
         let promised = row.promised.map(number).unwrap_or_default();
-        let came = match further_cell(row, "came_back") {
+        let came = match row.further("came_back") {
             "" => format!("{error} {unit} where {promised} {unit} is promised"),
             came => format!(
                 "{} where this should be: {}",
                 cell(came),
-                cell(further_cell(row, "should"))
+                cell(row.further("should"))
             ),
         };
         out.push(format!("- {}: {came}", named.join(", ")));
@@ -83,24 +83,18 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     } else {
         "release"
     };
+    let cores = format!("{} cores, {}", machine.n_cores, cell(&machine.cpu));
+    let program = format!("{}, {}, {build}", machine.program, machine.compiler);
+    let command = format!("`{}`", options.command.replace('`', "'"));
     out.push("| | |\n|---|---|".to_owned());
     for (what, value) in [
-        (
-            "machine",
-            format!("{} cores, {}", machine.n_cores, cell(&machine.cpu)),
-        ),
+        ("machine", cores),
         ("system", cell(&machine.system)),
-        (
-            "program",
-            format!("{}, {}, {build}", machine.program, machine.compiler),
-        ),
+        ("program", program),
         ("seed", options.seed.to_string()),
         ("effort", effort.to_owned()),
         ("date", about.date.to_owned()),
-        (
-            "to repeat it",
-            format!("`{}`", options.command.replace('`', "'")),
-        ),
+        ("to repeat it", command),
     ] {
         out.push(format!("| {what} | {value} |"));
     }
@@ -112,13 +106,13 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     );
 }
 
-fn study_text(study: &dyn Study, findings: &Findings, took: &str, out: &mut Vec<String>) {
-    let name = study.name();
+fn study_text(study: &Study, findings: &Findings, took: &str, out: &mut Vec<String>) {
+    let name = study.name;
     out.push(format!("## {}\n", chart::titled(name)));
-    out.push(format!("{}\n", study.question()));
+    out.push(format!("{}\n", study.question));
     out.push(format!(
         "Reference: {} Took {took}. Numbers: [{name}.csv]({name}.csv).\n",
-        study.reference()
+        study.reference
     ));
     for (file, plot) in write::plots(study, findings) {
         let title = cell(&plot.title).replace(['[', ']'], "");
@@ -133,19 +127,12 @@ fn study_text(study: &dyn Study, findings: &Findings, took: &str, out: &mut Vec<
     table(study, findings, out);
 }
 
-/// What did not run, and why.
+/// What did not run because the report was stopped.
 fn not_run(report: &Report, out: &mut Vec<String>) {
-    let named = |wanted: fn(&Outcome) -> bool| {
-        let is_it = |(_, outcome): &&(&'static str, Outcome)| wanted(outcome);
-        let names = report.outcomes.iter().filter(is_it).map(|(name, _)| *name);
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let long = named(|outcome| matches!(outcome, Outcome::Long));
-    if !long.is_empty() {
-        out.push(format!("Not run without `--long`: {long}.\n"));
-    }
-    let stopped = named(|outcome| matches!(outcome, Outcome::Stopped));
+    let is_stopped = |(_, outcome): &&(&str, Outcome)| matches!(outcome, Outcome::Stopped);
+    let stopped = report.outcomes.iter().filter(is_stopped);
+    let stopped: Vec<&str> = stopped.map(|(name, _)| *name).collect();
     if report.is_cancelled && !stopped.is_empty() {
-        out.push(format!("Not finished: {stopped}.\n"));
+        out.push(format!("Not finished: {}.\n", stopped.join(", ")));
     }
 }

@@ -21,10 +21,8 @@ mod areal;
 mod bench;
 mod bimorph;
 mod chart;
-mod clips;
 mod drive_updates;
 mod error;
-mod growth;
 mod index;
 mod left_out;
 mod listing;
@@ -44,61 +42,40 @@ mod staircases;
 mod study;
 #[cfg(test)]
 mod tests;
+mod textiles;
 mod velocity;
 mod write;
 
-pub(crate) use areal::ArealStudy;
 pub use bench::{Bench, Effort, Timing};
-pub(crate) use bimorph::BimorphStudy;
-pub use clips::ClipsStudy;
-pub(crate) use drive_updates::DriveUpdatesStudy;
 pub use error::ReportError;
-pub(crate) use growth::GrowthStudy;
-pub(crate) use left_out::LeftOutStudy;
-pub(crate) use machine::Machine;
-pub(crate) use mds::MdsStudy;
-pub(crate) use models::{
-    BrownianStudy, FourierStudy, ProbeStudy, ResamplingStudy, RestorationStudy,
-};
 pub use pareto::pareto;
-pub(crate) use picture::{
-    AutocorrelationStudy, LatticeStudy, PictureRouteStudy, PictureScaleStudy,
-};
-pub(crate) use readers::ReadersStudy;
-pub(crate) use rendering::RenderingStudy;
 pub use rendering::{Running, ThisSceneStudy};
 pub use runner::{Options, Outcome, Report, Standing, choose, run};
-pub(crate) use shading::ShadingStudy;
-pub(crate) use spectral_model::SpectralModelStudy;
-pub(crate) use staircases::StaircasesStudy;
 pub use study::{Findings, Row, Study};
-pub(crate) use velocity::VelocityStudy;
 
 /// Every study of the floors below, in the order of the report.
-pub fn studies() -> Vec<Box<dyn Study>> {
+pub fn studies() -> Vec<Study> {
     vec![
-        Box::new(RenderingStudy),
-        Box::new(SpectralModelStudy),
-        Box::new(ArealStudy),
-        Box::new(DriveUpdatesStudy),
-        Box::new(ClipsStudy),
-        Box::new(VelocityStudy),
-        Box::new(GrowthStudy),
-        Box::new(BrownianStudy),
-        Box::new(FourierStudy),
-        Box::new(RestorationStudy),
-        Box::new(ResamplingStudy),
-        Box::new(ProbeStudy),
-        Box::new(ShadingStudy),
-        Box::new(AutocorrelationStudy),
-        Box::new(LatticeStudy),
-        Box::new(PictureScaleStudy),
-        Box::new(PictureRouteStudy),
-        Box::new(BimorphStudy),
-        Box::new(ReadersStudy),
-        Box::new(MdsStudy),
-        Box::new(StaircasesStudy),
-        Box::new(LeftOutStudy),
-        Box::new(stability::Stability),
+        rendering::STUDY,
+        spectral_model::STUDY,
+        areal::STUDY,
+        drive_updates::STUDY,
+        velocity::STUDY,
+        models::BROWNIAN,
+        models::FOURIER,
+        models::RESTORATION,
+        models::RESAMPLING,
+        models::PROBE,
+        shading::STUDY,
+        picture::AUTOCORRELATION,
+        picture::LATTICE,
+        picture::SCALE,
+        picture::ROUTE,
+        bimorph::STUDY,
+        readers::STUDY,
+        mds::STUDY,
+        staircases::STUDY,
+        left_out::STUDY,
+        stability::STUDY,
     ]
 }

@@ -3,7 +3,7 @@
 //! The CSV has every row and every digit; here is what a reader looks for.
 
 use super::readable::{self, bytes, number, time};
-use super::write::{further_cell, further_columns};
+use super::write::further_columns;
 use super::{Findings, Row, Study, Timing, pareto, write};
 
 /// More rows than this are folded away below a plot.
@@ -15,7 +15,7 @@ const ROWS_LISTED: usize = 200;
 type Column<'a> = (String, Box<dyn Fn(usize, &Row) -> String + 'a>);
 
 /// The table of what a study found: columns that say anything, rows that matter.
-pub(super) fn table(study: &dyn Study, findings: &Findings, out: &mut Vec<String>) {
+pub(super) fn table(study: &Study, findings: &Findings, out: &mut Vec<String>) {
     let on_front = pareto(&findings.rows);
     let is_long = findings.rows.len() > ROWS_LISTED;
     let is_listed = |(index, row): &(usize, &Row)| {
@@ -56,85 +56,69 @@ pub(super) fn table(study: &dyn Study, findings: &Findings, out: &mut Vec<String
 }
 
 fn columns<'a>(
-    study: &dyn Study,
+    study: &Study,
     findings: &Findings,
     on_front: &'a [Option<bool>],
 ) -> Vec<Column<'a>> {
-    let said = |value: Option<f64>| value.map(number).unwrap_or_default();
+    let (measure, unit) = study.error;
+    let of_error = |name: &str| match unit {
+        "" => name.to_owned(),
+        unit => format!("{name}, {unit}"),
+    };
     let mut columns = vec![
         column("method", |_, row| row.method.clone()),
         column("setting", |_, row| row.setting.clone()),
         column("case", |_, row| row.case.clone()),
-        column("size", move |_, row| said(row.size)),
+        numbers("size", |row| row.size),
     ];
-    let is_told = |row: &Row| !further_cell(row, "came_back").is_empty();
+    let is_told = |row: &Row| !row.further("came_back").is_empty();
     if !findings.rows.iter().any(is_told) {
-        columns.extend(error_columns(study));
+        columns.extend([
+            numbers(&of_error(measure), |row| row.error),
+            numbers(&of_error("99th percentile"), |row| row.error_p99),
+            numbers(&of_error("promised"), |row| row.promised),
+        ]);
     }
-    columns.extend(cost_columns(study));
-    let ring = move |index: usize, _: &Row| {
-        let is_on_front = on_front[index] == Some(true);
-        if is_on_front { "●" } else { "" }.to_owned()
-    };
-    columns.push(column("front", ring));
-    for name in further_columns(&findings.rows) {
-        let say = move |_: usize, row: &Row| readable::cell(further_cell(row, name));
-        columns.push(column(&readable::heading(name), say));
-    }
-    columns.push(column("kept", |_, row| kept(row).to_owned()));
-    columns
-}
-
-fn error_columns<'a>(study: &dyn Study) -> [Column<'a>; 3] {
-    let (measure, unit) = study.error_measure();
-    let named = |name: &str| match unit {
-        "" => name.to_owned(),
-        unit => format!("{name}, {unit}"),
-    };
-    let said = |value: Option<f64>| value.map(number).unwrap_or_default();
-    [
-        column(&named(measure), move |_, row| said(row.error)),
-        column(&named("99th percentile"), move |_, row| said(row.error_p99)),
-        column(&named("promised"), move |_, row| said(row.promised)),
-    ]
-}
-
-fn cost_columns<'a>(study: &dyn Study) -> [Column<'a>; 4] {
-    let cost = study.cost_of();
-    let said = |row: &Row, of: fn(&Timing) -> f64| {
-        let seconds = row.cost.as_ref().map(of);
-        seconds.map(time).unwrap_or_default()
-    };
-    [
+    let cost = study.cost_of;
+    let said =
+        |row: &Row, say: fn(&Timing) -> String| row.cost.as_ref().map(say).unwrap_or_default();
+    columns.extend([
         column(&format!("CPU a {cost}"), move |_, row| {
-            said(row, |t| t.cpu_s)
+            said(row, |t| time(t.cpu_s))
         }),
-        column("quartiles", |_, row| quartiles(row)),
+        column("quartiles", move |_, row| {
+            said(row, |t| t.cpu_quartiles_s.map(time).join(" … "))
+        }),
         column(&format!("wall a {cost}"), move |_, row| {
-            said(row, |t| t.wall_s)
+            said(row, |t| time(t.wall_s))
         }),
         column("memory", |_, row| row.bytes.map(bytes).unwrap_or_default()),
-    ]
+        column("front", move |index, _| {
+            let is_on_front = on_front[index] == Some(true);
+            if is_on_front { "●" } else { "" }.to_owned()
+        }),
+    ]);
+    for name in further_columns(&findings.rows) {
+        let say = move |_: usize, row: &Row| readable::cell(row.further(name));
+        columns.push(column(&readable::heading(name), say));
+    }
+    columns.push(column("kept", |_, row| {
+        let said = row
+            .is_kept()
+            .map(|is_kept| if is_kept { "yes" } else { "**no**" });
+        said.unwrap_or_default().to_owned()
+    }));
+    columns
 }
 
 fn column<'a>(heading: &str, say: impl Fn(usize, &Row) -> String + 'a) -> Column<'a> {
     (heading.to_owned(), Box::new(say))
 }
 
-fn kept(row: &Row) -> &'static str {
-    match row.is_kept() {
-        Some(true) => "yes",
-        Some(false) => "**no**",
-        None => "",
-    }
-}
-
-fn quartiles(row: &Row) -> String {
-    let Some(cost) = &row.cost else {
-        return String::new();
-    };
-    let [low, high] = cost.cpu_quartiles_s.map(time);
-    format!("{low} … {high}")
+fn numbers<'a>(heading: &str, of: fn(&Row) -> Option<f64>) -> Column<'a> {
+    column(heading, move |_, row| {
+        of(row).map(number).unwrap_or_default()
+    })
 }
 
 /// A text as a cell of a table may hold it.

@@ -1,6 +1,51 @@
-//! Numbers of a report as people read them: three digits that count, times with their prefix.
+//! Numbers of a report: what many come to, and how people read them, with three digits that count
+//! and times with their prefix.
 
 use selvedge_foundation::quantity::{fixed, time_span, with_unit};
+
+/// The whole part of a number, 0 of one that is negative.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers of samples, pixels and nodes: 0 … 10⁸"
+)]
+pub(super) fn whole(x: f64) -> usize {
+    x.max(0.0) as usize
+}
+
+/// The mean; NaN of none.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Root mean square; NaN of none.
+pub(super) fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Standard deviation of all that there are.
+pub(super) fn deviation(values: &[f64]) -> f64 {
+    let mean = mean(values);
+    let squares = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+    (squares / values.len() as f64).sqrt()
+}
+
+/// The largest of numbers that are not negative; 0 of none.
+pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, f64::max)
+}
+
+/// The level of a ratio of powers, dB.
+pub(super) fn power_level_db(ratio: f64) -> f64 {
+    10.0 * ratio.log10()
+}
+
+/// Rms of the difference of two series as a share of the second's rms, %.
+pub(super) fn apart_percent(found: &[f64], truth: &[f64]) -> f64 {
+    let off: Vec<f64> = found.iter().zip(truth).map(|(a, b)| a - b).collect();
+    100.0 * rms(&off) / rms(truth)
+}
 
 /// A number with three digits that count: `0.0123`, `4.50`, `230`, `1.2e−9`.
 pub(super) fn number(value: f64) -> String {
@@ -14,12 +59,7 @@ pub(super) fn number(value: f64) -> String {
     if !(1e-4..1e6).contains(&magnitude) {
         return format!("{value:.1e}").replace('-', "−");
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 6"
-    )]
-    let decimals = (2.0 - magnitude.log10().floor()).clamp(0.0, 6.0) as usize;
+    let decimals = whole((2.0 - magnitude.log10().floor()).min(6.0));
     fixed(value, decimals)
 }
 

@@ -6,7 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::{Bench, Effort, Findings, Machine, ReportError, Study, index, machine, write};
+use super::machine::{self, Machine};
+use super::{Bench, Effort, Findings, ReportError, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// What a report is to hold, and where it goes.
@@ -18,8 +19,6 @@ pub struct Options {
     pub effort: Effort,
     /// What random numbers begin with.
     pub seed: u64,
-    /// Whether studies that take long run too.
-    pub is_long: bool,
     /// The command that makes it again.
     pub command: String,
 }
@@ -49,8 +48,6 @@ pub enum Outcome {
     },
     /// It failed, with the reason.
     Failed(String),
-    /// It runs only when long studies are asked for.
-    Long,
     /// The report was stopped before it was done.
     Stopped,
 }
@@ -89,11 +86,8 @@ impl Report {
 ///
 /// # Errors
 /// A name that is not known.
-pub fn choose(
-    studies: Vec<Box<dyn Study>>,
-    only: &[String],
-) -> Result<Vec<Box<dyn Study>>, ReportError> {
-    let names: Vec<&str> = studies.iter().map(|study| study.name()).collect();
+pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, ReportError> {
+    let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     if let Some(name) = only.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(ReportError::Unknown {
             name: name.clone(),
@@ -103,7 +97,7 @@ pub fn choose(
     let is_wanted = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
     Ok(studies
         .into_iter()
-        .filter(|study| is_wanted(study.name()))
+        .filter(|study| is_wanted(study.name))
         .collect())
 }
 
@@ -113,7 +107,7 @@ pub fn choose(
 /// A file cannot be written. That a study fails, or that the report is stopped, is no error here:
 /// the report says so.
 pub fn run(
-    studies: &[Box<dyn Study>],
+    studies: &[Study],
     options: &Options,
     cancel: &CancelFlag,
     heard: &mut dyn FnMut(&Standing<'_>),
@@ -123,7 +117,7 @@ pub fn run(
     let mut report = Report {
         outcomes: studies
             .iter()
-            .map(|study| (study.name(), Outcome::Stopped))
+            .map(|study| (study.name, Outcome::Stopped))
             .collect(),
         is_cancelled: false,
     };
@@ -132,24 +126,20 @@ pub fn run(
             let share = (nth as f64 + share) / studies.len() as f64;
             heard(&Standing {
                 share,
-                study: study.name(),
+                study: study.name,
                 doing,
                 left: time_left(started.elapsed(), share),
             });
         };
-        let outcome = if study.is_long() && !options.is_long {
-            Outcome::Long
-        } else {
-            hear(0.0, "");
-            one(
-                study.as_ref(),
-                options,
-                &mut Progress::new(&mut hear, cancel.clone()),
-            )
-        };
+        hear(0.0, "");
+        let outcome = one(
+            study,
+            options,
+            &mut Progress::new(&mut hear, cancel.clone()),
+        );
         report.is_cancelled |= matches!(outcome, Outcome::Stopped) || cancel.is_cancelled();
         if let Outcome::Done { findings, .. } = &outcome {
-            write::findings(study.as_ref(), findings, &options.out)?;
+            write::findings(study, findings, &options.out)?;
         }
         report.outcomes[nth].1 = outcome;
         let about = index::About {
@@ -169,10 +159,10 @@ pub fn run(
     Ok(report)
 }
 
-fn one(study: &dyn Study, options: &Options, progress: &mut Progress<'_>) -> Outcome {
+fn one(study: &Study, options: &Options, progress: &mut Progress<'_>) -> Outcome {
     let started = Instant::now();
     let mut bench = Bench::new(options.effort, options.seed, progress);
-    match catch_unwind(AssertUnwindSafe(|| study.run(&mut bench))) {
+    match catch_unwind(AssertUnwindSafe(|| (study.run)(&mut bench))) {
         Ok(Ok(findings)) => Outcome::Done {
             findings,
             took: started.elapsed(),

@@ -5,32 +5,20 @@ use super::{Bench, ReportError, Timing};
 use selvedge_chart::Chart;
 
 /// A question about error against run time, or about what holds in extreme cases.
-pub trait Study: Send + Sync {
+#[derive(Debug, Clone, Copy)]
+pub struct Study {
     /// Its name: lower case, words joined by hyphens; files are called by it.
-    fn name(&self) -> &'static str;
-
+    pub name: &'static str,
     /// What it asks, one sentence.
-    fn question(&self) -> &'static str;
-
+    pub question: &'static str,
     /// What errors are measured against, one sentence.
-    fn reference(&self) -> &'static str;
-
+    pub reference: &'static str,
     /// What the error is and its unit, for axes and columns: `("level error", "dB")`.
-    fn error_measure(&self) -> (&'static str, &'static str);
-
+    pub error: (&'static str, &'static str),
     /// What a cost is the cost of, for axes and columns: `"tick"`.
-    fn cost_of(&self) -> &'static str;
-
-    /// Whether it runs only when long studies are asked for.
-    fn is_long(&self) -> bool {
-        false
-    }
-
-    /// Answers the question.
-    ///
-    /// # Errors
-    /// It was cancelled, or something it needs failed.
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError>;
+    pub cost_of: &'static str,
+    /// Answers the question, unless it was cancelled or something that it needs failed.
+    pub run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
 }
 
 /// What a study found.
@@ -70,6 +58,19 @@ pub struct Row {
 }
 
 impl Findings {
+    /// Rows, plots, and what a reader should know.
+    pub(crate) fn new(
+        rows: Vec<Row>,
+        plots: Vec<(String, Chart)>,
+        notes: impl IntoIterator<Item = impl Into<String>>,
+    ) -> Self {
+        Self {
+            rows,
+            plots,
+            notes: notes.into_iter().map(Into::into).collect(),
+        }
+    }
+
     /// The rows that do not keep their promise.
     pub fn broken(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.is_kept() == Some(false))
@@ -82,21 +83,96 @@ impl Findings {
 }
 
 impl Row {
+    /// A row of a method with a setting on a case, without any number.
+    pub fn of(
+        method: impl Into<String>,
+        setting: impl Into<String>,
+        case: impl Into<String>,
+    ) -> Self {
+        Self {
+            method: method.into(),
+            setting: setting.into(),
+            case: case.into(),
+            ..Self::default()
+        }
+    }
+
+    /// With its error, if there is one.
+    #[must_use]
+    pub fn error(mut self, error: impl Into<Option<f64>>) -> Self {
+        self.error = error.into();
+        self
+    }
+
+    /// With the error that is promised, if one is.
+    #[must_use]
+    pub fn promised(mut self, promised: impl Into<Option<f64>>) -> Self {
+        self.promised = promised.into();
+        self
+    }
+
+    /// With what it costs, if that was measured.
+    #[must_use]
+    pub fn cost(mut self, cost: impl Into<Option<Timing>>) -> Self {
+        self.cost = cost.into();
+        self
+    }
+
+    /// With the size of the problem.
+    #[must_use]
+    pub(crate) fn size(mut self, size: f64) -> Self {
+        self.size = Some(size);
+        self
+    }
+
+    /// With the 99th percentile of the errors.
+    #[must_use]
+    pub(crate) fn p99(mut self, error: f64) -> Self {
+        self.error_p99 = Some(error);
+        self
+    }
+
+    /// With the bytes that it keeps.
+    #[must_use]
+    pub(crate) fn bytes(mut self, n_bytes: usize) -> Self {
+        self.bytes = u64::try_from(n_bytes).ok();
+        self
+    }
+
+    /// With a further column.
+    #[must_use]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "cells are made where they are given"
+    )]
+    pub fn with(mut self, column: &'static str, cell: impl ToString) -> Self {
+        self.more.push((column, cell.to_string()));
+        self
+    }
+
+    /// With a number in a further column; what is no number leaves the cell empty.
+    #[must_use]
+    pub(crate) fn number(self, column: &'static str, decimals: usize, value: f64) -> Self {
+        let is_known = value.is_finite();
+        let text = is_known.then(|| format!("{value:.decimals$}"));
+        self.with(column, text.unwrap_or_default())
+    }
+
     /// Whether the promise is kept; `None` without one. A missing or senseless error keeps none.
     pub fn is_kept(&self) -> Option<bool> {
         let promised = self.promised?;
         Some(self.error.is_some_and(|error| error <= promised))
     }
 
-    /// What stands in a further column; `None` where it has no such cell.
-    pub fn further(&self, column: &str) -> Option<&str> {
+    /// What stands in a further column; empty where it has no such cell.
+    pub fn further(&self, column: &str) -> &str {
         let found = self.more.iter().find(|(name, _)| *name == column);
-        found.map(|(_, text)| text.as_str())
+        found.map_or("", |(_, text)| text)
     }
 
     /// The number in a further column; `None` where there is none.
     pub(crate) fn further_number(&self, column: &str) -> Option<f64> {
-        self.further(column)?.parse().ok()
+        self.further(column).parse().ok()
     }
 }
 
@@ -106,10 +182,8 @@ mod tests {
 
     #[test]
     fn a_promise_is_kept_by_a_number_within_it_alone() {
-        let row = |error, promised| Row {
-            error,
-            promised,
-            ..Row::default()
+        let row = |error: Option<f64>, promised: Option<f64>| {
+            Row::of("", "", "").error(error).promised(promised)
         };
         assert_eq!(row(Some(0.04), Some(0.05)).is_kept(), Some(true));
         assert_eq!(row(Some(0.06), Some(0.05)).is_kept(), Some(false));

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::machine::Machine;
 use super::pareto::tests::row;
 use super::*;
 use selvedge_chart::{Chart, Series};
@@ -10,8 +11,8 @@ use selvedge_foundation::progress::{CancelFlag, unheard};
 use selvedge_scratch::ScratchFolder;
 
 /// What a study finds in quick mode.
-pub(super) fn quick(study: &dyn Study, seed: u64) -> Findings {
-    unheard(|progress| study.run(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
+pub(super) fn quick(study: &Study, seed: u64) -> Findings {
+    unheard(|progress| (study.run)(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
 }
 
 /// Two runs found the same, and no row lacks an error or a cost.
@@ -30,46 +31,15 @@ pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
 }
 
 /// A study that does what it is told.
-struct MadeUp {
-    name: &'static str,
-    run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
-}
-
-impl Study for MadeUp {
-    fn name(&self) -> &'static str {
-        self.name
+fn made_up(name: &'static str, run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>) -> Study {
+    Study {
+        name,
+        question: "Which way is best?",
+        reference: "a closed form.",
+        error: ("level error", "dB"),
+        cost_of: "tick",
+        run,
     }
-
-    fn question(&self) -> &'static str {
-        "Which way is best?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "a closed form."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("level error", "dB")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "tick"
-    }
-
-    fn is_long(&self) -> bool {
-        self.name == "endless"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        (self.run)(bench)
-    }
-}
-
-fn made_up(
-    name: &'static str,
-    run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
-) -> Box<dyn Study> {
-    Box::new(MadeUp { name, run })
 }
 
 /// A method that keeps its promise, one that is cheaper and wrong, and the reference.
@@ -100,12 +70,11 @@ fn one_is_wrong(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     })
 }
 
-fn run_in(folder: &Path, studies: &[Box<dyn Study>], cancel: &CancelFlag) -> (Report, Vec<f64>) {
+fn run_in(folder: &Path, studies: &[Study], cancel: &CancelFlag) -> (Report, Vec<f64>) {
     let options = Options {
         out: folder.to_owned(),
         effort: Effort::Quick,
         seed: 7,
-        is_long: false,
         command: "selvedge report --out x --quick --seed 7".to_owned(),
     };
     let mut shares = Vec::new();
@@ -186,8 +155,9 @@ fn the_table_holds_what_the_plot_shows() {
         &[],
     )
     .unwrap();
-    let findings = unheard(|progress| studies[0].run(&mut Bench::new(Effort::Quick, 7, progress)));
-    let plot = chart::error_against_time(studies[0].as_ref(), &findings.unwrap()).unwrap();
+    let findings =
+        unheard(|progress| (studies[0].run)(&mut Bench::new(Effort::Quick, 7, progress)));
+    let plot = chart::error_against_time(&studies[0], &findings.unwrap()).unwrap();
     let (methods, fronts) = (table.text("method").unwrap(), table.text("pareto").unwrap());
     let errors = table.required_numbers("error_db").unwrap();
     let costs_s = table.required_numbers("cpu_s").unwrap();
@@ -252,7 +222,6 @@ fn a_study_that_fails_or_panics_harms_no_other() {
     let studies = [
         made_up("fails", fails),
         made_up("panics", |_| panic!("out of cloth")),
-        made_up("endless", |_| panic!("it ran without being asked for")),
         made_up("made-up", one_is_wrong),
     ];
     let (report, shares) = run_in(&folder, &studies, &CancelFlag::new());
@@ -261,11 +230,7 @@ fn a_study_that_fails_or_panics_harms_no_other() {
     assert_eq!(failures[1], ("panics", "it panicked: out of cloth"));
     assert!(!report.is_cancelled && folder.join("made-up.csv").is_file());
     let index = folder.read("index.md");
-    for text in [
-        "**fails failed**: no study",
-        "**panics failed**",
-        "Not run without `--long`: endless",
-    ] {
+    for text in ["**fails failed**: no study", "**panics failed**"] {
         assert!(index.contains(text), "{text}: {index}");
     }
     assert!(
@@ -291,7 +256,6 @@ fn a_cancelled_report_keeps_what_is_finished() {
         out: folder.to_owned(),
         effort: Effort::Full,
         seed: 1,
-        is_long: false,
         command: String::new(),
     };
     let report = run(&studies, &options, &cancel, &mut |standing| {
@@ -312,7 +276,7 @@ fn studies_are_chosen_by_name_and_nonsense_is_refused() {
     let all = || vec![made_up("a", one_is_wrong), made_up("b", one_is_wrong)];
     let names = |only: &[&str]| {
         let only: Vec<String> = only.iter().map(|name| (*name).to_owned()).collect();
-        choose(all(), &only).map(|studies| studies.iter().map(|s| s.name()).collect::<Vec<_>>())
+        choose(all(), &only).map(|studies| studies.iter().map(|s| s.name).collect::<Vec<_>>())
     };
     assert_eq!(names(&[]).unwrap(), ["a", "b"]);
     assert_eq!(names(&["b"]).unwrap(), ["b"]);
@@ -322,7 +286,7 @@ fn studies_are_chosen_by_name_and_nonsense_is_refused() {
 
 #[test]
 fn names_of_studies_are_distinct_and_fit_files() {
-    let names: Vec<&str> = studies().iter().map(|study| study.name()).collect();
+    let names: Vec<&str> = studies().iter().map(|study| study.name).collect();
     for (nth, name) in names.iter().enumerate() {
         assert!(!names[..nth].contains(name), "{name} twice");
         assert!(

@@ -14,12 +14,8 @@ use selvedge_foundation::files::{TableWriter, encode_png_rgba, write_atomic};
 const PNG_WIDTH: u32 = 1720;
 
 /// Writes `NAME.csv`, `NAME.svg`, `NAME.png` and the further plots of a study.
-pub(super) fn findings(
-    study: &dyn Study,
-    findings: &Findings,
-    out: &Path,
-) -> Result<(), ReportError> {
-    let name = format!("{}.csv", study.name());
+pub(super) fn findings(study: &Study, findings: &Findings, out: &Path) -> Result<(), ReportError> {
+    let name = format!("{}.csv", study.name);
     text(&name, out, &csv_of(study, findings, &out.join(&name))?)?;
     for (name, plot) in plots(study, findings) {
         text(&format!("{name}.svg"), out, &plot.to_svg())?;
@@ -32,14 +28,14 @@ pub(super) fn findings(
 }
 
 /// Every plot of a study with the name of its files: error against run time first.
-pub(super) fn plots(study: &dyn Study, findings: &Findings) -> Vec<(String, Chart)> {
-    let first = error_against_time(study, findings).map(|plot| (study.name().to_owned(), plot));
+pub(super) fn plots(study: &Study, findings: &Findings) -> Vec<(String, Chart)> {
+    let first = error_against_time(study, findings).map(|plot| (study.name.to_owned(), plot));
     let further = findings.plots.iter().map(|(name, plot)| {
-        let begins_with_study = name.starts_with(study.name());
-        let name = if begins_with_study && name != study.name() {
+        let begins_with_study = name.starts_with(study.name);
+        let name = if begins_with_study && name != study.name {
             name.clone()
         } else {
-            format!("{}-{name}", study.name())
+            format!("{}-{name}", study.name)
         };
         (name, plot.clone())
     });
@@ -51,28 +47,37 @@ pub(super) fn text(name: &str, out: &Path, text: &str) -> Result<(), ReportError
     Ok(write_atomic(&out.join(name), text.as_bytes())?)
 }
 
-/// Columns that every study has, with the unit of its error in their names.
+/// Columns that every study has; those of errors end with the study's unit.
+const COLUMNS: [&str; 15] = [
+    "method",
+    "setting",
+    "case",
+    "size",
+    "error",
+    "error_p99",
+    "promised",
+    "kept",
+    "cpu_s",
+    "cpu_q25_s",
+    "cpu_q75_s",
+    "wall_s",
+    "n_repeats",
+    "bytes",
+    "pareto",
+];
+
 fn fixed_columns(unit: &str) -> Vec<String> {
-    let with_unit = |name: &str| match key_of_unit(unit) {
-        key if key.is_empty() => name.to_owned(),
-        key => format!("{name}_{key}"),
+    let key = key_of_unit(unit);
+    let of_error =
+        |name: &str| !key.is_empty() && ["error", "error_p99", "promised"].contains(&name);
+    let named = |name: &str| {
+        if of_error(name) {
+            format!("{name}_{key}")
+        } else {
+            name.to_owned()
+        }
     };
-    let mut columns: Vec<String> = ["method", "setting", "case", "size"]
-        .map(str::to_owned)
-        .into();
-    columns.extend(["error", "error_p99", "promised"].map(with_unit));
-    let rest = [
-        "kept",
-        "cpu_s",
-        "cpu_q25_s",
-        "cpu_q75_s",
-        "wall_s",
-        "n_repeats",
-        "bytes",
-        "pareto",
-    ];
-    columns.extend(rest.map(str::to_owned));
-    columns
+    COLUMNS.into_iter().map(named).collect()
 }
 
 /// The names of a study's further columns, in order of their first appearance.
@@ -86,15 +91,10 @@ pub(super) fn further_columns(rows: &[Row]) -> Vec<&'static str> {
     names
 }
 
-/// A further cell of a row; empty where it has none.
-pub(super) fn further_cell<'a>(row: &'a Row, name: &str) -> &'a str {
-    row.further(name).unwrap_or_default()
-}
-
 /// The CSV text of what a study found. `path` only names it in errors.
-fn csv_of(study: &dyn Study, findings: &Findings, path: &Path) -> Result<String, ReportError> {
+fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, ReportError> {
     let further = further_columns(&findings.rows);
-    let columns = fixed_columns(study.error_measure().1);
+    let columns = fixed_columns(study.error.1);
     let header: Vec<&str> = columns
         .iter()
         .map(String::as_str)
@@ -107,17 +107,18 @@ fn csv_of(study: &dyn Study, findings: &Findings, path: &Path) -> Result<String,
             optional(&mut table, number);
         }
         optional(&mut table, row.is_kept());
-        let cost = row.cost.as_ref();
-        optional(&mut table, cost.map(|cost| cost.cpu_s));
-        for quartile in 0..2 {
-            optional(&mut table, cost.map(|cost| cost.cpu_quartiles_s[quartile]));
+        let timing = row.cost.map(|cost| {
+            let [low_s, high_s] = cost.cpu_quartiles_s;
+            [cost.cpu_s, low_s, high_s, cost.wall_s]
+        });
+        for nth in 0..4 {
+            optional(&mut table, timing.map(|timing| timing[nth]));
         }
-        optional(&mut table, cost.map(|cost| cost.wall_s));
-        optional(&mut table, cost.map(|cost| cost.n_repeats));
+        optional(&mut table, row.cost.map(|cost| cost.n_repeats));
         optional(&mut table, row.bytes);
         optional(&mut table, is_on_front);
         for name in &further {
-            table.text(further_cell(row, name));
+            table.text(row.further(name));
         }
         table.end_row()?;
     }
@@ -137,17 +138,8 @@ fn key_of_unit(unit: &str) -> String {
         .replace('/', " per ")
         .replace(['µ', 'μ'], "u")
         .replace('%', "percent");
-    let words: Vec<String> = spelt
-        .split(|c: char| !c.is_ascii_alphanumeric())
-        .filter(|word| !word.is_empty())
-        .map(|word| {
-            if word == "dB" {
-                "db".to_owned()
-            } else {
-                word.to_owned()
-            }
-        })
-        .collect();
+    let words = spelt.split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
     words.join("_").to_lowercase()
 }
 

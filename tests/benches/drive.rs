@@ -4,12 +4,14 @@
 #![expect(clippy::print_stdout, reason = "a bench prints its figures")]
 
 use std::hint::black_box;
+use std::path::Path;
 use std::time::Instant;
 
+use selvedge_device::ArrayProfile;
+use selvedge_engine::{ClipKind, ClipWriter, EngineError};
 use selvedge_foundation::numerics::{median, quantile};
-use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::progress::{thread_cpu_seconds, unheard};
 use selvedge_render::array::DriveSynth;
-use selvedge_studies::{Bench, ClipsStudy, Effort, Study as _};
 
 const ROUNDS: usize = 15;
 
@@ -36,29 +38,59 @@ fn main() {
     print_clips();
 }
 
-/// What the study of clips finds, without its plots.
+/// What clips of three lengths cost, measured in turn, and how much a second from 10 to 100 s costs
+/// beside one from 1 to 10 s.
 fn print_clips() {
-    let mut report = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut report, CancelFlag::new());
-    let mut bench = Bench::new(Effort::Full, 1, &mut progress);
-    let findings = match ClipsStudy.run(&mut bench) {
-        Ok(findings) => findings,
-        Err(error) => return println!("clips: {error}"),
-    };
-    for row in &findings.rows {
-        let (Some(length_s), Some(cost)) = (row.size, row.cost) else {
-            continue;
+    let place = std::env::temp_dir().join(format!("selvedge-clip-{}.part", std::process::id()));
+    for (name, kind) in [
+        ("WAV, 8 kHz i16", ClipKind::ARCHIVE),
+        ("WAV, 48 kHz f32", ClipKind::FLOAT),
+        ("MPEG haptics", ClipKind::Hjif),
+        ("frames as CSV", ClipKind::Frames),
+    ] {
+        // Half a gigabyte of floats is no business of a bench's disk.
+        let place = match kind {
+            ClipKind::FLOAT if cfg!(unix) => Path::new("/dev/null"),
+            _ => &place,
         };
+        let mut rounds_s = vec![[0.0; 3]; 9];
+        for lengths_s in &mut rounds_s {
+            for (length_s, cpu_s) in [1, 10, 100].into_iter().zip(lengths_s) {
+                let start_s = thread_cpu_seconds();
+                if let Err(error) = write_clip(place, kind, length_s) {
+                    return println!("clips: {error}");
+                }
+                *cpu_s = thread_cpu_seconds() - start_s;
+            }
+        }
+        let late_s = |[_, middle_s, last_s]: &[f64; 3]| (last_s - middle_s) / 90.0;
+        let ratio = |round: &[f64; 3]| late_s(round) / ((round[1] - round[0]) / 9.0);
+        let mut late: Vec<f64> = rounds_s.iter().map(late_s).collect();
+        let mut ratios: Vec<f64> = rounds_s.iter().map(ratio).collect();
         println!(
-            "{:<16} {length_s:>4} s: {:>9.3} ms CPU, {:>9.3} ms wall",
-            row.method,
-            1e3 * cost.cpu_s,
-            1e3 * cost.wall_s
+            "{name:<16} a second costs {:.3} ms from 10 to 100 s, {:.2} times that from 1 to 10 s",
+            1e3 * median(&mut late),
+            median(&mut ratios)
         );
     }
-    for note in &findings.notes {
-        println!("{note}");
+    drop(std::fs::remove_file(&place));
+}
+
+/// Writes a clip in which every contactor sounds and no tick is like the one before.
+fn write_clip(place: &Path, kind: ClipKind, length_s: u64) -> Result<(), EngineError> {
+    let profile = ArrayProfile::default();
+    let mut clip = ClipWriter::create(place, kind, (&profile, 24), "clip")?;
+    let mut amplitudes_um = [[0.0_f32; 2]; 24];
+    for tick in 0..40 * length_s {
+        for (contactor, [low_um, high_um]) in amplitudes_um.iter_mut().enumerate() {
+            let turn = (tick % 4099) as f32 * 0.37 + contactor as f32;
+            *low_um = 12.5 + 12.0 * turn.sin();
+            *high_um = 12.5 + 12.0 * turn.cos();
+        }
+        clip.take(tick, &amplitudes_um)?;
     }
+    unheard(|progress| clip.finish(progress))?;
+    Ok(())
 }
 
 /// Median over rounds of a second of waveform, new amplitudes at every tick.

@@ -1,7 +1,7 @@
 //! Constant stimuli: every stimulus as often, in an order by chance.
 
 use super::{Procedure, Trial, over};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 use selvedge_foundation::numerics::Random;
 
 /// The method of constant stimuli.
@@ -19,8 +19,7 @@ impl ConstantStimuli {
     pub fn new(stimuli: &[f64], n_repeats: usize, seed: u64) -> Computed<Self> {
         if stimuli.is_empty() || n_repeats == 0 || stimuli.iter().any(|x| !x.is_finite()) {
             let n = stimuli.len();
-            let reason = format!("{n} stimuli {n_repeats} times, all of them finite");
-            return Err(Undefined::because(reason));
+            return undefined(format!("{n} stimuli {n_repeats} times, all of them finite"));
         }
         let mut random = Random::new(seed).branch("constant stimuli");
         let mut order = Vec::with_capacity(stimuli.len() * n_repeats);
@@ -44,7 +43,7 @@ impl Procedure for ConstantStimuli {
     fn answer(&mut self, presented: f64, is_right: bool) -> Computed<()> {
         let asked = self.stimulus().ok_or_else(over)?;
         if !presented.is_finite() {
-            return Err(Undefined::because("the presented stimulus is not finite"));
+            return undefined("the presented stimulus is not finite");
         }
         self.trials.push(Trial {
             asked,

@@ -1,7 +1,7 @@
 //! Several procedures at once, one trial of either by chance, so that nobody can follow them.
 
 use super::{Procedure, over};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 use selvedge_foundation::numerics::Random;
 
 /// Procedures taken in turn by chance among those that are not over.
@@ -20,7 +20,7 @@ impl<P: Procedure> Interleaved<P> {
     /// None.
     pub fn new(procedures: Vec<P>, seed: u64) -> Computed<Self> {
         if procedures.is_empty() {
-            return Err(Undefined::because("no procedures to take turns"));
+            return undefined("no procedures to take turns");
         }
         let mut interleaved = Self {
             procedures,

@@ -32,8 +32,8 @@ pub(crate) use stop::Reached;
 pub use stop::Stop;
 
 use super::Computed;
-use super::Undefined;
 use super::psychometric::{Block, blocks};
+use crate::Undefined;
 
 /// One trial of an adaptive procedure.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@
 
 use super::{Procedure, Reached, Stop, Trial, over};
 use crate::psychometric::{Family, Guess, Psychometric, scaled};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// Stimuli that tell this much more, in nats, than an earlier one are better than it; less is
 /// rounding.
@@ -56,14 +56,12 @@ impl QuestGrid {
         if cells == 0 || cells > MOST_CELLS {
             let lists = [&self.stimuli, &self.thresholds, &self.widths, &self.lapses];
             let counts = lists.map(|list| list.len().to_string()).join(" × ");
-            return Err(Undefined::because(format!("a grid of {counts}")));
+            return undefined(format!("a grid of {counts}"));
         }
         (0..self.n_functions()).try_for_each(|i| self.curve(i).checked().map(|_| ()))?;
         let is_placed = |x: &&f64| !self.family.place(**x).is_finite();
         match self.stimuli.iter().find(is_placed) {
-            Some(x) => Err(Undefined::because(format!(
-                "a stimulus of {x} has no place"
-            ))),
+            Some(x) => undefined(format!("a stimulus of {x} has no place")),
             None => Ok(()),
         }
     }
@@ -192,7 +190,7 @@ impl QuestPlus {
             .fold(f64::NEG_INFINITY, f64::max);
         if !most.is_finite() || ln_posterior.iter().any(|ln| ln.is_nan()) {
             let reason = "no function of the grid allows these answers: give it lapses and guesses";
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let sum: f64 = ln_posterior.iter().map(|ln| (ln - most).exp()).sum();
         let total = most + sum.ln();
@@ -254,7 +252,7 @@ impl Procedure for QuestPlus {
         let asked = self.stimulus().ok_or_else(over)?;
         if !self.grid.family.place(presented).is_finite() {
             let reason = format!("a stimulus of {presented} has no place on the scale");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let mut ln_posterior = self.ln_posterior.clone();
         let mut each = ln_posterior.iter_mut();

@@ -1,7 +1,7 @@
 //! Rules of staircases and the shares right that they settle at.
 
 use crate::detection::inverted;
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// What steps are steps of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,9 +79,7 @@ impl Rule {
         self.check()?;
         let share = up / (up + down);
         if !(up > 0.0 && down > 0.0 && share > 0.0 && share < 1.0) {
-            return Err(Undefined::because(format!(
-                "steps of {up} up and {down} down"
-            )));
+            return undefined(format!("steps of {up} up and {down} down"));
         }
         Ok(inverted(|p| self.down_share(p), share, [0.0, 1.0]))
     }

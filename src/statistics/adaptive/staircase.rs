@@ -2,7 +2,7 @@
 
 use super::{Procedure, Reached, Rule, StepScale, Stop, Trial, over};
 use crate::summary::{centred, sum_of_squares};
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// Steps of one size, in the unit of the scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +71,7 @@ impl StaircasePlan {
             if !(is_stepping && (stage.up + stage.down).is_finite()) {
                 let Stage { up, down, .. } = stage;
                 let reason = format!("stage {number} has steps of {up} up and {down} down");
-                return Err(Undefined::because(reason));
+                return undefined(reason);
             }
         }
         let [low, high] = self.limits;
@@ -80,7 +80,7 @@ impl StaircasePlan {
         if !(low < high && (low..=high).contains(&self.start) && is_placed) {
             let start = self.start;
             let reason = format!("a start of {start} between limits of {low} and {high}");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         self.stop.check(&Reached {
             n_reversals: Some(0),
@@ -209,7 +209,7 @@ impl Staircase {
         if n_reversals < 2 {
             let found = places.len();
             let reason = format!("{found} reversals with the last steps, two or more are needed");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let (mean, deviations) = centred(&places.split_off(places.len() - n_reversals));
         let variance = sum_of_squares(&deviations) / (n_reversals as f64 - 1.0);
@@ -276,7 +276,7 @@ impl Procedure for Staircase {
         let asked = self.stimulus().ok_or_else(over)?;
         if !self.plan.scale.place(presented).is_finite() {
             let reason = format!("a stimulus of {presented} has no place among steps");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         self.trials.push(Trial {
             asked,

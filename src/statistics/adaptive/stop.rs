@@ -1,6 +1,6 @@
 //! When a procedure is over, as an expression.
 
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// When to stop: a condition, any of several, or all of several.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +70,7 @@ impl Stop {
             }
             _ => return Ok(()),
         };
-        Err(Undefined::because(reason))
+        undefined(reason)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::choice::{Choice, Correction, Relation, integral, inverted};
 use crate::distribution::{normal_density, normal_lower};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// Beyond these shares d′ has no digits that mean anything.
 const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
@@ -14,8 +14,7 @@ const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
 /// Fewer than two or more than 1000 alternatives, a distance that is not finite.
 pub(crate) fn share_of_d_prime(d_prime: f64, m: u32) -> Computed {
     if !(2..=1000).contains(&m) || !d_prime.is_finite() {
-        let reason = format!("d′ = {d_prime} among {m} alternatives");
-        return Err(Undefined::because(reason));
+        return undefined(format!("d′ = {d_prime} among {m} alternatives"));
     }
     Ok(share(d_prime, m))
 }
@@ -35,7 +34,7 @@ pub(crate) fn d_prime_of_share(correct: f64, m: u32) -> Computed {
     share_of_d_prime(0.0, m)?;
     if !(SHARES[0]..=SHARES[1]).contains(&correct) {
         let reason = format!("a share of {correct} among {m} alternatives has no finite d′");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     Ok(inverted(|d| share(d, m), correct, [-30.0, 30.0]))
 }

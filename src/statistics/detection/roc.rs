@@ -1,7 +1,7 @@
 //! The receiver operating characteristic from ratings of confidence.
 
 use crate::distribution::normal_quantile;
-use crate::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, Undefined, undefined};
 
 /// The curve and its area.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,12 +30,12 @@ pub fn roc(signals: &[u64], others: &[u64]) -> Computed<Roc> {
     if signals.len() != others.len() || signals.len() < 2 {
         let (a, b) = (signals.len(), others.len());
         let reason = format!("{a} and {b} ratings: two or more of each are needed");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let n: [u64; 2] = [signals.iter().sum(), others.iter().sum()];
     if n.contains(&0) {
         let reason = format!("{} signals and {} other trials give no curve", n[0], n[1]);
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let [n_signals, n_others] = n.map(|n| n as f64);
     // Of each rating: how much of the other kind lies below it, ties half.

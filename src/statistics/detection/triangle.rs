@@ -2,7 +2,7 @@
 
 use super::choice::{Choice, Correction, Relation, inverted};
 use crate::distribution::{normal_density, normal_lower};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 const CHANCE: f64 = 1.0 / 3.0;
 
@@ -42,8 +42,7 @@ fn share(d_prime: f64) -> f64 {
 /// A share outside 0 … 1 − 1e-9.
 fn triangle_d_prime(correct: f64) -> Computed {
     if !(0.0..=1.0 - 1e-9).contains(&correct) {
-        let reason = format!("a share of {correct} of triads has no finite d′");
-        return Err(Undefined::because(reason));
+        return undefined(format!("a share of {correct} of triads has no finite d′"));
     }
     if correct <= CHANCE {
         return Ok(0.0);

@@ -2,7 +2,7 @@
 
 use super::choice::Correction;
 use crate::distribution::{normal_density, normal_quantile};
-use crate::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, Undefined, undefined};
 
 /// Counts of one subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,9 +56,9 @@ pub fn yes_no(answers: Answers, correction: Correction) -> Computed<YesNo> {
         n_noise,
     } = answers;
     if n_signal == 0 || n_noise == 0 || hits > n_signal || false_alarms > n_noise {
-        return Err(Undefined::because(format!(
+        return undefined(format!(
             "{hits} of {n_signal} signals and {false_alarms} of {n_noise} others give no d′"
-        )));
+        ));
     }
     let hit_rate = correction.share(hits, n_signal);
     let false_alarm_rate = correction.share(false_alarms, n_noise);
@@ -86,11 +86,7 @@ pub fn yes_no(answers: Answers, correction: Correction) -> Computed<YesNo> {
         ln_beta: criterion * d_prime,
         uncorrected_d_prime,
         variance,
-        interval: Interval {
-            low: d_prime - half,
-            high: d_prime + half,
-            level,
-        },
+        interval: Interval::about(d_prime, half, level),
     })
 }
 

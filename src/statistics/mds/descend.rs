@@ -2,6 +2,7 @@
 //! which finish.
 
 use super::fit::{Fit, Loss};
+use crate::summary::dot;
 
 /// Steps that L-BFGS remembers.
 const MEMORY: usize = 8;
@@ -144,8 +145,4 @@ fn add(to: &mut [f64], factor: f64, what: &[f64]) {
     for (value, part) in to.iter_mut().zip(what) {
         *value += factor * part;
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(p, q)| p * q).sum()
 }

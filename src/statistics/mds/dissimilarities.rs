@@ -1,6 +1,6 @@
 //! What is mapped: how unlike every two of some objects are, and how much each pair counts.
 
-use crate::Undefined;
+use crate::{Undefined, undefined};
 
 /// Dissimilarities that differ by less than this share of the largest are tied: means of ranks
 /// that are equal on paper differ by rounding.
@@ -43,11 +43,11 @@ impl Dissimilarities {
         if values.len() != n * n || weights.len() != n * n {
             let (v, w) = (values.len(), weights.len());
             let what = format!("{n} names need {n} × {n} numbers and weights, not {v} and {w}");
-            return Err(Undefined::because(what));
+            return undefined(what);
         }
         if n < 3 {
             let what = format!("a map needs at least three objects, and this has {n}");
-            return Err(Undefined::because(what));
+            return undefined(what);
         }
         let largest = values.iter().flatten().copied().fold(0.0, f64::max);
         let mut pairs = Vec::with_capacity(n * (n - 1) / 2);
@@ -58,13 +58,12 @@ impl Dissimilarities {
                 let between = || format!("{} and {}", names[i], names[j]);
                 let numbers = sides.iter().flatten().chain([&weight]);
                 if numbers.into_iter().any(|x| !x.is_finite() || *x < 0.0) {
-                    let what = format!("{} have a negative or endless number", between());
-                    return Err(Undefined::because(what));
+                    return undefined(format!("{} have a negative or endless number", between()));
                 }
                 let delta = match sides {
                     [Some(a), Some(b)] if (a - b).abs() > ROUNDING_SHARE * largest => {
                         let what = format!("{} differ by {a} one way and {b} the other", between());
-                        return Err(Undefined::because(what));
+                        return undefined(what);
                     }
                     [Some(a), Some(b)] => 0.5 * (a + b),
                     [Some(a), None] | [None, Some(a)] => a,
@@ -147,11 +146,11 @@ impl Dissimilarities {
                 "no chain of pairs joins {first} and {other}: the map falls into parts whose \
                  distance nothing tells"
             );
-            return Err(Undefined::because(what));
+            return undefined(what);
         }
         if self.tied_blocks().len() < 2 {
             let what = "all pairs are equally unlike: they have no order to be mapped";
-            return Err(Undefined::because(what));
+            return undefined(what);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::fit::{Fit, Loss, Problem};
 use super::search::Lowest;
-use crate::Undefined;
+use crate::{Undefined, rank_correlation};
 
 /// A squared loss share below this is degenerate: nothing is left to fit.
 const NOTHING_LEFT: f64 = 1e-3;
@@ -83,7 +83,7 @@ impl Map {
             n_reached: found.n_reached,
             stress_per_point,
             share_per_point,
-            spearman: spearman(&deltas, &distances),
+            spearman: rank_correlation(&deltas, &distances),
             shepard,
             warnings,
         }
@@ -168,40 +168,6 @@ fn warnings(n: usize, k: usize, loss: f64, distances: &[f64]) -> Vec<String> {
         ));
     }
     out
-}
-
-/// Rank correlation, mean ranks for ties.
-fn spearman(a: &[f64], b: &[f64]) -> Result<f64, Undefined> {
-    let (a, b) = (ranks(a), ranks(b));
-    let middle = 0.5 * (a.len() as f64 + 1.0);
-    let product = |p: &[f64], q: &[f64]| -> f64 {
-        p.iter()
-            .zip(q)
-            .map(|(x, y)| (x - middle) * (y - middle))
-            .sum()
-    };
-    let spread = (product(&a, &a) * product(&b, &b)).sqrt();
-    if spread > 0.0 {
-        Ok(product(&a, &b) / spread)
-    } else {
-        Err(Undefined::because("all distances are equal"))
-    }
-}
-
-/// Ranks from 1, the mean of those that equal values share.
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut ranks = vec![0.0; values.len()];
-    let mut start = 0;
-    for equal in order.chunk_by(|&a, &b| values[a].total_cmp(&values[b]).is_eq()) {
-        let rank = start as f64 + 0.5 * (equal.len() as f64 + 1.0);
-        for &i in equal {
-            ranks[i] = rank;
-        }
-        start += equal.len();
-    }
-    ranks
 }
 
 /// Centres `x` (n × k), turns it to its principal axes, the longest first, and turns each axis so

@@ -90,31 +90,23 @@ impl Mds {
         let mut maps: Vec<Map> = Vec::new();
         for k in dims.filter(|k| (1..=MOST_DIMENSIONS).contains(k)) {
             let lower = maps.last().map(|map| map.points.concat());
-            let found = search(&problem, &self.plan(k), lower.as_deref(), progress)?;
+            let found = search(
+                &problem,
+                &Plan { k, mds: *self },
+                lower.as_deref(),
+                progress,
+            )?;
             maps.push(Map::of(&problem, self.loss, k, &found));
         }
         Ok(maps)
     }
 
-    fn plan(&self, k: usize) -> Plan {
-        let n_starts = if k == 1 {
-            self.n_starts_on_a_line
-        } else {
-            self.n_starts
-        };
-        let n_starts = if self.descent == Descent::None {
-            1
-        } else {
-            n_starts
-        };
-        Plan {
-            k,
-            loss: self.loss,
-            descent: self.descent,
-            n_starts,
-            n_exchanged: self.n_exchanged,
-            seed: self.seed,
-            n_threads: self.n_threads,
+    /// Starts that are followed in so many dimensions.
+    fn starts_in(&self, k: usize) -> usize {
+        match (self.descent, k) {
+            (Descent::None, _) => 1,
+            (_, 1) => self.n_starts_on_a_line,
+            _ => self.n_starts,
         }
     }
 }

@@ -2,7 +2,7 @@
 //! data's own dissimilarities dealt to other pairs.
 
 use super::fit::Problem;
-use super::search::search;
+use super::search::{Plan, search};
 use super::{Dissimilarities, Loss, Mds};
 use selvedge_foundation::numerics::{Random, in_pieces, quantile};
 use selvedge_foundation::progress::{Cancelled, Progress, unheard};
@@ -125,8 +125,11 @@ fn without_structure(
 
 /// On the thread that asks: the sets are what threads share.
 fn lowest(mds: &Mds, set: &Dissimilarities, dims: usize) -> f64 {
-    let mut plan = mds.plan(dims);
-    plan.n_threads = 1;
+    let mds = Mds {
+        n_threads: 1,
+        ..*mds
+    };
+    let plan = Plan { k: dims, mds };
     let problem = Problem::new(set, mds.ties);
     let found = unheard(|progress| search(&problem, &plan, None, progress));
     found.map_or(1.0, |found| found.loss)

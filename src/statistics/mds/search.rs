@@ -1,5 +1,6 @@
 //! The best of many starts, whatever the number of threads.
 
+use super::Mds;
 use super::descend::{Until, descend, majorise};
 use super::fit::{Fit, Loss, Problem};
 use super::start::{raised, thrown, torgerson};
@@ -26,16 +27,11 @@ pub enum Descent {
     Polish,
 }
 
-/// What is searched, and how.
+/// A search in so many dimensions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
     pub(super) k: usize,
-    pub(super) loss: Loss,
-    pub(super) descent: Descent,
-    pub(super) n_starts: usize,
-    pub(super) n_exchanged: usize,
-    pub(super) seed: u64,
-    pub(super) n_threads: usize,
+    pub(super) mds: Mds,
 }
 
 /// The lowest place that was found.
@@ -76,7 +72,7 @@ struct Run {
 
 /// Follows a start downhill.
 pub(super) fn downhill(fit: &mut Fit<'_>, plan: &Plan, x: &mut [f64]) -> f64 {
-    match (plan.descent, plan.loss) {
+    match (plan.mds.descent, plan.mds.loss) {
         (Descent::None, loss) => {
             fit.problem.normalise(x, plan.k);
             fit.loss(loss, x)
@@ -99,7 +95,8 @@ pub(super) fn downhill(fit: &mut Fit<'_>, plan: &Plan, x: &mut [f64]) -> f64 {
 
 /// Where start number `i` begins.
 fn begun(problem: &Problem, plan: &Plan, lower: Option<&[f64]>, i: usize) -> Vec<f64> {
-    let mut random = Random::new(plan.seed).branch(&format!("{} dimensions, start {i}", plan.k));
+    let mut random =
+        Random::new(plan.mds.seed).branch(&format!("{} dimensions, start {i}", plan.k));
     match (i, lower) {
         (0, _) => torgerson(problem, plan.k),
         (1, Some(lower)) => raised(lower, plan.k, &mut random),
@@ -118,7 +115,7 @@ pub(super) fn search(
     progress: &mut Progress<'_>,
 ) -> Result<Lowest, Cancelled> {
     let mut runs: Vec<Option<Run>> = Vec::new();
-    runs.resize_with(plan.n_starts.max(1), || None);
+    runs.resize_with(plan.mds.starts_in(plan.k).max(1), || None);
     // Between batches somebody may cancel: about a tenth of a second of work.
     let batch = (100_000 / (problem.pairs.len() * plan.k)).clamp(8, 500);
     let n_all = runs.len();
@@ -127,7 +124,7 @@ pub(super) fn search(
         let first = n_done * batch;
         progress.step(first as f64 / n_all as f64, &doing)?;
         let prepare = || Fit::new(problem, plan.k);
-        in_pieces(some, 1, plan.n_threads, prepare, |fit, number, run| {
+        in_pieces(some, 1, plan.mds.n_threads, prepare, |fit, number, run| {
             fit.reset();
             let mut x = begun(problem, plan, lower, first + number);
             let f = downhill(fit, plan, &mut x);
@@ -138,11 +135,11 @@ pub(super) fn search(
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
     let followed: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
     runs.truncate(if plan.k == 1 {
-        (10 * plan.n_exchanged).max(N_POLISHED)
+        (10 * plan.mds.n_exchanged).max(N_POLISHED)
     } else {
         N_POLISHED
     });
-    if plan.descent == Descent::Polish {
+    if plan.mds.descent == Descent::Polish {
         runs = finished(problem, plan, runs);
     }
     let best = runs.swap_remove(0);
@@ -160,16 +157,16 @@ pub(super) fn search(
 fn finished(problem: &Problem, plan: &Plan, mut runs: Vec<Run>) -> Vec<Run> {
     if plan.k == 1 {
         runs.dedup_by(|a, b| (a.f - b.f).abs() <= 1e-7 * b.f);
-        runs.truncate(plan.n_exchanged.max(1));
+        runs.truncate(plan.mds.n_exchanged.max(1));
     }
     let prepare = || Fit::new(problem, plan.k);
-    in_pieces(&mut runs, 1, plan.n_threads, prepare, |fit, _, run| {
+    in_pieces(&mut runs, 1, plan.mds.n_threads, prepare, |fit, _, run| {
         fit.reset();
         let run = &mut run[0];
-        if plan.k == 1 && plan.n_exchanged > 0 {
+        if plan.k == 1 && plan.mds.n_exchanged > 0 {
             run.f = exchange(fit, plan, &mut run.x, run.f);
         }
-        run.f = descend(fit, plan.loss, &mut run.x, POLISHED);
+        run.f = descend(fit, plan.mds.loss, &mut run.x, POLISHED);
     });
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
     runs

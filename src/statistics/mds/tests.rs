@@ -1,19 +1,24 @@
 //! Maps of known configurations, and of chance.
 
 use super::*;
-use selvedge_foundation::numerics::Random;
+use crate::procrustes::Procrustes;
+use selvedge_foundation::numerics::{Random, median};
 use selvedge_foundation::progress::unheard;
 
 pub(super) fn named(n: usize) -> Vec<String> {
     (0..n).map(|i| format!("t{i}")).collect()
 }
 
+/// Random points in `k` dimensions.
+fn thrown(n: usize, k: usize, random: &mut Random) -> Vec<Vec<f64>> {
+    let mut point = || (0..k).map(|_| random.normal()).collect();
+    (0..n).map(|_| point()).collect()
+}
+
 /// Distances of random points in `k` dimensions with a share of noise.
 fn spread(n: usize, k: usize, noise: f64, seed: u64) -> Dissimilarities {
     let mut random = Random::new(seed);
-    let x: Vec<Vec<f64>> = (0..n)
-        .map(|_| (0..k).map(|_| random.normal()).collect())
-        .collect();
+    let x = thrown(n, k, &mut random);
     let mut values = vec![None; n * n];
     for i in 0..n {
         for j in i + 1..n {
@@ -141,6 +146,27 @@ fn a_known_configuration_comes_back() {
     }
 }
 
+#[test]
+fn a_map_without_noise_comes_back_and_noise_takes_from_it() {
+    let lost = |noise: f64| {
+        let mds = Mds {
+            n_starts: 20,
+            ..Mds::default()
+        };
+        let mut m2 = [1, 2, 3].map(|seed| {
+            let map = maps(&spread(16, 2, noise, seed), mds, 2..=2).remove(0);
+            let truth = thrown(16, 2, &mut Random::new(seed));
+            Procrustes::of(&map.points, &truth).unwrap().m2
+        });
+        median(&mut m2)
+    };
+    let (clean, noisy) = (lost(0.0), lost(0.4));
+    assert!(
+        clean < 0.01 && noisy > clean && noisy < 0.5,
+        "{clean}, {noisy}"
+    );
+}
+
 /// All orders of eight objects, each followed downhill: nothing lies below what the search finds.
 #[test]
 fn on_a_line_the_best_of_all_orders_is_found() {
@@ -159,7 +185,7 @@ fn on_a_line_the_best_of_all_orders_is_found() {
                 x.push(left.remove(code % n));
                 code /= n;
             }
-            best = best.min(search::downhill(&mut fit, &mds.plan(1), &mut x).sqrt());
+            best = best.min(search::downhill(&mut fit, &Plan { k: 1, mds }, &mut x).sqrt());
         }
         assert!(
             found <= best + 1e-6,

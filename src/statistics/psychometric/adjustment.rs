@@ -1,7 +1,7 @@
 //! The method of adjustment: settings made from above and from below.
 
 use crate::summary::at_least;
-use crate::{Computed, Outcome, Summary, Undefined, two_sample_t};
+use crate::{Computed, Outcome, Summary, two_sample_t, undefined};
 
 /// How settings are averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,12 +48,12 @@ impl Adjustments {
             match (settings, bad) {
                 (Settings::Linear, _) => Ok(values.to_vec()),
                 (Settings::Log, None) => Ok(values.iter().map(|v| v.ln()).collect()),
-                (Settings::Log, Some(place)) => Err(Undefined::because(format!(
+                (Settings::Log, Some(place)) => undefined(format!(
                     "setting {} of {} is {}: it has no logarithm",
                     place + 1,
                     values.len(),
                     values[place]
-                ))),
+                )),
             }
         };
         let (ascending, descending) = (scaled(starts.ascending)?, scaled(starts.descending)?);

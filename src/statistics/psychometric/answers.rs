@@ -1,7 +1,7 @@
 //! Answers collected by stimulus.
 
 use super::Family;
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// The answers to one stimulus.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,12 +44,12 @@ pub(super) fn checked(family: Family, blocks: &[Block]) -> Computed<Vec<Block>> 
     for block in sorted {
         if block.n_right > block.n {
             let reason = format!("{} of {} right at {}", block.n_right, block.n, block.x);
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         if !family.place(block.x).is_finite() {
             let name = family.name();
             let reason = format!("a stimulus of {} has no place on the {name} scale", block.x);
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         match kept.last_mut().filter(|last| last.x >= block.x) {
             Some(last) => {
@@ -73,5 +73,5 @@ fn refuse_silence(blocks: &[Block]) -> Computed<()> {
         _ if n_right == n => format!("all {n} answers are right: no threshold is bracketed"),
         _ => return Ok(()),
     };
-    Err(Undefined::because(reason))
+    undefined(reason)
 }

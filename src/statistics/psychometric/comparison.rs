@@ -1,7 +1,7 @@
 //! Where two stimuli are felt as equal, and how much they must differ to be told apart.
 
 use super::{Fit, Psychometric, Resamples};
-use crate::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, Undefined, undefined};
 
 /// A quantity of a fitted function with its intervals.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,7 +76,7 @@ impl Fit {
     /// A reference that is not finite.
     pub fn comparison(&self, reference: f64, resamples: &Resamples) -> Computed<Comparison> {
         if !reference.is_finite() {
-            return Err(Undefined::because("the reference is not finite"));
+            return undefined("the reference is not finite");
         }
         let pse = self.measured(|curve| curve.stimulus_at_shape(0.5), resamples)?;
         let per_reference = |curve: &Psychometric| {

@@ -1,7 +1,7 @@
 //! A psychometric function: the probability of an answer at a stimulus.
 
 use super::Family;
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// p(x) = g + (1 − g − l) F(x; m, w) (Wichmann & Hill 2001; Schütt et al. 2016).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,12 +28,12 @@ impl Psychometric {
         let is_placed = self.family.place(self.threshold).is_finite();
         let is_wide = self.width > 0.0 && self.width.is_finite();
         if !(is_placed && is_wide) {
-            return Err(Undefined::because(format!(
+            return undefined(format!(
                 "no {} function has threshold {} and width {}",
                 self.family.name(),
                 self.threshold,
                 self.width
-            )));
+            ));
         }
         let is_rated = self.guess >= 0.0 && self.lapse >= 0.0 && self.guess + self.lapse < 1.0;
         is_rated.then_some(self).ok_or_else(|| {

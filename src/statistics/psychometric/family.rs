@@ -1,7 +1,7 @@
 //! The shapes of psychometric functions: how the share of answers rises with the stimulus.
 
 use crate::distribution::{normal_density, normal_lower, normal_quantile, normal_upper};
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -83,8 +83,7 @@ impl Family {
     /// How many widths above the threshold F is `share`.
     pub(super) fn widths_at(self, share: f64) -> Computed {
         if !(share > 0.0 && share < 1.0) {
-            let reason = format!("a share of {share} is reached nowhere");
-            return Err(Undefined::because(reason));
+            return undefined(format!("a share of {share} is reached nowhere"));
         }
         Ok(match self {
             Self::Logistic => (share / (1.0 - share)).ln() / (2.0 * LOGIT),

@@ -4,7 +4,7 @@ use super::answers::{Block, checked};
 use super::prior::{Guess, MAX_LAPSE, Priors};
 use super::target::{Point, Target, deviance, point};
 use super::{Family, Psychometric};
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 use selvedge_foundation::numerics::lowest;
 
 /// Thresholds, widths and lapse rates where a search may begin.
@@ -61,7 +61,7 @@ impl Model {
         let most = self.max_lapse;
         if !(0.0..0.5).contains(&most) {
             let reason = format!("a largest lapse rate of {most} is not below one half");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let guess = self.guess.rate(most);
         let is_rate = guess >= 0.0 && guess + most < 1.0;

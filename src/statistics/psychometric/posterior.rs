@@ -2,7 +2,7 @@
 
 use super::target::{Point, Target, point};
 use super::{Fit, Psychometric};
-use crate::{Computed, Interval, Undefined};
+use crate::{Computed, Interval, undefined};
 
 /// Cells along threshold, width and lapse rate.
 const CELLS: [usize; 3] = [40, 32, 9];
@@ -140,7 +140,7 @@ impl Posterior {
         level: f64,
     ) -> Computed<Interval> {
         if !(level > 0.0 && level < 1.0) {
-            return Err(Undefined::because(format!("a confidence of {level}")));
+            return undefined(format!("a confidence of {level}"));
         }
         let mut values = Vec::with_capacity(self.cells.len());
         for (curve, mass) in self.cells.iter().filter(|(_, mass)| *mass > 1e-12) {

@@ -4,8 +4,8 @@
 use super::answers::Block;
 use super::target::deviance;
 use super::{Fit, Psychometric};
-use crate::summary::{centred, sum_of_squares};
-use crate::{Computed, Interval, Resampling, Undefined};
+use crate::summary::deviation;
+use crate::{Computed, Interval, Resampling, undefined};
 use selvedge_foundation::numerics::{Random, quantile};
 
 /// Functions fitted to simulated answers at the same stimuli.
@@ -38,7 +38,7 @@ impl Fit {
         } = how;
         if n_resamples < 100 || !(level > 0.0 && level < 1.0) {
             let reason = format!("{n_resamples} resamples at level {level} give no interval");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let mut random = Random::new(seed).branch("psychometric bootstrap");
         let (mut curves, mut deviances) = (Vec::new(), Vec::new());
@@ -52,7 +52,7 @@ impl Fit {
         let n_undefined = n_resamples - curves.len();
         if 2 * n_undefined > n_resamples {
             let reason = format!("no threshold in {n_undefined} of {n_resamples} resamples");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         Ok(Resamples {
             curves,
@@ -97,8 +97,7 @@ impl Resamples {
             .iter()
             .map(quantity)
             .collect::<Computed<Vec<_>>>()?;
-        let (_, deviations) = centred(&values);
-        let se = (sum_of_squares(&deviations) / (values.len() as f64 - 1.0)).sqrt();
+        let se = deviation(&values);
         let tail = 0.5 * (1.0 - self.level);
         let interval = Interval {
             low: quantile(&mut values, tail),

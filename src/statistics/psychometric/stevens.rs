@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::distribution::t_quantile_upper;
-use crate::{Computed, Interval, Summary, Undefined};
+use crate::{Computed, Interval, Summary, Undefined, undefined};
 use selvedge_foundation::numerics::LineFit;
 
 /// One answer: who gave which number to which stimulus.
@@ -100,7 +100,7 @@ fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<Subject>)> {
         let has_logarithm = |x: f64| x > 0.0 && x.is_finite();
         if !(has_logarithm(*value) && has_logarithm(*stimulus)) {
             let reason = format!("{subject} gave {value} to {stimulus}: no logarithm");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let cells = sums
             .entry(subject)
@@ -111,7 +111,7 @@ fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<Subject>)> {
     }
     if stimuli.len() < 2 {
         let reason = format!("{} stimuli give no exponent, 2 are needed", stimuli.len());
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let missing: Vec<String> = sums
         .iter()
@@ -121,8 +121,7 @@ fn collected(estimates: &[Estimate]) -> Computed<(Vec<f64>, Vec<Subject>)> {
         })
         .collect();
     if !missing.is_empty() {
-        let reason = format!("missing estimates: {}", missing.join(", "));
-        return Err(Undefined::because(reason));
+        return undefined(format!("missing estimates: {}", missing.join(", ")));
     }
     let logs = |cells: Vec<[f64; 2]>| cells.into_iter().map(|[sum, n]| sum / n).collect();
     let subjects = sums
@@ -139,11 +138,7 @@ fn power_law(ln_stimuli: &[f64], ln_values: &[f64], level: f64) -> Computed<Powe
     let df = points.len() as f64 - 2.0;
     let interval = t_quantile_upper(0.5 * (1.0 - level), df)
         .map_err(|_no_freedom| Undefined::because("two stimuli leave no scatter about a line"))
-        .map(|t| Interval {
-            low: line.slope - t * line.slope_error,
-            high: line.slope + t * line.slope_error,
-            level,
-        });
+        .map(|t| Interval::about(line.slope, t * line.slope_error, level));
     Ok(PowerLaw {
         exponent: line.slope,
         constant: line.offset.exp(),

@@ -3,7 +3,7 @@
 
 use super::choices::{Choices, Prior};
 use super::connection::number;
-use super::deviance::{Deviance, deviance_of};
+use super::deviance::Deviance;
 use super::newton::{LogLikelihood as _, maximise};
 use super::preferences::Preferences;
 use super::scale::Scale;
@@ -34,9 +34,8 @@ pub struct BradleyTerry {
 pub fn bradley_terry(preferences: &Preferences, prior: Prior) -> Computed<BradleyTerry> {
     preferences.check()?;
     let n_items = preferences.n_items();
-    let pairs = preferences.compared();
     let mut choices = Choices::new(n_items);
-    for pair in &pairs {
+    for pair in preferences.compared() {
         for (chosen, wins) in pair.items.into_iter().zip(pair.wins) {
             if wins > 0 {
                 choices.add(chosen, pair.items.to_vec(), wins as f64);
@@ -47,22 +46,13 @@ pub fn bradley_terry(preferences: &Preferences, prior: Prior) -> Computed<Bradle
     all.merge(&choices);
     all.connection().check(number)?;
     let peak = maximise(&all, vec![0.0; n_items])?;
-    let residual = pairs.iter().map(|pair| {
-        let [i, j] = pair.items;
-        deviance_of(pair.wins, odds_of(peak.at[i] - peak.at[j]))
-    });
-    let null = pairs.iter().map(|pair| deviance_of(pair.wins, [0.5; 2]));
     Ok(BradleyTerry {
         scale: Scale::of(&peak.at, &peak.covariance),
         log_likelihood: choices.value(&peak.at),
-        deviance: Deviance {
-            n_comparisons: preferences.n_comparisons(),
-            residual: residual.sum(),
-            df: (pairs.len() + 1).saturating_sub(n_items),
-            null: null.sum(),
-            null_df: pairs.len(),
-            prior,
-        },
+        deviance: Deviance::of(preferences, prior, |pair| {
+            let [i, j] = pair.items;
+            odds_of(peak.at[i] - peak.at[j])
+        }),
         n_steps: peak.n_steps,
         prior,
     })

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::connection::Connection;
 use super::newton::LogLikelihood;
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// What is known of worths before anything was compared.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,8 +38,7 @@ impl Prior {
                 }
             }
             Self::Gamma(strength) => {
-                let reason = format!("a prior of strength {strength}: above 0 needed");
-                return Err(Undefined::because(reason));
+                return undefined(format!("a prior of strength {strength}: above 0 needed"));
             }
         }
         Ok(choices)

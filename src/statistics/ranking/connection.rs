@@ -1,6 +1,6 @@
 //! Which items comparisons join, and which they leave apart or one above the other for good.
 
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// How the comparisons of some items hang together. Only where they are whole is there a most
 /// likely scale with finite values (Ford 1957; Hunter 2004, assumption 1).
@@ -67,7 +67,7 @@ impl Connection {
                 listed(" and ")
             ),
         };
-        Err(Undefined::because(reason))
+        undefined(reason)
     }
 }
 

@@ -1,7 +1,7 @@
 //! How consistent one subject's paired comparisons are (Kendall & Babington Smith 1940).
 
 use super::preferences::Preferences;
-use crate::{Computed, Undefined, chi_squared_upper};
+use crate::{Computed, chi_squared_upper, undefined};
 
 /// Up to so many items every pattern of answers is counted: 2²¹.
 const MOST_EXACT: usize = 7;
@@ -33,14 +33,12 @@ pub struct Consistency {
 pub(super) fn consistency(answers: &Preferences) -> Computed<Consistency> {
     let k = answers.n_items();
     if k < 3 {
-        let reason = format!("{k} items make no triad");
-        return Err(Undefined::because(reason));
+        return undefined(format!("{k} items make no triad"));
     }
     answers.check()?;
     let odd = answers.pairs_where(|n| n != 1);
     if !odd.is_empty() {
-        let reason = format!("not compared exactly once: {}", odd.join(", "));
-        return Err(Undefined::because(reason));
+        return undefined(format!("not compared exactly once: {}", odd.join(", ")));
     }
     let preferred = |i| (0..k).map(|j| answers.wins(i, j)).sum();
     let scores: Vec<u64> = (0..k).map(preferred).collect();

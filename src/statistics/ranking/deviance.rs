@@ -2,7 +2,8 @@
 //! ratio of its likelihood to that of a model with free probabilities for every pair.
 
 use super::choices::Prior;
-use crate::{Computed, Freedom, Named, Outcome, Sides, Undefined, chi_squared_upper};
+use super::preferences::{Compared, Preferences};
+use crate::{Computed, Named, Outcome, by_chi_squared, undefined};
 
 /// Deviances of a model and of items all alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +23,25 @@ pub struct Deviance {
 }
 
 impl Deviance {
+    /// Of a model that gives every pair its two shares.
+    pub(super) fn of(
+        preferences: &Preferences,
+        prior: Prior,
+        shares: impl Fn(&Compared) -> [f64; 2],
+    ) -> Self {
+        let pairs = preferences.compared();
+        let off = |pair: &Compared| deviance_of(pair.wins, shares(pair));
+        let null = |pair: &Compared| deviance_of(pair.wins, [0.5; 2]);
+        Self {
+            n_comparisons: preferences.n_comparisons(),
+            residual: pairs.iter().map(off).sum(),
+            df: (pairs.len() + 1).saturating_sub(preferences.n_items()),
+            null: pairs.iter().map(null).sum(),
+            null_df: pairs.len(),
+            prior,
+        }
+    }
+
     /// Whether the counts deviate from the model, by χ². A small p says that one scale does not
     /// describe them.
     ///
@@ -31,7 +51,7 @@ impl Deviance {
         self.check()?;
         if self.df == 0 {
             let reason = "as many parameters as probabilities: nothing left to test the fit by";
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let effect = self.explained();
         let test = (self.residual.max(0.0), self.df);
@@ -50,10 +70,7 @@ impl Deviance {
     }
 
     fn explained(&self) -> Named {
-        Named {
-            symbol: "R²",
-            value: 1.0 - self.residual / self.null,
-        }
+        Named::of("R²", 1.0 - self.residual / self.null)
     }
 
     fn n(&self) -> usize {
@@ -64,14 +81,12 @@ impl Deviance {
         if self.prior.is_none() {
             return Ok(());
         }
-        Err(Undefined::because(
-            "with a prior the deviance follows no χ²",
-        ))
+        undefined("with a prior the deviance follows no χ²")
     }
 }
 
 /// The share of minus twice the log-likelihood ratio of one pair: 2 Σ count ln(count/expected).
-pub(super) fn deviance_of<const N: usize>(counts: [u64; N], probabilities: [f64; N]) -> f64 {
+fn deviance_of<const N: usize>(counts: [u64; N], probabilities: [f64; N]) -> f64 {
     let n: u64 = counts.iter().sum();
     let term = |(&count, p): (&u64, f64)| match count {
         0 => 0.0,
@@ -87,24 +102,13 @@ pub(super) fn likelihood_ratio(
     (statistic, df): (f64, usize),
     effect: Named,
 ) -> Computed<Outcome> {
-    let df = df as f64;
-    let is_finite = effect.value.is_finite();
-    let no_effect = || Undefined::because("chance already explains everything");
-    Ok(Outcome {
-        test,
-        n: vec![n],
-        statistic: Named {
-            symbol: "χ²",
-            value: statistic,
-        },
-        df: Freedom::One(df),
-        p: chi_squared_upper(statistic.max(0.0), df)?,
-        sides: Sides::Greater,
-        effect: is_finite.then_some(effect).ok_or_else(no_effect),
-        estimate: Err(Undefined::because("several items, not one")),
-        interval: Err(Undefined::because("several items, not one")),
-        notes: vec!["p by χ²".to_owned()],
-    })
+    let statistic = (Named::of("χ²", statistic), df as f64);
+    let effect = if effect.value.is_finite() {
+        Ok(effect)
+    } else {
+        undefined("chance already explains everything")
+    };
+    by_chi_squared(test, vec![n], statistic, effect, "several items, not one")
 }
 
 #[cfg(test)]

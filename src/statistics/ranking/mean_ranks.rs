@@ -2,7 +2,7 @@
 //! dissimilarities that follow.
 
 use super::preferences::check_distinct;
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// One trial: alternatives ranked by likeness to a target that is one of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl MeanRanks {
     /// its alternatives.
     pub fn of(n_items: usize, trials: &[RankTrial]) -> Computed<Self> {
         let Some(first) = trials.first() else {
-            return Err(Undefined::because("no trials"));
+            return undefined("no trials");
         };
         let k = first.alternatives.len();
         let mut all = Self {
@@ -166,8 +166,7 @@ impl MeanRanks {
         };
         let pairs: Vec<([usize; 2], f64)> = pairs.filter_map(of_pair).collect();
         if pairs.is_empty() {
-            let reason = "no two items met both ways, as target and as alternative";
-            return Err(Undefined::because(reason));
+            return undefined("no two items met both ways, as target and as alternative");
         }
         Ok(Asymmetry {
             mean: pairs.iter().map(|(_, a)| a).sum::<f64>() / pairs.len() as f64,

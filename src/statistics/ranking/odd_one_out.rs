@@ -1,7 +1,7 @@
 //! Distances from triads of two alike and one odd: how easily each pair was told apart.
 
 use super::preferences::{check_distinct, check_items};
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// How hard a choice was, as the subject graded it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -44,7 +44,7 @@ impl GradeWeights {
             return Ok(());
         }
         let reason = format!("weights {easy}, {normal}, {hard} do not fall from easy to hard");
-        Err(Undefined::because(reason))
+        undefined(reason)
     }
 }
 
@@ -127,7 +127,7 @@ impl OddOneOut {
         check_items(n_items)?;
         weights.check()?;
         if answers.is_empty() {
-            return Err(Undefined::because("no answers"));
+            return undefined("no answers");
         }
         let mut tallies = vec![[[0; 3]; 2]; n_items * n_items];
         let mut errors = vec![

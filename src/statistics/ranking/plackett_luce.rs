@@ -7,7 +7,7 @@ use super::deviance::likelihood_ratio;
 use super::newton::{LogLikelihood as _, maximise};
 use super::preferences::check_rankings;
 use super::scale::Scale;
-use crate::{Computed, Named, Outcome, Undefined};
+use crate::{Computed, Named, Outcome, undefined};
 
 /// Worths of items from rankings.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,15 +43,11 @@ impl PlackettLuce {
     /// A prior: the ratio follows no χ².
     pub fn against_chance(&self) -> Computed<Outcome> {
         if !self.prior.is_none() {
-            let reason = "with a prior the ratio of likelihoods follows no χ²";
-            return Err(Undefined::because(reason));
+            return undefined("with a prior the ratio of likelihoods follows no χ²");
         }
         let ratio = 2.0 * (self.log_likelihood - self.null_log_likelihood);
         let df = self.scale.values.len() - 1;
-        let effect = Named {
-            symbol: "R²",
-            value: 1.0 - self.log_likelihood / self.null_log_likelihood,
-        };
+        let effect = Named::of("R²", 1.0 - self.log_likelihood / self.null_log_likelihood);
         likelihood_ratio(
             "worths against chance",
             self.n_rankings,

@@ -1,7 +1,7 @@
 //! How often each of some items was preferred to each other.
 
 use super::connection::Connection;
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// Counts of comparisons of two items.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -82,8 +82,7 @@ impl Preferences {
             .ok_or_else(|| Undefined::because("no comparisons"))?;
         for one in all {
             if one.n_items != sum.n_items {
-                let reason = format!("{} items beside {}", one.n_items, sum.n_items);
-                return Err(Undefined::because(reason));
+                return undefined(format!("{} items beside {}", one.n_items, sum.n_items));
             }
             for (count, more) in sum.wins.iter_mut().zip(&one.wins) {
                 *count += more;
@@ -130,7 +129,7 @@ impl Preferences {
     pub(super) fn check(&self) -> Computed<()> {
         check_items(self.n_items)?;
         if self.compared().is_empty() {
-            return Err(Undefined::because("no comparisons"));
+            return undefined("no comparisons");
         }
         Ok(())
     }
@@ -149,12 +148,10 @@ fn square(rows: &[Vec<u64>]) -> Computed<Vec<u64>> {
     for (i, row) in rows.iter().enumerate() {
         if row.len() != rows.len() {
             let (n, found) = (rows.len(), row.len());
-            let reason = format!("row {} has {found} of {n} columns", i + 1);
-            return Err(Undefined::because(reason));
+            return undefined(format!("row {} has {found} of {n} columns", i + 1));
         }
         if row[i] != 0 {
-            let reason = format!("item {} is preferred to itself", i + 1);
-            return Err(Undefined::because(reason));
+            return undefined(format!("item {} is preferred to itself", i + 1));
         }
     }
     Ok(rows.concat())
@@ -162,8 +159,8 @@ fn square(rows: &[Vec<u64>]) -> Computed<Vec<u64>> {
 
 pub(super) fn check_items(n_items: usize) -> Computed<()> {
     match n_items {
-        0 => Err(Undefined::because("no items")),
-        1 => Err(Undefined::because("one item alone: nothing to compare")),
+        0 => undefined("no items"),
+        1 => undefined("one item alone: nothing to compare"),
         _ => Ok(()),
     }
 }
@@ -172,7 +169,7 @@ pub(super) fn check_items(n_items: usize) -> Computed<()> {
 pub(super) fn check_rankings<R: AsRef<[usize]>>(n_items: usize, rankings: &[R]) -> Computed<()> {
     check_items(n_items)?;
     if rankings.is_empty() {
-        return Err(Undefined::because("no rankings"));
+        return undefined("no rankings");
     }
     for (index, ranking) in rankings.iter().enumerate() {
         check_distinct(n_items, ranking.as_ref()).map_err(|why| {

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::{Computed, Interval, Undefined, normal_quantile};
+use crate::{Computed, Interval, normal_quantile, undefined};
 
 /// A number with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,11 +20,7 @@ impl Estimate {
     /// A level outside (0, 1).
     pub fn interval(&self, level: f64) -> Computed<Interval> {
         let half = normal_quantile(0.5 + 0.5 * level)? * self.se;
-        Ok(Interval {
-            low: self.value - half,
-            high: self.value + half,
-            level,
-        })
+        Ok(Interval::about(self.value, half, level))
     }
 }
 
@@ -67,7 +63,7 @@ impl Scale {
         if upper >= n || lower >= n || upper == lower {
             let (upper, lower) = (upper + 1, lower + 1);
             let reason = format!("items {upper} and {lower} of {n} have no difference");
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let c = &self.covariance;
         let variance = c[upper][upper] + c[lower][lower] - 2.0 * c[upper][lower];

@@ -5,14 +5,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::choices::Prior;
 use super::connection::number;
-use super::deviance::{Deviance, deviance_of};
+use super::deviance::Deviance;
 use super::newton::{LogLikelihood, maximise};
 use super::preferences::{Compared, Preferences, span_of_pairs};
 use super::scale::Scale;
 use crate::detection::Correction;
 use crate::{
-    Computed, Freedom, Named, Outcome, Sides, Undefined, chi_squared_upper, normal_density,
-    normal_lower, normal_quantile,
+    Computed, Named, Outcome, by_chi_squared, normal_density, normal_lower, normal_quantile,
+    undefined,
 };
 
 /// Values of items by maximum likelihood (probit).
@@ -43,19 +43,10 @@ pub fn thurstone(preferences: &Preferences) -> Computed<Thurstone> {
         pairs: preferences.compared(),
     };
     let peak = maximise(&model, vec![0.0; n_items])?;
-    let residual = |pair: &Compared| deviance_of(pair.wins, shares(pair, &peak.at));
-    let null = |pair: &Compared| deviance_of(pair.wins, [0.5; 2]);
     Ok(Thurstone {
         scale: Scale::of(&peak.at, &peak.covariance),
         log_likelihood: model.value(&peak.at),
-        deviance: Deviance {
-            n_comparisons: preferences.n_comparisons(),
-            residual: model.pairs.iter().map(residual).sum(),
-            df: (model.pairs.len() + 1).saturating_sub(n_items),
-            null: model.pairs.iter().map(null).sum(),
-            null_df: model.pairs.len(),
-            prior: Prior::None,
-        },
+        deviance: Deviance::of(preferences, Prior::None, |pair| shares(pair, &peak.at)),
         n_steps: peak.n_steps,
     })
 }
@@ -138,7 +129,7 @@ pub fn mosteller(preferences: &Preferences) -> Computed<Mosteller> {
             "never compared: {}; row means need every pair",
             missing.join(", ")
         );
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let k = preferences.n_items();
     let mut values = vec![0.0; k];
@@ -162,7 +153,7 @@ fn arcsine_fit(pairs: &[Compared], values: &[f64]) -> Computed<Outcome> {
     let k = values.len();
     if k < 3 {
         let reason = "two items have one share and one difference: nothing left to test by";
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     // The variance of the arcsine of the root of a share is 1/(4n).
     let term = |pair: &Compared| {
@@ -174,19 +165,14 @@ fn arcsine_fit(pairs: &[Compared], values: &[f64]) -> Computed<Outcome> {
     let chi: f64 = pairs.iter().map(term).sum();
     let n: u64 = pairs.iter().map(Compared::n).sum();
     let df = ((k - 1) * (k - 2) / 2) as f64;
-    Ok(Outcome {
-        test: "Mosteller, fit of Case V",
-        n: vec![usize::try_from(n).unwrap_or(usize::MAX)],
-        statistic: Named {
-            symbol: "χ²",
-            value: chi,
-        },
-        df: Freedom::One(df),
-        p: chi_squared_upper(chi, df)?,
-        sides: Sides::Greater,
-        effect: Err(Undefined::because("a test of fit")),
-        estimate: Err(Undefined::because("a test of fit")),
-        interval: Err(Undefined::because("a test of fit")),
-        notes: vec!["p by χ²".to_owned()],
-    })
+    let why = "a test of fit";
+    let n = vec![usize::try_from(n).unwrap_or(usize::MAX)];
+    let statistic = (Named::of("χ²", chi), df);
+    by_chi_squared(
+        "Mosteller, fit of Case V",
+        n,
+        statistic,
+        undefined(why),
+        why,
+    )
 }

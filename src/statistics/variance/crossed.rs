@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// A factor and its levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,7 +52,7 @@ impl Crossed {
             if answer.levels.len() != factors.len() {
                 let (found, wanted) = (answer.levels.len(), factors.len());
                 let reason = format!("answer {}: {found} levels, not {wanted}", index + 1);
-                return Err(Undefined::because(reason));
+                return undefined(reason);
             }
             let subject = place_of(&mut table.subjects, &answer.subject);
             let named = table.factors.iter_mut().zip(&answer.levels);
@@ -85,7 +85,7 @@ impl Crossed {
         let n_expected = self.subjects.len() * self.n_cells();
         if self.values.len() != n_expected {
             let reason = format!("{} values for {n_expected} cells", self.values.len());
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let is_missing = |v: &Option<f64>| !v.is_some_and(f64::is_finite);
         let missing: Vec<String> = self
@@ -96,8 +96,7 @@ impl Crossed {
             .map(|(index, _)| self.label(index))
             .collect();
         if !missing.is_empty() {
-            let reason = format!("missing cells: {}", missing.join("; "));
-            return Err(Undefined::because(reason));
+            return undefined(format!("missing cells: {}", missing.join("; ")));
         }
         Ok(self.values.iter().flatten().copied().collect())
     }

@@ -1,7 +1,7 @@
 //! A row of an analysis of variance, and what its numbers say of each other.
 
 use crate::distribution::f_upper;
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// One effect against its own error.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,13 +66,13 @@ impl Sums {
         let f = if ss_error > 0.0 {
             Ok((ss / df) / (ss_error / df_error))
         } else if ss > 0.0 {
-            Err(Undefined::because(format!(
+            undefined(format!(
                 "{name}: no variation in its error term, F is infinite"
-            )))
+            ))
         } else {
-            Err(Undefined::because(format!(
+            undefined(format!(
                 "{name}: no effect and no variation in its error term, F is 0/0"
-            )))
+            ))
         };
         let share = |part: f64, whole: f64| {
             let is_there = whole > 0.0;
@@ -101,8 +101,7 @@ impl Sums {
 /// F negative or not finite, degrees of freedom not positive.
 pub fn partial_eta_squared(f: f64, df: f64, df_error: f64) -> Computed {
     if !(f >= 0.0 && f.is_finite() && df > 0.0 && df_error > 0.0) {
-        let reason = format!("F = {f} with df = {df}, {df_error}");
-        return Err(Undefined::because(reason));
+        return undefined(format!("F = {f} with df = {df}, {df_error}"));
     }
     Ok(f * df / (f * df + df_error))
 }

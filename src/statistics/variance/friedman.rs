@@ -1,8 +1,7 @@
 //! Ranks within subjects: Friedman's test and Kendall's W.
 
-use crate::distribution::chi_squared_upper;
 use crate::summary::at_least;
-use crate::{Computed, Freedom, Named, Outcome, Ranks, Sides, Undefined};
+use crate::{Computed, Named, Outcome, Ranks, Undefined, by_chi_squared, undefined};
 
 /// Whether conditions differ in rank within subjects (Friedman 1937).
 ///
@@ -29,33 +28,24 @@ pub fn friedman(rows: &[Vec<f64>]) -> Computed<Outcome> {
     let between: f64 = sums.iter().map(|s| (s - expected).powi(2)).sum();
     let possible = n * levels * (levels + 1.0) - tie_sum / (levels - 1.0);
     if possible <= 0.0 {
-        let reason = "every subject's answers are all equal: nothing to rank";
-        return Err(Undefined::because(reason));
+        return undefined("every subject's answers are all equal: nothing to rank");
     }
     let chi = 12.0 * between / possible;
     let df = levels - 1.0;
-    let mut notes = vec!["p by χ²".to_owned()];
+    let statistic = (Named::of("χ²", chi), df);
+    let effect = Ok(Named::of("W", chi / (n * df)));
+    let n = vec![rows.len()];
+    let mut outcome = by_chi_squared(
+        "Friedman",
+        n,
+        statistic,
+        effect,
+        "several conditions, not one",
+    )?;
     if tie_sum > 0.0 {
-        notes.push("corrected for ties".to_owned());
+        outcome.notes.push("corrected for ties".to_owned());
     }
-    Ok(Outcome {
-        test: "Friedman",
-        n: vec![rows.len()],
-        statistic: Named {
-            symbol: "χ²",
-            value: chi,
-        },
-        df: Freedom::One(df),
-        p: chi_squared_upper(chi, df)?,
-        sides: Sides::Greater,
-        effect: Ok(Named {
-            symbol: "W",
-            value: chi / (n * df),
-        }),
-        estimate: Err(Undefined::because("several conditions, not one")),
-        interval: Err(Undefined::because("several conditions, not one")),
-        notes,
-    })
+    Ok(outcome)
 }
 
 fn check(rows: &[Vec<f64>]) -> Computed<usize> {
@@ -65,13 +55,13 @@ fn check(rows: &[Vec<f64>]) -> Computed<usize> {
             "{} subjects in {k} conditions: 2 of each needed",
             rows.len()
         );
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     for (index, row) in rows.iter().enumerate() {
         let subject = index + 1;
         if row.len() != k {
             let reason = format!("subject {subject} has {} of {k} conditions", row.len());
-            return Err(Undefined::because(reason));
+            return undefined(reason);
         }
         let name = |e: Undefined| Undefined::because(format!("subject {subject}: {}", e.reason));
         at_least(row, k).map_err(name)?;

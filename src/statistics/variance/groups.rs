@@ -1,9 +1,11 @@
 //! Groups of different subjects: one-way analysis of variance, Welch's, and Kruskal–Wallis.
 
 use super::effect::{Effect, Sums};
-use crate::distribution::{chi_squared_upper, f_upper};
+use crate::distribution::f_upper;
 use crate::summary::{at_least, centred, is_rounding, largest, sum_of_squares};
-use crate::{Computed, Freedom, Named, Outcome, Ranks, Sides, Summary, Undefined};
+use crate::{
+    Computed, Freedom, Named, Outcome, Ranks, Sides, Summary, Undefined, by_chi_squared, undefined,
+};
 
 /// One-way analysis of variance between groups (Fisher 1925), sums about the mean in two passes.
 ///
@@ -13,7 +15,7 @@ pub fn one_way(name: &str, groups: &[Vec<f64>]) -> Computed<Effect> {
     let all = joined(groups)?;
     let (n, k) = (all.len(), groups.len());
     if n == k {
-        return Err(Undefined::because("every group has one value alone"));
+        return undefined("every group has one value alone");
     }
     let scale = largest(&all);
     let (_, about_mean) = centred(&all);
@@ -67,19 +69,13 @@ pub fn welch(groups: &[Vec<f64>]) -> Computed<Outcome> {
     Ok(Outcome {
         test: "Welch analysis of variance",
         n,
-        statistic: Named {
-            symbol: "F",
-            value: f,
-        },
+        statistic: Named::of("F", f),
         df: Freedom::Two(df, df_error),
         p: f_upper(f, df, df_error)?,
         sides: Sides::Greater,
-        effect: Ok(Named {
-            symbol: "ω²",
-            value: omega,
-        }),
-        estimate: Err(Undefined::because("several means, not one")),
-        interval: Err(Undefined::because("several means, not one")),
+        effect: Ok(Named::of("ω²", omega)),
+        estimate: undefined("several means, not one"),
+        interval: undefined("several means, not one"),
         notes: Vec::new(),
     })
 }
@@ -104,8 +100,7 @@ pub fn kruskal_wallis(groups: &[Vec<f64>]) -> Computed<Outcome> {
     let Ranks { ranks, tie_sum } = Ranks::of(&all);
     let untied = 1.0 - tie_sum / (n * n * n - n);
     if untied <= 0.0 {
-        let reason = format!("all {} values equal {}", all.len(), all[0]);
-        return Err(Undefined::because(reason));
+        return undefined(format!("all {} values equal {}", all.len(), all[0]));
     }
     let (mut between, mut start) = (0.0, 0);
     for group in groups {
@@ -116,35 +111,26 @@ pub fn kruskal_wallis(groups: &[Vec<f64>]) -> Computed<Outcome> {
     }
     let h = 12.0 / (n * (n + 1.0)) * between / untied;
     let df = groups.len() as f64 - 1.0;
-    let mut notes = vec!["p by χ²".to_owned()];
+    let statistic = (Named::of("H", h), df);
+    let effect = Ok(Named::of("ε²", h / (n - 1.0)));
+    let n = groups.iter().map(Vec::len).collect();
+    let mut outcome = by_chi_squared(
+        "Kruskal–Wallis",
+        n,
+        statistic,
+        effect,
+        "several groups, not one",
+    )?;
     if tie_sum > 0.0 {
-        notes.push("corrected for ties".to_owned());
+        outcome.notes.push("corrected for ties".to_owned());
     }
-    Ok(Outcome {
-        test: "Kruskal–Wallis",
-        n: groups.iter().map(Vec::len).collect(),
-        statistic: Named {
-            symbol: "H",
-            value: h,
-        },
-        df: Freedom::One(df),
-        p: chi_squared_upper(h, df)?,
-        sides: Sides::Greater,
-        effect: Ok(Named {
-            symbol: "ε²",
-            value: h / (n - 1.0),
-        }),
-        estimate: Err(Undefined::because("several groups, not one")),
-        interval: Err(Undefined::because("several groups, not one")),
-        notes,
-    })
+    Ok(outcome)
 }
 
 /// All values one after another, of at least two groups none of which is empty.
 fn joined(groups: &[Vec<f64>]) -> Computed<Vec<f64>> {
     if groups.len() < 2 {
-        let reason = format!("{} groups, at least 2 are needed", groups.len());
-        return Err(Undefined::because(reason));
+        return undefined(format!("{} groups, at least 2 are needed", groups.len()));
     }
     for (index, group) in groups.iter().enumerate() {
         let name = |e: Undefined| Undefined::because(format!("group {}: {}", index + 1, e.reason));

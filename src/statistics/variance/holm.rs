@@ -1,6 +1,6 @@
 //! Many comparisons at once.
 
-use crate::{Computed, Outcome, Undefined, paired_t};
+use crate::{Computed, Outcome, paired_t, undefined};
 
 /// Two conditions compared within subjects.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +21,7 @@ pub struct Comparison {
 pub fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Comparison>> {
     let k = conditions.len();
     if k < 2 {
-        let reason = format!("{k} conditions make no pair");
-        return Err(Undefined::because(reason));
+        return undefined(format!("{k} conditions make no pair"));
     }
     let pairs = (0..k).flat_map(|i| (i + 1..k).map(move |j| [i, j]));
     let compared = |[i, j]: [usize; 2]| {
@@ -70,7 +69,7 @@ mod tests {
         let other = vec![5.0, 9.0, 6.0, 9.5];
         let found = every_pair(&[first.clone(), shifted, other.clone()])?;
         let [constant, larger, _] = found.as_slice() else {
-            return Err(Undefined::because("three pairs"));
+            return undefined("three pairs");
         };
         assert!(constant.p_holm.is_err(), "a difference without spread");
         assert_eq!(larger.conditions, [0, 2]);

@@ -10,7 +10,7 @@
 use super::crossed::{Crossed, Factor};
 use super::effect::{Effect, Sphericity, Sums};
 use crate::summary::{centred, is_rounding, largest, sum_of_squares};
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 /// The analysis of a table of repeated measures.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,12 +101,11 @@ fn analyse(
 ) -> Computed<Repeated> {
     let is_short = |f: &Factor| f.levels.len() < 2;
     if let Some(factor) = table.factors.iter().find(|f| is_short(f)) {
-        let reason = format!("{} has fewer than two levels", factor.name);
-        return Err(Undefined::because(reason));
+        return undefined(format!("{} has fewer than two levels", factor.name));
     }
     let n = table.subjects.len();
     if n < 2 {
-        return Err(Undefined::because("one subject alone"));
+        return undefined("one subject alone");
     }
     let values = table.complete()?;
     let (_, about_mean) = centred(&values);

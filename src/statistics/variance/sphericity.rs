@@ -2,7 +2,7 @@
 
 use super::effect::Sphericity;
 use crate::distribution::{chi_squared_upper, f_upper};
-use crate::{Computed, Undefined};
+use crate::{Computed, Undefined, undefined};
 
 impl Sphericity {
     /// From the sums of products about their means of `p` orthonormal contrasts over `n` subjects
@@ -20,7 +20,7 @@ impl Sphericity {
         let trace: f64 = products.iter().step_by(p + 1).sum();
         let square: f64 = products.iter().map(|x| (x / trace).powi(2)).sum();
         if !(trace > 0.0 && square.is_finite()) {
-            return Err(Undefined::because("no variation of the differences"));
+            return undefined("no variation of the differences");
         }
         let epsilon = (1.0 / (levels * square)).min(1.0);
         let rest = subjects - 1.0 - levels * epsilon;
@@ -28,7 +28,7 @@ impl Sphericity {
             Ok((subjects * levels * epsilon - 2.0) / (levels * rest))
         } else {
             let reason = format!("{n} subjects are too few for ε of Huynh and Feldt");
-            Err(Undefined::because(reason))
+            undefined(reason)
         };
         let corrected = |epsilon: f64| {
             let df = levels * epsilon;
@@ -53,7 +53,7 @@ impl Sphericity {
 fn mauchly_w(products: &[f64], p: usize, n: usize, trace: f64) -> Computed {
     if n <= p {
         let reason = format!("Mauchly's test of {p} contrasts needs over {p} subjects, not {n}");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     let mean = trace / p as f64;
     let scaled: Vec<f64> = products.iter().map(|x| x / mean).collect();
@@ -68,8 +68,7 @@ fn mauchly_p(w: f64, p: f64, n: f64) -> Computed {
     let df = n - 1.0;
     let rho = 1.0 - (2.0 * p * p + p + 2.0) / (6.0 * p * df);
     if rho <= 0.0 {
-        let reason = format!("Mauchly's test: {n} subjects are too few for χ²");
-        return Err(Undefined::because(reason));
+        return undefined(format!("Mauchly's test: {n} subjects are too few for χ²"));
     }
     let chi = (-df * rho * w.ln()).max(0.0);
     let cubic = 2.0 * p.powi(3) + 6.0 * p * p + 3.0 * p + 2.0;

@@ -1,15 +1,14 @@
 //! Reliefs that vary both ways: model cloths of the library, and random ones like weathered ground.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::{Effort, ReportError};
+use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_textile::Library;
 use selvedge_textile::surface::{
     AREAL_WIRE_MM, Direction, HeightMap, Probe, Surface, SurfaceError,
 };
-use selvedge_textile::{Library, TextileError};
 
 /// The random relief's name.
 const RANDOM: &str = "random relief";
@@ -43,16 +42,11 @@ pub(super) fn names(effort: Effort) -> Vec<&'static str> {
 
 impl Case {
     pub(super) fn of(name: &str, seed: u64) -> Result<Self, ReportError> {
-        let failed = |source: SurfaceError| TextileError::Surface {
-            path: PathBuf::from(name),
-            source,
-        };
+        let failed = textiles::wrong(name);
         let map = if name == RANDOM {
-            random_relief(seed).map_err(failed)?
+            random_relief(seed).map_err(&failed)?
         } else {
-            let source = Library::shipped()?.manifest(name)?.source;
-            let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
-            map.map_err(failed)?
+            textiles::relief(name, &Library::shipped()?.manifest(name)?.source)?
         };
         let wrong = |(_, error): (Direction, SurfaceError)| failed(error);
         let economical = |width_mm: f64| {

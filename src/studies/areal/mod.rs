@@ -9,16 +9,16 @@ use std::sync::Arc;
 
 use cases::Case;
 
-use super::rendering::cloths::{exeter, placed, poses_between, scene_of};
-use super::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Chart, Series};
-use selvedge_foundation::geometry::Point;
-use selvedge_foundation::numerics::{Random, quantile};
+use super::chart::{chart, series};
+use super::readable::{deviation, mean};
+use super::{Bench, Findings, ReportError, Row, Study, textiles};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::numerics::{Random, median, quantile};
 use selvedge_foundation::quantity::{level_db, with_unit};
-use selvedge_render::RenderScene;
-use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::array::Method;
 use selvedge_render::scene::Pose;
 use selvedge_textile::surface::Surface;
+use textiles::{amplitudes_um, poses_between, scene_with};
 
 /// Speeds of exploring fingers, mm/s.
 const SPEEDS_MM_PER_S: [f64; 2] = [20.0, 300.0];
@@ -30,46 +30,38 @@ const N_TIMED: usize = 16;
 const PROMISED_DB: f64 = 0.05;
 
 /// Economical against areal, on model cloths and a random relief.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ArealStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "areal",
+    question: "How far is one profile a direction, repeated across, from spectra at every point, \
+               and what do the points cost?",
+    reference: "The areal surface of the same relief, rendered by reference: contactor by \
+                contactor.",
+    error: ("level error", "dB"),
+    cost_of: "tick of 24 contactors",
+    run,
+};
 
-impl Study for ArealStudy {
-    fn name(&self) -> &'static str {
-        "areal"
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let names = cases::names(bench.effort);
+    let mut findings = Findings::default();
+    let mut series = Vec::new();
+    for (number, name) in names.iter().enumerate() {
+        bench.step(number as f64 / names.len() as f64, name)?;
+        let case = Case::of(name, bench.seed)?;
+        let felt = Felt::of(&case, bench)?;
+        series.push(felt.shares(&case.name));
+        findings.rows.extend(felt.rows(&case, bench)?);
+        findings.notes.push(felt.note(&case.name));
     }
-
-    fn question(&self) -> &'static str {
-        "How far is one profile a direction, repeated across, from spectra at every point, and \
-         what do the points cost?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The areal surface of the same relief, rendered by reference: contactor by contactor."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("level error", "dB")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "tick of 24 contactors"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let names = cases::names(bench.effort);
-        let mut findings = Findings::default();
-        let mut series = Vec::new();
-        for (number, name) in names.iter().enumerate() {
-            bench.step(number as f64 / names.len() as f64, name)?;
-            let case = Case::of(name, bench.seed)?;
-            let felt = Felt::of(&case, bench)?;
-            series.push(felt.shares(&case.name));
-            findings.rows.extend(felt.rows(&case, bench)?);
-            findings.notes.push(felt.note(&case.name));
-        }
-        findings.plots = vec![("areal-errors".to_owned(), plot(series))];
-        Ok(findings)
-    }
+    let plot = chart(
+        "One profile a direction beside every point",
+        Axis::linear("level error of a contactor, dB"),
+        Axis::linear("share of errors below, %").within([0.0, 100.0]),
+        series,
+        "Random places and strokes of 20 to 300 mm/s; the tester's wire of 5 mm.",
+    );
+    findings.plots = vec![("areal-errors".to_owned(), plot)];
+    Ok(findings)
 }
 
 /// A case on random poses: what is felt of each surface.
@@ -111,114 +103,87 @@ impl Felt {
         let mut rows = Vec::new();
         let settings = ["one profile, wire of 5 mm", "one profile, wire of 1 mm"];
         for (setting, errors) in settings.into_iter().zip(&self.errors_db) {
-            let mut sizes: Vec<f64> = errors.iter().map(|db| db.abs()).collect();
-            let row = Row {
-                method: "economical".to_owned(),
-                setting: setting.to_owned(),
-                error: sizes.iter().copied().reduce(f64::max),
-                error_p99: Some(quantile(&mut sizes, 0.99)),
-                more: vec![
-                    ("median_error_db", number(quantile(&mut sizes, 0.5))),
-                    ("mean_offset_db", number(mean(errors))),
-                    ("spread_db", number(self.spread_db[0])),
-                ],
-                ..Row::default()
-            };
+            let mut sizes = magnitudes(errors);
+            let row = Row::of("economical", setting, &case.name)
+                .error(sizes.iter().copied().reduce(f64::max))
+                .p99(quantile(&mut sizes, 0.99))
+                .number("median_error_db", 3, quantile(&mut sizes, 0.5))
+                .number("mean_offset_db", 3, mean(errors))
+                .number("spread_db", 3, self.spread_db[0]);
             rows.push(row);
         }
-        rows.push(Row {
-            method: "areal".to_owned(),
-            setting: "every mm, tables made on first touch".to_owned(),
-            error: Some(self.table_db),
-            promised: Some(PROMISED_DB),
-            more: vec![
-                ("median_error_db", String::new()),
-                ("mean_offset_db", String::new()),
-                ("spread_db", number(self.spread_db[1])),
-            ],
-            ..Row::default()
-        });
+        let row = Row::of("areal", "every mm, tables made on first touch", &case.name)
+            .error(self.table_db)
+            .promised(PROMISED_DB)
+            .with("median_error_db", "")
+            .with("mean_offset_db", "")
+            .number("spread_db", 3, self.spread_db[1]);
+        rows.push(row);
         let [kes, narrow] = &case.economical;
-        self.add_costs(&mut rows, [kes, narrow, &case.areal], bench)?;
-        for row in &mut rows {
-            row.case.clone_from(&case.name);
-        }
-        Ok(rows)
+        self.add_costs(rows, [kes, narrow, &case.areal], bench)
     }
 
     /// What a tick over each surface costs once all is made, also as a multiple of the first's;
     /// what preparing costs, and what is kept in memory.
     fn add_costs(
         &self,
-        rows: &mut [Row],
+        rows: Vec<Row>,
         surfaces: [&Arc<Surface>; 3],
         bench: &mut Bench<'_>,
-    ) -> Result<(), ReportError> {
-        let mut renderers = Vec::new();
-        for (row, surface) in rows.iter_mut().zip(surfaces) {
-            let scene = scene(surface);
-            let renderer = prepared(&scene, Method::Table)?;
-            let preparing = bench.time(1, || prepared(&scene, Method::Table).is_ok());
-            row.bytes = u64::try_from(renderer.n_bytes()).ok();
-            row.more.extend([
-                ("preparing_ms", number(1e3 * preparing.cpu_s)),
-                ("points", cases::n_points(surface).to_string()),
-            ]);
-            renderers.push(renderer);
-        }
+    ) -> Result<Vec<Row>, ReportError> {
         let poses = &self.poses[..N_TIMED];
-        let stroke = |mut renderer: ArrayRenderer| {
-            move || {
+        let (mut prepared, mut strokes) = (Vec::new(), Vec::new());
+        for (row, surface) in rows.into_iter().zip(surfaces) {
+            let scene = scene_with(surface);
+            let mut renderer = textiles::prepared(&scene, Method::Table)?;
+            let preparing = bench.time(1, || textiles::prepared(&scene, Method::Table).is_ok());
+            let row = row
+                .bytes(renderer.n_bytes())
+                .number("preparing_ms", 3, 1e3 * preparing.cpu_s)
+                .with("points", cases::n_points(surface));
+            prepared.push(row);
+            strokes.push(move || {
                 for pose in poses {
                     renderer.tick(std::slice::from_ref(pose));
                 }
-            }
-        };
-        let strokes = renderers.into_iter().map(stroke).collect();
-        let costs = bench.time_in_turn(N_TIMED, strokes);
-        for (row, (cost, multiple)) in rows.iter_mut().zip(costs) {
-            row.cost = Some(cost);
-            row.more.push(("times_the_first", number(multiple)));
+            });
         }
-        Ok(())
+        let costs = bench.time_in_turn(N_TIMED, strokes).into_iter();
+        let with_cost = |(row, (cost, multiple)): (Row, (_, f64))| {
+            row.cost(cost).number("times_the_first", 3, multiple)
+        };
+        Ok(prepared.into_iter().zip(costs).map(with_cost).collect())
     }
 
     fn note(&self, case: &str) -> String {
-        let [errors, narrow] = self.errors_db.each_ref().map(|errors| {
-            let mut sizes: Vec<f64> = errors.iter().map(|db| db.abs()).collect();
-            with_unit(quantile(&mut sizes, 0.5), 1, "dB")
-        });
-        let offset = with_unit(mean(&self.errors_db[0]), 1, "dB");
-        let [economical, areal] = self.spread_db.map(|db| with_unit(db, 1, "dB"));
+        let median_db = |errors: &Vec<f64>| quantile(&mut magnitudes(errors), 0.5);
+        let [errors, narrow] = self.errors_db.each_ref().map(median_db);
+        let [economical, areal] = self.spread_db;
+        let db = |db: f64| with_unit(db, 1, "dB");
         format!(
-            "{case}: one profile is {errors} off in the median ({offset} in the mean), {narrow} \
-             with a wire of 1 mm; levels of the 24 contactors spread by {economical}, areally by \
-             {areal}."
+            "{case}: one profile is {} off in the median ({} in the mean), {} with a wire of 1 mm; \
+             levels of the 24 contactors spread by {}, areally by {}.",
+            db(errors),
+            db(mean(&self.errors_db[0])),
+            db(narrow),
+            db(economical),
+            db(areal)
         )
     }
 
     /// The share of level errors below so many dB.
     fn shares(&self, name: &str) -> Series {
-        let mut sizes: Vec<f64> = self.errors_db[0].iter().map(|db| db.abs()).collect();
+        let mut sizes = magnitudes(&self.errors_db[0]);
         let point = |percent: u32| {
             let share = f64::from(percent) / 100.0;
             [quantile(&mut sizes, share), f64::from(percent)]
         };
-        Series {
-            name: name.to_owned(),
-            points: (0..=100).step_by(2).map(point).collect(),
-            ..Series::default()
-        }
+        series(name, Style::Dots, (0..=100).step_by(2).map(point))
     }
 }
 
-fn scene(surface: &Arc<Surface>) -> RenderScene {
-    scene_of(vec![placed(surface, Point::default())], exeter())
-}
-
-fn prepared(scene: &RenderScene, method: Method) -> Result<ArrayRenderer, ReportError> {
-    let accuracy = Accuracy::within_db(PROMISED_DB);
-    Ok(ArrayRenderer::prepare(scene, method, &accuracy)?)
+fn magnitudes(errors: &[f64]) -> Vec<f64> {
+    errors.iter().map(|error| error.abs()).collect()
 }
 
 /// Amplitudes of all contactors at every pose, µm.
@@ -227,12 +192,8 @@ fn amplitudes(
     method: Method,
     poses: &[Pose],
 ) -> Result<Vec<Vec<[f64; 2]>>, ReportError> {
-    let mut renderer = prepared(&scene(surface), method)?;
-    let tick = |pose: &Pose| {
-        let frame = &renderer.tick(std::slice::from_ref(pose))[0];
-        let of_contactor = |contactor| frame.amplitude_um(contactor);
-        (0..frame.n_contactors()).map(of_contactor).collect()
-    };
+    let mut renderer = textiles::prepared(&scene_with(surface), method)?;
+    let tick = |pose: &Pose| amplitudes_um(&mut renderer, std::slice::from_ref(pose)).collect();
     Ok(poses.iter().map(tick).collect())
 }
 
@@ -263,34 +224,9 @@ fn errors_db_of_table(found: &[Vec<[f64; 2]>], exact: &[Vec<[f64; 2]>]) -> Vec<f
 fn spread_db(felt: &[Vec<[f64; 2]>]) -> f64 {
     let of_frame = |frame: &Vec<[f64; 2]>, b: usize| {
         let levels: Vec<f64> = frame.iter().map(|pair| level_db(pair[b])).collect();
-        let mean = mean(&levels);
-        let squares = levels.iter().map(|db| (db - mean).powi(2)).sum::<f64>();
-        (squares / levels.len() as f64).sqrt()
+        deviation(&levels)
     };
-    let mut spreads: Vec<f64> = felt
-        .iter()
-        .flat_map(|frame| [of_frame(frame, 0), of_frame(frame, 1)])
-        .filter(|db| db.is_finite())
-        .collect();
-    selvedge_foundation::numerics::median(&mut spreads)
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
-fn number(value: f64) -> String {
-    format!("{value:.3}")
-}
-
-fn plot(series: Vec<Series>) -> Chart {
-    Chart {
-        title: "One profile a direction beside every point".to_owned(),
-        x: Axis::linear("level error of a contactor, dB"),
-        y: Axis::linear("share of errors below, %").within([0.0, 100.0]),
-        series,
-        footnote: "Random places and strokes of 20 to 300 mm/s; the tester's wire of 5 mm."
-            .to_owned(),
-        ..Chart::default()
-    }
+    let frames = felt.iter();
+    let spreads = frames.flat_map(|frame| [of_frame(frame, 0), of_frame(frame, 1)]);
+    median(&mut spreads.filter(|db| db.is_finite()).collect::<Vec<f64>>())
 }

@@ -9,12 +9,12 @@ use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
 use selvedge_foundation::quantity::time_span;
 
 /// A step of the contactor.
-pub(super) type ContactorStep = Propagator<5, 2>;
+pub(crate) type ContactorStep = Propagator<5, 2>;
 
 /// The frequencies of the device, Hz.
-pub(super) const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
+pub(crate) const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
 /// Length of the DAC's sample, s.
-pub(super) const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
+pub(crate) const SAMPLE_S: f64 = 1.0 / SAMPLES_PER_S as f64;
 
 /// A contactor with a load.
 pub(super) struct Case {
@@ -94,7 +94,7 @@ impl Step {
 }
 
 /// A step of `step_s` by a method; `None` where it has no finite solution.
-pub(super) fn propagator(
+pub(crate) fn propagator(
     model: &ContactorModel,
     method: StepMethod,
     step_s: f64,

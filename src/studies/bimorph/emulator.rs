@@ -3,6 +3,8 @@
 //! They are read at their samples, where a line comes with the images that fold onto it.
 
 use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
+use crate::chart::{chart, series};
+use crate::readable::{largest, whole};
 use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Chart, Ink, Series, Style};
 use selvedge_device::{ActuatorModel, ContactorModel, MAX_QUALITY, Skin};
@@ -39,19 +41,16 @@ fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
     let mut one = ActuatorModel::new(model, 1).ok()?;
     // The slowest swing falls by e in Q / (π f); 12 of those leave 6 millionths.
     let ringing_s = 12.0 * model.quality / (std::f64::consts::PI * model.bimorph.resonance_hz());
-    for _ in 0..8 + ticks(ringing_s) {
+    for _ in 0..8 + whole((ringing_s * TICKS_PER_S).ceil()) {
         one.tick(&[CODES], RAIL_V);
     }
     let found = one.reading().contactors[0];
     let off = |truth: &dyn Fn(f64) -> f64| {
-        let errors = CARRIERS_HZ
-            .into_iter()
-            .enumerate()
-            .map(|(band, frequency_hz)| {
-                let volts = model.full_scale_v * f64::from(CODES[band]) / 65_535.0;
-                (found.amplitude_um[band] / (volts * truth(frequency_hz)) - 1.0).abs()
-            });
-        errors.fold(0.0, f64::max)
+        let bands = CARRIERS_HZ.into_iter().enumerate();
+        largest(bands.map(|(band, frequency_hz)| {
+            let volts = model.full_scale_v * f64::from(CODES[band]) / 65_535.0;
+            (found.amplitude_um[band] / (volts * truth(frequency_hz)) - 1.0).abs()
+        }))
     };
     let error = off(&|hz| held_response(model, hz, SAMPLE_S).norm());
     let without_images =
@@ -59,50 +58,30 @@ fn run(model: &ContactorModel, bench: &mut Bench<'_>) -> Option<Row> {
     let mut array = ActuatorModel::new(model, N_CONTACTORS).ok()?;
     let codes = [CODES; N_CONTACTORS];
     let cost = bench.time(N_CONTACTORS, || array.tick(&codes, RAIL_V).n_ticks);
-    Some(Row {
-        method: "emulator".to_owned(),
-        setting: "24 contactors".to_owned(),
-        case: format!("skin {}, Q {}", model.skin, model.quality),
-        error: Some(error),
-        promised: Some(PROMISED),
-        cost: Some(super::times(cost, TICKS_PER_S)),
-        more: vec![
-            ("step_s", format!("{SAMPLE_S:e}")),
-            ("quality", model.quality.to_string()),
-            ("skin_n_per_m", model.skin.stiffness_n_per_m.to_string()),
-            ("error_without_images", format!("{without_images:e}")),
-        ],
-        ..Row::default()
-    })
-}
-
-fn ticks(time_s: f64) -> u32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "some hundreds"
-    )]
-    let n = (time_s * TICKS_PER_S).ceil() as u32;
-    n
+    let case = format!("skin {}, Q {}", model.skin, model.quality);
+    let row = Row::of("emulator", "24 contactors", case)
+        .error(error)
+        .promised(PROMISED)
+        .cost(cost.times(TICKS_PER_S))
+        .with("step_s", format!("{SAMPLE_S:e}"))
+        .with("quality", model.quality)
+        .with("skin_n_per_m", model.skin.stiffness_n_per_m)
+        .with("error_without_images", format!("{without_images:e}"));
+    Some(row)
 }
 
 /// |H(f)| with several loads, and what the exact method makes of it.
 pub(super) fn responses() -> Chart {
     let frequency = |nth: u32| 10.0 * 400.0_f64.powf(f64::from(nth) / 240.0);
-    let mut series = Vec::new();
-    let mut stepped = Vec::new();
+    let (mut all, mut stepped) = (Vec::new(), Vec::new());
     for (name, skin) in Skin::NAMED {
         let model = ContactorModel {
             skin,
             ..ContactorModel::default()
         };
         let line = |hz: f64| [hz, model.response_um_per_v(hz).norm()];
-        series.push(Series {
-            name: format!("{name}, closed form"),
-            points: (0..=240).map(frequency).map(line).collect(),
-            style: Style::Line,
-            ..Series::default()
-        });
+        let points = (0..=240).map(frequency).map(line);
+        all.push(series(format!("{name}, closed form"), Style::Line, points));
         let exact = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
         let dot = |hz: f64| {
             let found = exact?.response(std::f64::consts::TAU * hz * SAMPLE_S)?;
@@ -113,19 +92,15 @@ pub(super) fn responses() -> Chart {
         };
         stepped.extend((0..=240).step_by(20).map(frequency).filter_map(dot));
     }
-    series.push(Series {
-        name: "exact hold".to_owned(),
-        points: stepped,
-        style: Style::Dots,
+    all.push(Series {
         ink: Ink::Grey,
-        ..Series::default()
+        ..series("exact hold", Style::Dots, stepped)
     });
-    Chart {
-        title: "Displacement of the pin for a volt, by load".to_owned(),
-        x: Axis::log("frequency, Hz"),
-        y: Axis::log("displacement, µm/V"),
-        series,
-        footnote: "A model of 25 × 1.5 × 0.6 mm from design-sheet values, Q 40.".to_owned(),
-        ..Chart::default()
-    }
+    chart(
+        "Displacement of the pin for a volt, by load",
+        Axis::log("frequency, Hz"),
+        Axis::log("displacement, µm/V"),
+        all,
+        "A model of 25 × 1.5 × 0.6 mm from design-sheet values, Q 40.",
+    )
 }

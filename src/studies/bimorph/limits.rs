@@ -1,9 +1,9 @@
 //! The longest step that does not grow without end, by method and stiffness.
 
 use super::cases::{SAMPLE_S, propagator};
-use crate::Bench;
-use crate::{Findings, Row};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use crate::chart::{chart, series};
+use crate::{Bench, Findings, Row};
+use selvedge_chart::{Axis, Style};
 use selvedge_device::{ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 use selvedge_foundation::quantity::time_span;
@@ -21,57 +21,33 @@ pub(super) fn find(bench: &Bench<'_>, findings: &mut Findings) {
     let stiffnesses =
         (0..=5 * n_decades).map(|nth| 10.0_f64.powf(f64::from(nth) / f64::from(n_decades)));
     let stiffnesses: Vec<f64> = std::iter::once(0.0).chain(stiffnesses).collect();
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     for quality in [40.0, MAX_QUALITY] {
         for method in StepMethod::ALL {
-            let limits: Vec<[f64; 2]> = stiffnesses
-                .iter()
-                .map(|&ks| [ks, limit_s(&contactor(ks, quality), method)])
-                .collect();
-            findings
-                .rows
-                .extend(limits.iter().map(|limit| row(method, quality, *limit)));
+            let limit = |&ks: &f64| [ks, limit_s(&contactor(ks, quality), method)];
+            let limits: Vec<[f64; 2]> = stiffnesses.iter().map(limit).collect();
+            let rows = limits.iter().map(|limit| row(method, quality, *limit));
+            findings.rows.extend(rows);
             if method == StepMethod::RungeKutta4 {
-                series.push(line(&format!("{}, Q {quality}", method.name()), limits));
+                // Free skin has no place on a logarithmic axis; it stands in the table.
+                let placed = limits.into_iter().filter(|limit| limit[0] > 0.0);
+                let name = format!("{}, Q {quality}", method.name());
+                all.push(series(name, Style::Line, placed));
             }
         }
     }
-    let [least, most] = [1.0, 1e5];
-    let flat = |name: &str, step_s: f64| Series {
-        style: Style::Dashed,
-        ..line(name, vec![[least, step_s], [most, step_s]])
-    };
-    series.push(flat("a sample of the DAC", SAMPLE_S));
-    let all_steps = "the others: every step";
-    series.push(flat(all_steps, STEPS_S[1]));
-    findings
-        .plots
-        .push(("bimorph-limits".to_owned(), plot(series)));
-}
-
-fn line(name: &str, points: Vec<[f64; 2]>) -> Series {
-    // Free skin has no place on a logarithmic axis; it stands in the table.
-    let is_placed = |point: &[f64; 2]| point[0] > 0.0;
-    Series {
-        name: name.to_owned(),
-        points: points.into_iter().filter(is_placed).collect(),
-        style: Style::Line,
-        ..Series::default()
-    }
-}
-
-fn plot(series: Vec<Series>) -> Chart {
-    Chart {
-        title: "Longest stable step".to_owned(),
-        x: Axis::log("stiffness of the skin, N/m"),
-        y: Axis::log("step, s"),
-        series,
-        footnote: format!(
-            "Skin without damping. Steps up to {} were looked at.",
-            time_span(STEPS_S[1])
-        ),
-        ..Chart::default()
-    }
+    let flat = |name: &str, s: f64| series(name, Style::Dashed, [[1.0, s], [1e5, s]]);
+    all.push(flat("a sample of the DAC", SAMPLE_S));
+    all.push(flat("the others: every step", STEPS_S[1]));
+    let longest = time_span(STEPS_S[1]);
+    let plot = chart(
+        "Longest stable step",
+        Axis::log("stiffness of the skin, N/m"),
+        Axis::log("step, s"),
+        all,
+        format!("Skin without damping. Steps up to {longest} were looked at."),
+    );
+    findings.plots.push(("bimorph-limits".to_owned(), plot));
 }
 
 fn contactor(stiffness_n_per_m: f64, quality: f64) -> ContactorModel {
@@ -110,16 +86,10 @@ fn row(method: StepMethod, quality: f64, [stiffness, limit_s]: [f64; 2]) -> Row 
     } else {
         "stable at every step".to_owned()
     };
-    Row {
-        method: method.name().to_owned(),
-        setting,
-        case: format!("limit of stability, Q {quality}"),
-        size: Some(stiffness),
-        more: vec![
-            ("quality", quality.to_string()),
-            ("skin_n_per_m", stiffness.to_string()),
-            ("stable_up_to_s", format!("{limit_s:e}")),
-        ],
-        ..Row::default()
-    }
+    let case = format!("limit of stability, Q {quality}");
+    Row::of(method.name(), setting, case)
+        .size(stiffness)
+        .with("quality", quality)
+        .with("skin_n_per_m", stiffness)
+        .with("stable_up_to_s", format!("{limit_s:e}"))
 }

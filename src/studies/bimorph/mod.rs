@@ -9,9 +9,13 @@ mod cases;
 mod emulator;
 mod limits;
 
+pub(crate) use cases::{CARRIERS_HZ, ContactorStep, SAMPLE_S, propagator};
+
+use super::chart::{chart, lines_by};
+use super::readable::largest;
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use cases::{CARRIERS_HZ, Case, SAMPLE_S, Step, held_response, propagator};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use cases::{Case, Step, held_response};
+use selvedge_chart::{Axis, Chart};
 use selvedge_device::{ContactorModel, MAX_QUALITY};
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -20,52 +24,37 @@ const EXACT: f64 = 1e-9;
 /// Steps of a run that is timed.
 const TIMED_STEPS: usize = 1000;
 /// Error and cost of four ways to step a contactor, by step, stiffness and quality.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BimorphStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "bimorph",
+    question: "How should a contactor be stepped, with any skin on it and however sharp its \
+               resonance?",
+    reference: "The closed form of |H| for a sine that a DAC holds, its images included.",
+    error: ("error of the displacement", "of it"),
+    cost_of: "second of a contactor",
+    run,
+};
 
-impl Study for BimorphStudy {
-    fn name(&self) -> &'static str {
-        "bimorph"
-    }
-
-    fn question(&self) -> &'static str {
-        "How should a contactor be stepped, with any skin on it and however sharp its resonance?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The closed form of |H| for a sine that a DAC holds, its images included."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("error of the displacement", "of it")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "second of a contactor"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        bench.step(0.0, "the cost of a step")?;
-        let costs = StepMethod::ALL.map(|method| (method, cost_of_a_step(method, bench)));
-        let cases = Case::all(bench.effort);
-        let mut findings = Findings::default();
-        for (n_done, case) in cases.iter().enumerate() {
-            bench.step(0.1 + 0.6 * n_done as f64 / cases.len() as f64, &case.name)?;
-            for (method, cost) in &costs {
-                findings.rows.extend(rows(case, *method, *cost, bench));
-            }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    bench.step(0.0, "the cost of a step")?;
+    let costs = StepMethod::ALL.map(|method| (method, cost_of_a_step(method, bench)));
+    let cases = Case::all(bench.effort);
+    let mut findings = Findings::default();
+    for (n_done, case) in cases.iter().enumerate() {
+        bench.step(0.1 + 0.6 * n_done as f64 / cases.len() as f64, &case.name)?;
+        for (method, cost) in &costs {
+            findings.rows.extend(rows(case, *method, *cost, bench));
         }
-        findings.plots = error_plots(&cases, &findings.rows);
-        bench.step(0.7, "limits of stability")?;
-        limits::find(bench, &mut findings);
-        bench.step(0.8, "the emulator's contactors")?;
-        emulator::find(bench, &mut findings);
-        findings
-            .plots
-            .push(("bimorph-response".to_owned(), emulator::responses()));
-        findings.notes = notes(&findings);
-        Ok(findings)
     }
+    findings.plots = error_plots(&cases, &findings.rows);
+    bench.step(0.7, "limits of stability")?;
+    limits::find(bench, &mut findings);
+    bench.step(0.8, "the emulator's contactors")?;
+    emulator::find(bench, &mut findings);
+    findings
+        .plots
+        .push(("bimorph-response".to_owned(), emulator::responses()));
+    findings.notes = notes(&findings);
+    Ok(findings)
 }
 
 /// What one step costs: stage by stage for Runge–Kutta, one product of matrices for the others.
@@ -86,38 +75,18 @@ fn cost_of_a_step(method: StepMethod, bench: &mut Bench<'_>) -> Option<Timing> {
     }))
 }
 
-/// A cost of one step as that of so many.
-fn times(cost: Timing, n_steps: f64) -> Timing {
-    Timing {
-        cpu_s: n_steps * cost.cpu_s,
-        cpu_quartiles_s: cost.cpu_quartiles_s.map(|s| n_steps * s),
-        wall_s: n_steps * cost.wall_s,
-        ..cost
-    }
-}
-
 /// A row a step.
 fn rows(case: &Case, method: StepMethod, cost: Option<Timing>, bench: &Bench<'_>) -> Vec<Row> {
     let row = |step: &Step| {
         let error = error_of(case, method, step);
-        Row {
-            method: method.name().to_owned(),
-            setting: step.label(),
-            case: step.of_case(&case.name),
-            error,
-            promised: (method == StepMethod::ExactHold).then_some(EXACT),
-            cost: cost.map(|cost| times(cost, 1.0 / step.step_s())),
-            more: vec![
-                ("step_s", format!("{:e}", step.step_s())),
-                ("quality", case.model.quality.to_string()),
-                (
-                    "skin_n_per_m",
-                    case.model.skin.stiffness_n_per_m.to_string(),
-                ),
-                ("is_stable", error.is_some().to_string()),
-            ],
-            ..Row::default()
-        }
+        Row::of(method.name(), step.label(), step.of_case(&case.name))
+            .error(error)
+            .promised((method == StepMethod::ExactHold).then_some(EXACT))
+            .cost(cost.map(|cost| cost.times(1.0 / step.step_s())))
+            .with("step_s", format!("{:e}", step.step_s()))
+            .with("quality", case.model.quality)
+            .with("skin_n_per_m", case.model.skin.stiffness_n_per_m)
+            .with("is_stable", error.is_some())
     };
     Step::all(bench.effort).iter().map(row).collect()
 }
@@ -143,27 +112,20 @@ fn error_of(case: &Case, method: StepMethod, step: &Step) -> Option<f64> {
 fn error_plots(cases: &[Case], rows: &[Row]) -> Vec<(String, Chart)> {
     let ends = [("usual", cases.first()), ("hardest", cases.last())];
     let plots = ends.into_iter().filter_map(|(name, case)| {
-        let case = case?;
-        let series = StepMethod::ALL.map(|method| Series {
-            name: method.name().to_owned(),
-            points: rows
-                .iter()
-                .filter(|row| row.method == method.name() && row.case.starts_with(&case.name))
-                .filter_map(|row| Some([step_of(row)?, row.error?]))
-                .collect(),
-            style: Style::LineAndDots,
-            ..Series::default()
-        });
-        let plot = Chart {
-            title: format!("Error against step: {}", case.name),
-            x: Axis::log("step, s"),
-            y: Axis::log("error of the displacement, of it"),
-            series: series.into(),
-            footnote: "The worse of 40 and 320 Hz; no dot where a method grows without end. \
-                       Steps above 125 µs hold their input as long as they last."
-                .to_owned(),
-            ..Chart::default()
-        };
+        let case = &case?.name;
+        let of_case = rows.iter().filter(|row| row.case.starts_with(case));
+        let plot = chart(
+            format!("Error against step: {case}"),
+            Axis::log("step, s"),
+            Axis::log("error of the displacement, of it"),
+            lines_by(
+                of_case,
+                |row| &row.method,
+                |row| Some([step_of(row)?, row.error?]),
+            ),
+            "The worse of 40 and 320 Hz; no dot where a method grows without end. Steps above 125 \
+             µs hold their input as long as they last.",
+        );
         Some((format!("bimorph-{name}"), plot))
     });
     plots.collect()
@@ -176,20 +138,22 @@ fn step_of(row: &Row) -> Option<f64> {
 /// What the rows come to.
 fn notes(findings: &Findings) -> Vec<String> {
     let worst = |method: StepMethod| {
-        let rows = findings.rows.iter().filter(|row| {
-            let is_one_sample = step_of(row).is_some_and(|s| (s / SAMPLE_S - 1.0).abs() < 1e-9);
-            row.method == method.name() && is_one_sample
-        });
-        let rows: Vec<&Row> = rows.collect();
-        let n_grown = rows.iter().filter(|row| row.error.is_none()).count();
-        let largest = rows.iter().filter_map(|row| row.error).fold(0.0, f64::max);
-        let stable = rows.len() - n_grown;
-        let error = if stable == 0 {
+        let is_one_sample =
+            |row: &&Row| step_of(row).is_some_and(|s| (s / SAMPLE_S - 1.0).abs() < 1e-9);
+        let rows = findings
+            .rows
+            .iter()
+            .filter(|row| row.method == method.name());
+        let errors: Vec<Option<f64>> = rows.filter(is_one_sample).map(|row| row.error).collect();
+        let stable: Vec<f64> = errors.iter().copied().flatten().collect();
+        let n_grown = errors.len() - stable.len();
+        let error = if stable.is_empty() {
             String::new()
         } else {
+            let largest = largest(stable);
             format!(", at worst {largest:.1e} of the displacement off where it does not")
         };
-        let (name, n) = (method.name(), rows.len());
+        let (name, n) = (method.name(), errors.len());
         format!(
             "One step a sample of 125 µs, {name}: grows without end in {n_grown} of {n} \
              cases{error}."

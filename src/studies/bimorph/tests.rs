@@ -6,7 +6,7 @@ use selvedge_device::Skin;
 
 #[test]
 fn the_exact_hold_keeps_its_promise_everywhere_and_no_other_method_does() {
-    let findings = quick(&BimorphStudy, 1);
+    let findings = quick(&STUDY, 1);
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");
     let sample = |method: StepMethod| {

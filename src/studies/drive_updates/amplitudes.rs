@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::ReportError;
+use crate::{ReportError, textiles};
 use selvedge_foundation::geometry::{Displacement, Point};
 use selvedge_foundation::numerics::Random;
-use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
-use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow};
+use selvedge_render::array::Method;
+use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow, Pose};
 use selvedge_render::{RenderScene, single};
 
 /// A case: its name, and `[A40, A320]` of every tick, µm.
@@ -67,18 +67,15 @@ fn back_and_forth(middle: Point, n_ticks: usize) -> Result<ExplorationPath, Repo
 }
 
 fn felt(scene: &RenderScene, path: &ExplorationPath) -> Result<Vec<[f32; 2]>, ReportError> {
-    let mut renderer = ArrayRenderer::prepare(scene, Method::Auto, &Accuracy::default())?;
-    let mut poses = vec![selvedge_render::scene::Pose::default(); scene.displays.len()];
-    let mut amplitudes = Vec::new();
-    for (_, pose) in path.ticks() {
+    let mut renderer = textiles::prepared(scene, Method::Auto)?;
+    let mut poses = vec![Pose::default(); scene.displays.len()];
+    let at_pose = |(_, pose): (_, Pose)| {
         poses.fill(pose);
-        let frames = renderer.tick(&poses);
-        let of_contactor = frames
-            .first()
-            .and_then(|frame| frame.amplitudes_um().get(CONTACTOR));
-        amplitudes.push(of_contactor.copied().unwrap_or_default());
-    }
-    Ok(amplitudes)
+        let frame = renderer.tick(&poses).first();
+        let of_contactor = frame.and_then(|frame| frame.amplitudes_um().get(CONTACTOR));
+        of_contactor.copied().unwrap_or_default()
+    };
+    Ok(path.ticks().map(at_pose).collect())
 }
 
 #[cfg(test)]

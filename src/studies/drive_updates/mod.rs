@@ -8,12 +8,14 @@ mod amplitudes;
 mod spectrum;
 mod writer;
 
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::{Axis, Chart, Style};
 use selvedge_foundation::numerics::{Random, quantile};
-use selvedge_foundation::quantity::with_unit;
+use selvedge_foundation::quantity::{level_db, with_unit};
 use selvedge_render::RenderError;
 use selvedge_render::array::DriveSynth;
 
+use super::chart::{chart, series};
+use super::readable::{largest, power_level_db, rms};
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use amplitudes::Case;
 use spectrum::{Spectrum, sounded};
@@ -27,10 +29,6 @@ const LEAST_SHARE: f64 = 1e-3;
 const MOST_DB: f64 = 40.0;
 /// The column of the energy above 640 Hz.
 const ABOVE_640_HZ: &str = "above_640_hz_db";
-
-/// Out-of-band energy and level error of three ways to change amplitudes, and their cost.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct DriveUpdatesStudy;
 
 /// When new amplitudes take effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,74 +50,98 @@ const SWITCHINGS: [Switching; 5] = [
 ];
 
 impl Switching {
-    fn label(self) -> &'static str {
+    fn label_and_setting(self) -> (&'static str, String) {
         match self {
-            Self::ZeroCrossing => "zero crossing",
-            Self::Immediate => "immediate",
-            Self::Interpolated(_) => "interpolated",
+            Self::ZeroCrossing => ("zero crossing", "at the tick".to_owned()),
+            Self::Immediate => ("immediate", "at any time".to_owned()),
+            Self::Interpolated(n_samples) => {
+                let ms = 1e3 * n_samples as f64 / RATE_HZ as f64;
+                ("interpolated", format!("over {ms:.0} ms"))
+            }
         }
     }
 
-    fn setting(self) -> String {
-        match self {
-            Self::ZeroCrossing => "at the tick".to_owned(),
-            Self::Immediate => "at any time".to_owned(),
-            Self::Interpolated(n_samples) => {
-                format!("over {:.0} ms", 1e3 * n_samples as f64 / RATE_HZ as f64)
-            }
-        }
+    fn name(self) -> String {
+        let (label, setting) = self.label_and_setting();
+        [label, &setting].join(" ")
     }
 }
 
-impl Study for DriveUpdatesStudy {
-    fn name(&self) -> &'static str {
-        "drive-updates"
-    }
+/// Out-of-band energy and level error of three ways to change amplitudes, and their cost.
+pub(crate) const STUDY: Study = Study {
+    name: "drive-updates",
+    question: "When should new amplitudes begin to sound, so that nothing is felt but their \
+               levels?",
+    reference: "Energy within half an octave of 40 and 320 Hz; levels against those asked for at \
+                the tick.",
+    error: ("out-of-band energy", "of that in band"),
+    cost_of: "sample of a channel",
+    run,
+};
 
-    fn question(&self) -> &'static str {
-        "When should new amplitudes begin to sound, so that nothing is felt but their levels?"
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let n_ticks = bench.effort.pick(80, 800);
+    let random = Random::new(bench.seed);
+    bench.step(0.0, "strokes over the shipped textiles")?;
+    let mut cases = amplitudes::strokes(bench.effort.pick(1, 4), n_ticks)?;
+    cases.push(amplitudes::steps(n_ticks, random.branch("steps")));
+    let mut costs = Vec::new();
+    for switching in SWITCHINGS {
+        bench.step(0.1, switching.label_and_setting().0)?;
+        costs.push(cost(switching, bench)?);
     }
-
-    fn reference(&self) -> &'static str {
-        "Energy within half an octave of 40 and 320 Hz; levels against those asked for at the tick."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("out-of-band energy", "of that in band")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "sample of a channel"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let n_ticks = bench.effort.pick(80, 800);
-        let random = Random::new(bench.seed);
-        bench.step(0.0, "strokes over the shipped textiles")?;
-        let mut cases = amplitudes::strokes(bench.effort.pick(1, 4), n_ticks)?;
-        cases.push(amplitudes::steps(n_ticks, random.branch("steps")));
-        let mut costs = Vec::new();
-        for switching in SWITCHINGS {
-            bench.step(0.1, switching.label())?;
-            costs.push(cost(switching, bench)?);
+    let mut findings = Findings::default();
+    for (n_done, case) in cases.iter().enumerate() {
+        bench.step(0.2 + 0.8 * n_done as f64 / cases.len() as f64, &case.0)?;
+        let mut lines = Vec::new();
+        for (switching, cost) in SWITCHINGS.iter().zip(&costs) {
+            let samples = drive(*switching, &case.1, random.branch("arrival"))?;
+            let spectrum = Spectrum::of(&samples);
+            let row = row(*switching, case, &samples, &spectrum, *cost);
+            findings.rows.push(row);
+            lines.push((*switching, spectrum));
         }
-        let mut findings = Findings::default();
-        for (n_done, case) in cases.iter().enumerate() {
-            bench.step(0.2 + 0.8 * n_done as f64 / cases.len() as f64, &case.0)?;
-            let mut lines = Vec::new();
-            for (switching, cost) in SWITCHINGS.iter().zip(&costs) {
-                let samples = drive(*switching, &case.1, random.branch("arrival"))?;
-                let spectrum = Spectrum::of(&samples);
-                findings
-                    .rows
-                    .push(row(*switching, case, &samples, &spectrum, *cost));
-                lines.push((*switching, spectrum));
+        let name = format!("spectrum-{}", case.0.replace(' ', "-"));
+        findings.plots.push((name, plot(&case.0, &lines)));
+    }
+    findings.notes = notes(&findings.rows);
+    Ok(findings)
+}
+
+/// What writes a way's waveform, tick by tick.
+enum Drive {
+    Product(DriveSynth),
+    Study(Writer),
+}
+
+impl Drive {
+    fn of(switching: Switching, n_channels: usize) -> Result<Self, RenderError> {
+        if switching != Switching::ZeroCrossing {
+            return Ok(Self::Study(Writer::new(n_channels)));
+        }
+        let rate_hz = u32::try_from(RATE_HZ).unwrap_or(u32::MAX);
+        Ok(Self::Product(DriveSynth::prepare(
+            rate_hz, n_channels, 1.0,
+        )?))
+    }
+
+    /// Writes a tick; where amplitudes change as they arrive, they do after `arrival` samples.
+    fn write(
+        &mut self,
+        given: &[[f32; 2]],
+        (switching, arrival): (Switching, usize),
+        out: &mut [f32],
+    ) {
+        match (self, switching) {
+            (Self::Product(synth), _) => {
+                synth.set_amplitudes(given);
+                synth.fill(out);
             }
-            let name = format!("spectrum-{}", case.0.replace(' ', "-"));
-            findings.plots.push((name, plot(&case.0, &lines)));
+            (Self::Study(writer), Switching::Interpolated(n_samples)) => {
+                writer.write(given, Change::Over(n_samples), out);
+            }
+            (Self::Study(writer), _) => writer.write(given, Change::At(arrival), out),
         }
-        findings.notes = notes(&findings.rows);
-        Ok(findings)
     }
 }
 
@@ -130,51 +152,24 @@ fn drive(
     mut random: Random,
 ) -> Result<Vec<f32>, RenderError> {
     let mut samples = vec![0.0; amplitudes.len() * TICK_SAMPLES];
-    let mut synth = synth(1)?;
-    let mut writer = Writer::new(1);
+    let mut drive = Drive::of(switching, 1)?;
     for (out, amplitudes) in samples.chunks_exact_mut(TICK_SAMPLES).zip(amplitudes) {
-        let given = std::slice::from_ref(amplitudes);
-        let change = match switching {
-            Switching::ZeroCrossing => {
-                synth.set_amplitudes(given);
-                synth.fill(out);
-                continue;
-            }
-            Switching::Immediate => Change::At(random.index(TICK_SAMPLES)),
-            Switching::Interpolated(n_samples) => Change::Over(n_samples),
-        };
-        writer.write(given, change, out);
+        let when = (switching, random.index(TICK_SAMPLES));
+        drive.write(std::slice::from_ref(amplitudes), when, out);
     }
     Ok(samples)
 }
 
-fn synth(n_channels: usize) -> Result<DriveSynth, RenderError> {
-    let rate_hz = u32::try_from(RATE_HZ).unwrap_or(u32::MAX);
-    DriveSynth::prepare(rate_hz, n_channels, 1.0)
-}
-
 /// The cost of one tick of every channel, whose amplitudes change each time.
 fn cost(switching: Switching, bench: &mut Bench<'_>) -> Result<Timing, RenderError> {
-    let mut synth = synth(N_CHANNELS)?;
-    let mut writer = Writer::new(N_CHANNELS);
+    let mut drive = Drive::of(switching, N_CHANNELS)?;
     let mut out = vec![0.0; N_CHANNELS * TICK_SAMPLES];
     let levels = [[[1.0, 2.0]; N_CHANNELS], [[3.0, 0.5]; N_CHANNELS]];
     let mut n_ticks = 0_usize;
     Ok(bench.time(out.len(), || {
         n_ticks += 1;
-        let given = &levels[n_ticks % 2];
-        match switching {
-            Switching::ZeroCrossing => {
-                synth.set_amplitudes(given);
-                synth.fill(&mut out);
-            }
-            Switching::Immediate => {
-                writer.write(given, Change::At(n_ticks * 367 % TICK_SAMPLES), &mut out);
-            }
-            Switching::Interpolated(n_samples) => {
-                writer.write(given, Change::Over(n_samples), &mut out);
-            }
-        }
+        let when = (switching, n_ticks * 367 % TICK_SAMPLES);
+        drive.write(&levels[n_ticks % 2], when, &mut out);
         out.last().copied()
     }))
 }
@@ -188,29 +183,15 @@ fn row(
 ) -> Row {
     let out_of_band = spectrum.out_of_band();
     let mut errors_db = level_errors_db(amplitudes, samples);
-    let largest_db = errors_db.iter().copied().fold(0.0, f64::max);
-    let rms_db = (errors_db.iter().map(|db| db * db).sum::<f64>() / errors_db.len() as f64).sqrt();
-    Row {
-        method: switching.label().to_owned(),
-        setting: switching.setting(),
-        case: case.clone(),
-        error: Some(out_of_band),
-        cost: Some(cost),
-        more: vec![
-            ("out_of_band_db", format!("{:.2}", decibels(out_of_band))),
-            ("level_error_rms_db", format!("{rms_db:.4}")),
-            (
-                ABOVE_640_HZ,
-                format!("{:.2}", decibels(spectrum.above_640_hz())),
-            ),
-            (
-                "level_error_p99_db",
-                format!("{:.4}", quantile(&mut errors_db, 0.99)),
-            ),
-            ("level_error_max_db", format!("{largest_db:.4}")),
-        ],
-        ..Row::default()
-    }
+    let (label, setting) = switching.label_and_setting();
+    Row::of(label, setting, case)
+        .error(out_of_band)
+        .cost(cost)
+        .number("out_of_band_db", 2, power_level_db(out_of_band))
+        .number("level_error_rms_db", 4, rms(&errors_db))
+        .number(ABOVE_640_HZ, 2, power_level_db(spectrum.above_640_hz()))
+        .number("level_error_p99_db", 4, quantile(&mut errors_db, 0.99))
+        .number("level_error_max_db", 4, largest(errors_db))
 }
 
 /// `|20 log₁₀|` of what sounded in each tick over what was asked for, both bands.
@@ -219,14 +200,11 @@ fn level_errors_db(amplitudes: &[[f32; 2]], samples: &[f32]) -> Vec<f64> {
     let sounded = sounded(samples);
     for b in 0..2 {
         let asked = || amplitudes.iter().map(|pair| f64::from(pair[b]));
-        let least = LEAST_SHARE * asked().fold(0.0, f64::max);
+        let least = LEAST_SHARE * largest(asked());
         for (asked, sounded) in asked().zip(&sounded) {
             if asked > 0.0 && asked >= least {
-                errors_db.push(
-                    (20.0 * (sounded[b] / asked).abs().log10())
-                        .abs()
-                        .min(MOST_DB),
-                );
+                let error_db = level_db((sounded[b] / asked).abs()).abs();
+                errors_db.push(error_db.min(MOST_DB));
             }
         }
     }
@@ -238,36 +216,28 @@ fn above_640_hz_db(row: &Row) -> f64 {
     row.further_number(ABOVE_640_HZ).unwrap_or(f64::NAN)
 }
 
-fn decibels(power_ratio: f64) -> f64 {
-    10.0 * power_ratio.log10()
-}
-
 fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Chart {
-    let series = lines.iter().map(|(switching, spectrum)| Series {
-        name: [switching.label(), &switching.setting()].join(" "),
-        points: spectrum.cells_db(),
-        style: Style::Line,
-        ..Series::default()
-    });
-    Chart {
-        title: format!("Spectrum of the drive waveform, {case}"),
-        x: Axis::log("frequency, Hz").within([5.0, 20_000.0]),
-        y: Axis::linear("level of a twelfth of an octave, dB re the loudest").within([-120.0, 0.0]),
-        series: series.collect(),
-        footnote: "one channel at 48 kHz, Blackman window over the whole".to_owned(),
-        ..Chart::default()
-    }
+    let line = |(switching, spectrum): &(Switching, Spectrum)| {
+        series(switching.name(), Style::Line, spectrum.cells_db())
+    };
+    let level = Axis::linear("level of a twelfth of an octave, dB re the loudest");
+    chart(
+        format!("Spectrum of the drive waveform, {case}"),
+        Axis::log("frequency, Hz").within([5.0, 20_000.0]),
+        level.within([-120.0, 0.0]),
+        lines.iter().map(line).collect(),
+        "one channel at 48 kHz, Blackman window over the whole",
+    )
 }
 
 /// The worst case of each way, a sentence each.
 fn notes(rows: &[Row]) -> Vec<String> {
     let told = |switching: &Switching| {
-        let setting = switching.setting();
-        let is_its = |row: &&Row| row.method == switching.label() && row.setting == setting;
+        let (label, setting) = switching.label_and_setting();
+        let is_its = |row: &&Row| row.method == label && row.setting == setting;
         let energies = rows.iter().filter(is_its).filter_map(|row| row.error);
-        let worst_db = decibels(energies.fold(0.0, f64::max));
-        let name = [switching.label(), &setting].join(" ");
-        let worst_db = with_unit(worst_db, 1, "dB");
+        let worst_db = with_unit(power_level_db(largest(energies)), 1, "dB");
+        let name = switching.name();
         format!("{name}: at worst {worst_db} of energy out of band re in band.")
     };
     let mut notes: Vec<String> = SWITCHINGS.iter().map(told).collect();
@@ -297,7 +267,7 @@ mod tests {
 
     #[test]
     fn a_zero_crossing_is_quieter_above_the_bands_and_a_line_quieter_still() {
-        let findings = quick(&DriveUpdatesStudy, 7);
+        let findings = quick(&STUDY, 7);
         assert_eq!(findings.rows.len(), 2 * SWITCHINGS.len());
         for case in findings.rows.chunks(SWITCHINGS.len()) {
             let [zero, immediate, line, ..] = case else {
@@ -346,7 +316,7 @@ mod tests {
     #[test]
     fn the_same_seed_gives_the_same_numbers() {
         let numbers = || {
-            quick(&DriveUpdatesStudy, 7)
+            quick(&STUDY, 7)
                 .rows
                 .into_iter()
                 .map(|row| (row.error, row.more))

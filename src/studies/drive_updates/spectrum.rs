@@ -62,15 +62,9 @@ impl Spectrum {
 
     /// Energy above 640 Hz, an octave above the higher carrier, over the energy in the bands.
     pub(super) fn above_640_hz(&self) -> f64 {
-        let above = |(k, _): &(usize, &f64)| *k as f64 * self.spacing_hz > 640.0;
-        let energy: f64 = self
-            .powers
-            .iter()
-            .enumerate()
-            .filter(above)
-            .map(|cell| cell.1)
-            .sum();
-        energy / self.in_and_out_of_band()[0]
+        let cells = self.powers.iter().enumerate();
+        let above = cells.filter(|(k, _)| *k as f64 * self.spacing_hz > 640.0);
+        above.map(|cell| cell.1).sum::<f64>() / self.in_and_out_of_band()[0]
     }
 
     /// `[frequency in Hz, level in dB re the loudest cell]`: power summed in cells of a twelfth of

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use crate::growth::square;
-use crate::rendering::cloths::{exeter, placed, scene_of, shipped};
+use crate::textiles::{exeter, placed, scene_of, scene_with, shipped, square};
 use crate::{Effort, ReportError};
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_render::scene::{LoadedScene, Pose, Stroke, TICKS_PER_S};
@@ -27,10 +26,7 @@ pub(super) struct Case {
 /// The six of them.
 pub(super) fn cases(effort: Effort) -> Result<Vec<Case>, ReportError> {
     let n_ticks = effort.pick(12, 80);
-    let alone = || -> Result<RenderScene, ReportError> {
-        let cloth = shipped("denim")?;
-        Ok(scene_of(vec![placed(&cloth, Point::default())], exeter()))
-    };
+    let alone = scene_with(&shipped("denim")?);
     let four = ungained(&LoadedScene::shipped()?);
     let sixteen = ungained(&LoadedScene::from_toml(
         ALL_SIXTEEN,
@@ -48,8 +44,8 @@ pub(super) fn cases(effort: Effort) -> Result<Vec<Case>, ReportError> {
     let across = |middle_mm: f64| circle(middle_mm, 70.0, n_ticks);
     let case = |name, scene, poses| Case { name, scene, poses };
     Ok(vec![
-        case("one textile at rest", alone()?, vec![still; n_ticks]),
-        case("one textile", alone()?, swing(n_ticks)),
+        case("one textile at rest", alone.clone(), vec![still; n_ticks]),
+        case("one textile", alone, swing(n_ticks)),
         case("four alternatives", four, across(130.0)),
         case("sixteen", sixteen, across(170.0)),
         case("a hundred overlapping", hundred, swing(n_ticks)),
@@ -82,24 +78,33 @@ fn overlapping(textiles: &[PlacedSurface], n_textiles: usize) -> Vec<PlacedSurfa
 /// at the ends.
 fn swing(n_ticks: usize) -> Vec<Pose> {
     let (reach_mm, per_s) = ([30.0, 9.0], std::f64::consts::PI);
-    let step_s = step_s(n_ticks);
-    let pose = |n: usize| {
-        let t_s = (n as f64 + 0.5) * step_s;
+    let at = |t_s: f64| {
         let (sin, cos) = (per_s * t_s).sin_cos();
         let [vx, vy] = reach_mm.map(|reach| reach * per_s * cos);
-        Pose {
-            t_s,
-            position: Point::new(60.0 + reach_mm[0] * sin, 60.0 + reach_mm[1] * sin),
-            velocity: Velocity::new(vx, vy),
-            ..Pose::default()
-        }
+        let position = Point::new(60.0 + reach_mm[0] * sin, 60.0 + reach_mm[1] * sin);
+        (position, Velocity::new(vx, vy))
     };
-    (0..n_ticks).map(pose).collect()
+    poses(n_ticks, 0.5 * step_s(n_ticks), at)
 }
 
 /// How far apart ticks lie: fewer lie farther apart, so that the way is the same.
 fn step_s(n_ticks: usize) -> f64 {
     (SECONDS / n_ticks.max(1) as f64).max(1.0 / TICKS_PER_S)
+}
+
+/// Poses at so many ticks of a motion from a time on, s.
+fn poses(n_ticks: usize, first_s: f64, at: impl Fn(f64) -> (Point, Velocity)) -> Vec<Pose> {
+    let pose = |n: usize| {
+        let t_s = first_s + n as f64 * step_s(n_ticks);
+        let (position, velocity) = at(t_s);
+        Pose {
+            t_s,
+            position,
+            velocity,
+            ..Pose::default()
+        }
+    };
+    (0..n_ticks).map(pose).collect()
 }
 
 /// Once around in two seconds, or as far as the ticks go, from the upper right on.
@@ -109,16 +114,5 @@ fn circle(middle_mm: f64, radius_mm: f64, n_ticks: usize) -> Vec<Pose> {
         radius_mm,
         speed_mm_per_s: std::f64::consts::TAU * radius_mm / SECONDS,
     };
-    let step_s = step_s(n_ticks);
-    let pose = |n: usize| {
-        let t_s = SECONDS / 8.0 + n as f64 * step_s;
-        let (position, velocity) = stroke.at(t_s);
-        Pose {
-            t_s,
-            position,
-            velocity,
-            ..Pose::default()
-        }
-    };
-    (0..n_ticks).map(pose).collect()
+    poses(n_ticks, SECONDS / 8.0, |t_s| stroke.at(t_s))
 }

@@ -4,8 +4,7 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::saving::Saving;
-use super::{ALL, NONE, largest_difference};
+use super::{ALL, NONE, UNASKED_GLIMPSES, UNHEARD_FRAMES, largest_difference};
 use crate::{Bench, ReportError, Row};
 use selvedge_device::{BridgeEvent, Target};
 use selvedge_engine::{Command, Engine, EngineConfig, InputSource, Notice, PreparedScene};
@@ -29,51 +28,27 @@ struct Listeners {
     device: bool,
 }
 
-impl Listeners {
-    const NOBODY: Self = Self {
-        window: false,
-        device: false,
-    };
-    const BOTH: Self = Self {
-        window: true,
-        device: true,
-    };
-}
-
 /// What a tick of the engine costs when nobody listens, when everybody does, and in between.
 pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
-    let (mut quiet, expected) = engine(Listeners::NOBODY)?;
-    let unheard = Saving::unheard_frames(quiet.snapshot().counters.frames_unheard);
-    let unasked = Saving::unasked_glimpses(quiet.snapshot().tick);
-    let window_alone = Listeners {
-        window: true,
-        device: false,
-    };
-    let device_alone = Listeners {
-        window: false,
-        device: true,
-    };
+    let to = |window, device| Listeners { window, device };
+    let (mut quiet, expected) = engine(to(false, false))?;
+    let snapshot = quiet.snapshot();
     let settings = [
-        (ALL.to_owned(), None, Listeners::NOBODY),
-        (NONE.to_owned(), None, Listeners::BOTH),
-        (unheard.alone(), Some(unheard), window_alone),
-        (unasked.alone(), Some(unasked), device_alone),
+        (Row::of("engine", ALL, CASE), to(false, false)),
+        (Row::of("engine", NONE, CASE), to(true, true)),
+        (
+            UNHEARD_FRAMES.row(snapshot.counters.frames_unheard, CASE),
+            to(true, false),
+        ),
+        (UNASKED_GLIMPSES.row(snapshot.tick, CASE), to(false, true)),
     ];
     let mut rows = Vec::new();
-    for (setting, saving, listeners) in settings {
+    for (row, listeners) in settings {
         let (mut engine, felt) = engine(listeners)?;
         let n_ticks = bench.effort.pick(50, 400);
         let cost = bench.time(n_ticks, || advance(&mut engine, n_ticks as u64));
-        let row = saving.map_or_else(Row::default, |saving| saving.row());
-        rows.push(Row {
-            method: "engine".to_owned(),
-            setting,
-            case: CASE.to_owned(),
-            error: Some(largest_difference(&felt, &expected)),
-            promised: Some(0.0),
-            cost: Some(cost),
-            ..row
-        });
+        let error = largest_difference(&felt, &expected);
+        rows.push(row.error(error).promised(0.0).cost(cost));
     }
     Ok(rows)
 }

@@ -6,7 +6,7 @@ use crate::tests::quick;
 
 #[test]
 fn every_saving_is_counted_on_six_scenes_and_changes_nothing() {
-    let findings = quick(&LeftOutStudy, 1);
+    let findings = quick(&STUDY, 1);
     let cases = scenes::cases(Effort::Quick).unwrap();
     assert_eq!(cases.len(), 6);
     for case in &cases {

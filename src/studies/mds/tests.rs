@@ -5,7 +5,7 @@ use crate::tests::quick;
 
 #[test]
 fn the_study_repeats_and_keeps_its_promises() {
-    let (first, second) = (quick(&MdsStudy, 3), quick(&MdsStudy, 3));
+    let (first, second) = (quick(&STUDY, 3), quick(&STUDY, 3));
     assert_eq!(
         first.n_broken(),
         0,
@@ -24,15 +24,4 @@ fn the_study_repeats_and_keeps_its_promises() {
         row.and_then(|row| row.error).unwrap()
     };
     assert!(error("Torgerson") > error("SMACOF"), "{:?}", first.rows);
-    assert_eq!(first.plots.len(), 1);
-}
-
-#[test]
-fn a_map_without_noise_comes_back_and_noise_takes_from_it() {
-    let clean = recovery::lost(16, 0.0, 3, 1).0;
-    let noisy = recovery::lost(16, 0.4, 3, 1).0;
-    assert!(
-        clean < 0.01 && noisy > clean && noisy < 0.5,
-        "{clean}, {noisy}"
-    );
 }

@@ -11,20 +11,8 @@ mod restoration;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use brownian::BrownianStudy;
-pub(crate) use fourier::FourierStudy;
-pub(crate) use probe::ProbeStudy;
-pub(crate) use resampling::ResamplingStudy;
-pub(crate) use restoration::RestorationStudy;
-
-/// Root mean square.
-fn rms(values: impl Iterator<Item = f64>) -> f64 {
-    let (n, sum) = values.fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x * x));
-    (sum / f64::max(n, 1.0)).sqrt()
-}
-
-/// Rms of the difference of two series as a share of the second's rms, %.
-fn apart_percent(found: &[f64], truth: &[f64]) -> f64 {
-    let pairs = found.iter().zip(truth);
-    100.0 * rms(pairs.map(|(a, b)| a - b)) / rms(truth.iter().copied())
-}
+pub(crate) use brownian::STUDY as BROWNIAN;
+pub(crate) use fourier::STUDY as FOURIER;
+pub(crate) use probe::STUDY as PROBE;
+pub(crate) use resampling::STUDY as RESAMPLING;
+pub(crate) use restoration::STUDY as RESTORATION;

@@ -3,80 +3,50 @@
 
 use std::f64::consts::TAU;
 
+use crate::readable::{apart_percent, whole};
 use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_foundation::numerics::Grid;
 use selvedge_textile::surface::Probe;
-
-use super::apart_percent;
 
 /// Length of the stroke, mm.
 const LENGTH_MM: f64 = 10.0;
 
 /// Error of the virtual probe by step and wave, and what a stroke costs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ProbeStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "virtual-probe",
+    question: "How finely must a surface be sampled for the virtual tester's wire?",
+    reference: "The curve parallel to a wave, which the middle of a round wire follows over it.",
+    error: ("rms error", "%"),
+    cost_of: "mm of a track",
+    run,
+};
 
-impl Study for ProbeStudy {
-    fn name(&self) -> &'static str {
-        "virtual-probe"
-    }
-
-    fn question(&self) -> &'static str {
-        "How finely must a surface be sampled for the virtual tester's wire?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The curve parallel to a wave, which the middle of a round wire follows over it."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("rms error", "%")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "mm of a track"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let waves = [(10.0, 1.0), (10.0, 2.5), (40.0, 1.2), (2.0, 5.0)];
-        let steps = [0.1, 0.05, 0.02, 0.01, 1.0 / 230.0, 0.002];
-        let n_steps = bench.effort.pick(3, steps.len());
-        let mut rows = Vec::new();
-        for (done, wave) in waves.into_iter().enumerate() {
-            bench.step(done as f64 / 4.0, "drawing the wire over a wave")?;
-            for step_mm in steps.into_iter().take(n_steps) {
-                rows.push(row(wave, step_mm, bench));
-            }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let waves = [(10.0, 1.0), (10.0, 2.5), (40.0, 1.2), (2.0, 5.0)];
+    let steps = [0.1, 0.05, 0.02, 0.01, 1.0 / 230.0, 0.002];
+    let n_steps = bench.effort.pick(3, steps.len());
+    let mut rows = Vec::new();
+    for (done, wave) in waves.into_iter().enumerate() {
+        bench.step(done as f64 / 4.0, "drawing the wire over a wave")?;
+        for step_mm in steps.into_iter().take(n_steps) {
+            rows.push(row(wave, step_mm, bench));
         }
-        let notes = vec![
-            "Waves that the wire follows into every valley; where it bridges them there is no \
-             such formula. The error falls with the square of the step until heights are even."
-                .to_owned(),
-        ];
-        Ok(Findings {
-            rows,
-            notes,
-            ..Findings::default()
-        })
     }
+    let notes = [
+        "Waves that the wire follows into every valley; where it bridges them there is no \
+         such formula. The error falls with the square of the step until heights are even.",
+    ];
+    Ok(Findings::new(rows, Vec::new(), notes))
 }
 
 fn row((a_um, per_mm): (f64, f64), step_mm: f64, bench: &mut Bench<'_>) -> Row {
     let probe = Probe::ideal();
     let margin = probe.margin_samples(step_mm);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "10 mm in steps of 0.002 mm or more"
-    )]
-    let n = (LENGTH_MM / step_mm).round() as usize;
-    let height = |i: usize| {
-        let x_mm = (i as f64 - margin as f64) * step_mm;
-        a_um * (TAU * per_mm * x_mm).cos()
-    };
+    let n = whole((LENGTH_MM / step_mm).round());
     let mut track = Grid::filled(n + 2 * margin, 1, 0.0);
-    for (i, value) in track.row_mut(0).iter_mut().enumerate() {
-        *value = height(i);
+    for (i, height_um) in track.row_mut(0).iter_mut().enumerate() {
+        let x_mm = (i as f64 - margin as f64) * step_mm;
+        *height_um = a_um * (TAU * per_mm * x_mm).cos();
     }
     let found = probe.lift_um(&track, step_mm);
     let truth: Vec<f64> = (0..n)
@@ -84,20 +54,11 @@ fn row((a_um, per_mm): (f64, f64), step_mm: f64, bench: &mut Bench<'_>) -> Row {
         .collect();
     let cost = bench.time(1, || probe.lift_um(&track, step_mm));
     let curvature = a_um / 1000.0 * (TAU * per_mm).powi(2) * probe.radius_mm;
-    Row {
-        method: "dilation".to_owned(),
-        setting: format!("{step_mm:.4} mm"),
-        case: format!("{a_um} µm at {per_mm}/mm"),
-        error: Some(apart_percent(&found, &truth)),
-        cost: Some(crate::Timing {
-            cpu_s: cost.cpu_s / LENGTH_MM,
-            cpu_quartiles_s: cost.cpu_quartiles_s.map(|s| s / LENGTH_MM),
-            wall_s: cost.wall_s / LENGTH_MM,
-            ..cost
-        }),
-        more: vec![("curvature_times_radius", format!("{curvature:.2}"))],
-        ..Row::default()
-    }
+    let case = format!("{a_um} µm at {per_mm}/mm");
+    Row::of("dilation", format!("{step_mm:.4} mm"), case)
+        .error(apart_percent(&found, &truth))
+        .cost(cost.times(1.0 / LENGTH_MM))
+        .number("curvature_times_radius", 2, curvature)
 }
 
 /// Height of the lowest point of a disc that touches `a cos(2πνx)` once, its middle over `x_mm`:

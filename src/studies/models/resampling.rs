@@ -2,85 +2,59 @@
 
 use std::f64::consts::TAU;
 
+use crate::readable::apart_percent;
 use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_foundation::numerics::{Random, RealTransform, at_place};
-
-use super::apart_percent;
 
 /// Length that everything repeats after, mm.
 const LENGTH_MM: f64 = 20.0;
 /// Samples after resampling: 230 a mm.
 const N_FINE: usize = 4600;
 
-/// Error of resampling by the step of the original, and what it costs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ResamplingStudy;
-
 /// A way to resample to `N_FINE` samples.
 type Way = fn(&[f64]) -> Vec<f64>;
 
-impl Study for ResamplingStudy {
-    fn name(&self) -> &'static str {
-        "resampling"
-    }
+/// Error of resampling by the step of the original, and what it costs.
+pub(crate) const STUDY: Study = Study {
+    name: "resampling",
+    question: "What does it cost to resample a profile to 230 samples a millimetre, by its own \
+               step?",
+    reference: "A sum of 40 waves by its formula, at every fine sample.",
+    error: ("rms error", "%"),
+    cost_of: "profile of 20 mm",
+    run,
+};
 
-    fn question(&self) -> &'static str {
-        "What does it cost to resample a profile to 230 samples a millimetre, by its own step?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "A sum of 40 waves by its formula, at every fine sample."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("rms error", "%")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "profile of 20 mm"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let ways: [(&str, Way); 3] = [
-            ("nearest sample", nearest),
-            ("straight lines", lines),
-            ("Fourier", fourier),
-        ];
-        let mut rows = Vec::new();
-        for (done, shortest_mm) in [1.25, 0.5].into_iter().enumerate() {
-            bench.step(0.5 * done as f64, "resampling")?;
-            let waves = Waves::new(shortest_mm, &mut Random::new(bench.seed).branch("waves"));
-            let truth = waves.sampled(N_FINE);
-            let counts = bench
-                .effort
-                .pick(vec![40, 200, 1000], vec![40, 100, 200, 400, 1000, 2000]);
-            for n in counts {
-                let coarse = waves.sampled(n);
-                for (method, way) in ways {
-                    let cost = bench.time(1, || way(&coarse));
-                    rows.push(Row {
-                        method: method.to_owned(),
-                        setting: format!("{} mm", LENGTH_MM / n as f64),
-                        case: format!("waves down to {shortest_mm} mm"),
-                        error: Some(apart_percent(&way(&coarse), &truth)),
-                        cost: Some(cost),
-                        ..Row::default()
-                    });
-                }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let ways: [(&str, Way); 3] = [
+        ("nearest sample", nearest),
+        ("straight lines", lines),
+        ("Fourier", fourier),
+    ];
+    let mut rows = Vec::new();
+    for (done, shortest_mm) in [1.25, 0.5].into_iter().enumerate() {
+        bench.step(0.5 * done as f64, "resampling")?;
+        let waves = Waves::new(shortest_mm, &mut Random::new(bench.seed).branch("waves"));
+        let truth = waves.sampled(N_FINE);
+        let counts = bench
+            .effort
+            .pick(vec![40, 200, 1000], vec![40, 100, 200, 400, 1000, 2000]);
+        for n in counts {
+            let coarse = waves.sampled(n);
+            for (method, way) in ways {
+                let setting = format!("{} mm", LENGTH_MM / n as f64);
+                let row = Row::of(method, setting, format!("waves down to {shortest_mm} mm"));
+                let row = row.error(apart_percent(&way(&coarse), &truth));
+                rows.push(row.cost(bench.time(1, || way(&coarse))));
             }
         }
-        let notes = vec![
-            "What repeats and is sampled more than twice a wave comes back by the transform to \
-             rounding; measured profiles do not repeat, so this is its best case. Half a \
-             millimetre, the step of Wall & Harwin 1999, shows waves from 1 mm on."
-                .to_owned(),
-        ];
-        Ok(Findings {
-            rows,
-            notes,
-            ..Findings::default()
-        })
     }
+    let notes = [
+        "What repeats and is sampled more than twice a wave comes back by the transform to \
+         rounding; measured profiles do not repeat, so this is its best case. Half a \
+         millimetre, the step of Wall & Harwin 1999, shows waves from 1 mm on.",
+    ];
+    Ok(Findings::new(rows, Vec::new(), notes))
 }
 
 /// A sum of waves that repeats after 20 mm: cycles in the length, amplitude, phase.

@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use crate::readable::apart_percent;
 use crate::{Bench, Findings, ReportError, Row, Study, Timing};
 use selvedge_foundation::numerics::Random;
 use selvedge_textile::Reduced;
 use selvedge_textile::surface::Profile;
-
-use super::apart_percent;
 
 const STEP_MM: f64 = 1.0 / 230.0;
 const N_SAMPLES: usize = 4600;
@@ -17,55 +16,35 @@ const PERIOD_MM: f64 = 0.617;
 const AMPLITUDES_UM: [f64; 8] = [10.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5];
 
 /// Errors of period, roughness and waves by harmonics and noise, and what reduction costs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct RestorationStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "restoration",
+    question: "What does noise do to the restoration of a profile by its period and harmonics?",
+    reference: "Eight harmonics of 0.617 mm with known amplitudes and phases, before noise was \
+                added.",
+    error: ("error", "%"),
+    cost_of: "profile of 20 mm",
+    run,
+};
 
-impl Study for RestorationStudy {
-    fn name(&self) -> &'static str {
-        "restoration"
-    }
-
-    fn question(&self) -> &'static str {
-        "What does noise do to the restoration of a profile by its period and harmonics?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "Eight harmonics of 0.617 mm with known amplitudes and phases, before noise was added."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("error", "%")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "profile of 20 mm"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let mut rows = Vec::new();
-        let all_db = bench
-            .effort
-            .pick(vec![0.0, 10.0], vec![-6.0, 0.0, 10.0, 40.0]);
-        let n_levels = all_db.len() as f64;
-        let settings = bench.effort.pick(vec![2, 8], vec![1, 2, 4, 8, 16]);
-        for (done, snr_db) in all_db.into_iter().enumerate() {
-            bench.step(done as f64 / n_levels, &format!("{snr_db} dB"))?;
-            for &n in &settings {
-                rows.extend(of_setting(snr_db, n, bench)?);
-            }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let mut rows = Vec::new();
+    let all_db = bench
+        .effort
+        .pick(vec![0.0, 10.0], vec![-6.0, 0.0, 10.0, 40.0]);
+    let n_levels = all_db.len() as f64;
+    let settings = bench.effort.pick(vec![2, 8], vec![1, 2, 4, 8, 16]);
+    for (done, snr_db) in all_db.into_iter().enumerate() {
+        bench.step(done as f64 / n_levels, &format!("{snr_db} dB"))?;
+        for &n in &settings {
+            rows.extend(of_setting(snr_db, n, bench)?);
         }
-        let notes = vec![
-            "Period and SMD are promised (1 % and 5 %) from 0 dB on; SMD is that of the restored \
-             against the noisy profile, the waves are against those before noise. Errors are the \
-             largest over the seeds."
-                .to_owned(),
-        ];
-        Ok(Findings {
-            rows,
-            notes,
-            ..Findings::default()
-        })
     }
+    let notes = [
+        "Period and SMD are promised (1 % and 5 %) from 0 dB on; SMD is that of the restored \
+         against the noisy profile, the waves are against those before noise. Errors are the \
+         largest over the seeds.",
+    ];
+    Ok(Findings::new(rows, Vec::new(), notes))
 }
 
 fn wave_um(i: usize) -> f64 {
@@ -114,19 +93,16 @@ fn of_setting(snr_db: f64, n: usize, bench: &mut Bench<'_>) -> Result<Vec<Row>, 
     let restoration = bench.time(1, || {
         reduced.restored_um(N_SAMPLES, STEP_MM, &mut random.clone())
     });
-    let is_promised = snr_db >= 0.0;
-    let row = |method: &str, error: f64, promised: Option<f64>, cost: &Timing| Row {
-        method: method.to_owned(),
-        setting: format!("{n} harmonics"),
-        case: format!("{snr_db:+} dB").replace('-', "−"),
-        error: Some(error),
-        promised: promised.filter(|_| is_promised),
-        cost: Some(*cost),
-        ..Row::default()
+    let row = |method: &str, error: f64, promised: Option<f64>, cost: Timing| {
+        let case = format!("{snr_db:+} dB").replace('-', "−");
+        Row::of(method, format!("{n} harmonics"), case)
+            .error(error)
+            .promised(promised.filter(|_| snr_db >= 0.0))
+            .cost(cost)
     };
     Ok(vec![
-        row("period", worst[0], Some(1.0), &reduction),
-        row("SMD of the restored", worst[1], Some(5.0), &restoration),
-        row("waves", worst[2], None, &reduction),
+        row("period", worst[0], Some(1.0), reduction),
+        row("SMD of the restored", worst[1], Some(5.0), restoration),
+        row("waves", worst[2], None, reduction),
     ])
 }

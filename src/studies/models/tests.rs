@@ -1,8 +1,8 @@
 //! The studies run, repeat, and find what is known.
 
 use super::*;
+use crate::Findings;
 use crate::tests::quick;
-use crate::{Findings, Study};
 use selvedge_foundation::progress::thread_cpu_seconds;
 
 fn error(findings: &Findings, method: &str, setting: &str, case: &str) -> f64 {
@@ -15,36 +15,27 @@ fn error(findings: &Findings, method: &str, setting: &str, case: &str) -> f64 {
 
 #[test]
 fn every_quick_study_repeats_and_keeps_its_promises() {
-    let studies: [&dyn Study; 4] = [
-        &BrownianStudy,
-        &FourierStudy,
-        &RestorationStudy,
-        &ProbeStudy,
-    ];
+    let studies = [BROWNIAN, FOURIER, RESTORATION, PROBE];
     for study in studies {
         let start_s = thread_cpu_seconds();
-        let (first, second) = (quick(study, 3), quick(study, 3));
+        let (first, second) = (quick(&study, 3), quick(&study, 3));
         println!(
             "{}: {:.1} s CPU",
-            study.name(),
+            study.name,
             0.5 * (thread_cpu_seconds() - start_s)
         );
-        assert!(!first.rows.is_empty(), "{}", study.name());
-        assert_eq!(first.n_broken(), 0, "{}: {:?}", study.name(), first.rows);
+        assert!(!first.rows.is_empty(), "{}", study.name);
+        assert_eq!(first.n_broken(), 0, "{}: {:?}", study.name, first.rows);
         for (a, b) in first.rows.iter().zip(&second.rows) {
-            assert_eq!((a.error, &a.more), (b.error, &b.more), "{}", study.name());
-            assert!(
-                a.error.is_some_and(f64::is_finite),
-                "{}: {a:?}",
-                study.name()
-            );
+            assert_eq!((a.error, &a.more), (b.error, &b.more), "{}", study.name);
+            assert!(a.error.is_some_and(f64::is_finite), "{}: {a:?}", study.name);
         }
     }
 }
 
 #[test]
 fn resampling_by_the_transform_is_exact_and_lines_fall_with_the_square() {
-    let findings = quick(&ResamplingStudy, 3);
+    let findings = quick(&RESAMPLING, 3);
     let case = "waves down to 1.25 mm";
     assert!(
         error(&findings, "Fourier", "0.1 mm", case) < 1e-9,
@@ -59,7 +50,7 @@ fn resampling_by_the_transform_is_exact_and_lines_fall_with_the_square() {
 
 #[test]
 fn all_of_its_own_coefficients_give_the_profile_back() {
-    let findings = quick(&FourierStudy, 3);
+    let findings = quick(&FOURIER, 3);
     assert!(
         error(&findings, "own coefficients", "100 harmonics", "denim") < 1e-9,
         "{findings:?}"

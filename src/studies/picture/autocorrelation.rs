@@ -2,10 +2,11 @@
 //! takes the picture for one that repeats.
 
 use super::spoilt::Spoilt;
-use crate::growth::exponent;
+use crate::chart::{chart, lines_by};
+use crate::readable::largest;
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Chart, Series, Style};
-use selvedge_foundation::numerics::{Grid, PlaneTransform, Random};
+use selvedge_chart::Axis;
+use selvedge_foundation::numerics::{Grid, LineFit, PlaneTransform, Random};
 use selvedge_textile::picture::Autocorrelation;
 
 /// The largest difference of ρ that the transforms promise.
@@ -14,91 +15,67 @@ const PROMISED: f64 = 1e-9;
 const ALL_UP_TO: usize = 64;
 
 /// Error and cost of the autocorrelation by the picture's side.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct AutocorrelationStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "autocorrelation",
+    question: "What do transforms save on the autocorrelation of a picture, and do they change \
+               it?",
+    reference: "The correlation coefficient of both overlaps, summed pixel by pixel.",
+    error: ("largest difference of ρ", ""),
+    cost_of: "picture",
+    run,
+};
 
-impl Study for AutocorrelationStudy {
-    fn name(&self) -> &'static str {
-        "autocorrelation"
-    }
-
-    fn question(&self) -> &'static str {
-        "What do transforms save on the autocorrelation of a picture, and do they change it?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The correlation coefficient of both overlaps, summed pixel by pixel."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("largest difference of ρ", "")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "picture"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let sides = bench.effort.pick(
-            vec![24, 48, 96],
-            vec![64, 96, 128, 192, 256, 512, 1024, 2362],
-        );
-        let most_by_definition = bench.effort.pick(48, 192);
-        let mut rows = Vec::new();
-        for (done, &n) in sides.iter().enumerate() {
-            bench.step(done as f64 / sides.len() as f64, &format!("{n} × {n} px"))?;
-            let spoilt = Spoilt {
-                light_ratio: 3.0,
-                ..Spoilt::usual(n)
-            };
-            let picture = spoilt.picture(0, &Random::new(bench.seed)).luminance;
-            let shifts = shifts(n, bench);
-            let truth = by_definition(&picture, &shifts);
-            for way in Way::ALL {
-                if way != Way::Definition || n <= most_by_definition {
-                    rows.push(row(way, &picture, (&shifts, &truth), bench));
-                }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let sides = bench.effort.pick(
+        vec![24, 48, 96],
+        vec![64, 96, 128, 192, 256, 512, 1024, 2362],
+    );
+    let most_by_definition = bench.effort.pick(48, 192);
+    let mut rows = Vec::new();
+    for (done, &n) in sides.iter().enumerate() {
+        bench.step(done as f64 / sides.len() as f64, &format!("{n} × {n} px"))?;
+        let spoilt = Spoilt {
+            light_ratio: 3.0,
+            ..Spoilt::usual(n)
+        };
+        let picture = spoilt.picture(0, &Random::new(bench.seed)).luminance;
+        let shifts = shifts(n, bench);
+        let truth = by_definition(&picture, &shifts);
+        for way in WAYS {
+            if way.0 != DEFINITION || n <= most_by_definition {
+                rows.push(row(way, &picture, (&shifts, &truth), bench));
             }
         }
-        Ok(Findings {
-            notes: notes(&rows, most_by_definition),
-            plots: vec![("time".to_owned(), plot(&rows))],
-            rows,
-        })
     }
+    let plot = chart(
+        "Autocorrelation: run time by the side of the picture",
+        Axis::log("side of the picture, px"),
+        Axis::log("CPU time a picture, s"),
+        lines_by(&rows, |row| &row.method, time),
+        "One thread; all shifts up to half the side.",
+    );
+    let notes = notes(&rows, most_by_definition);
+    Ok(Findings::new(rows, vec![("time".to_owned(), plot)], notes))
 }
 
-/// A way to correlate a picture with itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
-    Transforms,
-    Definition,
-    Circular,
-}
+/// A way to correlate a picture with itself: its name, and ρ at shifts after all that it computes
+/// for a whole picture.
+type Way = (&'static str, fn(&Grid<f64>, &[[isize; 2]]) -> Vec<f64>);
 
-impl Way {
-    const ALL: [Self; 3] = [Self::Transforms, Self::Definition, Self::Circular];
+const TRANSFORMS: &str = "transforms, overlap alone";
+const DEFINITION: &str = "by the definition";
+const CIRCULAR: &str = "transforms, as if it repeated";
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Transforms => "transforms, overlap alone",
-            Self::Definition => "by the definition",
-            Self::Circular => "transforms, as if it repeated",
-        }
-    }
+const WAYS: [Way; 3] = [
+    (TRANSFORMS, by_transforms),
+    (DEFINITION, by_definition),
+    (CIRCULAR, circular),
+];
 
-    /// ρ at shifts, after all that this way computes for a whole picture.
-    fn at(self, picture: &Grid<f64>, shifts: &[[isize; 2]]) -> Vec<f64> {
-        match self {
-            Self::Transforms => {
-                let rho = Autocorrelation::of(picture, 1);
-                let at = |&[dx, dy]: &[isize; 2]| rho.at(dx, dy).unwrap_or(f64::NAN);
-                shifts.iter().map(at).collect()
-            }
-            Self::Definition => by_definition(picture, shifts),
-            Self::Circular => circular(picture, shifts),
-        }
-    }
+fn by_transforms(picture: &Grid<f64>, shifts: &[[isize; 2]]) -> Vec<f64> {
+    let rho = Autocorrelation::of(picture, 1);
+    let at = |&[dx, dy]: &[isize; 2]| rho.at(dx, dy).unwrap_or(f64::NAN);
+    shifts.iter().map(at).collect()
 }
 
 /// All shifts of half the plane up to half the side, or some of them.
@@ -158,37 +135,27 @@ fn circular(picture: &Grid<f64>, shifts: &[[isize; 2]]) -> Vec<f64> {
 }
 
 fn row(
-    way: Way,
+    (name, at): Way,
     picture: &Grid<f64>,
     (shifts, truth): (&[[isize; 2]], &[f64]),
     bench: &Bench<'_>,
 ) -> Row {
     let n = picture.width();
-    let found = way.at(picture, shifts);
-    let every = match way {
-        Way::Definition => all_shifts(n),
-        _ => Vec::new(),
-    };
-    let n_repeats = if n > 500 || way == Way::Definition {
-        1
+    let is_by_definition = name == DEFINITION;
+    let every = if is_by_definition {
+        all_shifts(n)
     } else {
-        3
+        Vec::new()
     };
-    let cost = bench.time_repeated(n_repeats, 1, || way.at(picture, &every));
-    Row {
-        method: way.name().to_owned(),
-        setting: "f64, one thread".to_owned(),
-        case: format!("{n} × {n} px"),
-        size: Some((n * n) as f64),
-        error: Some(largest_difference(&found, truth)),
-        promised: (way == Way::Transforms).then_some(PROMISED),
-        cost: Some(cost),
-        more: vec![
-            ("side_px", n.to_string()),
-            ("shifts_compared", shifts.len().to_string()),
-        ],
-        ..Row::default()
-    }
+    let n_repeats = if n > 500 || is_by_definition { 1 } else { 3 };
+    let cost = bench.time_repeated(n_repeats, 1, || at(picture, &every));
+    Row::of(name, "f64, one thread", format!("{n} × {n} px"))
+        .size((n * n) as f64)
+        .error(largest_difference(&at(picture, shifts), truth))
+        .promised((name == TRANSFORMS).then_some(PROMISED))
+        .cost(cost)
+        .with("side_px", n)
+        .with("shifts_compared", shifts.len())
 }
 
 fn all_shifts(n: usize) -> Vec<[isize; 2]> {
@@ -201,20 +168,20 @@ fn all_shifts(n: usize) -> Vec<[isize; 2]> {
 /// What is no number counts as infinitely far.
 fn largest_difference(found: &[f64], truth: &[f64]) -> f64 {
     let pairs = found.iter().zip(truth).map(|(a, b)| (a - b).abs());
-    pairs.fold(0.0, |most, x| {
-        if x.is_nan() {
-            f64::INFINITY
-        } else {
-            most.max(x)
-        }
-    })
+    largest(pairs.map(|x| if x.is_nan() { f64::INFINITY } else { x }))
 }
 
-/// Side and CPU time of a way.
-fn times(rows: &[Row], way: Way) -> Vec<[f64; 2]> {
-    let own = rows.iter().filter(|row| row.method == way.name());
-    own.filter_map(|row| Some([row.size?.sqrt(), row.cost?.cpu_s]))
-        .collect()
+/// Side and CPU time.
+fn time(row: &Row) -> Option<[f64; 2]> {
+    Some([row.size?.sqrt(), row.cost?.cpu_s])
+}
+
+/// The exponent e of `time = c·sideᵉ` that fits a way best over the logarithms.
+fn exponent(rows: &[Row], name: &str) -> Option<f64> {
+    let own = rows.iter().filter(|row| row.method == name);
+    let times = own.filter_map(time).filter(|[_, cpu_s]| *cpu_s > 0.0);
+    let logs: Vec<[f64; 2]> = times.map(|point| point.map(f64::ln)).collect();
+    LineFit::through(&logs).map(|line| line.slope)
 }
 
 fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
@@ -232,32 +199,12 @@ fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
          to lose digits, in differences of large sums."
             .to_owned(),
     ];
-    for way in Way::ALL {
-        if let Some(exponent) = exponent(&times(rows, way)) {
-            let name = way.name();
-            notes.push(format!(
-                "CPU time of {name} grows with the side to the power {exponent:.1}."
-            ));
-        }
+    for (name, _) in WAYS {
+        notes.extend(exponent(rows, name).map(|exponent| {
+            format!("CPU time of {name} grows with the side to the power {exponent:.1}.")
+        }));
     }
     notes
-}
-
-fn plot(rows: &[Row]) -> Chart {
-    let series = Way::ALL.map(|way| Series {
-        name: way.name().to_owned(),
-        points: times(rows, way),
-        style: Style::LineAndDots,
-        ..Series::default()
-    });
-    Chart {
-        title: "Autocorrelation: run time by the side of the picture".to_owned(),
-        x: Axis::log("side of the picture, px"),
-        y: Axis::log("CPU time a picture, s"),
-        series: series.into(),
-        footnote: "One thread; all shifts up to half the side.".to_owned(),
-        ..Chart::default()
-    }
 }
 
 #[cfg(test)]
@@ -267,11 +214,11 @@ mod tests {
 
     #[test]
     fn transforms_keep_their_promise_and_the_short_cut_shows_up_as_wrong() {
-        let findings = quick(&AutocorrelationStudy);
+        let findings = quick(&STUDY);
         assert_eq!(findings.n_broken(), 0, "{:?}", findings.rows);
         for row in &findings.rows {
             let error = row.error.unwrap();
-            if row.method == Way::Circular.name() {
+            if row.method == CIRCULAR {
                 assert!(error > 0.05, "{row:?}");
             } else {
                 assert!(error < PROMISED, "{row:?}");

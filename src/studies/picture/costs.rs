@@ -5,14 +5,14 @@ use std::convert::Infallible;
 use super::analysed;
 use super::lattice::shortest;
 use super::spoilt::Spoilt;
-use crate::{Bench, Row};
+use crate::{Bench, Row, Timing};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::{
-    Autocorrelation, DirectionOptions, EvenLight, Lattice, Maxima, Measured, Measurements,
+    Autocorrelation, DirectionOptions, Directions, EvenLight, Maxima, Measured, Measurements,
     SignificantMaxima, even_light, refine,
 };
 
-/// What estimates and steps cost on one usual picture.
+/// Adds what estimates and steps cost on one usual picture.
 pub(super) fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &Bench<'_>) {
     let picture = usual.picture(0, &Random::new(bench.seed)).luminance;
     let options = DirectionOptions::default();
@@ -36,63 +36,44 @@ pub(super) fn of_costs(usual: &Spoilt, rows: &mut Vec<Row>, bench: &Bench<'_>) {
             _ => None,
         };
     }
-    rows.extend(steps(&picture, n, bench));
+    steps(&picture, n, bench, rows);
 }
 
-/// A row without an error for every step of the pipeline.
-fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>) -> Vec<Row> {
+/// Adds a row without an error for every step of the pipeline.
+fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>, rows: &mut Vec<Row>) {
+    let row = |name: &str, cost: Timing| {
+        let row = Row::of(format!("step: {name}"), "", "usual");
+        row.size(picture.values().len() as f64).cost(cost)
+    };
     let (light, _) = even_light(picture, EvenLight::Auto);
     let rho = Autocorrelation::of(&light, 1);
     let maxima = Maxima::of(&rho);
     let significant = SignificantMaxima::of(&maxima, &rho);
     let options = DirectionOptions::default();
-    let directions = selvedge_textile::picture::Directions::of(&significant, options);
+    let directions = Directions::of(&significant, options);
     let measured = Measurements {
         rho,
         maxima,
         significant,
         directions,
     };
-    let lattice = measured.lattice();
-    let mut costs = vec![
-        (
-            "light",
-            bench.time_repeated(n, 1, || even_light(picture, EvenLight::Auto)),
-        ),
-        (
-            "autocorrelation",
-            bench.time_repeated(n, 1, || Autocorrelation::of(&light, 1)),
-        ),
-        (
-            "maxima",
-            bench.time_repeated(n, 1, || Maxima::of(&measured.rho)),
-        ),
-        (
-            "directions by mean concentration",
-            bench.time_repeated(n, 1, || {
-                Measured::by_concentration(&measured.significant, options)
-            }),
-        ),
-        (
-            "directions by Hough",
-            bench.time_repeated(n, 1, || Measured::by_hough(&measured.significant, options)),
-        ),
-        ("lattice", bench.time_repeated(n, 1, || measured.lattice())),
-    ];
-    if let Some(basis) = lattice.as_ref().ok().map(Lattice::basis) {
-        costs.push((
-            "refining",
-            bench.time_repeated(n, 1, || {
-                refine(&light, basis, 1, |_| Ok::<(), Infallible>(()))
-            }),
-        ));
+    let of_light = bench.time_repeated(n, 1, || even_light(picture, EvenLight::Auto));
+    rows.push(row("light", of_light));
+    let of_rho = bench.time_repeated(n, 1, || Autocorrelation::of(&light, 1));
+    rows.push(row("autocorrelation", of_rho));
+    let of_maxima = bench.time_repeated(n, 1, || Maxima::of(&measured.rho));
+    rows.push(row("maxima", of_maxima));
+    let significant = &measured.significant;
+    let concentration = || Measured::by_concentration(significant, options);
+    let of_concentration = bench.time_repeated(n, 1, concentration);
+    rows.push(row("directions by mean concentration", of_concentration));
+    let of_hough = bench.time_repeated(n, 1, || Measured::by_hough(significant, options));
+    rows.push(row("directions by Hough", of_hough));
+    let of_lattice = bench.time_repeated(n, 1, || measured.lattice());
+    rows.push(row("lattice", of_lattice));
+    if let Ok(lattice) = measured.lattice() {
+        let basis = lattice.basis();
+        let refining = || refine(&light, basis, 1, |_| Ok::<(), Infallible>(()));
+        rows.push(row("refining", bench.time_repeated(n, 1, refining)));
     }
-    let row = |(name, cost): (&str, crate::Timing)| Row {
-        method: format!("step: {name}"),
-        case: "usual".to_owned(),
-        size: Some(picture.values().len() as f64),
-        cost: Some(cost),
-        ..Row::default()
-    };
-    costs.into_iter().map(row).collect()
 }

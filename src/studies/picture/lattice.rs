@@ -2,82 +2,53 @@
 
 use super::costs::of_costs;
 use super::spoilt::Spoilt;
-use super::sweeps::{Sweep, sweeps};
+use super::sweeps::{SWEEPS, Sweep};
 use super::{RIGHT, analysed, share_off};
+use crate::chart::{chart, lines_by};
+use crate::readable::mean;
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::{Axis, Chart};
 use selvedge_foundation::numerics::{Random, median};
 use selvedge_textile::picture::{Analysis, Basis, SignificantMaxima};
 
 /// Lattices of pictures that are spoilt in seven ways, by five estimates.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct LatticeStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "lattice",
+    question: "Which estimate finds the lattice of a picture, and what may be wrong with the \
+               picture?",
+    reference: "The two vectors that the picture was drawn by, whichever pair spans the same \
+                lattice.",
+    error: ("lattice error", "px"),
+    cost_of: "picture",
+    run,
+};
 
-impl Study for LatticeStudy {
-    fn name(&self) -> &'static str {
-        "lattice"
-    }
-
-    fn question(&self) -> &'static str {
-        "Which estimate finds the lattice of a picture, and what may be wrong with the picture?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The two vectors that the picture was drawn by, whichever pair spans the same lattice."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("lattice error", "px")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "picture"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        of_estimates(&ESTIMATES, bench)
-    }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    of_estimates(&ESTIMATES, bench)
 }
 
-/// An estimate of the lattice from an analysis.
-#[derive(Clone, Copy)]
-pub(super) struct Estimate {
-    pub(super) name: &'static str,
-    pub(super) found: fn(&Analysis) -> Option<Basis>,
-}
+/// An estimate of the lattice from an analysis, by its name.
+pub(super) type Estimate = (&'static str, fn(&Analysis) -> Option<Basis>);
 
 /// The estimates that are compared.
 pub(super) const ESTIMATES: [Estimate; 5] = [
-    Estimate {
-        name: "whole pipeline",
-        found: |analysis| Some(analysis.found.as_ref().ok()?.lattice.basis()),
-    },
-    Estimate {
-        name: "whole, before refining",
-        found: |analysis| {
-            let [p1, p2] = analysis.found.as_ref().ok()?.from_maxima;
-            Some(Basis::new(p1, p2))
-        },
-    },
-    Estimate {
-        name: "mean concentration",
-        found: |analysis| {
-            analysis
-                .measured
-                .as_ref()?
-                .directions
-                .by_concentration
-                .basis
-        },
-    },
-    Estimate {
-        name: "Hough",
-        found: |analysis| analysis.measured.as_ref()?.directions.by_hough.basis,
-    },
-    Estimate {
-        name: "shortest vectors alone",
-        found: |analysis| shortest(&analysis.measured.as_ref()?.significant),
-    },
+    ("whole pipeline", |analysis| {
+        Some(analysis.found.as_ref().ok()?.lattice.basis())
+    }),
+    ("whole, before refining", |analysis| {
+        let [p1, p2] = analysis.found.as_ref().ok()?.from_maxima;
+        Some(Basis::new(p1, p2))
+    }),
+    ("mean concentration", |analysis| {
+        let directions = &analysis.measured.as_ref()?.directions;
+        directions.by_concentration.basis
+    }),
+    ("Hough", |analysis| {
+        analysis.measured.as_ref()?.directions.by_hough.basis
+    }),
+    ("shortest vectors alone", |analysis| {
+        shortest(&analysis.measured.as_ref()?.significant)
+    }),
 ];
 
 /// Vectors with a smaller sine of the angle between them are taken as parallel.
@@ -101,23 +72,21 @@ pub(super) fn of_estimates(
     let mut rows = of_pictures(estimates, &usual, ("usual", f64::NAN), bench);
     of_costs(&usual, &mut rows, bench);
     let mut plots = Vec::new();
-    let sweeps = sweeps(bench.effort);
-    let n_sweeps = sweeps.len() as f64;
-    for (done, sweep) in sweeps.into_iter().enumerate() {
-        for (n, &value) in sweep.values.iter().enumerate() {
-            let share = (done as f64 + n as f64 / sweep.values.len() as f64) / n_sweeps;
+    let n_sweeps = SWEEPS.len() as f64;
+    for (done, sweep) in SWEEPS.iter().enumerate() {
+        let [quick, full] = sweep.values;
+        let values = bench.effort.pick(quick, full);
+        for (n, &value) in values.iter().enumerate() {
+            let share = (done as f64 + n as f64 / values.len() as f64) / n_sweeps;
             bench.step(0.05 + 0.95 * share, &format!("{} {value}", sweep.name))?;
             let mut spoilt = usual;
             (sweep.spoil)(&mut spoilt, value);
             rows.extend(of_pictures(estimates, &spoilt, (sweep.name, value), bench));
         }
-        plots.push((format!("by-{}", sweep.name), plot(estimates, &sweep, &rows)));
+        plots.push((format!("by-{}", sweep.name), plot(sweep, &rows)));
     }
-    Ok(Findings {
-        notes: notes(&rows),
-        rows,
-        plots,
-    })
+    let notes = notes(&rows);
+    Ok(Findings::new(rows, plots, notes))
 }
 
 /// A row for every estimate over several pictures that are spoilt alike.
@@ -133,8 +102,8 @@ fn of_pictures(
     for number in 0..n_trials {
         let picture = spoilt.picture(number, &random);
         let analysis = analysed(&picture.luminance);
-        for (estimate, tally) in estimates.iter().zip(&mut tallies) {
-            let found = analysis.as_ref().and_then(estimate.found);
+        for ((_, find), tally) in estimates.iter().zip(&mut tallies) {
+            let found = analysis.as_ref().and_then(find);
             let off = share_off(&picture.truth, found);
             tally.add(off, off * picture.truth.shorter(), picture.is_weave);
             tally.n_finer += u32::from(found.is_some_and(|b| is_finer(&picture.truth, &b)));
@@ -147,7 +116,7 @@ fn of_pictures(
     };
     let pairs = estimates.iter().zip(tallies);
     pairs
-        .map(|(estimate, tally)| tally.row(estimate.name, case.clone(), value))
+        .map(|((name, _), tally)| tally.row(name, case.clone(), value))
         .collect()
 }
 
@@ -186,87 +155,57 @@ impl Tally {
 
     fn row(mut self, method: &str, case: String, value: f64) -> Row {
         let percent = |right: u32, of: u32| 100.0 * f64::from(right) / f64::from(of.max(1));
-        let number = |x: f64| {
-            if x.is_finite() {
-                format!("{x:.4}")
-            } else {
-                String::new()
-            }
+        let n = self.n.iter().sum();
+        let value = if value.is_nan() {
+            String::new()
+        } else {
+            value.to_string()
         };
-        let share = percent(self.n_right.iter().sum(), self.n.iter().sum());
-        Row {
-            method: method.to_owned(),
-            setting: format!("{} pictures", self.off_px.len()),
-            case,
-            error: Some(self.off_px.iter().sum::<f64>() / self.off_px.len().max(1) as f64),
-            more: vec![
-                (
-                    "value",
-                    if value.is_nan() {
-                        String::new()
-                    } else {
-                        value.to_string()
-                    },
-                ),
-                ("right_percent", format!("{share:.1}")),
-                (
-                    "right_weaves_percent",
-                    format!("{:.1}", percent(self.n_right[1], self.n[1])),
-                ),
-                (
-                    "right_oblique_percent",
-                    format!("{:.1}", percent(self.n_right[0], self.n[0])),
-                ),
-                (
-                    "finer_percent",
-                    format!("{:.1}", percent(self.n_finer, self.n.iter().sum())),
-                ),
-                (
-                    "median_of_right_px",
-                    number(median(&mut self.off_of_right_px)),
-                ),
-            ],
-            ..Row::default()
-        }
+        Row::of(method, format!("{} pictures", self.off_px.len()), case)
+            .error(mean(&self.off_px))
+            .with("value", value)
+            .number("right_percent", 1, percent(self.n_right.iter().sum(), n))
+            .number(
+                "right_weaves_percent",
+                1,
+                percent(self.n_right[1], self.n[1]),
+            )
+            .number(
+                "right_oblique_percent",
+                1,
+                percent(self.n_right[0], self.n[0]),
+            )
+            .number("finer_percent", 1, percent(self.n_finer, n))
+            .number("median_of_right_px", 4, median(&mut self.off_of_right_px))
     }
 }
 
-fn plot(estimates: &[Estimate], sweep: &Sweep, rows: &[Row]) -> Chart {
+fn plot(sweep: &Sweep, rows: &[Row]) -> Chart {
     let of_sweep = format!("{} ", sweep.name);
-    let series = estimates.iter().map(|estimate| Series {
-        name: estimate.name.to_owned(),
-        points: rows
-            .iter()
-            .filter(|row| row.method == estimate.name && row.case.starts_with(&of_sweep))
-            .filter_map(|row| {
-                Some([
-                    row.further_number("value")?,
-                    row.further_number("right_percent")?,
-                ])
-            })
-            .collect(),
-        style: Style::LineAndDots,
-        ..Series::default()
-    });
-    Chart {
-        title: format!(
+    let own = rows.iter().filter(|row| row.case.starts_with(&of_sweep));
+    let point = |row: &Row| {
+        let cell = |name| row.further_number(name);
+        Some([cell("value")?, cell("right_percent")?])
+    };
+    let x = Axis {
+        label: sweep.label.to_owned(),
+        scale: sweep.scale,
+        range: None,
+    };
+    chart(
+        format!(
             "Lattice: share of pictures that are right, by {}",
             sweep.name
         ),
-        x: Axis {
-            label: sweep.label.to_owned(),
-            scale: sweep.scale,
-            range: None,
-        },
-        y: Axis::linear("right, %").within([0.0, 100.0]),
-        series: series.collect(),
-        footnote: format!(
+        x,
+        Axis::linear("right, %").within([0.0, 100.0]),
+        lines_by(own, |row| &row.method, point),
+        format!(
             "Right: within {:.0} % of the shorter vector. Otherwise 6 dB over the noise, any turn, \
              blur 0.7 px, bend 0.3 px, light 1.5 to 1.",
             100.0 * RIGHT
         ),
-        ..Chart::default()
-    }
+    )
 }
 
 fn notes(rows: &[Row]) -> Vec<String> {
@@ -283,17 +222,15 @@ fn notes(rows: &[Row]) -> Vec<String> {
          the picture on, each with the autocorrelation that it needs."
             .to_owned(),
     ];
+    let share = |row: &Row| {
+        let share = row.further_number("right_percent")?;
+        let finer = row.further_number("finer_percent");
+        let finer = finer.filter(|finer| *finer > 0.0);
+        let finer = finer.map_or_else(String::new, |x| format!(" (a finer one: {x:.0} %)"));
+        Some(format!("{} {share:.0} %{finer}", row.method))
+    };
     let usual = rows.iter().filter(|row| row.case == "usual");
-    let shares: Vec<String> = usual
-        .filter_map(|row| {
-            let share = row.further_number("right_percent")?;
-            let finer = row
-                .further_number("finer_percent")
-                .filter(|finer| *finer > 0.0);
-            let finer = finer.map_or_else(String::new, |x| format!(" (a finer one: {x:.0} %)"));
-            Some(format!("{} {share:.0} %{finer}", row.method))
-        })
-        .collect();
+    let shares: Vec<String> = usual.filter_map(share).collect();
     notes.push(format!("Right on usual pictures: {}.", shares.join(", ")));
     notes
 }

@@ -15,10 +15,10 @@ mod sweeps;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use autocorrelation::AutocorrelationStudy;
-pub(crate) use lattice::LatticeStudy;
-pub(crate) use route::PictureRouteStudy;
-pub(crate) use scale::PictureScaleStudy;
+pub(crate) use autocorrelation::STUDY as AUTOCORRELATION;
+pub(crate) use lattice::STUDY as LATTICE;
+pub(crate) use route::STUDY as ROUTE;
+pub(crate) use scale::STUDY as SCALE;
 
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::unheard;

@@ -3,85 +3,73 @@
 use super::drawings::{BINDINGS, Binding};
 use super::spoilt::Spoilt;
 use super::{RIGHT, analysed, share_off};
+use crate::chart::{chart, series};
+use crate::readable::whole;
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::{Axis, Style};
 use selvedge_foundation::numerics::Random;
 
 /// Periods that a side of the picture holds, however small it is.
 const N_PERIODS: f64 = 22.0;
 
 /// Lattices of pictures that are reduced until nothing is left of the threads.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct PictureScaleStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "picture-scale",
+    question: "How far may the picture of a cloth be reduced before its lattice is lost?",
+    reference: "The two vectors that the picture was drawn by, whichever pair spans the same \
+                lattice.",
+    error: ("lattice error", "% of a period"),
+    cost_of: "picture",
+    run,
+};
 
-impl Study for PictureScaleStudy {
-    fn name(&self) -> &'static str {
-        "picture-scale"
-    }
-
-    fn question(&self) -> &'static str {
-        "How far may the picture of a cloth be reduced before its lattice is lost?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The two vectors that the picture was drawn by, whichever pair spans the same lattice."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("lattice error", "% of a period")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "picture"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let periods_px = bench.effort.pick(
-            vec![9.5, 4.0, 1.5],
-            vec![
-                20.0, 14.0, 10.0, 7.0, 5.0, 4.0, 3.5, 3.0, 2.7, 2.4, 2.2, 2.0, 1.8, 1.5,
-            ],
-        );
-        let weaves = &BINDINGS[..bench.effort.pick(2, BINDINGS.len())];
-        let mut findings = Findings::default();
-        let mut series = Vec::new();
-        for (done, &weave) in weaves.iter().enumerate() {
-            bench.step(done as f64 / weaves.len() as f64, weave.name)?;
-            let mut points = Vec::new();
-            for &period_px in &periods_px {
-                let row = row(weave, period_px, bench, &mut points);
-                findings.rows.push(row);
-            }
-            findings.notes.push(least(weave.name, &points));
-            series.push(Series {
-                name: weave.name.to_owned(),
-                points,
-                style: Style::LineAndDots,
-                ..Series::default()
-            });
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let periods_px = bench.effort.pick(
+        vec![9.5, 4.0, 1.5],
+        vec![
+            20.0, 14.0, 10.0, 7.0, 5.0, 4.0, 3.5, 3.0, 2.7, 2.4, 2.2, 2.0, 1.8, 1.5,
+        ],
+    );
+    let weaves = &BINDINGS[..bench.effort.pick(2, BINDINGS.len())];
+    let mut findings = Findings::default();
+    let mut lines = Vec::new();
+    for (done, &weave) in weaves.iter().enumerate() {
+        bench.step(done as f64 / weaves.len() as f64, weave.name)?;
+        let mut points = Vec::new();
+        for &period_px in &periods_px {
+            let row = row(weave, period_px, bench, &mut points);
+            findings.rows.push(row);
         }
-        findings.notes.push(
-            "The period is the shorter lattice vector, from a crossing to the next one like it; \
-             threads lie nearer together by √2 (plain, twills), √5 (satin of 5) and √8 or so \
-             (satin of 8). Every picture holds 22 periods a side, 20 dB over the noise, pixels \
-             as means of what they cover, threads turned anyhow. Below about two pixels no \
-             lattice is reported, on purpose."
-                .to_owned(),
-        );
-        findings.plots.push(("right".to_owned(), plot(series)));
-        Ok(findings)
+        findings.notes.push(least(weave.name, &points));
+        lines.push(series(weave.name, Style::LineAndDots, points));
     }
+    findings.notes.push(
+        "The period is the shorter lattice vector, from a crossing to the next one like it; \
+         threads lie nearer together by √2 (plain, twills), √5 (satin of 5) and √8 or so \
+         (satin of 8). Every picture holds 22 periods a side, 20 dB over the noise, pixels \
+         as means of what they cover, threads turned anyhow. Below about two pixels no \
+         lattice is reported, on purpose."
+            .to_owned(),
+    );
+    let plot = chart(
+        "Pictures reduced: share whose lattice is right",
+        Axis::log("shorter lattice vector, px"),
+        Axis::linear("right, %").within([0.0, 100.0]),
+        lines,
+        format!(
+            "{N_PERIODS} periods a side, 20 dB over the noise. Right: within {:.0} % of the \
+             shorter vector.",
+            100.0 * RIGHT
+        ),
+    );
+    findings.plots.push(("right".to_owned(), plot));
+    Ok(findings)
 }
 
 fn row(weave: Binding, period_px: f64, bench: &Bench<'_>, points: &mut Vec<[f64; 2]>) -> Row {
     let n_trials: u8 = bench.effort.pick(2, 4);
     let pitch_px = period_px / weave.period_threads();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred pixels"
-    )]
-    let n_px = (N_PERIODS * period_px).ceil() as usize;
+    let n_px = whole((N_PERIODS * period_px).ceil());
     let spoilt = Spoilt {
         snr_db: 20.0,
         blur_px: 0.0,
@@ -108,20 +96,17 @@ fn row(weave: Binding, period_px: f64, bench: &Bench<'_>, points: &mut Vec<[f64;
     points.push([period_px, share]);
     let n_repeats = bench.effort.pick(1, 3);
     let cost = first.map(|picture| bench.time_repeated(n_repeats, 1, || analysed(&picture)));
-    Row {
-        method: "whole pipeline".to_owned(),
-        setting: format!("{period_px} px a period"),
-        case: weave.name.to_owned(),
-        size: Some((n_px * n_px) as f64),
-        error: Some(100.0 * sum / f64::from(n_trials)),
-        cost,
-        more: vec![
-            ("period_px", period_px.to_string()),
-            ("thread_px", format!("{pitch_px:.3}")),
-            ("right_percent", format!("{share:.1}")),
-        ],
-        ..Row::default()
-    }
+    Row::of(
+        "whole pipeline",
+        format!("{period_px} px a period"),
+        weave.name,
+    )
+    .size((n_px * n_px) as f64)
+    .error(100.0 * sum / f64::from(n_trials))
+    .cost(cost)
+    .with("period_px", period_px)
+    .number("thread_px", 3, pitch_px)
+    .number("right_percent", 1, share)
 }
 
 /// The shortest period down to which every picture was right.
@@ -136,19 +121,4 @@ fn least(name: &str, points: &[[f64; 2]]) -> String {
         },
         |[period_px, _]| format!("{name}: every picture is right down to {period_px} px a period."),
     )
-}
-
-fn plot(series: Vec<Series>) -> Chart {
-    Chart {
-        title: "Pictures reduced: share whose lattice is right".to_owned(),
-        x: Axis::log("shorter lattice vector, px"),
-        y: Axis::linear("right, %").within([0.0, 100.0]),
-        series,
-        footnote: format!(
-            "{N_PERIODS} periods a side, 20 dB over the noise. Right: within {:.0} % of the \
-             shorter vector.",
-            100.0 * RIGHT
-        ),
-        ..Chart::default()
-    }
 }

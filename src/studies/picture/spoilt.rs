@@ -4,6 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::drawings::{BINDINGS, Drawing};
+use crate::readable::whole;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::{Basis, Place};
 
@@ -72,17 +73,8 @@ impl Spoilt {
     }
 
     fn side_px(&self, truth: &Basis) -> usize {
-        let Some(n_repeats) = self.n_repeats else {
-            return self.n_px;
-        };
-        let side_px = (n_repeats * truth.area().sqrt()).round().max(1.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a few hundred pixels"
-        )]
-        let side_px = side_px as usize;
-        side_px
+        let of_repeats = |n: f64| whole((n * truth.area().sqrt()).round().max(1.0));
+        self.n_repeats.map_or(self.n_px, of_repeats)
     }
 
     /// The picture of a drawing, in 8 bits.

@@ -10,12 +10,12 @@ fn with_bench<T>(work: impl FnOnce(&mut Bench<'_>) -> T) -> T {
 }
 
 /// What a study finds in quick mode.
-pub(super) fn quick(study: &dyn Study) -> Findings {
+pub(super) fn quick(study: &Study) -> Findings {
     let start_s = thread_cpu_seconds();
     let findings = crate::tests::quick(study, 3);
     println!(
         "{}: {:.1} s CPU",
-        study.name(),
+        study.name,
         thread_cpu_seconds() - start_s
     );
     for row in &findings.rows {
@@ -54,15 +54,12 @@ fn agree(first: &Findings, second: &Findings) {
 
 #[test]
 fn the_pipeline_finds_lattices_and_an_estimate_that_is_turned_shows_up_as_wrong() {
-    let turned = Estimate {
-        name: "turned by 20°",
-        found: |analysis| {
-            let basis = (ESTIMATES[0].found)(analysis)?;
-            let (s, c) = 20.0_f64.to_radians().sin_cos();
-            let turn = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
-            Some(Basis::new(turn(basis.p1), turn(basis.p2)))
-        },
-    };
+    let turned: Estimate = ("turned by 20°", |analysis| {
+        let basis = (ESTIMATES[0].1)(analysis)?;
+        let (s, c) = 20.0_f64.to_radians().sin_cos();
+        let turn = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
+        Some(Basis::new(turn(basis.p1), turn(basis.p2)))
+    });
     let estimates = [ESTIMATES[0], turned];
     let findings = with_bench(|bench| of_estimates(&estimates, bench)).unwrap();
     let usual = |name: &str| {
@@ -70,7 +67,7 @@ fn the_pipeline_finds_lattices_and_an_estimate_that_is_turned_shows_up_as_wrong(
         rows.find(|row| row.method == name && row.case == "usual")
             .unwrap()
     };
-    let (right, wrong) = (usual("whole pipeline"), usual(turned.name));
+    let (right, wrong) = (usual("whole pipeline"), usual(turned.0));
     assert!(cell(right, "right_percent") > 99.0, "{right:?}");
     assert!(cell(wrong, "right_percent") < 1.0, "{wrong:?}");
     assert!(right.error.unwrap() < 0.2 && wrong.error.unwrap() > 1.0);
@@ -92,14 +89,14 @@ fn the_pipeline_finds_lattices_and_an_estimate_that_is_turned_shows_up_as_wrong(
 #[test]
 fn the_quick_lattice_study_repeats_itself() {
     agree(
-        &quick(&LatticeStudy),
-        &with_bench(|bench| LatticeStudy.run(bench)).unwrap(),
+        &quick(&LATTICE),
+        &with_bench(|bench| (LATTICE.run)(bench)).unwrap(),
     );
 }
 
 #[test]
 fn pictures_are_right_while_threads_are_resolved_and_have_no_lattice_when_not() {
-    let findings = quick(&PictureScaleStudy);
+    let findings = quick(&SCALE);
     for row in &findings.rows {
         let (period_px, share) = (cell(row, "period_px"), cell(row, "right_percent"));
         if period_px > 9.0 {
@@ -117,7 +114,7 @@ fn pictures_are_right_while_threads_are_resolved_and_have_no_lattice_when_not() 
 
 #[test]
 fn every_route_is_measured_on_every_cloth() {
-    let findings = quick(&PictureRouteStudy);
+    let findings = quick(&ROUTE);
     for name in ["KES strokes", "KES, restored"] {
         let rows: Vec<&Row> = findings
             .rows

@@ -3,16 +3,13 @@
 
 use std::path::Path;
 
+use super::chart::{chart, lines_by};
 use super::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::Axis;
 use selvedge_foundation::files::Number;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::LengthUnit;
 use selvedge_textile::metrology::{About, Coding, HeightOptions, Measured, open, write, write_x3p};
-
-/// Reading time and error of Sq over formats and sizes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ReadersStudy;
 
 /// A format, and how exactly Sq comes back from it.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +41,9 @@ const fn plain(name: &'static str, ending: &'static str, promised: f64) -> Writt
     }
 }
 
+/// Distance of the points, mm.
+const STEP_MM: f64 = 0.01;
+
 /// Steps of 16 bits are 1/65535 of the relief, rounding errors of points cancel in Sq.
 const WRITTEN: [Written; 8] = [
     x3p("X3P float64", Number::F64, false, 1e-12),
@@ -57,6 +57,16 @@ const WRITTEN: [Written; 8] = [
 ];
 
 impl Written {
+    /// What a reader is told that the file does not say.
+    fn asked(self) -> HeightOptions {
+        let is_bare = self.ending == "npy";
+        HeightOptions {
+            height_unit: is_bare.then_some(LengthUnit::Micrometre),
+            step_mm: is_bare.then_some(STEP_MM),
+            ..HeightOptions::default()
+        }
+    }
+
     fn bytes(self, map: &Measured) -> Result<Vec<u8>, ReportError> {
         let path = Path::new("map").with_extension(self.ending);
         Ok(match self.x3p {
@@ -66,78 +76,57 @@ impl Written {
     }
 }
 
-impl Study for ReadersStudy {
-    fn name(&self) -> &'static str {
-        "readers"
-    }
+/// Reading time and error of Sq over formats and sizes.
+pub(crate) const STUDY: Study = Study {
+    name: "readers",
+    question: "What does reading measured heights cost, and how exactly does their roughness \
+               come back?",
+    reference: "Sq of the map that was written.",
+    error: ("error of Sq", "of Sq"),
+    cost_of: "point read",
+    run,
+};
 
-    fn question(&self) -> &'static str {
-        "What does reading measured heights cost, and how exactly does their roughness come back?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "Sq of the map that was written."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("error of Sq", "of Sq")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "point read"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let sides = bench.effort.pick(vec![64, 256], vec![64, 256, 1024]);
-        let mut findings = Findings::default();
-        let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new(); WRITTEN.len()];
-        for (done, &side) in sides.iter().enumerate() {
-            bench.step(done as f64 / sides.len() as f64, "reading")?;
-            let map = map(side, bench.seed)?;
-            for (written, line) in WRITTEN.iter().zip(&mut lines) {
-                let row = row(bench, *written, &map)?;
-                let n_points = (side * side) as f64;
-                line.extend(row.cost.map(|cost| [n_points, cost.cpu_s * n_points]));
-                findings.rows.push(row);
-            }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let sides = bench.effort.pick(&[64, 256][..], &[64, 256, 1024][..]);
+    let mut rows = Vec::new();
+    for (done, &side) in sides.iter().enumerate() {
+        bench.step(done as f64 / sides.len() as f64, "reading")?;
+        let map = map(side, bench.seed)?;
+        for written in WRITTEN {
+            rows.push(row(bench, written, &map)?);
         }
-        findings
-            .plots
-            .push(("readers-time".to_owned(), plot(lines)));
-        findings.notes.push(
-            "Maps are rough with a ripple; every file was written by this program, and read with \
-             its checksums and sizes checked."
-                .to_owned(),
-        );
-        Ok(findings)
     }
+    let whole = |row: &Row| Some([row.size?, row.cost?.cpu_s * row.size?]);
+    let plot = chart(
+        "Reading measured heights",
+        Axis::log("points"),
+        Axis::log("CPU time, s"),
+        lines_by(&rows, |row| &row.method, whole),
+        "",
+    );
+    let note = "Maps are rough with a ripple; every file was written by this program, and read \
+                with its checksums and sizes checked.";
+    let plots = vec![("readers-time".to_owned(), plot)];
+    Ok(Findings::new(rows, plots, [note]))
 }
 
 fn row(bench: &mut Bench<'_>, written: Written, map: &Measured) -> Result<Row, ReportError> {
     let bytes = written.bytes(map)?;
     let path = Path::new("map");
-    let asked = HeightOptions {
-        height_unit: (written.ending == "npy").then_some(LengthUnit::Micrometre),
-        step_mm: (written.ending == "npy").then_some(map.step_mm[0]),
-        ..HeightOptions::default()
-    };
+    let asked = written.asked();
     let read = open(&bytes, path, &asked)?;
     let n_points = map.heights_um.values().len();
     let cost = bench.time(n_points, || {
         open(&bytes, path, &asked).map(|read| read.n_missing())
     });
     let side = map.heights_um.width();
-    let n_bytes = bytes.len();
-    Ok(Row {
-        method: written.name.to_owned(),
-        case: format!("{side} × {side}"),
-        size: Some(n_points as f64),
-        error: Some((read.sq_um() / map.sq_um() - 1.0).abs()),
-        promised: Some(written.promised),
-        cost: Some(cost),
-        more: vec![("file_bytes", n_bytes.to_string())],
-        ..Row::default()
-    })
+    Ok(Row::of(written.name, "", format!("{side} × {side}"))
+        .size(n_points as f64)
+        .error((read.sq_um() / map.sq_um() - 1.0).abs())
+        .promised(written.promised)
+        .cost(cost)
+        .with("file_bytes", bytes.len()))
 }
 
 /// A rough map with a ripple, 10 µm steps.
@@ -148,27 +137,11 @@ fn map(side: usize, seed: u64) -> Result<Measured, ReportError> {
     let heights_um = Grid::from_rows(side, heights);
     Ok(Measured {
         heights_um: heights_um.ok_or_else(|| ReportError::Study("an empty map".to_owned()))?,
-        step_mm: [0.01; 2],
+        step_mm: [STEP_MM; 2],
         about: About::default(),
         warnings: Vec::new(),
         layers: Vec::new(),
     })
-}
-
-fn plot(lines: Vec<Vec<[f64; 2]>>) -> Chart {
-    let series = WRITTEN.iter().zip(lines).map(|(written, points)| Series {
-        name: written.name.to_owned(),
-        points,
-        style: Style::LineAndDots,
-        ..Series::default()
-    });
-    Chart {
-        title: "Reading measured heights".to_owned(),
-        x: Axis::log("points"),
-        y: Axis::log("CPU time, s"),
-        series: series.collect(),
-        ..Chart::default()
-    }
 }
 
 #[cfg(test)]
@@ -180,12 +153,7 @@ mod tests {
         let map = map(64, 1).unwrap();
         for written in WRITTEN {
             let bytes = written.bytes(&map).unwrap();
-            let asked = HeightOptions {
-                height_unit: Some(LengthUnit::Micrometre).filter(|_| written.ending == "npy"),
-                step_mm: Some(0.01).filter(|_| written.ending == "npy"),
-                ..HeightOptions::default()
-            };
-            let read = open(&bytes, Path::new("map"), &asked).unwrap();
+            let read = open(&bytes, Path::new("map"), &written.asked()).unwrap();
             let off = (read.sq_um() / map.sq_um() - 1.0).abs();
             assert!(off <= written.promised, "{}: {off:e}", written.name);
         }

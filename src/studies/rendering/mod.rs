@@ -3,25 +3,20 @@
 //! The product's methods at several settings, and tables that it might have had: other densities,
 //! interpolations and digits, and one that ignores where bins cross 1 kHz.
 
-pub(super) mod cloths;
 mod study_table;
 mod this_scene;
 
 pub use this_scene::{Running, ThisSceneStudy};
 
-use std::sync::Arc;
+use study_table::table_rows;
 
-use cloths::{exeter, placed, poses_between, scene_of};
-use study_table::{Digits, Nodes, Reading, StudyTable};
-
-use super::{Bench, Effort, Findings, ReportError, Row, Study};
-use selvedge_foundation::geometry::Point;
+use super::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::Pose;
 use selvedge_render::{ErrorMeter, RenderScene};
-use selvedge_textile::surface::Surface;
+use textiles::{amplitudes_um, poses_between, scene_with};
 
 /// The speeds that are promised, mm/s.
 const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 2000.0];
@@ -37,62 +32,46 @@ const FLOORS: [f64; 5] = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1];
 const BUDGETS_DB: [f64; 4] = [0.5, PROMISED_DB, 0.01, 0.002];
 
 /// Reference, banded and tables on four kinds of textile.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct RenderingStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "rendering",
+    question: "How far is each method of rendering from the reference, and what does a tick of \
+               24 contactors cost?",
+    reference: "The method reference: f64, every bin below 1 kHz, on the very same poses.",
+    error: ("level error", "dB"),
+    cost_of: "tick of 24 contactors",
+    run,
+};
 
-impl Study for RenderingStudy {
-    fn name(&self) -> &'static str {
-        "rendering"
-    }
-
-    fn question(&self) -> &'static str {
-        "How far is each method of rendering from the reference, and what does a tick of 24 \
-         contactors cost?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The method reference: f64, every bin below 1 kHz, on the very same poses."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("level error", "dB")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "tick of 24 contactors"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let mut findings = Findings::default();
-        let cases = cases(bench)?;
-        let n_cases = cases.len() as f64;
-        for (number, case) in cases.iter().enumerate() {
-            let done = |share: f64| (number as f64 + share) / n_cases;
-            bench.step(done(0.0), &case.name)?;
-            for (named, accuracy) in product_methods() {
-                findings
-                    .rows
-                    .push(case.product_row(bench, named, &accuracy)?);
-            }
-            bench.step(done(0.5), &case.name)?;
-            findings.rows.extend(table_rows(bench, case)?);
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let mut findings = Findings::default();
+    let cases = cases(bench)?;
+    let n_cases = cases.len() as f64;
+    for (number, case) in cases.iter().enumerate() {
+        let done = |share: f64| (number as f64 + share) / n_cases;
+        bench.step(done(0.0), &case.name)?;
+        for (named, accuracy) in product_methods() {
+            findings
+                .rows
+                .push(case.product_row(bench, named, &accuracy)?);
         }
-        let [slow, fast] = SPEEDS_MM_PER_S.map(|v| quantity::with_unit(v, 0, "mm/s"));
-        findings.notes = vec![
-            format!(
-                "{} poses a textile, from {slow} to {fast}; a quarter of them just where a bin \
-                 crosses 1 kHz.",
-                cases.first().map_or(0, |case| case.poses.len())
-            ),
-            "Level errors are taken where the reference reaches a thousandth of its band's largest \
-             amplitude; below, the largest difference stands as a share of that amplitude."
-                .to_owned(),
-            "Tables called linear, cubic and uncut exist in this study alone; the product renders \
-             with reference, banded and table."
-                .to_owned(),
-        ];
-        Ok(findings)
+        bench.step(done(0.5), &case.name)?;
+        findings.rows.extend(table_rows(bench, case)?);
     }
+    let [slow, fast] = SPEEDS_MM_PER_S.map(|v| quantity::with_unit(v, 0, "mm/s"));
+    findings.notes = vec![
+        format!(
+            "{} poses a textile, from {slow} to {fast}; a quarter of them just where a bin \
+             crosses 1 kHz.",
+            cases.first().map_or(0, |case| case.poses.len())
+        ),
+        "Level errors are taken where the reference reaches a thousandth of its band's largest \
+         amplitude; below, the largest difference stands as a share of that amplitude."
+            .to_owned(),
+        "Tables called linear, cubic and uncut exist in this study alone; the product renders \
+         with reference, banded and table."
+            .to_owned(),
+    ];
+    Ok(findings)
 }
 
 /// A textile, the poses it is felt at, and what the reference makes of them.
@@ -106,43 +85,34 @@ struct Case {
 }
 
 fn cases(bench: &Bench<'_>) -> Result<Vec<Case>, ReportError> {
-    let cloths = [
+    let surfaces = [
         (
             "smooth: polyester satin",
-            cloths::shipped("polyester-satin")?,
+            textiles::shipped("polyester-satin")?,
         ),
-        ("coarse: jute", cloths::shipped("jute-plain")?),
-        ("a single line", cloths::line(40)?),
-        ("broadband: white noise", cloths::noise(bench.seed)?),
+        ("coarse: jute", textiles::shipped("jute-plain")?),
+        ("a single line", textiles::line(40)?),
+        ("broadband: white noise", textiles::noise(bench.seed)?),
     ];
     let random = Random::new(bench.seed).branch("rendering");
     let n_poses = bench.effort.pick(60, 600);
-    let case = |(name, surface): (&'static str, Arc<Surface>)| {
+    let case = |(name, surface): (&str, _)| {
         let poses = poses_between(SPEEDS_MM_PER_S, n_poses, &mut random.branch(name));
-        Case::new(name, &surface, poses)
+        Case::new(name.to_owned(), scene_with(&surface), poses)
     };
-    cloths.into_iter().map(case).collect()
+    surfaces.into_iter().map(case).collect()
 }
 
 impl Case {
-    fn new(
-        name: &'static str,
-        surface: &Arc<Surface>,
-        poses: Vec<Pose>,
-    ) -> Result<Self, ReportError> {
-        let scene = scene_of(vec![placed(surface, Point::default())], exeter());
-        Self::of(name.to_owned(), scene, poses)
-    }
-
-    fn of(name: String, scene: RenderScene, poses: Vec<Pose>) -> Result<Self, ReportError> {
-        let mut reference =
-            ArrayRenderer::prepare(&scene, Method::Reference, &Accuracy::default())?;
+    fn new(name: String, scene: RenderScene, poses: Vec<Pose>) -> Result<Self, ReportError> {
+        let mut reference = textiles::prepared(&scene, Method::Reference)?;
         let mut exact_um = Vec::new();
         let mut largest_um = [0.0_f64; 2];
-        let mut display_poses = vec![Pose::default(); scene.displays.len()];
         for pose in &poses {
-            display_poses.fill(*pose);
-            exact_um.extend(amplitudes(&mut reference, &display_poses));
+            exact_um.extend(amplitudes_um(
+                &mut reference,
+                &vec![*pose; scene.displays.len()],
+            ));
         }
         for amplitudes in &exact_um {
             (0..2).for_each(|b| largest_um[b] = largest_um[b].max(amplitudes[b]));
@@ -182,21 +152,16 @@ impl Case {
                 tick(pose, &mut found_um);
             }
         });
-        let is_below = error.max_share_below <= PROMISED_SHARE;
-        Row {
-            method: method.to_owned(),
-            setting,
-            case: self.name.clone(),
-            error: Some(error.max_db),
-            error_p99: Some(error.p99_db),
-            cost: Some(cost),
-            more: vec![
-                ("share_below", format!("{:e}", error.max_share_below)),
-                ("share_below_is_kept", is_below.to_string()),
-                ("n_amplitudes", error.n_amplitudes.to_string()),
-            ],
-            ..Row::default()
-        }
+        Row::of(method, setting, &self.name)
+            .error(error.max_db)
+            .p99(error.p99_db)
+            .cost(cost)
+            .with("share_below", format!("{:e}", error.max_share_below))
+            .with(
+                "share_below_is_kept",
+                error.max_share_below <= PROMISED_SHARE,
+            )
+            .with("n_amplitudes", error.n_amplitudes)
     }
 
     /// The row of a renderer of the product.
@@ -210,22 +175,15 @@ impl Case {
         let (n_bytes, bound) = (renderer.n_bytes(), renderer.bound());
         let mut poses = vec![Pose::default(); self.scene.displays.len()];
         let method_used = renderer.method();
-        let mut row = self.row(bench, (method_used.name(), setting), |pose, out| {
+        let row = self.row(bench, (method_used.name(), setting), |pose, out| {
             poses.fill(*pose);
-            out.extend(amplitudes(&mut renderer, &poses));
+            out.extend(amplitudes_um(&mut renderer, &poses));
         });
-        row.bytes = Some(n_bytes as u64);
-        row.more.push(("bound_db", format!("{:e}", bound.level_db)));
-        row.promised = promised_db(method_used, accuracy);
-        Ok(row)
+        Ok(row
+            .bytes(n_bytes)
+            .with("bound_db", format!("{:e}", bound.level_db))
+            .promised(promised_db(method_used, accuracy)))
     }
-}
-
-/// All amplitudes of all displays at their poses, µm.
-fn amplitudes(renderer: &mut ArrayRenderer, poses: &[Pose]) -> impl Iterator<Item = [f64; 2]> {
-    let frames = renderer.tick(poses).iter();
-    frames
-        .flat_map(|frame| (0..frame.n_contactors()).map(|contactor| frame.amplitude_um(contactor)))
 }
 
 /// A method, what is said of its setting, and that setting.
@@ -236,14 +194,12 @@ fn product_methods() -> Vec<Configured> {
     let default = Accuracy::default();
     let mut methods = vec![((Method::Reference, String::new()), default)];
     methods.extend(FLOORS.map(|banded_floor| {
+        let setting = format!("floor {banded_floor:e}");
         let accuracy = Accuracy {
             banded_floor,
             ..default
         };
-        (
-            (Method::Banded, format!("floor {banded_floor:e}")),
-            accuracy,
-        )
+        ((Method::Banded, setting), accuracy)
     }));
     methods.extend(BUDGETS_DB.map(|budget_db| {
         let setting = format!("within {budget_db} dB");
@@ -261,53 +217,6 @@ fn promised_db(method: Method, accuracy: &Accuracy) -> Option<f64> {
         Method::Table => Some(accuracy.budget_db),
         Method::Reference | Method::Auto => None,
     }
-}
-
-/// The tables that the product might have had.
-fn table_rows(bench: &mut Bench<'_>, case: &Case) -> Result<Vec<Row>, ReportError> {
-    let densities: &[usize] = match bench.effort {
-        Effort::Quick => &[2, 24, 48],
-        Effort::Full => &[2, 6, 12, 24, 48, 96],
-    };
-    let mut rows = Vec::new();
-    for &per_octave in densities {
-        bench.step(0.5, &case.name)?;
-        let nodes = Nodes::new(per_octave, true);
-        let table = StudyTable::new(&case.scene, nodes, Reading::Linear);
-        for reading in Reading::BOTH {
-            rows.push(table_row(
-                bench,
-                case,
-                per_octave,
-                &table.as_read::<f32>(reading),
-            ));
-            rows.push(table_row(
-                bench,
-                case,
-                per_octave,
-                &table.as_read::<f64>(reading),
-            ));
-        }
-    }
-    let per_octave = 48;
-    let uncut = StudyTable::new(&case.scene, Nodes::new(per_octave, false), Reading::Cubic);
-    rows.push(table_row(bench, case, per_octave, &uncut));
-    Ok(rows)
-}
-
-fn table_row<T: Digits>(
-    bench: &mut Bench<'_>,
-    case: &Case,
-    per_octave: usize,
-    table: &StudyTable<T>,
-) -> Row {
-    let setting = format!("{per_octave} nodes an octave");
-    let mut row = case.row(bench, (&table.name(), setting), |pose, out| {
-        out.resize(case.exact_um.len() / case.poses.len().max(1), [0.0; 2]);
-        table.tick(pose, out);
-    });
-    row.bytes = Some(table.n_bytes() as u64);
-    row
 }
 
 #[cfg(test)]

@@ -7,6 +7,9 @@
 use std::ops::{Add, Mul};
 use std::sync::Arc;
 
+use super::Case;
+use crate::readable::whole;
+use crate::{Bench, ReportError, Row};
 use selvedge_foundation::geometry::Displacement;
 use selvedge_render::RenderScene;
 use selvedge_render::scene::Pose;
@@ -16,14 +19,31 @@ use selvedge_textile::tactile::{
     n_audible_bins,
 };
 
+/// Rows of the tables that the product might have had.
+pub(super) fn table_rows(bench: &mut Bench<'_>, case: &Case) -> Result<Vec<Row>, ReportError> {
+    let densities = bench
+        .effort
+        .pick(&[2, 24, 48][..], &[2, 6, 12, 24, 48, 96][..]);
+    let mut rows = Vec::new();
+    for &per_octave in densities {
+        bench.step(0.5, &case.name)?;
+        let table = StudyTable::new(&case.scene, Nodes::new(per_octave, true), Reading::Linear);
+        for reading in [Reading::Linear, Reading::Cubic] {
+            rows.push(table.as_read::<f32>(reading).row(bench, case, per_octave));
+            rows.push(table.as_read::<f64>(reading).row(bench, case, per_octave));
+        }
+    }
+    let uncut = StudyTable::new(&case.scene, Nodes::new(48, false), Reading::Cubic);
+    rows.push(uncut.row(bench, case, 48));
+    Ok(rows)
+}
+
 /// A number as a table holds it.
-pub(super) trait Digits: Copy + Add<Output = Self> + Mul<Output = Self> {
+pub(super) trait Digits: Copy + Add<Output = Self> + Mul<Output = Self> + Into<f64> {
     /// What it is called.
     const NAME: &'static str;
     /// The nearest to a number.
     fn of(x: f64) -> Self;
-    /// With all its digits.
-    fn wide(self) -> f64;
 }
 
 impl Digits for f32 {
@@ -33,10 +53,6 @@ impl Digits for f32 {
     fn of(x: f64) -> Self {
         x as Self
     }
-
-    fn wide(self) -> f64 {
-        f64::from(self)
-    }
 }
 
 impl Digits for f64 {
@@ -44,10 +60,6 @@ impl Digits for f64 {
 
     fn of(x: f64) -> Self {
         x
-    }
-
-    fn wide(self) -> f64 {
-        self
     }
 }
 
@@ -61,21 +73,11 @@ pub(super) enum Reading {
 }
 
 impl Reading {
-    /// Both.
-    pub(super) const BOTH: [Self; 2] = [Self::Linear, Self::Cubic];
-
-    /// What it is called.
-    pub(super) fn name(self) -> &'static str {
+    /// What it is called, and the nodes that it reads.
+    fn name_and_nodes(self) -> (&'static str, usize) {
         match self {
-            Self::Linear => "linear",
-            Self::Cubic => "cubic",
-        }
-    }
-
-    fn n_nodes(self) -> usize {
-        match self {
-            Self::Linear => 2,
-            Self::Cubic => 4,
+            Self::Linear => ("linear", 2),
+            Self::Cubic => ("cubic", 4),
         }
     }
 }
@@ -126,12 +128,7 @@ impl Nodes {
 
     fn add(&mut self, [low, high]: [f64; 2], per_octave: usize, n_bins: Option<usize>) {
         let octaves = (high / low).log2();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "twenty octaves at most"
-        )]
-        let n_parts = (octaves * per_octave as f64 - 1e-9).ceil().max(1.0) as usize;
+        let n_parts = whole((octaves * per_octave as f64 - 1e-9).ceil().max(1.0));
         self.segments.push(Segment {
             start: low.log2(),
             parts_per_octave: n_parts as f64 / octaves,
@@ -154,15 +151,10 @@ impl Nodes {
         };
         let segment = &self.segments[place];
         let at = (speed_mm_per_s.log2() - segment.start) * segment.parts_per_octave;
-        let n_nodes = reading.n_nodes().min(segment.n_parts + 1);
+        let n_nodes = reading.name_and_nodes().1.min(segment.n_parts + 1);
         let before = at.clamp(0.0, segment.n_parts as f64) - (n_nodes as f64 / 2.0 - 1.0);
         let last = segment.n_parts + 1 - n_nodes;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "not negative, and below the number of nodes"
-        )]
-        let first = (before.max(0.0) as usize).min(last);
+        let first = whole(before).min(last);
         let mut weights = [T::of(0.0); 4];
         for (i, weight) in weights.iter_mut().enumerate().take(n_nodes) {
             let others = (0..n_nodes).filter(|&j| j != i);
@@ -241,7 +233,7 @@ fn powers_at(nodes: &Nodes, spectra: &LocalSpectra, filters: &Filters) -> Vec<[f
 impl<T: Digits> StudyTable<T> {
     /// The same tables read in another way, with other digits.
     pub(super) fn as_read<U: Digits>(&self, reading: Reading) -> StudyTable<U> {
-        let digits = |rows: &Vec<[T; 2]>| rows.iter().map(|p| p.map(|x| U::of(x.wide()))).collect();
+        let digits = |rows: &Vec<[T; 2]>| rows.iter().map(|p| p.map(|x| U::of(x.into()))).collect();
         StudyTable {
             nodes: Arc::clone(&self.nodes),
             reading,
@@ -255,24 +247,26 @@ impl<T: Digits> StudyTable<T> {
         }
     }
 
-    /// What it is called.
-    pub(super) fn name(&self) -> String {
+    fn row(&self, bench: &mut Bench<'_>, case: &Case, per_octave: usize) -> Row {
         let uncut = if self.nodes.is_cut { "" } else { ", uncut" };
-        format!("{} {}{uncut}", self.reading.name(), T::NAME)
-    }
-
-    /// Bytes of the tables.
-    pub(super) fn n_bytes(&self) -> usize {
-        self.tables
-            .iter()
-            .map(|(_, rows)| size_of_val(&rows[..]))
-            .sum()
+        let method = format!("{} {}{uncut}", self.reading.name_and_nodes().0, T::NAME);
+        let setting = format!("{per_octave} nodes an octave");
+        let row = case.row(bench, (&method, setting), |pose, out| {
+            out.resize(self.offsets.len(), [0.0; 2]);
+            self.tick(pose, out);
+        });
+        row.bytes(
+            self.tables
+                .iter()
+                .map(|(_, rows)| size_of_val(&rows[..]))
+                .sum(),
+        )
     }
 
     /// Amplitudes of all contactors at a pose, µm.
     pub(super) fn tick(&self, pose: &Pose, amplitudes_um: &mut [[f64; 2]]) {
         let mut powers = [[T::of(0.0); 2]; MAX_CONTACTORS];
-        let powers = &mut powers[..self.offsets.len().min(MAX_CONTACTORS)];
+        let n_nodes = self.reading.name_and_nodes().1;
         let velocity = [pose.velocity.x_mm_per_s, pose.velocity.y_mm_per_s];
         for (axis, component) in velocity.into_iter().enumerate() {
             let speed_mm_per_s = component.abs();
@@ -288,7 +282,7 @@ impl<T: Digits> StudyTable<T> {
                     _ => pose.position.y_mm + offset.y_mm,
                 };
                 let point = nearest(place_mm, *n_points);
-                for (node, weight) in weights.iter().take(self.reading.n_nodes()).enumerate() {
+                for (node, weight) in weights.iter().take(n_nodes).enumerate() {
                     let Some(stored) = rows.get((first + node) * n_points + point) else {
                         continue;
                     };
@@ -299,7 +293,7 @@ impl<T: Digits> StudyTable<T> {
         }
         for (out, power) in amplitudes_um.iter_mut().zip(powers) {
             // A cubic may swing below nothing.
-            *out = power.map(|power| power.wide().max(0.0).sqrt());
+            *out = power.map(|power| power.into().max(0.0).sqrt());
         }
     }
 }
@@ -308,11 +302,6 @@ impl<T: Digits> StudyTable<T> {
 const MAX_CONTACTORS: usize = 24;
 
 /// The nearest point of a profile.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "places on the textile"
-)]
 fn nearest(place_mm: f64, n_points: usize) -> usize {
-    (place_mm + 0.5 + 1e-6).floor().max(0.0) as usize % n_points.max(1)
+    whole(place_mm + 0.5 + 1e-6) % n_points.max(1)
 }

@@ -1,11 +1,12 @@
 //! The study of rendering: complete, and wrong methods show up as wrong.
 
+use super::study_table::{Nodes, Reading, StudyTable};
 use super::*;
 use crate::tests::quick;
 
 #[test]
 fn every_method_is_tried_on_every_textile_and_wrong_ones_show() {
-    let findings = quick(&RenderingStudy, 7);
+    let findings = quick(&STUDY, 7);
     let of = |method: &str, setting: &str| -> Vec<&Row> {
         let is_it = |row: &&Row| row.method == method && row.setting == setting;
         findings.rows.iter().filter(is_it).collect()
@@ -39,9 +40,9 @@ fn every_method_is_tried_on_every_textile_and_wrong_ones_show() {
 #[test]
 fn a_study_table_reads_its_own_nodes_exactly() {
     let mut random = Random::new(3);
-    let surface = cloths::noise(3).unwrap();
+    let surface = textiles::noise(3).unwrap();
     let poses = poses_between([100.0, 400.0], 1, &mut random);
-    let case = Case::new("noise", &surface, poses).unwrap();
+    let case = Case::new("noise".to_owned(), scene_with(&surface), poses).unwrap();
     let mut reference =
         ArrayRenderer::prepare(&case.scene, Method::Reference, &Accuracy::default()).unwrap();
     // At the speed where the 21st bin reaches 1 kHz, 20 sound; a hair below, 21.
@@ -52,7 +53,7 @@ fn a_study_table_reads_its_own_nodes_exactly() {
         pose.velocity = selvedge_foundation::geometry::Velocity::new(-speed, 0.0);
         let mut found = vec![[0.0; 2]; 24];
         table.tick(&pose, &mut found);
-        for (found, exact) in found.iter().zip(amplitudes(&mut reference, &[pose])) {
+        for (found, exact) in found.iter().zip(amplitudes_um(&mut reference, &[pose])) {
             for b in 0..2 {
                 assert!(
                     (found[b] / exact[b] - 1.0).abs() < 1e-6,

@@ -3,7 +3,7 @@
 //! The same rows as the study of rendering, with the method that runs among them.
 
 use super::{Case, Configured, product_methods};
-use crate::{Bench, Findings, ReportError, Row, Study};
+use crate::{Bench, Findings, ReportError, Row};
 use selvedge_foundation::geometry::Displacement;
 use selvedge_foundation::quantity;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
@@ -49,7 +49,43 @@ pub struct ThisSceneStudy {
 impl ThisSceneStudy {
     /// Whether a row is that of the method that runs.
     pub fn is_running(row: &Row) -> bool {
-        row.more.iter().any(|(name, _)| *name == RUNNING)
+        !row.further(RUNNING).is_empty()
+    }
+
+    /// A row a method.
+    ///
+    /// # Errors
+    /// It was cancelled, or the scene cannot be rendered.
+    pub fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+        bench.step(0.0, "reference amplitudes")?;
+        let poses = self.poses();
+        let n_poses = poses.len();
+        let methods = self.methods()?;
+        let case = Case::new(self.name.clone(), self.scene.clone(), poses)?;
+        let mut findings = Findings::default();
+        for (nth, (is_running, (named, accuracy))) in methods.iter().enumerate() {
+            let share = (nth + 1) as f64 / (methods.len() + 1) as f64;
+            bench.step(share, &format!("{} {}", named.0.name(), named.1))?;
+            let mut row = match case.product_row(bench, named.clone(), accuracy) {
+                // Tables that would not fit are no reason to measure nothing.
+                Err(ReportError::Render(error)) if !is_running => {
+                    findings.notes.push(format!("{}: {error}.", named.0.name()));
+                    continue;
+                }
+                row => row?,
+            };
+            if *is_running {
+                row = row.with(RUNNING, true);
+            }
+            findings.rows.push(row);
+        }
+        findings.notes.push(if self.poses.is_empty() {
+            let [slow, middle, fast] = SPEEDS_MM_PER_S.map(|v| quantity::fixed(v, 0));
+            format!("{n_poses} poses: every textile crossed at {slow}, {middle} and {fast} mm/s.")
+        } else {
+            format!("{n_poses} ticks of the exploration.")
+        });
+        Ok(findings)
     }
 
     /// The poses that are measured: at most as many as the scene's contactors allow, evenly from
@@ -69,7 +105,7 @@ impl ThisSceneStudy {
     }
 
     /// The methods of the study; the one that runs marked, and added if it is not among them.
-    fn methods(&self) -> Result<Vec<(Configured, bool)>, ReportError> {
+    fn methods(&self) -> Result<Vec<(bool, Configured)>, ReportError> {
         let Running { method, accuracy } = self.running;
         let used = ArrayRenderer::prepare(&self.scene, method, &accuracy)?.method();
         let is_used = |(named, setting): &Configured| {
@@ -82,73 +118,14 @@ impl ThisSceneStudy {
                     Method::Reference | Method::Auto => true,
                 }
         };
-        let mut methods: Vec<(Configured, bool)> = product_methods()
-            .into_iter()
-            .map(|configured| {
-                let is_running = is_used(&configured);
-                (configured, is_running)
-            })
-            .collect();
-        if !methods.iter().any(|(_, is_running)| *is_running) {
+        let of_product = product_methods().into_iter();
+        let marked = of_product.map(|configured| (is_used(&configured), configured));
+        let mut methods: Vec<(bool, Configured)> = marked.collect();
+        if !methods.iter().any(|(is_running, _)| *is_running) {
             let setting = format!("within {} dB", accuracy.budget_db);
-            methods.push((((used, setting), accuracy), true));
+            methods.push((true, ((used, setting), accuracy)));
         }
         Ok(methods)
-    }
-}
-
-impl Study for ThisSceneStudy {
-    fn name(&self) -> &'static str {
-        "this-scene"
-    }
-
-    fn question(&self) -> &'static str {
-        "How far is each method of rendering from the reference on this scene, and what does a \
-         tick of its displays cost?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The method reference: f64, every bin below 1 kHz, on the very same poses."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("level error", "dB")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "tick of all displays"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        bench.step(0.0, "reference amplitudes")?;
-        let poses = self.poses();
-        let n_poses = poses.len();
-        let methods = self.methods()?;
-        let case = Case::of(self.name.clone(), self.scene.clone(), poses)?;
-        let mut findings = Findings::default();
-        for (nth, ((named, accuracy), is_running)) in methods.iter().enumerate() {
-            let share = (nth + 1) as f64 / (methods.len() + 1) as f64;
-            bench.step(share, &format!("{} {}", named.0.name(), named.1))?;
-            let mut row = match case.product_row(bench, named.clone(), accuracy) {
-                // Tables that would not fit are no reason to measure nothing.
-                Err(ReportError::Render(error)) if !is_running => {
-                    findings.notes.push(format!("{}: {error}.", named.0.name()));
-                    continue;
-                }
-                row => row?,
-            };
-            if *is_running {
-                row.more.push((RUNNING, true.to_string()));
-            }
-            findings.rows.push(row);
-        }
-        findings.notes.push(if self.poses.is_empty() {
-            let [slow, middle, fast] = SPEEDS_MM_PER_S.map(|v| quantity::fixed(v, 0));
-            format!("{n_poses} poses: every textile crossed at {slow}, {middle} and {fast} mm/s.")
-        } else {
-            format!("{n_poses} ticks of the exploration.")
-        });
-        Ok(findings)
     }
 }
 
@@ -183,8 +160,8 @@ fn crossings(textiles: &[PlacedSurface]) -> Vec<Pose> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pareto;
-    use crate::tests::quick;
+    use crate::{Effort, pareto};
+    use selvedge_foundation::progress::unheard;
     use selvedge_render::scene::LoadedScene;
 
     fn study(method: Method, accuracy: Accuracy) -> ThisSceneStudy {
@@ -197,7 +174,7 @@ mod tests {
     }
 
     fn findings(study: &ThisSceneStudy) -> Findings {
-        quick(study, 1)
+        unheard(|progress| study.run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap()
     }
 
     #[test]

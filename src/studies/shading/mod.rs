@@ -1,10 +1,12 @@
 //! Shape from shading: how near the methods come to reliefs that are known, by light, noise and
 //! iterations.
 
-mod reliefs;
+pub(super) mod reliefs;
 #[cfg(test)]
 mod tests;
 
+use super::chart::{chart, series};
+use super::readable::mean;
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use reliefs::{Relief, Truth};
 use selvedge_chart::{Axis, Chart, Series, Style};
@@ -29,81 +31,59 @@ const WEAVE: Relief = Relief::PlainWeave {
 const PROMISED_CORRELATION: f64 = 0.95;
 
 /// Error of heights by method, iterations, light and noise, and what finding them costs.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ShadingStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "shading",
+    question: "How much of a known relief comes back from its picture?",
+    reference: "The relief that the picture was drawn of, four points to a pixel's side.",
+    error: ("height error", "%"),
+    cost_of: "tile",
+    run,
+};
 
-impl Study for ShadingStudy {
-    fn name(&self) -> &'static str {
-        "shading"
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let n = bench.effort.pick(32, 96);
+    let mut findings = Findings::new(Vec::new(), Vec::new(), NOTES);
+    of_reliefs(n, bench, &mut findings.rows)?;
+    let weave = WEAVE.truth(n, bench.seed)?;
+    of_iterations(&weave, bench, &mut findings.rows)?;
+    let lights = |step: f64, last: f64| -> Vec<f64> {
+        let step = bench.effort.pick(6.0 * step, step);
+        (0..=200_u8)
+            .map(|i| f64::from(i) * step)
+            .take_while(|x| *x <= last)
+            .collect()
+    };
+    let (slants, tilts) = (lights(5.0, 80.0), lights(7.5, 180.0));
+    let noises = bench
+        .effort
+        .pick(vec![0.0, 0.03], vec![0.0, 0.003, 0.01, 0.03, 0.1]);
+    let sweeps = [
+        ("slant", "slant of the light, degrees", slants),
+        ("tilt", "tilt of the light, degrees", tilts),
+        ("noise", "noise, share of white, rms", noises),
+    ];
+    for (i, (name, label, values)) in sweeps.into_iter().enumerate() {
+        bench.step(0.4 + 0.2 * i as f64, name)?;
+        let points = of_sweep(&weave, (name, &values), bench, &mut findings.rows);
+        let plot = plot(name, label, points);
+        findings.plots.push((format!("by-{name}"), plot));
     }
-
-    fn question(&self) -> &'static str {
-        "How much of a known relief comes back from its picture?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The relief that the picture was drawn of, four points to a pixel's side."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("height error", "%")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "tile"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let n = bench.effort.pick(32, 96);
-        let mut findings = Findings {
-            notes: notes(),
-            ..Findings::default()
-        };
-        of_reliefs(n, bench, &mut findings)?;
-        let weave = WEAVE.truth(n, bench.seed)?;
-        of_iterations(&weave, bench, &mut findings)?;
-        let lights = |step: f64, last: f64| -> Vec<f64> {
-            let step = bench.effort.pick(6.0 * step, step);
-            (0..=200_u8)
-                .map(|i| f64::from(i) * step)
-                .take_while(|x| *x <= last)
-                .collect()
-        };
-        let (slants, tilts) = (lights(5.0, 80.0), lights(7.5, 180.0));
-        let noises = bench
-            .effort
-            .pick(vec![0.0, 0.03], vec![0.0, 0.003, 0.01, 0.03, 0.1]);
-        let sweeps = [
-            ("slant", "slant of the light, degrees", slants),
-            ("tilt", "tilt of the light, degrees", tilts),
-            ("noise", "noise, share of white, rms", noises),
-        ];
-        for (i, (name, label, values)) in sweeps.into_iter().enumerate() {
-            bench.step(0.4 + 0.2 * i as f64, name)?;
-            let points = of_sweep(&weave, (name, &values), bench, &mut findings.rows);
-            let plot = plot(name, label, points);
-            findings.plots.push((format!("by-{name}"), plot));
-        }
-        findings.notes.push(of_estimates(&weave, bench));
-        Ok(findings)
-    }
+    findings.notes.push(of_estimates(&weave, bench));
+    Ok(findings)
 }
 
-fn notes() -> Vec<String> {
-    [
-        "The height error is what is left after the best factor, √(1 − r²) with r the correlation \
+/// What a reader should know.
+const NOTES: [&str; 3] = [
+    "The height error is what is left after the best factor, √(1 − r²) with r the correlation \
          of heights: a textile's relief is scaled afterwards anyway. nrmse is the error without \
          that factor, as a share of the relief's rms.",
-        "Promised: r of 0.95 for the variational method on weaves without steps and noise, under \
+    "Promised: r of 0.95 for the variational method on weaves without steps and noise, under \
          light from 45° and 30° beside a yarn. Light along a yarn (tilt 0° or 90°) hardly shows \
          slopes across it: the linear inversion loses them, the full reflectance gets most back \
          from how much they darken.",
-        "Model cloths have steps where yarns cross and gaps to the ground: a wall takes no room \
+    "Model cloths have steps where yarns cross and gaps to the ground: a wall takes no room \
          in a picture, so its height cannot be found from shading, by any method.",
-    ]
-    .map(str::to_owned)
-    .to_vec()
-}
+];
 
 /// How near a shape comes.
 #[derive(Debug, Clone, Copy)]
@@ -139,19 +119,12 @@ impl Near {
     }
 
     fn row(&self, method: Method, setting: String, case: String) -> Row {
-        Row {
-            method: method.label().to_owned(),
-            setting,
-            case,
-            error: Some(self.error_percent()),
-            more: vec![
-                ("correlation", format!("{:.4}", self.correlation)),
-                ("nrmse", format!("{:.4}", self.nrmse)),
-                ("gain", format!("{:.4}", self.gain)),
-                ("residual", format!("{:.5}", self.residual)),
-            ],
-            ..Row::default()
-        }
+        Row::of(method.label(), setting, case)
+            .error(self.error_percent())
+            .number("correlation", 4, self.correlation)
+            .number("nrmse", 4, self.nrmse)
+            .number("gain", 4, self.gain)
+            .number("residual", 5, self.residual)
     }
 }
 
@@ -171,42 +144,53 @@ fn options(method: Method, iterations: Option<usize>) -> ShadingOptions {
     }
 }
 
+/// A row of a method with so many iterations on a relief; `None` where it refuses the light.
+fn row(
+    (relief, truth): (Relief, &Truth),
+    (method, iterations): (Method, Option<usize>),
+    is_timed: bool,
+    bench: &mut Bench<'_>,
+) -> Option<Row> {
+    let picture = truth.picture(LIGHT, 0.0, &mut Random::new(bench.seed));
+    let options = options(method, iterations);
+    let shape = found(&picture, LIGHT, &options)?;
+    let work = || found(&picture, LIGHT, &options).map(|shape| shape.albedo);
+    let cost = is_timed.then(|| bench.time(1, work));
+    let setting = match iterations {
+        None => format!("{} iterations", shape.n_iterations()),
+        Some(n) => format!("{n} iterations at most"),
+    };
+    let near = Near::of(&shape, &truth.height_px);
+    let size = picture.values().len() as f64;
+    Some(
+        near.row(method, setting, relief.name())
+            .size(size)
+            .cost(cost),
+    )
+}
+
 /// Every method with its usual settings on every relief.
-fn of_reliefs(n: usize, bench: &mut Bench<'_>, findings: &mut Findings) -> Result<(), ReportError> {
+fn of_reliefs(n: usize, bench: &mut Bench<'_>, rows: &mut Vec<Row>) -> Result<(), ReportError> {
     let steeper = Relief::PlainWeave {
         rise: 0.15,
         section: 0.12,
     };
     let mut reliefs = vec![WEAVE, steeper, Relief::Brownian];
     if bench.effort == Effort::Full {
+        let models = ["wool-twill", "silk-crepe", "polyamide-jersey", "wool-rib"];
         reliefs.extend([Relief::EggCrate(0.1), Relief::EggCrate(0.2)]);
+        reliefs.extend(models.map(Relief::Model));
     }
-    let models = ["wool-twill", "silk-crepe", "polyamide-jersey", "wool-rib"];
-    let n_models = bench.effort.pick(0, models.len());
-    reliefs.extend(models.into_iter().take(n_models).map(Relief::Model));
     let n_reliefs = reliefs.len() as f64;
     for (done, relief) in reliefs.into_iter().enumerate() {
         bench.step(0.2 * done as f64 / n_reliefs, &relief.name())?;
         let truth = relief.truth(n, bench.seed)?;
-        let picture = truth.picture(LIGHT, 0.0, &mut Random::new(bench.seed));
-        let is_promised = matches!(relief, Relief::PlainWeave { .. });
+        let is_timed = relief == WEAVE || bench.effort == Effort::Full;
         for method in Method::ALL {
-            let options = options(method, None);
-            let Some(shape) = found(&picture, LIGHT, &options) else {
-                continue;
-            };
-            let is_timed = relief == WEAVE || bench.effort == Effort::Full;
-            let cost = is_timed
-                .then(|| bench.time(1, || found(&picture, LIGHT, &options).map(|s| s.albedo)));
-            let near = Near::of(&shape, &truth.height_px);
-            let setting = format!("{} iterations", shape.n_iterations());
-            let is_best = method == Method::Variational;
-            findings.rows.push(Row {
-                size: Some(picture.values().len() as f64),
-                promised: (is_promised && is_best).then(promised_percent),
-                cost,
-                ..near.row(method, setting, relief.name())
-            });
+            let is_promised =
+                matches!(relief, Relief::PlainWeave { .. }) && method == Method::Variational;
+            let row = row((relief, &truth), (method, None), is_timed, bench);
+            rows.extend(row.map(|row| row.promised(is_promised.then(promised_percent))));
         }
     }
     Ok(())
@@ -216,35 +200,19 @@ fn of_reliefs(n: usize, bench: &mut Bench<'_>, findings: &mut Findings) -> Resul
 fn of_iterations(
     weave: &Truth,
     bench: &mut Bench<'_>,
-    findings: &mut Findings,
+    rows: &mut Vec<Row>,
 ) -> Result<(), ReportError> {
-    let picture = weave.picture(LIGHT, 0.0, &mut Random::new(bench.seed));
-    let counts = [
-        (
-            Method::TsaiShah,
-            bench
-                .effort
-                .pick(vec![5, 200], vec![1, 2, 5, 10, 20, 100, 200, 500]),
-        ),
-        (
-            Method::Variational,
-            bench.effort.pick(vec![4], vec![1, 2, 4, 8, 32, 64]),
-        ),
-    ];
-    for (method, counts) in counts {
-        for n in counts {
+    let [sketch, variational]: [&[usize]; 2] = bench.effort.pick(
+        [&[5, 200], &[4]],
+        [&[1, 2, 5, 10, 20, 100, 200, 500], &[1, 2, 4, 8, 32, 64]],
+    );
+    for (method, counts) in [
+        (Method::TsaiShah, sketch),
+        (Method::Variational, variational),
+    ] {
+        for &n in counts {
             bench.step(0.3, &format!("{} × {n}", method.label()))?;
-            let options = options(method, Some(n));
-            let Some(shape) = found(&picture, LIGHT, &options) else {
-                continue;
-            };
-            let cost = bench.time(1, || found(&picture, LIGHT, &options).map(|s| s.albedo));
-            let near = Near::of(&shape, &weave.height_px);
-            findings.rows.push(Row {
-                size: Some(picture.values().len() as f64),
-                cost: Some(cost),
-                ..near.row(method, format!("{n} iterations at most"), WEAVE.name())
-            });
+            rows.extend(row((WEAVE, weave), (method, Some(n)), true, bench));
         }
     }
     Ok(())
@@ -256,7 +224,7 @@ fn of_sweep(
     (name, values): (&str, &[f64]),
     bench: &Bench<'_>,
     rows: &mut Vec<Row>,
-) -> Vec<(Method, Vec<[f64; 2]>)> {
+) -> Vec<Series> {
     let mut curves = Vec::new();
     for method in Method::ALL {
         let mut points = Vec::new();
@@ -270,43 +238,31 @@ fn of_sweep(
             let mut random = Random::new(bench.seed).branch("noise");
             let picture = weave.picture(light, noise, &mut random);
             let case = format!("{}, {name} {value}", WEAVE.name());
-            match found(&picture, light, &options(method, None)) {
-                Some(shape) => {
-                    let near = Near::of(&shape, &weave.height_px);
-                    points.push([value, near.correlation]);
-                    rows.push(near.row(method, format!("by {name}"), case));
-                }
-                None => rows.push(Row {
-                    method: method.label().to_owned(),
-                    setting: format!("by {name}: refused"),
-                    case,
-                    ..Row::default()
-                }),
+            if let Some(shape) = found(&picture, light, &options(method, None)) {
+                let near = Near::of(&shape, &weave.height_px);
+                points.push([value, near.correlation]);
+                rows.push(near.row(method, format!("by {name}"), case));
+            } else {
+                let setting = format!("by {name}: refused");
+                rows.push(Row::of(method.label(), setting, case));
             }
         }
-        curves.push((method, points));
+        curves.push(series(method.label(), Style::Line, points));
     }
     curves
 }
 
-fn plot(name: &str, label: &str, curves: Vec<(Method, Vec<[f64; 2]>)>) -> Chart {
-    let series = curves.into_iter().map(|(method, points)| Series {
-        name: method.label().to_owned(),
-        points,
-        style: Style::Line,
-        ..Series::default()
-    });
-    Chart {
-        title: format!("Shading: correlation with the weave by {name}"),
-        x: Axis::linear(label),
-        y: Axis::linear("correlation of heights"),
-        series: series.collect(),
-        footnote: format!(
+fn plot(name: &str, label: &str, curves: Vec<Series>) -> Chart {
+    chart(
+        format!("Shading: correlation with the weave by {name}"),
+        Axis::linear(label),
+        Axis::linear("correlation of heights"),
+        curves,
+        format!(
             "A plain weave whose yarns touch; light from {}°, tilt {}°, where it is not varied.",
             LIGHT.slant_deg, LIGHT.tilt_deg
         ),
-        ..Chart::default()
-    }
+    )
 }
 
 /// How far the light that is estimated on the weave's own pictures is off.
@@ -323,7 +279,6 @@ fn of_estimates(weave: &Truth, bench: &Bench<'_>) -> String {
         off[0].push(apart.min(180.0 - apart));
         off[1].push((estimate.light.slant_deg - light.slant_deg).abs());
     }
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
     format!(
         "The light estimated on {} pictures of the weave from 45° is off by {:.0}° of tilt (up to \
          180°) and {:.0}° of slant in the mean: a weave has less contrast than the ball that the \

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use crate::ReportError;
+use crate::readable::whole;
+use crate::{ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::shading::{Light, picture_of};
-use selvedge_textile::surface::{HeightMap, SurfaceError};
-use selvedge_textile::{Brownian, Generator, Library, TextileError};
+use selvedge_textile::surface::HeightMap;
+use selvedge_textile::{Brownian, Generator, Library};
 
 /// Points of a relief to a pixel's side.
 const FINE: usize = 4;
@@ -75,20 +76,9 @@ impl Relief {
                 Truth::of(in_px(&map), [n, n])
             }
             Self::Model(id) => {
-                let map = Library::shipped()?.manifest(id)?.source.height_map();
-                let map = map.unwrap_or(Err(SurfaceError::AllMissing));
-                let map = map.map_err(|source| TextileError::Surface {
-                    path: id.into(),
-                    source,
-                })?;
+                let map = textiles::relief(id, &Library::shipped()?.manifest(id)?.source)?;
                 let n_px = map.size_mm().map(|mm| (mm / MODEL_PX_MM).round().max(1.0));
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a cloth of 20 mm"
-                )]
-                let n_px = n_px.map(|n| n as usize);
-                Truth::of(in_px(&map), n_px)
+                Truth::of(in_px(&map), n_px.map(whole))
             }
         })
     }
@@ -121,7 +111,7 @@ fn drawn(n: usize, height: impl Fn(f64, f64) -> f64) -> Grid<f64> {
 }
 
 /// Heights of a map in its own points' distance.
-fn in_px(map: &HeightMap) -> Grid<f64> {
+pub(crate) fn in_px(map: &HeightMap) -> Grid<f64> {
     let mut heights = map.heights_um().clone();
     let um = map.step_mm()[0] * 1000.0;
     heights.values_mut().iter_mut().for_each(|z| *z /= um);
@@ -153,7 +143,7 @@ impl Truth {
 }
 
 /// Means over cells.
-fn averaged(fine: &Grid<f64>, [width, height]: [usize; 2]) -> Grid<f64> {
+pub(crate) fn averaged(fine: &Grid<f64>, [width, height]: [usize; 2]) -> Grid<f64> {
     let span = |i: usize, n: usize, of: usize| i * of / n..((i + 1) * of / n).max(i * of / n + 1);
     let mut coarse = Grid::filled(width, height, 0.0);
     for row in 0..height {

@@ -7,7 +7,7 @@ use selvedge_foundation::progress::thread_cpu_seconds;
 #[test]
 fn the_quick_study_repeats_keeps_its_promise_and_ranks_the_methods() {
     let start_s = thread_cpu_seconds();
-    let (first, second) = (quick(&ShadingStudy, 3), quick(&ShadingStudy, 3));
+    let (first, second) = (quick(&STUDY, 3), quick(&STUDY, 3));
     println!("{:.1} s CPU", 0.5 * (thread_cpu_seconds() - start_s));
     assert_eq!(first.n_broken(), 0, "{:?}", first.rows);
     assert_eq!((&first.notes, first.plots.len()), (&second.notes, 3));

@@ -7,9 +7,10 @@ use crate::{Bench, Row, Timing};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_textile::tactile::Filters;
 
+use super::PRODUCT;
 use super::surfaces::Surface;
-use super::window::{Model, whole};
-use super::{PRODUCT, level_db};
+use super::window::Model;
+use crate::readable::{largest, power_level_db, rms, whole};
 
 /// Places a mm at which the truth is known.
 const PLACES_PER_MM: f64 = 10.0;
@@ -35,24 +36,19 @@ pub(super) fn rows(surfaces: &[Surface], bench: &mut Bench<'_>) -> Vec<Row> {
         for &speed in speeds {
             let mut random = random.branch(&surface.label);
             let errors = places.errors_db(speed, n_ticks, &mut random);
-            let n_crossed = whole(speed / 40.0) + 1;
-            for (method, mut errors_db, n_points) in [
-                ("nearest point", errors[0].clone(), 1),
-                ("mean over points crossed", errors[1].clone(), n_crossed),
-            ] {
-                let cost = places.cost(speed, n_points, bench);
-                rows.push(Row {
-                    method: method.to_owned(),
-                    case: format!("{} at {speed} mm/s", surface.label),
-                    error: errors_db.iter().copied().reduce(f64::max),
-                    error_p99: Some(quantile(&mut errors_db, 0.99)),
-                    cost: Some(cost),
-                    more: vec![
-                        ("rms_db", format!("{:.3}", rms(&errors_db))),
-                        ("points_crossed", format!("{:.2}", speed / 40.0)),
-                    ],
-                    ..Row::default()
-                });
+            let methods = [
+                ("nearest point", 1),
+                ("mean over points crossed", whole(speed / 40.0) + 1),
+            ];
+            for ((method, n_points), mut errors_db) in methods.into_iter().zip(errors) {
+                let case = format!("{} at {speed} mm/s", surface.label);
+                let row = Row::of(method, "", case)
+                    .error(errors_db.iter().copied().reduce(f64::max))
+                    .p99(quantile(&mut errors_db, 0.99))
+                    .cost(places.cost(speed, n_points, bench))
+                    .number("rms_db", 3, rms(&errors_db))
+                    .number("points_crossed", 2, speed / 40.0);
+                rows.push(row);
             }
         }
     }
@@ -62,13 +58,7 @@ pub(super) fn rows(surfaces: &[Surface], bench: &mut Bench<'_>) -> Vec<Row> {
 impl Places {
     fn of(surface: &Surface) -> Self {
         let model = Model::new(surface.step_mm, PRODUCT[0], PRODUCT[1]);
-        let slack = surface.heights_um.len().saturating_sub(model.n_window());
-        let start = |n: u16| whole(f64::from(n) / PLACES_PER_MM / surface.step_mm + 0.5);
-        let starts = (0..).map(start).take_while(|start| *start <= slack);
-        let window = |start: usize| &surface.heights_um[start..start + model.n_window()];
-        let powers = starts
-            .map(|start| model.powers_um2(window(start)))
-            .collect();
+        let powers = model.powers_along(surface, PLACES_PER_MM);
         Self { model, powers }
     }
 
@@ -85,15 +75,15 @@ impl Places {
             let end_mm = random.uniform_in(way_mm, last_mm.floor());
             let way = [(end_mm - way_mm).max(0.0), end_mm];
             for b in 0..2 {
-                let largest = squared.iter().map(|pair| pair[b]).fold(0.0, f64::max);
+                let largest = largest(squared.iter().map(|pair| pair[b]));
                 let truth = mean_over(&squared, b, way, PLACES_PER_MM);
                 if truth < LEAST_SHARE * LEAST_SHARE * largest || truth <= 0.0 {
                     continue;
                 }
                 let nearest = mean_over(&squared, b, [end_mm; 2], 1.0);
                 let crossed = mean_over(&squared, b, way, 1.0);
-                errors[0].push(level_db(nearest / truth).abs());
-                errors[1].push(level_db(crossed / truth).abs());
+                errors[0].push(power_level_db(nearest / truth).abs());
+                errors[1].push(power_level_db(crossed / truth).abs());
             }
         }
         errors
@@ -132,10 +122,6 @@ fn mean_over(squared: &[[f64; 2]], b: usize, [from_mm, to_mm]: [f64; 2], per_mm:
         way += stretch;
     }
     if way > 0.0 { sum / way } else { value(last) }
-}
-
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ fn a_wave_of_2_5_mm_at_100_mm_per_s_keeps_0_92_of_its_amplitude() {
     let level_db = windows::low_at_40_hz_db(PRODUCT[0], 100.0);
     let factor = 10.0_f64.powf(level_db / 20.0);
     assert!((factor - 0.92).abs() < 0.01, "{factor}");
-    let findings = quick(&SpectralModelStudy, 7);
+    let findings = quick(&STUDY, 7);
     let is_it =
         |row: &&Row| row.setting.starts_with("4.35") && row.case.starts_with("waves of 2.5");
     let row = findings.rows.iter().find(is_it).unwrap();
@@ -30,7 +30,7 @@ fn a_longer_window_costs_less_at_40_hz_and_a_short_one_more() {
 
 #[test]
 fn a_quick_study_is_complete_and_repeats() {
-    let (first, second) = (quick(&SpectralModelStudy, 7), quick(&SpectralModelStudy, 7));
+    let (first, second) = (quick(&STUDY, 7), quick(&STUDY, 7));
     // Four windows on three sums of waves and two textiles; two choices of points on two textiles.
     assert_eq!(first.rows.len(), 4 * 5 + 4);
     assert_complete_and_same(&first, &second);
@@ -39,7 +39,7 @@ fn a_quick_study_is_complete_and_repeats() {
 
 #[test]
 fn the_mean_over_points_crossed_is_closer_than_the_nearest_point() {
-    let findings = quick(&SpectralModelStudy, 7);
+    let findings = quick(&STUDY, 7);
     let rms = |method: &str| -> f64 {
         let rows = findings.rows.iter().filter(|row| row.method == method);
         rows.map(|row| row.further_number("rms_db").unwrap()).sum()

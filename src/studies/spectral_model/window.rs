@@ -7,6 +7,8 @@
 
 use std::f64::consts::TAU;
 
+use super::surfaces::Surface;
+use crate::readable::whole;
 use selvedge_foundation::numerics::{ChirpTransform, Complex, RealTransform};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ};
 
@@ -76,6 +78,15 @@ impl Model {
         bins.map(|x: &Complex| self.scale * x.norm_sqr()).collect()
     }
 
+    /// Powers at places along a surface, so many to a mm, as far as windows fit.
+    pub(super) fn powers_along(&self, surface: &Surface, per_mm: f64) -> Vec<Vec<f64>> {
+        let slack = surface.heights_um.len().saturating_sub(self.n_window());
+        let start = |n: u16| whole(f64::from(n) / per_mm / surface.step_mm + 0.5);
+        let starts = (0..).map(start).take_while(|start| *start <= slack);
+        let window = |start: usize| &surface.heights_um[start..start + self.n_window()];
+        starts.map(|start| self.powers_um2(window(start))).collect()
+    }
+
     /// `[A40², A320²]` of powers at a speed, µm².
     pub(super) fn squared_amplitudes_um2(
         &self,
@@ -95,16 +106,6 @@ impl Model {
         }
         sums
     }
-}
-
-/// The whole part of a number that is not negative.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "numbers of samples and bins: 0 … 10⁵"
-)]
-pub(super) fn whole(x: f64) -> usize {
-    x.floor() as usize
 }
 
 #[cfg(test)]

@@ -2,14 +2,16 @@
 //! a sum of waves and against the whole profile of a textile.
 
 use crate::{Bench, Row, Timing};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::{Axis, Chart, Style};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::tactile::Filters;
 
+use super::PRODUCT;
 use super::surfaces::Surface;
-use super::window::{Model, whole};
-use super::{PRODUCT, level_db};
+use super::window::Model;
+use crate::chart::{chart, series};
+use crate::readable::{deviation, mean, power_level_db};
 
 /// Speeds that errors are taken over, mm/s.
 const SPEEDS_MM_PER_S: [f64; 5] = [20.0, 50.0, 100.0, 200.0, 400.0];
@@ -66,29 +68,16 @@ fn row(setting: [f64; 2], surface: &Surface, n_bins: usize, (found, cost): (Foun
     } else {
         "the formula"
     };
-    let number = |x: f64| {
-        if x.is_finite() {
-            format!("{x:.3}")
-        } else {
-            String::new()
-        }
-    };
-    Row {
-        method: "window".to_owned(),
-        setting: label(setting),
-        case: format!("{} against {against}", surface.label),
-        error: errors_db.iter().copied().reduce(f64::max),
-        error_p99: Some(quantile(&mut errors_db, 0.99)),
-        cost: Some(cost),
-        bytes: Some((n_bins * size_of::<f64>()) as u64),
-        more: vec![
-            ("window_mm", format!("{:.3}", setting[0])),
-            ("spacing_per_mm", format!("{:.4}", setting[1])),
-            ("a40_at_100_mm_per_s_db", number(found.low_at_100_db)),
-            ("spread_between_points_db", number(found.spread_db)),
-        ],
-        ..Row::default()
-    }
+    let case = format!("{} against {against}", surface.label);
+    Row::of("window", label(setting), case)
+        .error(errors_db.iter().copied().reduce(f64::max))
+        .p99(quantile(&mut errors_db, 0.99))
+        .cost(cost)
+        .bytes(n_bins * size_of::<f64>())
+        .number("window_mm", 3, setting[0])
+        .number("spacing_per_mm", 4, setting[1])
+        .number("a40_at_100_mm_per_s_db", 3, found.low_at_100_db)
+        .number("spread_between_points_db", 3, found.spread_db)
 }
 
 fn label([window_mm, spacing_per_mm]: [f64; 2]) -> String {
@@ -97,7 +86,7 @@ fn label([window_mm, spacing_per_mm]: [f64; 2]) -> String {
 
 fn found(model: &Model, surface: &Surface) -> Found {
     let filters = Filters::default();
-    let points = powers_of_points(model, surface);
+    let points = model.powers_along(surface, 1.0);
     let truth = Truth::of(surface);
     let mut found = Found {
         errors_db: Vec::new(),
@@ -114,10 +103,10 @@ fn found(model: &Model, surface: &Surface) -> Found {
             }
             let levels: Vec<f64> = squared
                 .iter()
-                .map(|pair| level_db(pair[b] / truth_um2))
+                .map(|pair| power_level_db(pair[b] / truth_um2))
                 .collect();
-            let mean = squared.iter().map(|pair| pair[b]).sum::<f64>() / squared.len() as f64;
-            let mean_db = level_db(mean / truth_um2);
+            let all: Vec<f64> = squared.iter().map(|pair| pair[b]).collect();
+            let mean_db = power_level_db(mean(&all) / truth_um2);
             if surface.waves.is_empty() {
                 // A textile differs from place to place: its mean power is compared.
                 found.errors_db.push(mean_db.abs());
@@ -167,51 +156,28 @@ impl Truth {
     }
 }
 
-/// Powers at points 1 mm apart, as far as windows fit.
-fn powers_of_points(model: &Model, surface: &Surface) -> Vec<Vec<f64>> {
-    let slack = surface.heights_um.len().saturating_sub(model.n_window());
-    let starts = (0_u16..).map(|j| whole(f64::from(j) / surface.step_mm + 0.5));
-    let window = |start: usize| &surface.heights_um[start..start + model.n_window()];
-    let starts = starts.take_while(|start| *start <= slack);
-    starts
-        .map(|start| model.powers_um2(window(start)))
-        .collect()
-}
-
-fn deviation(values: &[f64]) -> f64 {
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let squares = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-    (squares / values.len() as f64).sqrt()
-}
-
 /// Level of A40 of the wave that sounds at 40 Hz over its amplitude, by speed and window length.
 pub(super) fn plot() -> Chart {
     let lengths = [2.0, 3.79, PRODUCT[0], 8.0, 16.0];
-    let series = lengths.map(|window_mm| {
+    let line = |window_mm: f64| {
         let is_product = window_mm.to_bits() == PRODUCT[0].to_bits();
         let steps = 0..=5 * OCTAVE_STEPS;
         let speeds = steps.map(|n| 12.5 * (f64::from(n) / f64::from(OCTAVE_STEPS)).exp2());
-        Series {
-            name: format!("{window_mm:.2} mm"),
-            points: speeds
-                .map(|speed| [speed, low_at_40_hz_db(window_mm, speed)])
-                .collect(),
-            style: if is_product {
-                Style::LineAndDots
-            } else {
-                Style::Line
-            },
-            ..Series::default()
-        }
-    });
-    Chart {
-        title: "What the window costs a wave that sounds at 40 Hz".to_owned(),
-        x: Axis::log("speed, mm/s"),
-        y: Axis::linear("level of A40 re the wave, dB"),
-        series: series.to_vec(),
-        footnote: "mean power over points; bins one over the window's length apart".to_owned(),
-        ..Chart::default()
-    }
+        let style = if is_product {
+            Style::LineAndDots
+        } else {
+            Style::Line
+        };
+        let points = speeds.map(|speed| [speed, low_at_40_hz_db(window_mm, speed)]);
+        series(format!("{window_mm:.2} mm"), style, points)
+    };
+    chart(
+        "What the window costs a wave that sounds at 40 Hz",
+        Axis::log("speed, mm/s"),
+        Axis::linear("level of A40 re the wave, dB"),
+        lengths.map(line).into(),
+        "mean power over points; bins one over the window's length apart",
+    )
 }
 
 /// The level that a window gives to A40 of the wave that sounds at 40 Hz at a speed, dB re its
@@ -221,9 +187,9 @@ pub(super) fn low_at_40_hz_db(window_mm: f64, speed_mm_per_s: f64) -> f64 {
     let surface = Surface::of_waves("wave", waves, &mut Random::new(1));
     let model = Model::new(surface.step_mm, window_mm, 1.0 / window_mm);
     let filters = Filters::default();
-    let points = powers_of_points(&model, &surface);
+    let points = model.powers_along(&surface, 1.0);
     let low = |powers: &Vec<f64>| model.squared_amplitudes_um2(powers, speed_mm_per_s, &filters)[0];
-    level_db(points.iter().map(low).sum::<f64>() / points.len() as f64)
+    power_level_db(mean(&points.iter().map(low).collect::<Vec<f64>>()))
 }
 
 /// What the product's window costs, a sentence each.

@@ -1,7 +1,8 @@
 //! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, MAX_QUALITY, SAMPLES_PER_S, Skin};
+use crate::bimorph::{CARRIERS_HZ, ContactorStep, SAMPLE_S, propagator};
+use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -64,18 +65,15 @@ fn loaded(skin: Skin, quality: f64) -> ContactorModel {
 /// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|.
 fn sharp_and_stiff() -> Verdict {
     let model = loaded(Skin::bonded(1e5, 0.0), MAX_QUALITY);
-    let sample_s = 1.0 / f64::from(SAMPLES_PER_S);
-    let step = model
-        .system()
-        .propagator::<7>(StepMethod::ExactHold, sample_s);
+    let step = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
     let step = step.ok_or_else(|| failed("no step"))?;
     let mut worst = 0.0_f64;
-    for frequency_hz in [40.0, 320.0] {
-        let angle = std::f64::consts::TAU * frequency_hz * sample_s;
+    for frequency_hz in CARRIERS_HZ {
+        let angle = std::f64::consts::TAU * frequency_hz * SAMPLE_S;
         let found = step.response(angle).ok_or_else(|| failed("a pole"))?;
         let images = (-4000..=4000).map(|image| {
-            let image_hz = frequency_hz + f64::from(image) / sample_s;
-            let half_turn = std::f64::consts::PI * image_hz * sample_s;
+            let image_hz = frequency_hz + f64::from(image) / SAMPLE_S;
+            let half_turn = std::f64::consts::PI * image_hz * SAMPLE_S;
             let hold = Complex::from_polar(half_turn.sin() / half_turn, -half_turn);
             model.response_um_per_v(image_hz) * hold
         });
@@ -91,21 +89,16 @@ fn every_stiffness() -> Verdict {
     for stiffness in [0.0, 1.0, 1e3, 1e6, 1e9] {
         for step_s in [1e-6, 1e-4, 1e-2, 1.0] {
             let model = loaded(Skin::bonded(stiffness, 0.0), MAX_QUALITY);
-            let step = model
-                .system()
-                .propagator::<7>(StepMethod::ExactHold, step_s);
-            let Some(step) = step.filter(selvedge_foundation::numerics::ode::Propagator::is_finite)
-            else {
+            let step = propagator(&model, StepMethod::ExactHold, step_s);
+            let Some(step) = step.filter(ContactorStep::is_finite) else {
                 return Err(format!("no finite step of {step_s} s at {stiffness} N/m"));
             };
             worst = worst.max(step.growth() - 1.0);
             n_steps += 1;
         }
     }
-    verdict(
-        worst < 1e-9,
-        format!("{n_steps} steps, growth at most 1 + {:.1e}", worst.max(0.0)),
-    )
+    let came_back = format!("{n_steps} steps, growth at most 1 + {:.1e}", worst.max(0.0));
+    verdict(worst < 1e-9, came_back)
 }
 
 fn lifts_off() -> Verdict {

@@ -80,10 +80,8 @@ fn host_stalls() -> Verdict {
     } else {
         "still loud"
     };
-    verdict(
-        is_silent && is_kept && reason.is_some(),
-        format!("{sound}; host: {told}"),
-    )
+    let came_back = format!("{sound}; host: {told}");
+    verdict(is_silent && is_kept && reason.is_some(), came_back)
 }
 
 /// Something that happens once, 800 ms after the start, for so many ms.
@@ -119,10 +117,9 @@ fn comes_back() -> Verdict {
     trial.run(5000);
     let (state, is_silent) = (trial.host.state(), !trial.is_loud());
     let is_kept = is_silent && !state.is_live();
-    verdict(
-        is_kept,
-        format!("lost: {reason}; then {state}, silent until it is opened and armed anew"),
-    )
+    let came_back =
+        format!("lost: {reason}; then {state}, silent until it is opened and armed anew");
+    verdict(is_kept, came_back)
 }
 
 fn garbled() -> Verdict {
@@ -138,10 +135,8 @@ fn garbled() -> Verdict {
     trial.run(10_000);
     let is_armed = trial.host.arm(trial.now());
     let (state, n_bad) = (trial.host.state(), trial.bad_texts_received());
-    verdict(
-        !is_armed && !trial.is_loud(),
-        format!("{state}, {n_bad} packets bad"),
-    )
+    let came_back = format!("{state}, {n_bad} packets bad");
+    verdict(!is_armed && !trial.is_loud(), came_back)
 }
 
 fn random_bytes() -> Verdict {
@@ -153,10 +148,8 @@ fn random_bytes() -> Verdict {
         n_taken += u32::from(decoder.push(byte).is_some());
     }
     let n_bad = decoder.bad();
-    verdict(
-        n_taken == 0 && n_bad > 0,
-        format!("{n_bad} packets bad, {n_taken} taken"),
-    )
+    let came_back = format!("{n_bad} packets bad, {n_taken} taken");
+    verdict(n_taken == 0 && n_bad > 0, came_back)
 }
 
 fn wrong_size() -> Verdict {

@@ -11,73 +11,71 @@ use selvedge_textile::surface::{Direction, LocalSpectra, Profile};
 /// Textiles and pictures.
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
+    let mut add = |tried: String, should, run: Box<dyn FnOnce() -> Verdict + Send>| {
+        cases.push(Case::new("files", tried, should, run));
+    };
     for spelt in ["NaN", "inf", "-inf"] {
-        let row = format!("2.0,{spelt}\n");
-        let run = move || {
-            refused(
-                load(&(profile(2000, 1e-3) + &row)),
-                &["warp.csv:2002", "2001"],
-            )
-        };
-        let tried = format!("a height of {spelt} in a file");
-        cases.push(Case::new(
-            "files",
-            tried,
+        let text = format!("{}2.0,{spelt}\n", profile(2000, 1e-3));
+        add(
+            format!("a height of {spelt} in a file"),
             "refused at load, with row and count",
-            run,
-        ));
+            Box::new(move || refused(load(&text), &["warp.csv:2002", "2001"])),
+        );
     }
     for n_samples in [0_u16, 1, 999] {
-        let words: &'static [&str] = if n_samples == 999 {
-            &["999", "1000"]
-        } else {
-            &["warp.csv"]
+        let words: &[&str] = match n_samples {
+            999 => &["999", "1000"],
+            _ => &["warp.csv"],
         };
-        let run = move || refused(load(&profile(n_samples, 1.0 / 230.0)), words);
-        let tried = format!("a profile of {n_samples} samples");
-        cases.push(Case::new(
-            "files",
-            tried,
+        add(
+            format!("a profile of {n_samples} samples"),
             "refused at load, with the count",
-            run,
-        ));
+            Box::new(move || refused(load(&profile(n_samples, 1.0 / 230.0)), words)),
+        );
     }
-    cases.push(Case::new(
-        "files",
-        "a profile of 1000 samples",
-        "one point",
-        one_window,
-    ));
+    let tried = "a profile of 1000 samples".to_owned();
+    add(tried, "one point", Box::new(one_window));
     for step_mm in [0.000_49, 0.51] {
         let words = &["the step is", "0.0005 to 0.5 mm"];
         let run = move || refused(load(&profile(2000, step_mm)), words);
         let tried = format!("a step of {step_mm} mm");
-        cases.push(Case::new("files", tried, "refused at load", run));
+        add(tried, "refused at load", Box::new(run));
     }
     for step_mm in [f64::NAN, f64::INFINITY, 0.0, -0.01] {
         let run = move || refused(Profile::new(step_mm, vec![1.0; 2000]), &["the step is"]);
-        let tried = format!("heights {step_mm} mm apart");
-        cases.push(Case::new("files", tried, "refused", run));
+        add(
+            format!("heights {step_mm} mm apart"),
+            "refused",
+            Box::new(run),
+        );
     }
     cases.extend(pictures());
     cases
 }
 
+/// What is said of a picture that is none.
+const INTACT: &[&str] = &["intact PNG"];
+
 fn pictures() -> [Case; 4] {
-    let pictures = [
-        (
+    let case =
+        |tried: &str, should, run: fn() -> Verdict| Case::new("pictures", tried, should, run);
+    [
+        case(
             "a picture of 100,000 × 100,000",
             "refused before it is decoded",
-            huge_picture as fn() -> _,
+            huge_picture,
         ),
-        ("a picture that is cut off", "refused", cut_picture),
-        ("a picture that is none", "refused", no_picture),
-        ("an empty file for a picture", "refused", empty_picture),
-    ];
-    let of = |(tried, should, run): (&'static str, _, fn() -> Verdict)| {
-        Case::new("pictures", tried, should, run)
-    };
-    pictures.map(of)
+        case("a picture that is cut off", "refused", || {
+            let bytes = small_png()?;
+            refused(decoded(&bytes[..bytes.len() / 2]), INTACT)
+        }),
+        case("a picture that is none", "refused", || {
+            refused(decoded(b"x_mm,height_um\n0,1\n"), INTACT)
+        }),
+        case("an empty file for a picture", "refused", || {
+            refused(decoded(&[]), INTACT)
+        }),
+    ]
 }
 
 /// A profile file of this many samples.
@@ -138,19 +136,6 @@ fn huge_picture() -> Verdict {
     let checksum = crc32(&bytes[12..29]);
     bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
     refused(decoded(&bytes), &["64 million"])
-}
-
-fn cut_picture() -> Verdict {
-    let bytes = small_png()?;
-    refused(decoded(&bytes[..bytes.len() / 2]), &["intact PNG"])
-}
-
-fn no_picture() -> Verdict {
-    refused(decoded(b"x_mm,height_um\n0,1\n"), &["intact PNG"])
-}
-
-fn empty_picture() -> Verdict {
-    refused(decoded(&[]), &["intact PNG"])
 }
 
 /// The checksum of a PNG chunk, bit by bit.

@@ -41,83 +41,48 @@ pub(super) fn cases() -> Vec<Case> {
     cases
 }
 
-/// Faults that a link lives with.
+/// Faults that a link lives with: bytes that are harmed, bytes and ticks that come when they should
+/// not.
 fn lasting() -> Vec<(&'static str, Faults)> {
-    let mut cases = harms();
-    cases.extend(delays());
-    cases
-}
-
-/// Bytes that are harmed.
-fn harms() -> Vec<(&'static str, Faults)> {
-    let lane = LinkFaults::default();
-    let drops = LinkFaults {
-        drop_rate: 1e-4,
-        ..lane
+    let with = |set: fn(&mut LinkFaults)| {
+        let mut lane = LinkFaults::default();
+        set(&mut lane);
+        Faults {
+            seed: 1,
+            to_device: lane,
+            to_host: lane,
+            ..Faults::default()
+        }
     };
-    let flips = LinkFaults {
-        flip_rate: 1e-4,
-        ..lane
-    };
-    let inserts = LinkFaults {
-        insert_rate: 1e-4,
-        ..lane
-    };
-    let lost = LinkFaults {
-        usb_loss_rate: 1e-2,
-        ..lane
-    };
-    let twice = LinkFaults {
-        repeat_rate: 1e-2,
-        ..lane
-    };
-    let garbage = LinkFaults {
-        garbage_every_us: Some(500_000),
-        ..lane
-    };
-    vec![
-        ("one byte in 10 000 lost", both(drops)),
-        ("one byte in 10 000 changed", both(flips)),
-        ("one byte too many in 10 000", both(inserts)),
-        ("one USB packet in 100 lost", both(lost)),
-        ("one write in 100 twice", both(twice)),
-        ("a burst of garbage every 0.5 s", both(garbage)),
-    ]
-}
-
-fn both(lane: LinkFaults) -> Faults {
-    Faults {
-        seed: 1,
-        to_device: lane,
-        to_host: lane,
-        ..Faults::default()
-    }
-}
-
-/// Bytes and ticks that come when they should not.
-fn delays() -> Vec<(&'static str, Faults)> {
-    let lane = LinkFaults::default();
-    let slow = LinkFaults {
-        latency: Latency::Normal {
+    let slow = with(|it| {
+        it.latency = Latency::Normal {
             mean_us: 3000,
             deviation_us: 1000,
-        },
-        hiccup_rate: 1e-2,
-        hiccup_us: 50_000,
-        ..lane
-    };
-    let mut ftdi = both(LinkFaults {
-        latency: Latency::UsbFrame,
-        ..lane
+        };
+        (it.hiccup_rate, it.hiccup_us) = (1e-2, 50_000);
     });
+    let mut ftdi = with(|it| it.latency = Latency::UsbFrame);
     ftdi.to_host.latency = Latency::Timer(16_000);
     let clock = |clock_ppm, tick_jitter_us| Faults {
         clock_ppm,
         tick_jitter_us,
         ..Faults::default()
     };
+    let garbage = with(|it| it.garbage_every_us = Some(500_000));
     vec![
-        ("3 ± 1 ms, one write in 100 by 50 ms late", both(slow)),
+        ("one byte in 10 000 lost", with(|it| it.drop_rate = 1e-4)),
+        ("one byte in 10 000 changed", with(|it| it.flip_rate = 1e-4)),
+        (
+            "one byte too many in 10 000",
+            with(|it| it.insert_rate = 1e-4),
+        ),
+        (
+            "one USB packet in 100 lost",
+            with(|it| it.usb_loss_rate = 1e-2),
+        ),
+        ("one write in 100 twice", with(|it| it.repeat_rate = 1e-2)),
+        ("a burst of garbage every 0.5 s", garbage),
+        ("3 ± 1 ms, one write in 100 by 50 ms late", slow),
         ("an adapter with a 16 ms timer", ftdi),
         ("a device's clock 100 ppm fast", clock(100, 0)),
         ("a device's clock 100 ppm slow", clock(-100, 0)),
@@ -164,10 +129,8 @@ fn ends_safely(kind: OneOffKind) -> Verdict {
     });
     let is_safe = is_kept && trial.loudest_age_us <= SILENT_BY_US && reason.is_some();
     let message = reason.unwrap_or_else(|| "nothing told".to_owned());
-    verdict(
-        is_safe && is_usable,
-        format!("{}; {message}", describe(&trial)),
-    )
+    let came_back = format!("{}; {message}", describe(&trial));
+    verdict(is_safe && is_usable, came_back)
 }
 
 /// Injected, counted, and the longest output after a last frame.

@@ -9,7 +9,6 @@
 )]
 
 mod case;
-mod cloth;
 mod contactor;
 #[cfg(test)]
 mod tests;
@@ -20,6 +19,7 @@ mod link_faults;
 mod motion;
 mod picture;
 mod pointer;
+mod scene;
 mod shading;
 mod tuning;
 
@@ -36,44 +36,28 @@ use selvedge_foundation::quantity::time_span;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The study.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stability;
+pub(crate) const STUDY: Study = Study {
+    name: "stability",
+    question: "What comes back when something extreme goes in?",
+    reference: "what is promised for each case.",
+    error: ("cases that came out otherwise", "cases"),
+    cost_of: "case",
+    run,
+};
 
-impl Study for Stability {
-    fn name(&self) -> &'static str {
-        "stability"
-    }
-
-    fn question(&self) -> &'static str {
-        "What comes back when something extreme goes in?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "what is promised for each case."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("cases that came out otherwise", "cases")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "case"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let cases = [
-            motion::cases(),
-            tuning::cases(),
-            input::cases(),
-            pointer::cases(),
-            picture::cases(),
-            shading::cases(),
-            device::cases(),
-            contactor::cases(),
-            link_faults::cases(),
-        ];
-        try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
-    }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let cases = [
+        motion::cases(),
+        tuning::cases(),
+        input::cases(),
+        pointer::cases(),
+        picture::cases(),
+        shading::cases(),
+        device::cases(),
+        contactor::cases(),
+        link_faults::cases(),
+    ];
+    try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)
 }
 
 /// Tries every case and reports what came back.
@@ -89,14 +73,12 @@ fn try_all(
         let verdict = alone(case.run, patience);
         let is_otherwise = verdict.is_err();
         let came_back = verdict.unwrap_or_else(|otherwise| otherwise);
-        findings.rows.push(Row {
-            method: case.area.to_owned(),
-            case: case.tried,
-            error: Some(f64::from(u8::from(is_otherwise))),
-            promised: Some(0.0),
-            more: vec![("came_back", came_back), ("should", case.should.to_owned())],
-            ..Row::default()
-        });
+        let row = Row::of(case.area, "", case.tried)
+            .error(f64::from(u8::from(is_otherwise)))
+            .promised(0.0)
+            .with("came_back", came_back)
+            .with("should", case.should);
+        findings.rows.push(row);
     }
     let n_broken = findings.n_broken();
     findings.notes = vec![format!(

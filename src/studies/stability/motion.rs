@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::case::{Case, Verdict, verdict};
-use super::cloth::{METHODS, extent_um, moving, placed, range_um, renderer, scene, surface};
-use super::cloth::{waves, wavy_scene};
+use super::case::{Case, Verdict, failed, verdict};
+use super::scene::{METHODS, extent_um, moving, placed, range_um, renderer, scene};
+use super::scene::{waves, wavy_scene};
+use crate::textiles::of_heights;
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::{DisplayFrame, Method};
@@ -47,17 +48,20 @@ pub(super) fn cases() -> Vec<Case> {
 
 /// Speeds and places.
 fn speeds() -> Vec<Case> {
-    let mut cases = Vec::new();
+    let at = |tried: String, pose: Pose, is_counted: bool| {
+        let should = if is_counted {
+            "silent and counted"
+        } else {
+            "silent"
+        };
+        Case::new("speed", tried, should, move || silent_at(pose, is_counted))
+    };
     let slow = [
         ("0", 0.0),
         ("1e−300", 1e-300),
         ("0.0099", 0.0099),
         ("−0.0099", -0.0099),
     ];
-    for (spelt, speed) in slow {
-        let run = move || silent_at(moving(speed), false);
-        cases.push(Case::new("speed", format!("{spelt} mm/s"), "silent", run));
-    }
     let fast = [
         ("1000/0.23", MAX_SPEED_MM_PER_S),
         ("1e6", 1e6),
@@ -65,23 +69,14 @@ fn speeds() -> Vec<Case> {
         ("−∞", f64::NEG_INFINITY),
         ("NaN", f64::NAN),
     ];
-    for (spelt, speed) in fast {
-        let run = move || silent_at(moving(speed), true);
-        let tried = format!("{spelt} mm/s");
-        cases.push(Case::new("speed", tried, "silent and counted", run));
-    }
+    let slow = slow.map(|(spelt, speed)| at(format!("{spelt} mm/s"), moving(speed), false));
+    let fast = fast.map(|(spelt, speed)| at(format!("{spelt} mm/s"), moving(speed), true));
     let nowhere = Pose {
         position: Point::new(f64::NAN, f64::INFINITY),
         ..moving(100.0)
     };
-    let run = move || silent_at(nowhere, true);
-    cases.push(Case::new(
-        "speed",
-        "a place of NaN and ∞ mm",
-        "silent and counted",
-        run,
-    ));
-    cases
+    let nowhere = at("a place of NaN and ∞ mm".to_owned(), nowhere, true);
+    slow.into_iter().chain(fast).chain([nowhere]).collect()
 }
 
 /// Silence by every method, where 100 mm/s sounds before and after.
@@ -105,7 +100,7 @@ fn silent_at(pose: Pose, is_counted: bool) -> Verdict {
 }
 
 fn level_of_equal_heights() -> Verdict {
-    let flat = surface(|_| 7.25)?;
+    let flat = of_heights(|_| 7.25).map_err(failed)?;
     let level_db = Levels::of(&flat, &Filters::default()).level_db();
     let heard = extent_um(&felt(&flat, Method::Reference)?);
     let level = level_db.map_or_else(|| "none".to_owned(), |level_db| format!("{level_db} dB"));
@@ -168,10 +163,8 @@ fn hundred_overlapping() -> Verdict {
         .filter(|contactor| frame.textile(*contactor) == Some(99))
         .count();
     let is_kept = n_topmost == 24 && extent_um(frame) == alone;
-    verdict(
-        is_kept,
-        format!("{n_topmost} of 24 contactors feel the topmost, as if it lay alone"),
-    )
+    let came_back = format!("{n_topmost} of 24 contactors feel the topmost, as if it lay alone");
+    verdict(is_kept, came_back)
 }
 
 fn half_outside() -> Verdict {
@@ -184,10 +177,8 @@ fn half_outside() -> Verdict {
     let n_inside = (0..24).filter(is_inside).count();
     let is_kept =
         n_inside == 12 && (0..24).all(|contactor| sounds(&contactor) == is_inside(&contactor));
-    verdict(
-        is_kept,
-        format!("{n_inside} of 24 inside; those sound, the others are at 0 µm"),
-    )
+    let came_back = format!("{n_inside} of 24 inside; those sound, the others are at 0 µm");
+    verdict(is_kept, came_back)
 }
 
 /// What a surface feels like at 100 mm/s.

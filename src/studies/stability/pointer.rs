@@ -100,10 +100,8 @@ fn equal_times() -> Verdict {
     hand.tick();
     let at_mm = hand.engine.snapshot().pose.position.x_mm;
     let n = hand.counters().replaced;
-    verdict(
-        at_mm == 42.0 && n == 1,
-        format!("the later one counts, {n} replaced"),
-    )
+    let came_back = format!("the later one counts, {n} replaced");
+    verdict(at_mm == 42.0 && n == 1, came_back)
 }
 
 fn going_back() -> Verdict {
@@ -115,10 +113,8 @@ fn going_back() -> Verdict {
     hand.tick();
     let after_mm = hand.engine.snapshot().pose.position.x_mm;
     let n = hand.counters().went_back;
-    verdict(
-        before_mm == after_mm && n == 1,
-        format!("dropped, {n} counted"),
-    )
+    let came_back = format!("dropped, {n} counted");
+    verdict(before_mm == after_mm && n == 1, came_back)
 }
 
 fn jump_of_an_hour() -> Verdict {
@@ -128,10 +124,8 @@ fn jump_of_an_hour() -> Verdict {
     let n_silent = after.iter().filter(|sounded| !**sounded).count();
     let n_jumps = hand.counters().clock_jumps;
     let is_kept = n_jumps == 1 && n_silent == 1 && !after[0];
-    verdict(
-        is_kept,
-        format!("{n_jumps} jump, {n_silent} silent tick, then it sounds again"),
-    )
+    let came_back = format!("{n_jumps} jump, {n_silent} silent tick, then it sounds again");
+    verdict(is_kept, came_back)
 }
 
 fn place_of_nan() -> Verdict {

@@ -7,7 +7,7 @@ use selvedge_foundation::progress::unheard;
 
 #[test]
 fn every_extreme_case_comes_out_as_promised() {
-    let findings = quick(&Stability, 1);
+    let findings = quick(&STUDY, 1);
     assert!(findings.rows.len() > 40, "{} cases", findings.rows.len());
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");

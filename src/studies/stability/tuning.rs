@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::case::{Case, Verdict, failed, refused, verdict};
-use super::cloth::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
+use super::scene::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
 use selvedge_foundation::geometry::Point;
@@ -29,41 +29,37 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new("gain", "−∞ dB, in a file", "taken", || {
             let read = in_file("gain_db = -inf").map_err(|error| error.to_string())?;
             let gain_db = read.tuning.map(|tuning| tuning.gain_db);
-            verdict(
-                gain_db == Some(f64::NEG_INFINITY),
-                "taken as silence".to_owned(),
-            )
+            let is_taken = gain_db == Some(f64::NEG_INFINITY);
+            verdict(is_taken, "taken as silence".to_owned())
         }),
         Case::new("gain", "1e308 dB, live", "finite", || {
             finite_with_gain(1e308)
         }),
     ];
-    for (value, spelt) in [(f64::INFINITY, "inf"), (f64::NAN, "nan")] {
-        let tried = format!("{value} dB, in a file");
-        let file = move || refused(in_file(&format!("gain_db = {spelt}")), &["a.toml:4", "; "]);
-        cases.push(Case::new("gain", tried, "refused with file and line", file));
-        let live = move || ignored_live(gain(value));
-        let tried = format!("{value} dB, live");
-        cases.push(Case::new("gain", tried, "ignored with a notice", live));
-    }
-    for (value, spelt) in [(-0.1, "-0.1"), (1.1, "1.1"), (f64::NAN, "nan")] {
-        let tried = format!("{value}, in a file");
-        let line = format!("compression = {spelt}");
+    let mut add = |area, [tried, line]: [String; 2], tuning: Tuning, should| {
         let file = move || refused(in_file(&line), &["a.toml:4", "; "]);
+        let by_file = "refused with file and line";
         cases.push(Case::new(
-            "compression",
-            tried,
-            "refused with file and line",
+            area,
+            format!("{tried}, in a file"),
+            by_file,
             file,
         ));
-        let live = move || ignored_live(compressed(value));
-        let tried = format!("{value}, live");
-        cases.push(Case::new(
+        let live = move || ignored_live(tuning);
+        cases.push(Case::new(area, format!("{tried}, live"), should, live));
+    };
+    for (value, spelt) in [(f64::INFINITY, "inf"), (f64::NAN, "nan")] {
+        let both = [format!("{value} dB"), format!("gain_db = {spelt}")];
+        add("gain", both, gain(value), "ignored with a notice");
+    }
+    for (value, spelt) in [(-0.1, "-0.1"), (1.1, "1.1"), (f64::NAN, "nan")] {
+        let both = [value.to_string(), format!("compression = {spelt}")];
+        add(
             "compression",
-            tried,
+            both,
+            compressed(value),
             "refused with a notice",
-            live,
-        ));
+        );
     }
     cases
 }
@@ -92,10 +88,8 @@ fn finite_with_gain(gain_db: f64) -> Verdict {
         .iter()
         .all(|[low, high]| u32::from(*low) + u32::from(*high) <= 65_535);
     let is_number = heard.iter().flatten().all(|um| !um.is_nan());
-    verdict(
-        is_bounded && is_number,
-        format!("{}, codes within full drive", range_um(heard[0])),
-    )
+    let came_back = format!("{}, codes within full drive", range_um(heard[0]));
+    verdict(is_bounded && is_number, came_back)
 }
 
 /// What every method gives at 100 mm/s with a gain.

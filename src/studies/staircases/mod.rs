@@ -4,69 +4,54 @@
 mod tests;
 mod ways;
 
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::Axis;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::quantity;
 
+use super::chart::{chart, lines_by};
+use super::readable::{mean, rms};
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use ways::{Observer, Way, large_quest};
+use ways::{Observer, WAYS, Way, large_quest};
 
 /// Trials after which every way is asked for its threshold.
 const CHECKPOINTS: [u32; 5] = [20, 40, 80, 160, 320];
 
 /// Threshold error against trials.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StaircasesStudy;
+pub(crate) const STUDY: Study = Study {
+    name: "staircases",
+    question: "How near does each way to find a threshold come, after how many trials, if \
+               observers lapse or are less steep than assumed?",
+    reference: "The simulated observer's own function, at the share right that the way looks \
+                for.",
+    error: ("rms error of the threshold", "dB"),
+    cost_of: "trial",
+    run,
+};
 
-impl Study for StaircasesStudy {
-    fn name(&self) -> &'static str {
-        "staircases"
-    }
-
-    fn question(&self) -> &'static str {
-        "How near does each way to find a threshold come, after how many trials, if observers \
-         lapse or are less steep than assumed?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "The simulated observer's own function, at the share right that the way looks for."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("rms error of the threshold", "dB")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "trial"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let n_runs = bench.effort.pick(16, 150);
-        let n_checkpoints = bench.effort.pick(3, CHECKPOINTS.len());
-        let checkpoints = &CHECKPOINTS[..n_checkpoints];
-        let observers = Observer::all();
-        let mut findings = Findings::default();
-        for (number, observer) in observers.iter().enumerate() {
-            for (nth, way) in Way::ALL.into_iter().enumerate() {
-                let n_done = number * Way::ALL.len() + nth;
-                let share = n_done as f64 / (observers.len() * Way::ALL.len()) as f64;
-                bench.step(share, way.name())?;
-                let cost = cost(bench, way)?;
-                let errors = errors(way, observer, checkpoints, n_runs, bench.seed);
-                for (at, n_trials) in checkpoints.iter().enumerate() {
-                    let of_run = errors.iter().map(|run| run[at]);
-                    let tally = Tally::of(of_run);
-                    findings
-                        .rows
-                        .push(tally.row(way, observer, *n_trials, cost));
-                }
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let n_runs = bench.effort.pick(16, 150);
+    let n_checkpoints = bench.effort.pick(3, CHECKPOINTS.len());
+    let checkpoints = &CHECKPOINTS[..n_checkpoints];
+    let observers = Observer::all();
+    let mut findings = Findings::default();
+    for (number, observer) in observers.iter().enumerate() {
+        for (nth, way) in WAYS.into_iter().enumerate() {
+            let n_done = number * WAYS.len() + nth;
+            let share = n_done as f64 / (observers.len() * WAYS.len()) as f64;
+            bench.step(share, way.name)?;
+            let cost = cost(bench, way)?;
+            let errors = errors(way, observer, checkpoints, n_runs, bench.seed);
+            for (at, n_trials) in checkpoints.iter().enumerate() {
+                let tally = Tally::of(errors.iter().map(|run| run[at]));
+                let row = tally.row(way, observer, *n_trials, cost);
+                findings.rows.push(row);
             }
         }
-        findings.rows.push(large_grid(bench)?);
-        plots(&mut findings, &observers);
-        findings.notes.push(notes());
-        Ok(findings)
     }
+    findings.rows.push(large_grid(bench)?);
+    plots(&mut findings, &observers);
+    findings.notes.push(notes());
+    Ok(findings)
 }
 
 fn notes() -> String {
@@ -82,25 +67,14 @@ fn notes() -> String {
 /// Errors of one run at every checkpoint, dB; `None` without a threshold.
 type Run = Vec<Option<f64>>;
 
-fn errors(
-    way: Way,
-    observer: &Observer,
-    checkpoints: &[u32],
-    n_runs: usize,
-    seed: u64,
-) -> Vec<Run> {
+fn errors(way: Way, observer: &Observer, at: &[u32], n_runs: usize, seed: u64) -> Vec<Run> {
     let mut runs: Vec<Run> = vec![Vec::new(); n_runs];
-    in_pieces(
-        &mut runs,
-        1,
-        n_threads(),
-        || (),
-        |(), number, piece| {
-            for run in piece {
-                *run = way.errors_db(observer, checkpoints, (seed, number));
-            }
-        },
-    );
+    let all = |(): &mut (), number, piece: &mut [Run]| {
+        for run in piece {
+            *run = way.errors_db(observer, at, (seed, number));
+        }
+    };
+    in_pieces(&mut runs, 1, n_threads(), || (), all);
     runs
 }
 
@@ -117,97 +91,68 @@ impl Tally {
     fn of(errors: impl Iterator<Item = Option<f64>>) -> Self {
         let errors: Vec<Option<f64>> = errors.collect();
         let known: Vec<f64> = errors.iter().copied().flatten().collect();
-        let n = known.len() as f64;
         Self {
             n_runs: errors.len(),
             n_undefined: errors.len() - known.len(),
-            bias_db: known.iter().sum::<f64>() / n,
-            rms_db: (known.iter().map(|e| e * e).sum::<f64>() / n).sqrt(),
+            bias_db: mean(&known),
+            rms_db: rms(&known),
         }
     }
 
-    fn row(&self, way: Way, observer: &Observer, n_trials: u32, cost: Cost) -> Row {
+    fn row(&self, way: Way, observer: &Observer, n_trials: u32, [trial, estimate]: Cost) -> Row {
         let n_known = self.n_runs - self.n_undefined;
         let is_known = 2 * n_known > self.n_runs;
         let scatter = (self.rms_db.powi(2) - self.bias_db.powi(2)).max(0.0).sqrt();
-        let said = |value: f64| {
-            if is_known {
-                format!("{value:.3}")
-            } else {
-                String::new()
-            }
-        };
-        Row {
-            method: way.name().to_owned(),
-            setting: format!("{n_trials} trials"),
-            case: observer.name.to_owned(),
-            size: Some(f64::from(n_trials)),
-            error: is_known.then_some(self.rms_db),
-            cost: Some(cost.trial),
-            more: vec![
-                ("bias_db", said(self.bias_db)),
-                ("bias_error_db", said(scatter / (n_known as f64).sqrt())),
-                (
-                    "undefined",
-                    format!("{} of {}", self.n_undefined, self.n_runs),
-                ),
-                ("estimate_ms", format!("{:.4}", 1e3 * cost.estimate.cpu_s)),
-            ],
-            ..Row::default()
-        }
+        let known = |value: f64| if is_known { value } else { f64::NAN };
+        let undefined = format!("{} of {}", self.n_undefined, self.n_runs);
+        Row::of(way.name, format!("{n_trials} trials"), observer.name)
+            .size(f64::from(n_trials))
+            .error(is_known.then_some(self.rms_db))
+            .cost(trial)
+            .number("bias_db", 3, known(self.bias_db))
+            .number("bias_error_db", 3, known(scatter / (n_known as f64).sqrt()))
+            .with("undefined", undefined)
+            .number("estimate_ms", 4, 1e3 * estimate.cpu_s)
     }
 }
 
 /// What a trial costs, and the threshold at the end.
-#[derive(Debug, Clone, Copy)]
-struct Cost {
-    trial: Timing,
-    estimate: Timing,
-}
+type Cost = [Timing; 2];
 
 /// Eighty trials of one observer, and the threshold that they come to.
 fn cost(bench: &Bench<'_>, way: Way) -> Result<Cost, ReportError> {
     let observer = &Observer::all()[0];
     let n_trials = 80;
-    let failed = |reason: selvedge_statistics::Undefined| ReportError::Study(reason.to_string());
     let run = || way.run(observer, n_trials, (3, 0));
-    let done = run().map_err(failed)?;
-    let making = bench.time_repeated(3, 1, || way.session((3, 0), n_trials).is_ok());
+    let done = run()?;
+    let making = bench.time_repeated(3, 1, || (way.session)((3, 0), n_trials).is_ok());
     let all = bench.time_repeated(3, 1, || run().is_ok());
     let estimate = bench.time_repeated(3, 1, || way.threshold_db(&done).is_ok());
-    let each = |of: fn(&Timing) -> f64| (of(&all) - of(&making)).max(0.0) / f64::from(n_trials);
+    let each = |all_s: f64, making_s: f64| (all_s - making_s).max(0.0) / f64::from(n_trials);
+    let quartile = |q: usize| each(all.cpu_quartiles_s[q], making.cpu_quartiles_s[q]);
     // Of two runs that differ by chance more than by the trials, either quartile may be the larger.
-    let mut quartiles_s = [
-        each(|t| t.cpu_quartiles_s[0]),
-        each(|t| t.cpu_quartiles_s[1]),
-    ];
+    let mut quartiles_s = [quartile(0), quartile(1)];
     quartiles_s.sort_by(f64::total_cmp);
     let trial = Timing {
-        cpu_s: each(|t| t.cpu_s),
+        cpu_s: each(all.cpu_s, making.cpu_s),
         cpu_quartiles_s: quartiles_s,
-        wall_s: each(|t| t.wall_s),
+        wall_s: each(all.wall_s, making.wall_s),
         n_repeats: all.n_repeats,
     };
-    Ok(Cost { trial, estimate })
+    Ok([trial, estimate])
 }
 
 /// QUEST+ on as large a grid as anybody asks for: cost alone.
 fn large_grid(bench: &Bench<'_>) -> Result<Row, ReportError> {
-    let failed = |reason: selvedge_statistics::Undefined| ReportError::Study(reason.to_string());
-    let fresh = large_quest().map_err(failed)?;
+    let fresh = large_quest()?;
     let observer = &Observer::all()[0];
     let n_trials = 4;
     let cost = bench.time_repeated(bench.effort.pick(1, 5), n_trials, || {
         let mut quest = fresh.clone();
         ways::answer(&mut quest, observer, 0.0, (n_trials, 3)).is_ok()
     });
-    Ok(Row {
-        method: "QUEST+, large grid".to_owned(),
-        setting: "100 stimuli × 50 thresholds × 50 widths × 6 lapse rates".to_owned(),
-        case: "cost alone".to_owned(),
-        cost: Some(cost),
-        ..Row::default()
-    })
+    let setting = "100 stimuli × 50 thresholds × 50 widths × 6 lapse rates";
+    Ok(Row::of("QUEST+, large grid", setting, "cost alone").cost(cost))
 }
 
 /// Error and bias over trials, a plot of each for every observer.
@@ -219,22 +164,21 @@ fn plots(findings: &mut Findings, observers: &[Observer]) {
             ("bias", Axis::linear("mean error, dB"), bias_db),
         ];
         for (kind, axis, value) in kinds {
-            let plot = Chart {
-                title: format!("Staircases: {kind} of the threshold over trials"),
-                x: Axis::log("trials"),
-                y: axis,
-                series: series(&findings.rows, observer, value),
-                footnote: format!("{}. Numbers: staircases.csv.", observer.name),
-                ..Chart::default()
-            };
+            let of_observer = findings.rows.iter().filter(|row| row.case == observer.name);
+            let point = |row: &Row| Some([row.size?, value(row)?]);
+            let plot = chart(
+                format!("Staircases: {kind} of the threshold over trials"),
+                Axis::log("trials"),
+                axis,
+                lines_by(of_observer, |row| &row.method, point),
+                format!("{}. Numbers: staircases.csv.", observer.name),
+            );
             let name = format!("staircases-{kind}-{file}");
             findings.plots.push((name, plot));
         }
     }
-    let notes: Vec<String> = observers
-        .iter()
-        .filter_map(|observer| least(&findings.rows, observer))
-        .collect();
+    let least = |observer| least(&findings.rows, observer);
+    let notes: Vec<String> = observers.iter().filter_map(least).collect();
     findings.notes.extend(notes);
 }
 
@@ -247,20 +191,6 @@ fn rms_db(row: &Row) -> Option<f64> {
 
 fn bias_db(row: &Row) -> Option<f64> {
     row.further_number("bias_db")
-}
-
-fn series(rows: &[Row], observer: &Observer, value: Value) -> Vec<Series> {
-    let of = |way: Way| Series {
-        name: way.name().to_owned(),
-        points: rows
-            .iter()
-            .filter(|row| row.method == way.name() && row.case == observer.name)
-            .filter_map(|row| Some([row.size?, value(row)?]))
-            .collect(),
-        style: Style::LineAndDots,
-        ..Series::default()
-    };
-    Way::ALL.into_iter().map(of).collect()
 }
 
 /// Which way came nearest after eighty trials.

@@ -52,16 +52,85 @@ impl Observer {
     }
 }
 
+/// Which run of which seed.
+type RunOf = (u64, usize);
+
 /// A way to find a threshold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
-    TwoDownReversals,
-    TwoDownFit,
-    WeightedReversals,
-    WeightedFit,
-    QuestSlopeFree,
-    QuestSlopeAssumed,
-    ConstantFit,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    pub(super) name: &'static str,
+    /// A session of so many trials before its first, in decibels about where the threshold may be.
+    pub(super) session: fn(RunOf, u32) -> Computed<Session>,
+    /// Whether its reversals tell the threshold, and not a fit to all trials.
+    is_by_reversals: bool,
+}
+
+const fn way(
+    name: &'static str,
+    session: fn(RunOf, u32) -> Computed<Session>,
+    is_by_reversals: bool,
+) -> Way {
+    Way {
+        name,
+        session,
+        is_by_reversals,
+    }
+}
+
+/// Every way; the product's own staircases first.
+pub(super) const WAYS: [Way; 7] = [
+    way("1 up 2 down, reversals", two_down, true),
+    way("1 up 2 down, fit", two_down, false),
+    way("weighted 3 : 1, reversals", weighted, true),
+    way("weighted 3 : 1, fit", weighted, false),
+    way(
+        "QUEST+",
+        |_, n| quest(&[5.0, 7.0, 10.0, 14.0, 20.0, 28.0], n),
+        false,
+    ),
+    way(
+        "QUEST+, slope assumed",
+        |_, n| quest(&[ASSUMED_WIDTH_DB], n),
+        false,
+    ),
+    way("constant stimuli, fit", constant, false),
+];
+
+fn two_down(_: RunOf, n_trials: u32) -> Computed<Session> {
+    staircase(Rule::one_up(2), [[4.0, 4.0], [2.0, 2.0]], n_trials)
+}
+
+fn weighted(_: RunOf, n_trials: u32) -> Computed<Session> {
+    staircase(Rule::one_up(1), [[6.0, 2.0], [3.0, 1.0]], n_trials)
+}
+
+/// Steps up and down until two reversals, and from then on.
+fn staircase(rule: Rule, steps: [[f64; 2]; 2], n_trials: u32) -> Computed<Session> {
+    let stage = |[up, down]: [f64; 2], n_reversals| Stage {
+        up,
+        down,
+        n_reversals,
+    };
+    let plan = StaircasePlan {
+        stages: vec![stage(steps[0], 2), stage(steps[1], 0)],
+        limits: [-60.0, 30.0],
+        stop: Stop::Trials(n_trials),
+        ..StaircasePlan::steady(rule, StepScale::Linear, 20.0, [1.0, 1.0])
+    };
+    Staircase::new(plan).map(Session::Staircase)
+}
+
+fn quest(widths: &[f64], n_trials: u32) -> Computed<Session> {
+    let quest = QuestPlus::new(grid(widths.to_vec()), Stop::Trials(n_trials))?;
+    Ok(Session::Quest(Box::new(quest)))
+}
+
+fn constant((seed, run): RunOf, n_trials: u32) -> Computed<Session> {
+    let stimuli = [-12.0, -6.0, 0.0, 6.0, 12.0];
+    let n_rounds = n_trials.div_ceil(5) as usize;
+    let run = u64::try_from(run).unwrap_or(u64::MAX);
+    let constant = ConstantStimuli::new(&stimuli, n_rounds, seed.wrapping_add(run))?;
+    Ok(Session::Constant(constant))
 }
 
 /// A procedure, whichever it is.
@@ -83,89 +152,26 @@ impl Session {
 }
 
 impl Way {
-    pub(super) const ALL: [Self; 7] = [
-        Self::TwoDownReversals,
-        Self::TwoDownFit,
-        Self::WeightedReversals,
-        Self::WeightedFit,
-        Self::QuestSlopeFree,
-        Self::QuestSlopeAssumed,
-        Self::ConstantFit,
-    ];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::TwoDownReversals => "1 up 2 down, reversals",
-            Self::TwoDownFit => "1 up 2 down, fit",
-            Self::WeightedReversals => "weighted 3 : 1, reversals",
-            Self::WeightedFit => "weighted 3 : 1, fit",
-            Self::QuestSlopeFree => "QUEST+",
-            Self::QuestSlopeAssumed => "QUEST+, slope assumed",
-            Self::ConstantFit => "constant stimuli, fit",
-        }
-    }
-
-    /// A session before its first trial, in decibels about where the threshold may be.
-    pub(super) fn session(self, (seed, run): (u64, usize), n_trials: u32) -> Computed<Session> {
-        let stage = |up, down, n_reversals| Stage {
-            up,
-            down,
-            n_reversals,
-        };
-        let staircase = |rule, stages| {
-            let plan = StaircasePlan {
-                stages,
-                limits: [-60.0, 30.0],
-                stop: Stop::Trials(n_trials),
-                ..StaircasePlan::steady(rule, StepScale::Linear, 20.0, [1.0, 1.0])
-            };
-            Staircase::new(plan).map(Session::Staircase)
-        };
-        let quest = |widths: Vec<f64>| {
-            let quest = QuestPlus::new(grid(widths), Stop::Trials(n_trials))?;
-            Ok(Session::Quest(Box::new(quest)))
-        };
-        match self {
-            Self::TwoDownReversals | Self::TwoDownFit => staircase(
-                Rule::one_up(2),
-                vec![stage(4.0, 4.0, 2), stage(2.0, 2.0, 0)],
-            ),
-            Self::WeightedReversals | Self::WeightedFit => staircase(
-                Rule::one_up(1),
-                vec![stage(6.0, 2.0, 2), stage(3.0, 1.0, 0)],
-            ),
-            Self::QuestSlopeFree => quest(vec![5.0, 7.0, 10.0, 14.0, 20.0, 28.0]),
-            Self::QuestSlopeAssumed => quest(vec![ASSUMED_WIDTH_DB]),
-            Self::ConstantFit => {
-                let stimuli = [-12.0, -6.0, 0.0, 6.0, 12.0];
-                let n_rounds = n_trials.div_ceil(5) as usize;
-                let run = u64::try_from(run).unwrap_or(u64::MAX);
-                let constant = ConstantStimuli::new(&stimuli, n_rounds, seed.wrapping_add(run))?;
-                Ok(Session::Constant(constant))
-            }
-        }
-    }
-
     /// The threshold that a session came to, with the share right that it is the threshold of;
     /// `None` for F = ½.
     pub(super) fn threshold_db(self, session: &Session) -> Computed<(f64, Option<f64>)> {
-        match (self, session) {
-            (Self::TwoDownReversals | Self::WeightedReversals, Session::Staircase(staircase)) => {
+        match session {
+            Session::Staircase(staircase) if self.is_by_reversals => {
                 let mean = staircase.reversal_mean(staircase.reversals().len())?;
                 Ok((mean.threshold, Some(mean.target)))
             }
-            (_, Session::Staircase(staircase)) => fitted(staircase),
-            (_, Session::Constant(constant)) => fitted(constant),
-            (_, Session::Quest(quest)) => Ok((quest.summary().threshold.mean, None)),
+            Session::Staircase(staircase) => fitted(staircase),
+            Session::Constant(constant) => fitted(constant),
+            Session::Quest(quest) => Ok((quest.summary().threshold.mean, None)),
         }
     }
 
     /// The errors of one run after so many trials, dB.
-    pub(super) fn errors_db(self, observer: &Observer, at: &[u32], run: (u64, usize)) -> Run {
+    pub(super) fn errors_db(self, observer: &Observer, at: &[u32], run: RunOf) -> Run {
         let n_trials = at.iter().copied().max().unwrap_or(0);
         let mut random = random_of(run);
         let curve = observer.curve(random.uniform_in(-3.0, 3.0));
-        let Ok(mut session) = self.session(run, n_trials) else {
+        let Ok(mut session) = (self.session)(run, n_trials) else {
             return vec![None; at.len()];
         };
         let mut errors = Vec::with_capacity(at.len());
@@ -182,14 +188,14 @@ impl Way {
     }
 
     /// One session of so many trials.
-    pub(super) fn run(self, observer: &Observer, n: u32, run: (u64, usize)) -> Computed<Session> {
-        let mut session = self.session(run, n)?;
+    pub(super) fn run(self, observer: &Observer, n: u32, run: RunOf) -> Computed<Session> {
+        let mut session = (self.session)(run, n)?;
         answer(session.procedure(), observer, 0.0, (n as usize, run.0))?;
         Ok(session)
     }
 }
 
-fn random_of((seed, run): (u64, usize)) -> Random {
+fn random_of((seed, run): RunOf) -> Random {
     Random::new(seed).branch(&format!("observer of run {run}"))
 }
 

@@ -24,25 +24,26 @@ pub(super) struct Pointer {
     is_mouse: bool,
 }
 
+/// A mouse on a table: what is tried most.
+const MOUSE: Pointer = Pointer {
+    label: "mouse, 125 Hz, 0.1 mm",
+    rate_hz: 125.0,
+    step_mm: 0.1,
+    noise_mm: 0.0,
+    stamp_jitter_s: 0.5e-3,
+    burst_hz: None,
+    is_mouse: true,
+};
+
 /// What is tried in full.
 pub(super) const POINTERS: [Pointer; 4] = [
-    Pointer {
-        label: "mouse, 125 Hz, 0.1 mm",
-        rate_hz: 125.0,
-        step_mm: 0.1,
-        noise_mm: 0.0,
-        stamp_jitter_s: 0.5e-3,
-        burst_hz: None,
-        is_mouse: true,
-    },
+    MOUSE,
     Pointer {
         label: "mouse, 1 kHz, 0.02 mm",
         rate_hz: 1000.0,
         step_mm: 0.02,
-        noise_mm: 0.0,
         stamp_jitter_s: 0.05e-3,
-        burst_hz: None,
-        is_mouse: true,
+        ..MOUSE
     },
     Pointer {
         label: "tablet, 200 Hz, 0.02 mm",
@@ -55,12 +56,9 @@ pub(super) const POINTERS: [Pointer; 4] = [
     },
     Pointer {
         label: "mouse, 125 Hz in bursts at 60 Hz",
-        rate_hz: 125.0,
-        step_mm: 0.1,
-        noise_mm: 0.0,
         stamp_jitter_s: 0.1e-3,
         burst_hz: Some(60.0),
-        is_mouse: true,
+        ..MOUSE
     },
 ];
 
@@ -115,16 +113,14 @@ impl Pointer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::strokes::Stroke;
+    use super::super::strokes::{STEADY, STROKES};
     use super::*;
 
     #[test]
     fn stamps_rise_and_places_are_steps_apart() {
-        let stroke = Stroke::Constant {
-            speed_mm_per_s: 100.0,
-        };
+        let stroke = STEADY;
         for pointer in POINTERS {
-            let samples = pointer.samples(&|t_s| stroke.at(t_s), 1.0, &mut Random::new(1));
+            let samples = pointer.samples(&stroke.at, 1.0, &mut Random::new(1));
             assert!(samples.len() > 100, "{}: {}", pointer.label, samples.len());
             for pair in samples.windows(2) {
                 assert!(pair[1].0 > pair[0].0, "{}: {pair:?}", pointer.label);
@@ -138,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_mouse_that_lies_still_says_one_thing_and_a_tablet_goes_on() {
-        let rest = |t_s: f64| Stroke::Rest.at(t_s);
+        let rest = |t_s: f64| (STROKES[8].at)(t_s);
         let said = |pointer: Pointer| pointer.samples(&rest, 1.0, &mut Random::new(1)).len();
         assert_eq!(said(POINTERS[0]), 1);
         assert_eq!(said(POINTERS[2]), 200);
@@ -146,10 +142,8 @@ mod tests {
 
     #[test]
     fn a_burst_hands_over_what_came_since_the_last() {
-        let stroke = Stroke::Constant {
-            speed_mm_per_s: 100.0,
-        };
-        let samples = POINTERS[3].samples(&|t_s| stroke.at(t_s), 1.0, &mut Random::new(1));
+        let stroke = STEADY;
+        let samples = POINTERS[3].samples(&stroke.at, 1.0, &mut Random::new(1));
         let n_close = samples
             .windows(2)
             .filter(|pair| pair[1].0 - pair[0].0 < 1e-3)

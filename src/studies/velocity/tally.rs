@@ -4,6 +4,7 @@ use selvedge_foundation::geometry::Velocity;
 use selvedge_foundation::numerics::quantile;
 
 use super::strokes::Motion;
+use crate::readable::{mean, rms};
 
 /// Levels are compared where the finger is at least this fast, mm/s.
 const LEAST_SPEED_MM_PER_S: f64 = 10.0;
@@ -51,7 +52,7 @@ impl Tally {
             tally.delays_s.push(delay_s);
             tally.jitters.push(jitter);
         } else if !estimates.is_empty() {
-            tally.jitters.push(mean_square(&tally.errors));
+            tally.jitters.push(tally.rms_mm_per_s().powi(2));
         }
         tally
     }
@@ -67,7 +68,7 @@ impl Tally {
 
     /// Root mean square error, mm/s.
     pub(super) fn rms_mm_per_s(&self) -> f64 {
-        mean_square(&self.errors).sqrt()
+        rms(&self.errors)
     }
 
     /// 99th percentile of the errors, mm/s.
@@ -77,7 +78,7 @@ impl Tally {
 
     /// Root mean square level error, dB; NaN where nothing is fast enough.
     pub(super) fn rms_db(&self) -> f64 {
-        mean_square(&self.levels_db).sqrt()
+        rms(&self.levels_db)
     }
 
     /// 99th percentile of the level errors, dB; NaN where nothing is fast enough.
@@ -134,14 +135,6 @@ fn squared_distance(a: Velocity, b: Velocity) -> f64 {
     (a.x_mm_per_s - b.x_mm_per_s).powi(2) + (a.y_mm_per_s - b.y_mm_per_s).powi(2)
 }
 
-fn mean_square(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::strokes::STROKES;
@@ -149,8 +142,8 @@ mod tests {
 
     #[test]
     fn a_delay_put_in_is_the_delay_found() {
-        for stroke in STROKES.into_iter().filter(|stroke| stroke.is_varied()) {
-            let motion = |t_s: f64| stroke.at(t_s);
+        for stroke in STROKES.into_iter().filter(|stroke| stroke.is_varied) {
+            let motion = |t_s: f64| (stroke.at)(t_s);
             for delay_s in [0.0, 0.0123, 0.0407] {
                 let late = |n: i32| {
                     let t_s = 0.2 + 0.025 * f64::from(n);
@@ -159,7 +152,7 @@ mod tests {
                 let estimates: Vec<Estimated> = (0..200).map(late).collect();
                 let tally = Tally::of(&estimates, &motion, true);
                 let off_s = (tally.delay_s() - delay_s).abs();
-                assert!(off_s < 1e-4, "{}: off by {off_s} s", stroke.label());
+                assert!(off_s < 1e-4, "{}: off by {off_s} s", stroke.label);
                 assert!(tally.jitter_mm_per_s() < 0.02 * (1.0 + tally.rms_mm_per_s()) + 1.0);
             }
         }
@@ -167,7 +160,7 @@ mod tests {
 
     #[test]
     fn an_estimate_of_twice_the_speed_is_six_decibels_off() {
-        let motion = |t_s: f64| STROKES[1].at(t_s);
+        let motion = |t_s: f64| (STROKES[1].at)(t_s);
         let double = |n: i32| (f64::from(n), Velocity::new(191.2, 58.674_832_66), 0.0);
         let tally = Tally::of(&(0..10).map(double).collect::<Vec<_>>(), &motion, false);
         assert!((tally.rms_db() - 6.0206).abs() < 1e-3, "{}", tally.rms_db());

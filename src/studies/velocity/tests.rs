@@ -17,7 +17,7 @@ fn error_of(findings: &Findings, method: &str, case_end: &str) -> f64 {
 
 #[test]
 fn a_quick_study_has_every_method_and_numbers_that_repeat() {
-    let (first, second) = (quick(&VelocityStudy, 7), quick(&VelocityStudy, 7));
+    let (first, second) = (quick(&STUDY, 7), quick(&STUDY, 7));
     // Two pointers, two methods, four strokes and all of them.
     assert!(first.rows.len() >= 2 * 2 * 5, "{}", first.rows.len());
     assert_complete_and_same(&first, &second);
@@ -28,7 +28,7 @@ fn a_quick_study_has_every_method_and_numbers_that_repeat() {
 
 #[test]
 fn smoothing_helps_a_steady_stroke_and_a_mouse_at_rest_is_at_rest() {
-    let findings = quick(&VelocityStudy, 7);
+    let findings = quick(&STUDY, 7);
     let raw = error_of(&findings, "finite difference", "constant 100 mm/s");
     let smooth = error_of(&findings, "Kalman", "constant 100 mm/s");
     assert!(smooth < 0.75 * raw, "{smooth} of {raw} mm/s");

@@ -21,49 +21,33 @@ const N_SETTLING: u32 = 60;
 const N_STILL: u32 = 40;
 
 /// The studies of the window.
-pub fn studies() -> Vec<Box<dyn Study>> {
-    vec![Box::new(WindowStudy)]
+pub fn studies() -> Vec<Study> {
+    vec![STUDY]
 }
 
 /// What a frame costs.
-#[derive(Debug, Clone, Copy)]
-struct WindowStudy;
+const STUDY: Study = Study {
+    name: "window",
+    question: "What does a frame of the window cost, what does each view add, and is anything \
+               done while nothing changes?",
+    reference: "A window in which nothing moves: it asks for no frame and uploads no picture.",
+    error: ("work without a cause", "frames or pictures"),
+    cost_of: "frame",
+    run,
+};
 
-impl Study for WindowStudy {
-    fn name(&self) -> &'static str {
-        "window"
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let mut findings = Findings::default();
+    let mut settings = vec![Setting::Default, Setting::NothingElse];
+    settings.extend(Pane::ALL.map(Setting::Only));
+    let n_settings = settings.len() as f64 + 1.0;
+    for (number, setting) in settings.into_iter().enumerate() {
+        bench.step(number as f64 / n_settings, &setting.name())?;
+        findings.rows.push(moving_row(bench, setting)?);
     }
-
-    fn question(&self) -> &'static str {
-        "What does a frame of the window cost, what does each view add, and is anything done while \
-         nothing changes?"
-    }
-
-    fn reference(&self) -> &'static str {
-        "A window in which nothing moves: it asks for no frame and uploads no picture."
-    }
-
-    fn error_measure(&self) -> (&'static str, &'static str) {
-        ("work without a cause", "frames or pictures")
-    }
-
-    fn cost_of(&self) -> &'static str {
-        "frame"
-    }
-
-    fn run(&self, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-        let mut findings = Findings::default();
-        let mut settings = vec![Setting::Default, Setting::NothingElse];
-        settings.extend(Pane::ALL.map(Setting::Only));
-        let n_settings = settings.len() as f64 + 1.0;
-        for (number, setting) in settings.into_iter().enumerate() {
-            bench.step(number as f64 / n_settings, &setting.name())?;
-            findings.rows.push(moving_row(bench, setting)?);
-        }
-        findings.rows.extend(still_rows()?);
-        findings.notes = NOTES.map(str::to_owned).to_vec();
-        Ok(findings)
-    }
+    findings.rows.extend(still_rows()?);
+    findings.notes = NOTES.map(str::to_owned).to_vec();
+    Ok(findings)
 }
 
 /// What a reader should know.

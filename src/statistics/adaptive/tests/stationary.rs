@@ -2,7 +2,7 @@
 //! chain over stimulus, answers in a row and direction.
 
 use crate::adaptive::Rule;
-use crate::{Computed, Undefined};
+use crate::{Computed, undefined};
 
 /// The long run of a staircase of whole steps on an even scale.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,10 +44,10 @@ pub(super) fn stationary(
     if up == 0 || down == 0 || p_right.len() < 2 || n > MOST_STATES {
         let places = p_right.len();
         let reason = format!("steps of {up} up and {down} down over {places} places");
-        return Err(Undefined::because(reason));
+        return undefined(reason);
     }
     if let Some(p) = p_right.iter().find(|p| !(0.0..=1.0).contains(*p)) {
-        return Err(Undefined::because(format!("a probability of {p}")));
+        return undefined(format!("a probability of {p}"));
     }
     Ok(chain.read(&chain.long_run(p_right)?, p_right))
 }
@@ -78,7 +78,7 @@ impl Band {
             let away: f64 = (first..last).map(|to| *self.at(last, to)).sum();
             if away <= 0.0 {
                 let reason = "the staircase has no single long run: some places never lead back";
-                return Err(Undefined::because(reason));
+                return undefined(reason);
             }
             leaving[last] = away;
             for from in first..last {

@@ -92,7 +92,7 @@ fn sums_of_squares_are_those_of_whole_number_totals() -> Computed<()> {
 fn the_textbook_example_has_its_published_values() -> Computed<()> {
     let found = repeated_two_way(&reaction(0.0))?;
     let [noise, angle, both] = found.effects.as_slice() else {
-        return Err(Undefined::because("three effects"));
+        return undefined("three effects");
     };
     let f = |e: &Effect| e.f.clone();
     assert_close(f(noise)?, 33.77, 5e-3);
@@ -109,7 +109,7 @@ fn the_textbook_example_has_its_published_values() -> Computed<()> {
     assert!(noise.sphericity.is_none(), "two levels have no sphericity");
     for (effect, w, epsilon) in [(angle, 0.960, 0.962), (both, 0.894, 0.904)] {
         let Some(sphericity) = &effect.sphericity else {
-            return Err(Undefined::because("a row of sphericity"));
+            return undefined("a row of sphericity");
         };
         assert_close(sphericity.mauchly_w.clone()?, w, 5e-4);
         assert_close(sphericity.greenhouse_geisser, epsilon, 5e-4);
@@ -207,7 +207,7 @@ fn complementary_answers_make_one_effect_nothing_by_nothing() -> Computed<()> {
     };
     let found = repeated_two_way(&table)?;
     let [signal, material, _] = found.effects.as_slice() else {
-        return Err(Undefined::because("three effects"));
+        return undefined("three effects");
     };
     let reason = material.f.clone().map_err(|e| e.reason);
     assert!(

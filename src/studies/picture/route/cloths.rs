@@ -1,10 +1,11 @@
 //! Model cloths whose relief is known, from fine to coarse, and their pictures.
 
-use crate::{Effort, ReportError};
+use crate::shading::reliefs::in_px;
+use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::shading::{Light, picture_of};
-use selvedge_textile::surface::{HeightMap, SurfaceError};
-use selvedge_textile::{Library, Source, TextileError, Weave};
+use selvedge_textile::surface::HeightMap;
+use selvedge_textile::{Library, Source, Weave};
 
 /// Where the light comes from: along neither yarn.
 pub(super) const LIGHT: Light = Light {
@@ -69,15 +70,13 @@ pub(super) fn cloths(effort: Effort) -> Result<Vec<Cloth>, ReportError> {
 
 /// The relief of a model, in quick mode a corner of it.
 fn of(name: &str, source: &Source, effort: Effort) -> Result<Cloth, ReportError> {
-    let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
-    let cut = |map: HeightMap| match (effort, map.heights_um().part(CORNER)) {
-        (Effort::Quick, Some(corner)) => HeightMap::new(corner, map.step_mm()),
-        _ => Ok(map),
+    let map = textiles::relief(name, source)?;
+    let map = match (effort, map.heights_um().part(CORNER)) {
+        (Effort::Quick, Some(corner)) => {
+            HeightMap::new(corner, map.step_mm()).map_err(textiles::wrong(name))?
+        }
+        _ => map,
     };
-    let map = map.and_then(cut).map_err(|source| TextileError::Surface {
-        path: name.into(),
-        source,
-    })?;
     Ok(Cloth {
         name: name.to_owned(),
         map,
@@ -96,10 +95,7 @@ impl Cloth {
     /// `points_a_px` points of the relief each way, with the camera's noise.
     pub(super) fn photograph(&self, side_px: usize, points_a_px: usize, seed: u64) -> Photograph {
         let step_mm = self.map.step_mm();
-        let mut height_px = self.map.heights_um().clone();
-        let um = 1000.0 * step_mm[0];
-        height_px.values_mut().iter_mut().for_each(|z| *z /= um);
-        let fine = picture_of(&height_px, LIGHT);
+        let fine = picture_of(&in_px(&self.map), LIGHT);
         let sides = [fine.width(), fine.height()].map(|n| (n / points_a_px).min(side_px));
         let mut random = Random::new(seed).branch("camera").branch(&self.name);
         let mut luminance = Grid::filled(sides[0], sides[1], 0.0);

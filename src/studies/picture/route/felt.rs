@@ -1,8 +1,8 @@
 //! What is felt of a surface: roughness, levels of both bands, and the spectrum.
 
 use crate::ReportError;
+use crate::textiles::wrong;
 use selvedge_foundation::quantity::level_db;
-use selvedge_textile::TextileError;
 use selvedge_textile::surface::{Direction, ProfileSet, Surface};
 use selvedge_textile::tactile::{Filters, Levels};
 
@@ -25,10 +25,7 @@ impl Felt {
         let (mut smd_um, mut means_um, mut powers) = (0.0, [0.0; 2], Vec::new());
         for profiles in sets {
             let surface = Surface::from_profiles(profiles, 0.0);
-            let surface = surface.map_err(|(_, source)| TextileError::Surface {
-                path: name.into(),
-                source,
-            })?;
+            let surface = surface.map_err(|(_, source)| wrong(name)(source))?;
             smd_um += surface.smd_um() / n;
             let levels = Levels::of(&surface, &Filters::default());
             for (sum, mean_um) in means_um.iter_mut().zip(levels.mean_um) {
@@ -50,6 +47,11 @@ impl Felt {
     /// Differences of levels to another, dB.
     pub(super) fn apart_db(&self, other: &Self) -> [f64; 2] {
         [0, 1].map(|band| self.levels_db[band] - other.levels_db[band])
+    }
+
+    /// How far its roughness is from another's, %.
+    pub(super) fn smd_off_percent(&self, truth: &Self) -> f64 {
+        100.0 * (self.smd_um / truth.smd_um - 1.0)
     }
 
     /// Rms of the difference of amplitudes over all bins, as a share of the other's rms, %. Phases
@@ -79,39 +81,4 @@ fn powers_um2(surface: &Surface) -> Vec<f64> {
         .into_iter()
         .flat_map(of_direction)
         .collect()
-}
-
-/// Spearman's rank correlation of pairs; not a number of less than two different ones. Ties share
-/// the mean of their ranks.
-pub(super) fn rank_correlation(pairs: &[[f64; 2]]) -> f64 {
-    let ranks = |axis: usize| -> Vec<f64> {
-        let rank = |x: f64| {
-            let below = pairs.iter().filter(|pair| pair[axis] < x).count();
-            let upto = pairs.iter().filter(|pair| pair[axis] <= x).count();
-            0.5 * (below + upto) as f64
-        };
-        pairs.iter().map(|pair| rank(pair[axis])).collect()
-    };
-    let (x, y) = (ranks(0), ranks(1));
-    let mean = 0.5 * pairs.len() as f64;
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum()
-    };
-    product(&x, &y) / (product(&x, &x) * product(&y, &y)).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_agree_whatever_the_values_and_disagree_when_turned_round() {
-        let rising = [[1.0, 10.0], [2.0, 11.0], [3.0, 1000.0], [4.0, 1001.0]];
-        assert!((rank_correlation(&rising) - 1.0).abs() < 1e-12);
-        let falling = rising.map(|[x, y]| [x, -y]);
-        assert!((rank_correlation(&falling) + 1.0).abs() < 1e-12);
-        let one_swapped = [[1.0, 1.0], [2.0, 3.0], [3.0, 2.0], [4.0, 4.0]];
-        assert!((rank_correlation(&one_swapped) - 0.8).abs() < 1e-12);
-        assert!(rank_correlation(&[[1.0, 1.0]]).is_nan());
-    }
 }

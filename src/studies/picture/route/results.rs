@@ -1,10 +1,12 @@
 //! Rows, plots and sentences of what the routes came to.
 
-use super::felt::{Felt, rank_correlation};
+use super::felt::Felt;
 use super::ways::{Subject, Way};
+use crate::chart::{chart, series};
 use crate::{Bench, Findings, Row, Timing};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::median;
+use selvedge_statistics::rank_correlation;
 use selvedge_textile::surface::BIN_SPACING_PER_MM;
 
 /// Cloths whose levels differ by less than this are hardly told apart, dB.
@@ -71,9 +73,8 @@ pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings:
     if is_drawn {
         findings.notes.push(claim(results));
         for (band, name) in [(0, "40"), (1, "320")] {
-            findings
-                .plots
-                .push((format!("levels-{name}"), levels(results, band, name)));
+            let plot = levels(results, band, name);
+            findings.plots.push((format!("levels-{name}"), plot));
         }
         if let Some(fine) = results.first() {
             findings.plots.push(("spectrum".to_owned(), spectra(fine)));
@@ -83,62 +84,32 @@ pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings:
 
 fn with_setting(mut row: Row, way: Way, setting: &str) -> Row {
     if way.is_picture() {
-        row.setting = format!(
-            "{setting}{}{}",
-            if row.setting.is_empty() { "" } else { ": " },
-            row.setting
-        );
+        let both = [setting, &row.setting].join(": ");
+        both.trim_end_matches(": ").clone_into(&mut row.setting);
     }
     row
 }
 
-fn number(x: f64) -> String {
-    if x.is_finite() {
-        format!("{x:.3}")
-    } else {
-        String::new()
-    }
-}
-
 fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing>) -> Row {
-    let row = Row {
-        method: way.name(),
-        case: tried.name.clone(),
-        ..Row::default()
-    };
     let felt = match felt {
         Ok(felt) => felt,
-        Err(reason) => {
-            return Row {
-                setting: reason.clone(),
-                ..row
-            };
-        }
+        Err(reason) => return Row::of(way.name(), reason, &tried.name),
     };
     let truth = &tried.truth;
     let apart_db = felt.apart_db(truth);
-    Row {
-        error: Some(apart_db[0].abs().max(apart_db[1].abs())),
-        cost,
-        more: vec![
-            ("true_a40_db", number(truth.levels_db[0])),
-            ("true_a320_db", number(truth.levels_db[1])),
-            ("a40_db", number(felt.levels_db[0])),
-            ("a320_db", number(felt.levels_db[1])),
-            ("a40_error_db", number(apart_db[0])),
-            ("a320_error_db", number(apart_db[1])),
-            ("true_smd_um", number(truth.smd_um)),
-            (
-                "smd_error_percent",
-                number(100.0 * (felt.smd_um / truth.smd_um - 1.0)),
-            ),
-            (
-                "spectrum_error_percent",
-                number(felt.spectrum_off_percent(truth)),
-            ),
-        ],
-        ..row
-    }
+    let spectrum_percent = felt.spectrum_off_percent(truth);
+    Row::of(way.name(), "", &tried.name)
+        .error(apart_db[0].abs().max(apart_db[1].abs()))
+        .cost(cost)
+        .number("true_a40_db", 3, truth.levels_db[0])
+        .number("true_a320_db", 3, truth.levels_db[1])
+        .number("a40_db", 3, felt.levels_db[0])
+        .number("a320_db", 3, felt.levels_db[1])
+        .number("a40_error_db", 3, apart_db[0])
+        .number("a320_error_db", 3, apart_db[1])
+        .number("true_smd_um", 3, truth.smd_um)
+        .number("smd_error_percent", 3, felt.smd_off_percent(truth))
+        .number("spectrum_error_percent", 3, spectrum_percent)
 }
 
 /// A route over all cloths.
@@ -188,8 +159,9 @@ impl Summary {
             median(&mut all)
         };
         let ranks = |f: &dyn Fn(&Felt) -> f64| {
-            let both: Vec<[f64; 2]> = pairs.iter().map(|pair| pair.map(f)).collect();
-            rank_correlation(&both)
+            let [truth, felt] = [0, 1]
+                .map(|which| -> Vec<f64> { pairs.iter().map(|pair| f(pair[which])).collect() });
+            rank_correlation(&truth, &felt).unwrap_or(f64::NAN)
         };
         let larger = |[low, high]: [f64; 2]| low.abs().max(high.abs());
         Self {
@@ -197,7 +169,7 @@ impl Summary {
             n_cloths: single().count(),
             median_db: of_pairs(&|truth, felt| larger(felt.apart_db(truth))),
             median_spectrum_percent: of_pairs(&|truth, felt| felt.spectrum_off_percent(truth)),
-            median_smd_percent: of_pairs(&|t, f| 100.0 * (f.smd_um / t.smd_um - 1.0).abs()),
+            median_smd_percent: of_pairs(&|truth, felt| felt.smd_off_percent(truth).abs()),
             ranks: [
                 ranks(&|felt| felt.smd_um),
                 ranks(&|felt| felt.levels_db[0]),
@@ -208,24 +180,16 @@ impl Summary {
     }
 
     fn row(&self, way: Way) -> Row {
-        Row {
-            method: way.name(),
-            case: format!("{} of {} cloths", self.n, self.n_cloths),
-            error: self.median_db.is_finite().then_some(self.median_db),
-            more: vec![
-                (
-                    "spectrum_error_percent",
-                    number(self.median_spectrum_percent),
-                ),
-                ("smd_error_percent", number(self.median_smd_percent)),
-                ("spearman_smd", number(self.ranks[0])),
-                ("spearman_a40", number(self.ranks[1])),
-                ("spearman_a320", number(self.ranks[2])),
-                ("true_doubles_db", number(self.pair_db[0])),
-                ("doubles_db", number(self.pair_db[1])),
-            ],
-            ..Row::default()
-        }
+        let case = format!("{} of {} cloths", self.n, self.n_cloths);
+        Row::of(way.name(), "", case)
+            .error(self.median_db.is_finite().then_some(self.median_db))
+            .number("spectrum_error_percent", 3, self.median_spectrum_percent)
+            .number("smd_error_percent", 3, self.median_smd_percent)
+            .number("spearman_smd", 3, self.ranks[0])
+            .number("spearman_a40", 3, self.ranks[1])
+            .number("spearman_a320", 3, self.ranks[2])
+            .number("true_doubles_db", 3, self.pair_db[0])
+            .number("doubles_db", 3, self.pair_db[1])
     }
 
     fn note(&self, row: &Row) -> String {
@@ -295,72 +259,52 @@ fn claim(results: &[Tried]) -> String {
 
 fn levels(results: &[Tried], band: usize, name: &str) -> Chart {
     let truth = |tried: &Tried| tried.truth.levels_db[band];
-    let of_way = |way: Way| Series {
-        name: way.name(),
-        points: results
-            .iter()
-            .filter_map(|tried| Some([truth(tried), tried.felt_by(way)?.levels_db[band]]))
-            .collect(),
-        ..Series::default()
-    };
-    let mut series: Vec<Series> = Way::ALL.map(of_way).into();
-    let ends = results
-        .iter()
-        .map(truth)
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
-            [a.min(x), b.max(x)]
-        });
-    series.push(Series {
-        name: "as in truth".to_owned(),
-        points: ends.map(|x| [x, x]).into(),
-        style: Style::Dashed,
-        ..Series::default()
-    });
-    Chart {
-        title: format!("Level at {name} Hz by every route against the relief's own"),
-        x: Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
-        y: Axis::linear(format!("A{name} by the route, dB re 1 µm")),
-        series,
-        footnote: "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than \
-                   it is."
-            .to_owned(),
-        ..Chart::default()
-    }
+    let mut all: Vec<Series> = Way::ALL
+        .map(|way| {
+            let dot = |tried: &Tried| Some([truth(tried), tried.felt_by(way)?.levels_db[band]]);
+            series(way.name(), Style::Dots, results.iter().filter_map(dot))
+        })
+        .into();
+    let of_all = || results.iter().map(truth);
+    let ends = [
+        of_all().fold(f64::INFINITY, f64::min),
+        of_all().fold(f64::NEG_INFINITY, f64::max),
+    ];
+    all.push(series("as in truth", Style::Dashed, ends.map(|x| [x, x])));
+    chart(
+        format!("Level at {name} Hz by every route against the relief's own"),
+        Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
+        Axis::linear(format!("A{name} by the route, dB re 1 µm")),
+        all,
+        "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than it is.",
+    )
 }
 
 fn spectra(fine: &Tried) -> Chart {
-    let points = |felt: &Felt| -> Vec<[f64; 2]> {
+    let line = |name: String, felt: &Felt, style: Style| {
         let half = felt.spectrum_um.len() / 2;
         let bins = felt.spectrum_um.iter().take(half).enumerate();
-        bins.map(|(k, um)| [(k + 1) as f64 * BIN_SPACING_PER_MM, *um])
-            .filter(|[per_mm, _]| *per_mm <= MOST_PER_MM)
-            .collect()
+        let points = bins.map(|(k, um)| [(k + 1) as f64 * BIN_SPACING_PER_MM, *um]);
+        series(
+            name,
+            style,
+            points.filter(|[per_mm, _]| *per_mm <= MOST_PER_MM),
+        )
     };
-    let series = |name: String, felt: &Felt, style: Style| Series {
-        name,
-        points: points(felt),
-        style,
-        ..Series::default()
-    };
-    let mut all = vec![series(
+    let by_way = |way: Way| Some(line(way.name(), fine.felt_by(way)?, Style::Line));
+    let mut all = vec![line(
         "the relief's own".to_owned(),
         &fine.truth,
         Style::Dashed,
     )];
-    for way in Way::ALL {
-        all.extend(
-            fine.felt_by(way)
-                .map(|felt| series(way.name(), felt, Style::Line)),
-        );
-    }
-    Chart {
-        title: format!("Spectrum along the warp of {}", fine.name),
-        x: Axis::linear("wavenumber, cycles/mm"),
-        y: Axis::log("amplitude a bin, µm"),
-        series: all,
-        footnote: "Rms over all places of the stroke.".to_owned(),
-        ..Chart::default()
-    }
+    all.extend(Way::ALL.into_iter().filter_map(by_way));
+    chart(
+        format!("Spectrum along the warp of {}", fine.name),
+        Axis::linear("wavenumber, cycles/mm"),
+        Axis::log("amplitude a bin, µm"),
+        all,
+        "Rms over all places of the stroke.",
+    )
 }
 
 #[cfg(test)]

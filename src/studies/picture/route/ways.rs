@@ -4,6 +4,7 @@ use super::cloths::{Cloth, LIGHT, Photograph};
 use super::felt::Felt;
 use crate::ReportError;
 use crate::picture::analysed;
+use crate::textiles::wrong;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::picture::Rectangle;
@@ -76,11 +77,8 @@ fn strokes(
     random: &Random,
 ) -> Result<ProfileSet, TextileError> {
     let middle_mm = map.size_mm().map(|mm| share * mm);
-    map.strokes(probe, middle_mm, random)
-        .map_err(|(_, source)| TextileError::Surface {
-            path: "a relief".into(),
-            source,
-        })
+    let strokes = map.strokes(probe, middle_mm, random);
+    strokes.map_err(|(_, source)| wrong("a relief")(source))
 }
 
 /// What a wire as wide as a contactor feels of a relief at five places, without friction or noise.
@@ -187,11 +185,7 @@ fn restored(strokes: &ProfileSet) -> Result<ProfileSet, TextileError> {
         let (n, step_mm) = (profile.heights_um().len(), profile.step_mm());
         let mut random = Random::new(1).branch(direction.key());
         let heights_um = reduced.restored_um(n, step_mm, &mut random);
-        let restored = Profile::new(step_mm, heights_um);
-        let restored = restored.map_err(|source| TextileError::Surface {
-            path: "a restored profile".into(),
-            source,
-        })?;
+        let restored = Profile::new(step_mm, heights_um).map_err(wrong("a restored profile"))?;
         profiles[direction.index()] = Some(restored);
     }
     Ok(profiles)

@@ -12,7 +12,7 @@ use selvedge_foundation::progress::Progress;
 use selvedge_render::RenderScene;
 use selvedge_render::scene::{ExplorationPath, Pose};
 use selvedge_studies::{
-    Bench, Effort, Findings, ReportError, Row, Running, Study as _, ThisSceneStudy, pareto,
+    Bench, Effort, Findings, ReportError, Row, Running, ThisSceneStudy, pareto,
 };
 
 /// What random numbers would begin with; there are none.

@@ -1,17 +1,19 @@
-//! Textiles and strokes that studies of rendering share: shipped textiles, lines and noise.
+//! Textiles, scenes and strokes that studies share: shipped textiles, lines and noise, and what a
+//! renderer makes of them.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::ReportError;
-use selvedge_foundation::geometry::{Frame, Point, Rotation, Velocity};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::Random;
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::{ArrayLayout, Geometry, Pose};
-use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge_textile::surface::{BIN_SPACING_PER_MM, Profile, Surface, SurfaceError};
+use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderError, RenderScene};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, HeightMap, Profile, Surface, SurfaceError};
 use selvedge_textile::tactile::MAX_SPEED_MM_PER_S;
-use selvedge_textile::{Library, TextileError};
+use selvedge_textile::{Library, Source, TextileError};
 
 /// The width of every textile of a study, mm.
 pub(crate) const WIDTH_MM: f64 = 120.0;
@@ -28,27 +30,39 @@ pub(crate) fn shipped(id: &str) -> Result<Arc<Surface>, ReportError> {
 /// One wave that fits the window: a single line at this bin, as good as alone.
 pub(crate) fn line(bin: u16) -> Result<Arc<Surface>, ReportError> {
     let per_mm = BIN_SPACING_PER_MM * f64::from(bin);
-    of_heights("a single line", |x_mm| 5.0 * (TAU * per_mm * x_mm).cos())
+    of_heights(|x_mm| 5.0 * (TAU * per_mm * x_mm).cos())
 }
 
 /// White noise: the same power in every bin but for chance.
 pub(crate) fn noise(seed: u64) -> Result<Arc<Surface>, ReportError> {
     let mut random = Random::new(seed).branch("noise");
-    of_heights("noise", |_| 5.0 * random.normal())
+    of_heights(|_| 5.0 * random.normal())
 }
 
-fn of_heights(
-    name: &str,
+/// A surface of these heights in µm along x in mm, the same in every direction.
+pub(crate) fn of_heights(
     mut height_um: impl FnMut(f64) -> f64,
 ) -> Result<Arc<Surface>, ReportError> {
-    let failed = |source: SurfaceError| TextileError::Surface {
-        path: PathBuf::from(name),
-        source,
-    };
+    let failed = wrong("a surface by formula");
     let heights = (0..N_SAMPLES).map(|i| height_um(f64::from(i) * STEP_MM));
-    let profile = Profile::new(STEP_MM, heights.collect()).map_err(failed)?;
+    let profile = Profile::new(STEP_MM, heights.collect()).map_err(&failed)?;
     let surface = Surface::from_profiles([Some(profile), None, None, None], 0.0);
     Ok(Arc::new(surface.map_err(|(_, error)| failed(error))?))
+}
+
+/// What is wrong with a surface of this name.
+pub(crate) fn wrong(name: &str) -> impl Fn(SurfaceError) -> TextileError {
+    let path = PathBuf::from(name);
+    move |source| TextileError::Surface {
+        path: path.clone(),
+        source,
+    }
+}
+
+/// The relief that a textile's recipe makes.
+pub(crate) fn relief(name: &str, source: &Source) -> Result<HeightMap, TextileError> {
+    let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
+    map.map_err(wrong(name))
 }
 
 /// A surface of a study's width with a corner at `origin`, without any gain.
@@ -74,6 +88,20 @@ pub(crate) fn exeter() -> ContactorArray {
     }
 }
 
+/// Contactors 0.1 mm apart, row by row in a square.
+pub(crate) fn square(n_contactors: usize) -> ContactorArray {
+    let n_columns = n_contactors.saturating_sub(1).isqrt() + 1;
+    let middle = (n_columns as f64 - 1.0) / 2.0;
+    let offset = |n: usize| {
+        let [column, row] = [n % n_columns, n / n_columns].map(|n| n as f64);
+        Displacement::new((column - middle) * 0.1, (middle - row) * 0.1)
+    };
+    ContactorArray {
+        offsets: (0..n_contactors).map(offset).collect(),
+        rotation_deg: 0.0,
+    }
+}
+
 /// Textiles under one display, without gains.
 pub(crate) fn scene_of(textiles: Vec<PlacedSurface>, array: ContactorArray) -> RenderScene {
     RenderScene {
@@ -81,6 +109,26 @@ pub(crate) fn scene_of(textiles: Vec<PlacedSurface>, array: ContactorArray) -> R
         displays: vec![array],
         ..RenderScene::default()
     }
+}
+
+/// One surface under the 24 contactors.
+pub(crate) fn scene_with(surface: &Arc<Surface>) -> RenderScene {
+    scene_of(vec![placed(surface, Point::default())], exeter())
+}
+
+/// A renderer of a scene.
+pub(crate) fn prepared(scene: &RenderScene, method: Method) -> Result<ArrayRenderer, RenderError> {
+    ArrayRenderer::prepare(scene, method, &Accuracy::default())
+}
+
+/// Amplitudes of all displays, each at its pose, µm.
+pub(crate) fn amplitudes_um(
+    renderer: &mut ArrayRenderer,
+    poses: &[Pose],
+) -> impl Iterator<Item = [f64; 2]> {
+    let frames = renderer.tick(poses).iter();
+    frames
+        .flat_map(|frame| (0..frame.n_contactors()).map(|contactor| frame.amplitude_um(contactor)))
 }
 
 /// Poses anywhere on one textile, with speeds spread evenly over the octaves between two, mm/s.

@@ -1,62 +1,34 @@
-//! Cloth, scenes and renderers to try extreme things on.
+//! Scenes and renderers to try extreme things on.
 
 use std::sync::Arc;
 
 use super::case::failed;
-use selvedge_foundation::geometry::{Frame, Point, Rotation, Velocity};
-use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
-use selvedge_render::scene::{Geometry, Pose};
-use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge_textile::surface::{Profile, ProfileSet, Surface};
-
-/// Samples of the profiles: 20 mm.
-const N_SAMPLES: u16 = 4600;
-const STEP_MM: f64 = 1.0 / 230.0;
+use crate::textiles::{self, exeter, of_heights, scene_of};
+use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_render::array::{ArrayRenderer, DisplayFrame, Method};
+use selvedge_render::scene::Pose;
+use selvedge_render::{PlacedSurface, RenderScene};
+use selvedge_textile::surface::Surface;
 
 /// The three methods, which must agree in every extreme.
 pub(super) const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
-/// A surface of these heights in µm along x in mm, the same in every direction.
-pub(super) fn surface(height_um: impl Fn(f64) -> f64) -> Result<Arc<Surface>, String> {
-    let heights = (0..N_SAMPLES)
-        .map(|i| height_um(f64::from(i) * STEP_MM))
-        .collect();
-    let mut profiles = ProfileSet::default();
-    profiles[0] = Some(Profile::new(STEP_MM, heights).map_err(failed)?);
-    let surface = Surface::from_profiles(profiles, 0.0);
-    surface.map(Arc::new).map_err(|(_, error)| failed(error))
-}
-
 /// A surface of waves 1 mm long of this amplitude.
 pub(super) fn waves(amplitude_um: f64) -> Result<Arc<Surface>, String> {
-    surface(|x_mm| amplitude_um * (std::f64::consts::TAU * x_mm).sin())
+    of_heights(|x_mm| amplitude_um * (std::f64::consts::TAU * x_mm).sin()).map_err(failed)
 }
 
 /// A surface placed with its lower left corner at (0, 0).
 pub(super) fn placed(surface: &Arc<Surface>, width_mm: f64) -> PlacedSurface {
     PlacedSurface {
-        workspace_from_textile: Frame {
-            origin: Point::new(0.0, 0.0),
-            rotation: Rotation::NONE,
-        },
         size_mm: [width_mm, 100.0],
-        manifest_gain_db: 0.0,
-        scene_gain_db: 0.0,
-        level: PlacedLevel::Known(0.0),
-        surface: Arc::clone(surface),
+        ..textiles::placed(surface, Point::default())
     }
 }
 
 /// A scene of placed surfaces and one array of 24 contactors.
 pub(super) fn scene(textiles: Vec<PlacedSurface>) -> RenderScene {
-    RenderScene {
-        textiles,
-        displays: vec![ContactorArray {
-            offsets: Geometry::default().contactors(),
-            rotation_deg: 0.0,
-        }],
-        ..RenderScene::default()
-    }
+    scene_of(textiles, exeter())
 }
 
 /// A scene of one textile of waves, 100 mm wide.
@@ -66,7 +38,7 @@ pub(super) fn wavy_scene() -> Result<RenderScene, String> {
 
 /// A renderer of a scene.
 pub(super) fn renderer(scene: &RenderScene, method: Method) -> Result<ArrayRenderer, String> {
-    ArrayRenderer::prepare(scene, method, &Accuracy::default()).map_err(failed)
+    textiles::prepared(scene, method).map_err(failed)
 }
 
 /// A display at (50, 50) that moves along the warp.
