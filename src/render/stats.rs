@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Counters;
 use super::array::{ErrorBound, Method};
+use selvedge_foundation::numerics::to_index;
 
 /// Cells a decade: a quantile is at most 0.9 % too large.
 const CELLS_PER_DECADE: f64 = 256.0;
@@ -96,16 +97,8 @@ impl Histogram {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "not negative; saturates"
-)]
 fn cell_of(value: f64) -> usize {
-    if value <= LEAST {
-        return 0;
-    }
-    (CELLS_PER_DECADE * (value / LEAST).log10()).ceil() as usize
+    to_index((CELLS_PER_DECADE * (value / LEAST).log10()).ceil())
 }
 
 fn upper_edge(cell: usize) -> f64 {

@@ -8,6 +8,7 @@ use crate::{Source, Textile, TextileError, measured_figures};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Style, Upright, Weight, Words,
 };
+use selvedge_foundation::numerics::{to_byte, to_index};
 use selvedge_foundation::quantity::level_db;
 
 /// The side of the textile that is shown, mm.
@@ -67,15 +68,7 @@ fn picture(textile: &Textile) -> Result<Chart, TextileError> {
         return Ok(panel);
     };
     let image = &appearance.image;
-    let pixel = |mm: f64, n: usize| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "20 mm at no more than 200 pixels a mm"
-        )]
-        let pixel = (mm * appearance.px_per_mm).floor() as usize;
-        pixel % n.max(1)
-    };
+    let pixel = |mm: f64, n: usize| to_index(mm * appearance.px_per_mm) % n.max(1);
     let place = |cell: u16| (f64::from(cell) + 0.5) * PICTURE_MM / f64::from(N_CELLS);
     let mut cells = Vec::new();
     for row in (0..N_CELLS).rev() {
@@ -210,13 +203,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
 /// White paper for little power, black ink for much.
 fn grey(share: f64) -> [u8; 3] {
     let lightness = 252.0 - 236.0 * share.clamp(0.0, 1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "16 to 252"
-    )]
-    let lightness = lightness.round() as u8;
-    [lightness; 3]
+    [to_byte(lightness.round()); 3]
 }
 
 /// Power by wavenumber and place, one panel a direction.

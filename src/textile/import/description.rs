@@ -69,10 +69,7 @@ impl Description {
 pub(super) fn manifest_file(manifest: &Manifest, path: &Path) -> Result<BuiltFile, TextileError> {
     let text = manifest.to_toml(path)?;
     Manifest::from_toml(&text, path)?;
-    Ok(BuiltFile {
-        name: MANIFEST.to_owned(),
-        bytes: text.into_bytes(),
-    })
+    Ok(BuiltFile::new(MANIFEST, text))
 }
 
 #[cfg(test)]

@@ -122,8 +122,5 @@ fn relief_for(
 }
 
 pub(super) fn no_surface(source: SurfaceError) -> TextileError {
-    TextileError::Surface {
-        path: "the relief of a picture".into(),
-        source,
-    }
+    TextileError::surface("the relief of a picture")(source)
 }

@@ -131,8 +131,7 @@ impl HeightImport {
         keys.place_mm = place.place_mm;
         let mut files = Vec::new();
         if keys.representation == Representation::Areal {
-            let (name, bytes) = (keys.file.clone(), bytes.to_vec());
-            files.push(BuiltFile { name, bytes });
+            files.push(BuiltFile::new(&keys.file, bytes));
         } else {
             files = profile_files(&place.profiles)?;
             let named = Direction::ALL.map(|direction| {
@@ -144,15 +143,9 @@ impl HeightImport {
             keys.set_files(ProfileFiles(named), Some(hash));
         }
         if !self.measured.is_profile() {
-            let picture = shaded(&self.measured);
-            let picture = picture.map_err(|source| TextileError::Surface {
-                path: self.path.clone(),
-                source,
-            })?;
-            files.push(BuiltFile {
-                name: PICTURE.to_owned(),
-                bytes: encode_png_small(&picture, Path::new(PICTURE))?,
-            });
+            let picture = shaded(&self.measured).map_err(TextileError::surface(&self.path))?;
+            let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
+            files.push(BuiltFile::new(PICTURE, bytes));
         }
         let manifest = self.manifest(keys, place, description);
         files.push(manifest_file(&manifest, Path::new(MANIFEST))?);

@@ -108,13 +108,14 @@ pub(crate) fn to_textile(
     // Strokes are drawn over the map as the file has it.
     let kept = metrology::open(&bytes, path, &HeightOptions::default())?;
     let profiles = keys.map().strokes(&kept, path)?;
-    let mut files = vec![file(MAP, bytes)];
+    let mut files = vec![BuiltFile::new(MAP, bytes)];
     files.extend(profile_files(&profiles)?);
     let (image, px_per_mm) = match &about.appearance {
         Some(image) => (image.clone(), 1.0 / step_mm[0]),
         None => (shaded(&kept).map_err(no_surface)?, PX_PER_MM),
     };
-    files.push(file(PICTURE, encode_png_small(&image, Path::new(PICTURE))?));
+    let bytes = encode_png_small(&image, Path::new(PICTURE))?;
+    files.push(BuiltFile::new(PICTURE, bytes));
     let appearance = AppearanceKeys {
         image: PICTURE.to_owned(),
         px_per_mm,
@@ -178,11 +179,6 @@ fn heights(
     };
     let step_mm = about.step_mm([width, height]);
     scaled(shape, step_mm, about.scale, &drawn)
-}
-
-fn file(name: &str, bytes: Vec<u8>) -> BuiltFile {
-    let name = name.to_owned();
-    BuiltFile { name, bytes }
 }
 
 fn rounded(um: f64) -> f64 {

@@ -11,7 +11,7 @@ use crate::recipe::ProfileFiles;
 use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_byte, to_index};
 
 /// The strokes as profile files, those that are there.
 pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
@@ -21,8 +21,7 @@ pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, Tex
             let name = ProfileFiles::name(direction);
             let (heights_um, step_mm) = (profile.heights_um(), profile.step_mm());
             let text = profile_file::write(heights_um, step_mm, Path::new(&name))?;
-            let bytes = text.into_bytes();
-            files.push(BuiltFile { name, bytes });
+            files.push(BuiltFile::new(name, text));
         }
     }
     Ok(files)
@@ -77,24 +76,13 @@ fn grey(slope: Option<f64>, rms: f64) -> [u8; 3] {
         return [MISSING_GREY; 3];
     };
     let lit = if rms > 0.0 { slope / rms } else { 0.0 };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "within a byte"
-    )]
-    let grey = (LEVEL_GREY + SLOPE_GREY * lit).clamp(0.0, 255.0) as u8;
-    [grey; 3]
+    [to_byte(LEVEL_GREY + SLOPE_GREY * lit); 3]
 }
 
 /// Means over the pixels of a picture with 10 pixels a mm.
 fn pooled(values: &Grid<f64>, size_mm: [f64; 2]) -> Grid<f64> {
     let n_points = [values.width(), values.height()];
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "1 to 2000"
-    )]
-    let n_pixels = size_mm.map(|mm| (mm * PX_PER_MM).round().clamp(1.0, MAX_PIXELS) as usize);
+    let n_pixels = size_mm.map(|mm| to_index((mm * PX_PER_MM).round().clamp(1.0, MAX_PIXELS)));
     let [width, height] = n_pixels;
     let span = |pixel: usize, axis: usize| {
         let first = pixel * n_points[axis] / n_pixels[axis];

@@ -9,6 +9,7 @@ use super::{KesAsk, KesOptions, ReturnOrder, StrokeSide, TextileAxis, asks, retu
 use crate::error::TextileError;
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
 use selvedge_foundation::files::{FileError, sha256_hex};
+use selvedge_foundation::numerics::to_index;
 
 /// Heights that span more than this are in another unit than they say, µm.
 const MAX_SPAN_UM: f64 = 20_000.0;
@@ -245,19 +246,10 @@ fn check_length(stroke: &RawStroke, path: &Path) -> Result<(), TextileError> {
     if n_samples as f64 + 0.5 >= window {
         return Ok(());
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a step of 0.0005 to 0.5 mm gives 9 to 8696 samples"
-    )]
-    let n_window = window.round() as usize;
-    Err(TextileError::Surface {
-        path: path.to_owned(),
-        source: SurfaceError::TooShort {
-            n_samples,
-            n_window,
-        },
-    })
+    Err(TextileError::surface(path)(SurfaceError::TooShort {
+        n_samples,
+        n_window: to_index(window.round()),
+    }))
 }
 
 fn check_span(

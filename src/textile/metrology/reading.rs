@@ -214,10 +214,7 @@ impl Reading {
             }
         }
         if self.values.values().iter().all(|value| value.is_nan()) {
-            return Err(TextileError::Surface {
-                path: path.to_owned(),
-                source: SurfaceError::AllMissing,
-            });
+            return Err(TextileError::surface(path)(SurfaceError::AllMissing));
         }
         let mut measured = Measured {
             heights_um: self.values,

@@ -5,7 +5,7 @@
 
 use super::basis::{Basis, Place, dot, greatest_divisor, length, whole};
 use super::light::mean_and_variance;
-use selvedge_foundation::numerics::{Grid, in_pieces};
+use selvedge_foundation::numerics::{Grid, in_pieces, to_index};
 
 /// Samples of a tile at most.
 const MAX_SAMPLES: f64 = 1_048_576.0;
@@ -169,12 +169,7 @@ impl Tile {
 #[inline]
 fn around(at: f64, n: usize) -> ([usize; 2], f64) {
     let place = (at - at.floor()) * n as f64;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 ≤ place ≤ n"
-    )]
-    let first = (place as usize).min(n - 1);
+    let first = to_index(place).min(n - 1);
     let next = if first + 1 == n { 0 } else { first + 1 };
     ([first, next], place - first as f64)
 }

@@ -5,7 +5,7 @@
 
 use super::tracks::Tracks;
 use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 /// Most points of a map: 64 million, half a gigabyte of heights.
 pub(crate) const MAX_POINTS: usize = 64_000_000;
@@ -240,13 +240,7 @@ impl HeightMap {
         let n = [self.heights_um.width(), self.heights_um.height()][usize::from(is_weft)];
         // What repeats is stroked for 20 mm, in whole repeats, so that its end fits its beginning.
         let n_repeats = if self.is_periodic {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a step of 0.0005 to 0.5 mm: at most 40,000 repeats"
-            )]
-            let n_repeats = (STROKE_MM / (n as f64 * step_mm)).ceil() as usize;
-            n_repeats.max(1)
+            to_index((STROKE_MM / (n as f64 * step_mm)).ceil()).max(1)
         } else {
             1
         };

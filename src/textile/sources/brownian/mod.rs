@@ -21,7 +21,7 @@ use crate::recipe::{
     numbers_of, optional, parameter, seed, thinned,
 };
 use crate::surface::{HeightMap, Probe, ProfileSet};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
 const MAX_POINTS: f64 = 1000.0;
@@ -126,15 +126,8 @@ impl Brownian {
 
     /// Points along a side.
     fn n_points(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most a thousand"
-        )]
-        let n = (self.length_mm / self.step_mm)
-            .round()
-            .clamp(2.0, MAX_POINTS) as usize;
-        n
+        let n = (self.length_mm / self.step_mm).round();
+        to_index(n.clamp(2.0, MAX_POINTS))
     }
 
     fn check_cut_offs(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
@@ -361,8 +354,5 @@ fn mean_smd_um(strokes: &ProfileSet) -> f64 {
 }
 
 fn no_surface(source: crate::surface::SurfaceError) -> TextileError {
-    TextileError::Surface {
-        path: "the Brownian surface".into(),
-        source,
-    }
+    TextileError::surface("the Brownian surface")(source)
 }

@@ -27,7 +27,7 @@ use crate::recipe::{
 };
 use crate::surface::HeightMap;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// The five templates that are part of the program: invented, see the file.
 const EXAMPLES: &str = include_str!("../../../../textiles/fourier-templates.toml");
@@ -140,29 +140,18 @@ impl Fourier {
         let random = Random::new(u64::from(self.seed));
         let how = (self.composition, self.reading);
         let plane = series::Plane::draw(self.templates(), self.band_per_m(), how, &random);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 50 000"
-        )]
-        let n = (2.0 * self.length_mm / self.step_mm).round() as usize;
-        let at = |i: usize, step_mm: f64| mirrored(i as f64 * step_mm, self.length_mm);
-        let line: Vec<f64> = (0..n).map(|i| at(i, self.step_mm)).collect();
+        let n = |step_mm: f64| to_index((2.0 * self.length_mm / step_mm).round());
+        let line = |step_mm: f64| -> Vec<f64> {
+            let at = |i: usize| mirrored(i as f64 * step_mm, self.length_mm);
+            (0..n(step_mm)).map(at).collect()
+        };
+        let places = line(self.step_mm);
         let middle = [0.5 * self.length_mm];
-        let warp = plane.heights_um(&line, &middle).values().to_vec();
-        let weft = plane.heights_um(&middle, &line).values().to_vec();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 500"
-        )]
-        let n_picture = (2.0 * self.length_mm / PICTURE_STEP_MM).round() as usize;
-        let places: Vec<f64> = (0..n_picture).map(|i| at(i, PICTURE_STEP_MM)).collect();
+        let warp = plane.heights_um(&places, &middle).values().to_vec();
+        let weft = plane.heights_um(&middle, &places).values().to_vec();
+        let places = line(PICTURE_STEP_MM);
         let patch = HeightMap::new(plane.heights_um(&places, &places), [PICTURE_STEP_MM; 2]);
-        let patch = patch.map_err(|source| TextileError::Surface {
-            path: "the drawn surface".into(),
-            source,
-        })?;
+        let patch = patch.map_err(TextileError::surface("the drawn surface"))?;
         Ok(SurfaceSample::of_lines([warp, weft], self.step_mm, patch))
     }
 }

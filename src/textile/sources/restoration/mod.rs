@@ -20,7 +20,7 @@ use crate::recipe::{
 };
 use crate::shipped;
 use crate::surface::{Direction, HeightMap, Profile};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 /// The shipped textile that the example restores.
 const LIKE: &str = "polyester-panama";
@@ -124,13 +124,7 @@ impl Restoration {
     }
 
     fn n_samples(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 50 000"
-        )]
-        let n = (self.length_mm / self.step_mm).round() as usize;
-        n
+        to_index((self.length_mm / self.step_mm).round())
     }
 
     /// The restored profiles of warp and weft, µm.
@@ -155,19 +149,11 @@ impl Restoration {
         let middle = [n / 2];
         let compose = |u: &[usize], w: &[usize]| self.composed_um([&warp, &weft], [u, w]);
         let lines = [compose(&all, &middle), compose(&middle, &all)];
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "0.1 mm of samples 0.002 to 0.1 mm apart"
-        )]
-        let stride = (PICTURE_STEP_MM / self.step_mm).round().max(1.0) as usize;
+        let stride = to_index((PICTURE_STEP_MM / self.step_mm).round()).max(1);
         let few: Vec<usize> = (0..n).step_by(stride).collect();
         let step_mm = [self.step_mm * stride as f64; 2];
         let patch = HeightMap::new(compose(&few, &few), step_mm);
-        let patch = patch.map_err(|source| TextileError::Surface {
-            path: "the restored surface".into(),
-            source,
-        })?;
+        let patch = patch.map_err(TextileError::surface("the restored surface"))?;
         let lines = lines.map(|line| line.values().to_vec());
         Ok(SurfaceSample::of_lines(lines, self.step_mm, patch))
     }

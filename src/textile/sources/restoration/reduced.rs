@@ -6,7 +6,7 @@ use super::period::{line, period};
 use crate::error::TextileError;
 use crate::recipe::{Group, Number, Parameter, ParameterKind, Place, keys, numbers_of, optional};
 use crate::surface::Profile;
-use selvedge_foundation::numerics::{Complex, Random, RealTransform, without_line};
+use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_index, without_line};
 
 /// Bands an octave of the residual.
 const BANDS_PER_OCTAVE: f64 = 3.0;
@@ -125,12 +125,7 @@ impl Reduced {
     }
 
     fn keep_harmonics(&mut self, heights: &[f64], period: f64, n_harmonics: usize) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number of periods within the profile"
-        )]
-        let n_whole = ((heights.len() as f64 / period).floor() * period).round() as usize;
+        let n_whole = to_index(((heights.len() as f64 / period).floor() * period).round());
         let whole = &heights[..n_whole.min(heights.len())];
         let at = |k: f64| line(whole, k / period);
         let harmonics = 1..=MAX_HARMONICS;
@@ -289,13 +284,7 @@ impl Reduced {
 /// The band of a wavenumber.
 fn band_of(per_mm: f64, from_per_mm: f64) -> Option<usize> {
     let band = (BANDS_PER_OCTAVE * (per_mm / from_per_mm).log2()).floor();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…59 just checked"
-    )]
-    let index = (0.0..60.0).contains(&band).then_some(band as usize);
-    index
+    (0.0..60.0).contains(&band).then(|| to_index(band))
 }
 
 /// Rms of a series in bands, µm.
