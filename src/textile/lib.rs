@@ -24,6 +24,7 @@ mod kes;
 mod library;
 mod manifest;
 pub mod metrology;
+mod number_table;
 pub mod picture;
 mod profile_file;
 mod recipe;

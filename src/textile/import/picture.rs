@@ -13,7 +13,7 @@ use crate::metrology::{self, HeightOptions, Measured};
 use crate::picture::Tile;
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
-use crate::recipe::{ProfileFiles, SourceKeys as _};
+use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
 use crate::sources::picture::PictureSource;
 use crate::surface::{HeightMap, Probe, Representation};
@@ -202,13 +202,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         Some([name, sha256]) => [Some(name.clone()), Some(sha256.clone())],
         None => [None, None],
     };
-    PictureSource {
-        kind: "picture".to_owned(),
-        recipe_hash: None,
-        warp_forward: None,
-        warp_reverse: None,
-        weft_forward: None,
-        weft_reverse: None,
+    source!(PictureSource = "picture" {
         representation: about.representation,
         file: MAP.to_owned(),
         sha256: None,
@@ -226,7 +220,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         place_mm: None,
         noise_um: about.noise_um,
         seed: about.seed,
-    }
+    })
 }
 
 fn manifest(

@@ -16,7 +16,6 @@ mod npy;
 mod reading;
 mod sur;
 mod text;
-mod text_layout;
 mod tmd;
 mod x3p;
 
@@ -75,8 +74,11 @@ impl Format {
     }
 }
 
-/// Whether the beginning holds no bytes that texts do not hold.
+/// Whether the beginning holds no bytes that texts do not hold, or is that of UTF-16.
 pub(crate) fn is_text(bytes: &[u8]) -> bool {
+    if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] = bytes {
+        return true;
+    }
     let head = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
     !head.is_empty() && !head.iter().any(is_control)

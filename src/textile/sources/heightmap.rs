@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured, open};
-use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
+use crate::recipe::{Checker, HeightsFile, Key, Recipe, defaults, keys, source};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
@@ -60,24 +60,15 @@ keys! {
     }
 }
 
-fn default_noise() -> f64 {
-    Probe::default().noise_um
-}
-
-fn default_seed() -> u32 {
-    1
+defaults! {
+    default_noise: f64 = Probe::default().noise_um;
+    default_seed: u32 = 1;
 }
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
     pub(crate) fn new(file: String, asked: &HeightOptions) -> Self {
-        Self {
-            kind: "heightmap".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "heightmap" {
             representation: Representation::default(),
             file,
             sha256: None,
@@ -91,7 +82,7 @@ impl Heightmap {
             periodic: false,
             noise_um: default_noise(),
             seed: default_seed(),
-        }
+        })
     }
 
     fn asked(&self) -> HeightOptions {
@@ -218,7 +209,7 @@ impl HeightsFile for Heightmap {
 
 impl Recipe for Heightmap {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        Key::check(Self::KEYS, self, (checker, "source"))?;
         for place in self.place_mm.into_iter().flatten() {
             checker.within("source", "place_mm", place, 0.0..=10_000.0)?;
         }

@@ -17,8 +17,8 @@ pub use hurst::Hurst;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, optional, parameter, seed, thinned,
+    Checker, Example, Group, Key, Model, ParameterKind, Recipe, SurfaceSample, choice, defaults,
+    keys, parameter, parameters_of, seed, source, thinned,
 };
 use crate::surface::{HeightMap, Probe, ProfileSet};
 use selvedge_foundation::numerics::{Grid, Random, to_index};
@@ -27,6 +27,17 @@ use selvedge_foundation::numerics::{Grid, Random, to_index};
 const MAX_POINTS: f64 = 1000.0;
 /// Rounds that bring a wire's reading to the SMD asked for.
 const N_ROUNDS: usize = 8;
+
+/// The order in which a window shows what has bounds.
+const FIRST: &[&str] = &[
+    "generator",
+    "hurst",
+    "length_mm",
+    "step_mm",
+    "noise_um",
+    "smd_um",
+    "rise_um",
+];
 
 choice! {
     /// How a Brownian surface is made.
@@ -57,9 +68,10 @@ keys! {
         pub seed: u32,
         pub hurst: f64
             => "Hurst exponent" 0.01 ..= 0.99 "" "Low is jagged, high gently rolling",
-        /// How it is made.
         #[serde(default = "exact")]
-        pub generator: Generator,
+        pub generator: Generator
+            => "Generator":
+            "Exact: no approximation and no repeat; periodic: repeats, takes cut-offs",
         /// Amplitude: the mean roughness SMD of the four strokes, µm. This or `rise_um`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub smd_um: Option<f64>
@@ -81,35 +93,25 @@ keys! {
         #[serde(default = "default_step_mm")]
         pub step_mm: f64
             => "Step" 0.005 ..= 0.2 "mm" "Distance of its points: 1000 along a side are the most",
-        /// What is drawn over it.
         #[serde(default)]
-        pub(crate) tip: Tip,
+        pub(crate) tip: Tip
+            => "Tip": "A point, or the 5 mm wide wire of the virtual tester",
         #[serde(default)]
         pub noise_um: f64
             => "Noise of the tip" 0.0 ..= 10.0 "µm" "Noise of the tip, rms",
     }
 }
 
-fn exact() -> Generator {
-    Generator::Exact
-}
-fn default_length_mm() -> f64 {
-    20.0
-}
-fn default_step_mm() -> f64 {
-    0.02
+defaults! {
+    exact: Generator = Generator::Exact;
+    default_length_mm: f64 = 20.0;
+    default_step_mm: f64 = 0.02;
 }
 
 impl Brownian {
     /// A recipe with this exponent and roughness, everything else as usual.
     pub fn new(hurst: f64, smd_um: f64, generator: Generator, seed: u32) -> Self {
-        Self {
-            kind: "brownian".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "brownian" {
             seed,
             hurst,
             generator,
@@ -121,7 +123,7 @@ impl Brownian {
             step_mm: default_step_mm(),
             tip: Tip::Point,
             noise_um: 0.0,
-        }
+        })
     }
 
     /// Points along a side.
@@ -247,7 +249,7 @@ impl Brownian {
 
 impl Recipe for Brownian {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        Key::check(Self::KEYS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
         if n > MAX_POINTS + 0.5 {
             let what = format!("length_mm / step_mm is {n:.0} points");
@@ -270,22 +272,6 @@ impl Recipe for Brownian {
     }
 
     fn groups() -> Vec<Group> {
-        let generator = parameter(
-            "generator",
-            (
-                "Generator",
-                "Exact: no approximation and no repeat; periodic: repeats, takes cut-offs",
-            ),
-            ParameterKind::Choice(Generator::WORDS),
-        );
-        let tip = parameter(
-            "tip",
-            (
-                "Tip",
-                "A point, or the 5 mm wide wire of the virtual tester",
-            ),
-            ParameterKind::Choice(Tip::WORDS),
-        );
         let cut_off = |key, name, what| {
             let kind = ParameterKind::Optional {
                 min: 0.01,
@@ -295,21 +281,17 @@ impl Recipe for Brownian {
             };
             parameter(key, (name, what), kind)
         };
-        let mut surface = vec![generator];
-        surface.extend(numbers_of(
-            "source",
-            Self::NUMBERS,
-            &["hurst", "length_mm", "step_mm", "noise_um"],
-        ));
-        for (key, other) in [("smd_um", "rise_um"), ("rise_um", "smd_um")] {
-            let found = surface
-                .iter_mut()
-                .find(|parameter| parameter.place.key == key);
-            if let Some(parameter) = found {
-                parameter.kind = optional(parameter.kind, other);
+        let mut parameters = parameters_of("source", Self::KEYS, FIRST);
+        for parameter in &mut parameters {
+            if let ParameterKind::Optional { instead_of, .. } = &mut parameter.kind {
+                *instead_of = match parameter.place.key {
+                    "smd_um" => "rise_um",
+                    _ => "smd_um",
+                };
             }
         }
-        surface.extend([
+        let tip = parameters.split_off(FIRST.len());
+        parameters.extend([
             cut_off(
                 "shortest_mm",
                 "Shortest wave",
@@ -320,12 +302,12 @@ impl Recipe for Brownian {
                 "Longest wave",
                 "Waves longer than this are no stronger than this one; periodic alone",
             ),
-            tip,
-            seed(),
         ]);
+        parameters.extend(tip);
+        parameters.push(seed());
         vec![Group {
             title: "Surface",
-            parameters: surface,
+            parameters,
         }]
     }
 

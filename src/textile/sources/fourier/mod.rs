@@ -22,8 +22,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, parameter, seed,
+    Checker, Example, Group, Key, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    parameters_of, seed, source,
 };
 use crate::surface::HeightMap;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};
@@ -65,12 +65,12 @@ keys! {
     source Fourier {
         /// Chooses what is drawn.
         pub(crate) seed: u32,
-        /// How two profiles become a surface.
         #[serde(default)]
-        pub(crate) composition: Composition,
-        /// How the paper's sum is read.
+        pub(crate) composition: Composition
+            => "Composition": "How two profiles become a surface",
         #[serde(default)]
-        pub(crate) reading: Reading,
+        pub(crate) reading: Reading
+            => "Reading": "The printed sum as corrected, or to the letter (with product)",
         #[serde(default = "default_lowest_per_m")]
         pub(crate) lowest_per_m: f64
             => "From" 0.0 ..= 1e5 "/m" "Harmonics below this are left out, cycles per metre",
@@ -84,36 +84,26 @@ keys! {
         pub(crate) step_mm: f64
             => "Step" 0.004 ..= 0.5 "mm" "Distance of the samples",
         /// The material along the warp.
-        pub(crate) template: FourierTemplate,
+        pub(crate) template: FourierTemplate
+            => "Template": "Mean and spread of the coefficients of each harmonic",
         /// The material along the weft; the warp's if it is left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        pub(crate) weft_template: Option<FourierTemplate>,
+        pub(crate) weft_template: Option<FourierTemplate>
+            => "Template": "Mean and spread of the coefficients of each harmonic",
     }
 }
 
-fn default_lowest_per_m() -> f64 {
-    100.0
-}
-fn default_highest_per_m() -> f64 {
-    1000.0
-}
-fn default_length_mm() -> f64 {
-    50.0
-}
-fn default_step_mm() -> f64 {
-    0.05
+defaults! {
+    default_lowest_per_m: f64 = 100.0;
+    default_highest_per_m: f64 = 1000.0;
+    default_length_mm: f64 = 50.0;
+    default_step_mm: f64 = 0.05;
 }
 
 impl Fourier {
     /// The recipe of a template, everything else as usual.
     pub(crate) fn new(template: FourierTemplate, seed: u32) -> Self {
-        Self {
-            kind: "fourier".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "fourier" {
             seed,
             composition: Composition::default(),
             reading: Reading::default(),
@@ -123,7 +113,7 @@ impl Fourier {
             step_mm: default_step_mm(),
             template,
             weft_template: None,
-        }
+        })
     }
 
     fn templates(&self) -> [&FourierTemplate; 2] {
@@ -159,7 +149,7 @@ impl Fourier {
 impl Recipe for Fourier {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        Key::check(Self::KEYS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
         let max_per_m = 500.0 / self.step_mm;
         if self.highest_per_m > max_per_m {
@@ -194,34 +184,26 @@ impl Recipe for Fourier {
     }
 
     fn groups() -> Vec<Group> {
-        let composition = parameter(
-            "composition",
-            ("Composition", "How two profiles become a surface"),
-            ParameterKind::Choice(Composition::WORDS),
-        );
-        let reading = parameter(
-            "reading",
-            (
-                "Reading",
-                "The printed sum as corrected, or to the letter (with product)",
-            ),
-            ParameterKind::Choice(Reading::WORDS),
-        );
-        let mut surface = vec![composition, reading];
-        surface.extend(numbers_of(
-            "source",
-            Self::NUMBERS,
-            &["length_mm", "step_mm"],
-        ));
+        let first = &["composition", "reading", "length_mm", "step_mm"];
+        let mut surface = parameters_of("source", Self::KEYS, first);
+        let templates = surface.split_off(surface.len() - 2);
         surface.push(seed());
-        vec![
-            Group {
-                title: "Surface",
-                parameters: surface,
-            },
-            FourierTemplate::group("source.template", "Along the warp", false),
-            FourierTemplate::group("source.weft_template", "Along the weft", true),
-        ]
+        let of_axis = |((title, table), template)| {
+            let mut parameters = vec![template];
+            parameters.extend(parameters_of(table, FourierTemplate::KEYS, &[]));
+            Group { title, parameters }
+        };
+        let axes = [
+            ("Along the warp", "source.template"),
+            ("Along the weft", "source.weft_template"),
+        ];
+        let axes = axes.into_iter().zip(templates);
+        let mut groups = vec![Group {
+            title: "Surface",
+            parameters: surface,
+        }];
+        groups.extend(axes.map(of_axis));
+        groups
     }
 
     fn example() -> Result<Option<Example<Self>>, TextileError> {

@@ -15,8 +15,8 @@ pub use reduced::Reduced;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, parameter, seed,
+    Checker, Example, Group, Key, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    parameters_of, seed, source,
 };
 use crate::shipped;
 use crate::surface::{Direction, HeightMap, Profile};
@@ -50,12 +50,12 @@ keys! {
     source Restoration {
         /// Chooses the noise.
         pub(crate) seed: u32,
-        /// How two profiles become a surface.
         #[serde(default)]
-        pub(crate) composition: Rule,
-        /// Whether noise with the residual's spectrum is added.
+        pub(crate) composition: Rule
+            => "Composition": "How a warp and a weft profile become a surface",
         #[serde(default = "yes")]
-        pub(crate) residual: bool,
+        pub(crate) residual: bool
+            => "Residual": "Whether noise with the spectrum of the residual is added",
         #[serde(default = "default_length_mm")]
         pub(crate) length_mm: f64
             => "Side" 5.0 ..= 100.0 "mm" "Side of the patch",
@@ -70,26 +70,16 @@ keys! {
     }
 }
 
-fn yes() -> bool {
-    true
-}
-fn default_length_mm() -> f64 {
-    20.0
-}
-fn default_step_mm() -> f64 {
-    1.0 / 230.0
+defaults! {
+    yes: bool = true;
+    default_length_mm: f64 = 20.0;
+    default_step_mm: f64 = 1.0 / 230.0;
 }
 
 impl Restoration {
     /// The recipe of reduced profiles, everything else as usual.
     pub(crate) fn new(warp: Reduced, weft: Option<Reduced>, composition: Rule, seed: u32) -> Self {
-        Self {
-            kind: "restoration".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "restoration" {
             seed,
             composition,
             residual: true,
@@ -97,7 +87,7 @@ impl Restoration {
             step_mm: default_step_mm(),
             warp,
             weft,
-        }
+        })
     }
 
     /// The recipe that restores a warp and a weft profile: what repeats in them and the spectrum of
@@ -193,7 +183,7 @@ impl Restoration {
 
 impl Recipe for Restoration {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        Key::check(Self::KEYS, self, (checker, "source"))?;
         for (is_weft, table) in [(false, "source.warp"), (true, "source.weft")] {
             if let Some((key, what, mend)) = self.of_axis(is_weft).fault() {
                 return Err(checker.wrong(table, key, what, mend));
@@ -207,24 +197,7 @@ impl Recipe for Restoration {
     }
 
     fn groups() -> Vec<Group> {
-        let rule = parameter(
-            "composition",
-            (
-                "Composition",
-                "How a warp and a weft profile become a surface",
-            ),
-            ParameterKind::Choice(Rule::WORDS),
-        );
-        let residual = parameter(
-            "residual",
-            (
-                "Residual",
-                "Whether noise with the spectrum of the residual is added",
-            ),
-            ParameterKind::Flag,
-        );
-        let mut surface = vec![rule, residual];
-        surface.extend(numbers_of("source", Self::NUMBERS, &[]));
+        let mut surface = parameters_of("source", Self::KEYS, &[]);
         surface.push(seed());
         vec![
             Group {
