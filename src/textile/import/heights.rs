@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::description::{Description, manifest_file};
-use super::profile_files::{profile_files, shaded, smd_um};
+use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
@@ -17,7 +17,7 @@ use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{ProfileFiles, SourceKeys as _};
 use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
-use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
+use crate::surface::{Direction, HeightMap, ProfileSet, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::{encode_png_small, sha256_hex};
 

@@ -1,5 +1,4 @@
-//! What a textile made of measured heights consists of: profile files, their roughness, and a
-//! picture of the relief.
+//! What a textile made of measured heights consists of: profile files, and a picture of the relief.
 
 use std::path::Path;
 
@@ -8,7 +7,7 @@ use crate::error::TextileError;
 use crate::metrology::Measured;
 use crate::profile_file;
 use crate::recipe::ProfileFiles;
-use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
+use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::Rgb8Image;
 use selvedge_foundation::numerics::{Grid, to_byte, to_index};
@@ -27,12 +26,6 @@ pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, Tex
     Ok(files)
 }
 
-/// The mean roughness SMD of strokes, µm.
-pub fn smd_um(profiles: &ProfileSet) -> f64 {
-    let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
-    smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
-}
-
 /// Grey of what lies level, and how much a slope of one rms is lighter or darker.
 const LEVEL_GREY: f64 = 150.0;
 const SLOPE_GREY: f64 = 45.0;
@@ -44,10 +37,8 @@ const MAX_PIXELS: f64 = 2000.0;
 /// The map lit from the upper left, from the top row on; what is mostly missing is plain and dark.
 pub(super) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm)?;
-    let holes = map.heights_um().values().iter();
+    let holes = map.heights_um();
     let holes = holes.map(|height| f64::from(u8::from(height.is_nan())));
-    let holes = Grid::from_rows(map.heights_um().width(), holes.collect());
-    let holes = holes.ok_or(SurfaceError::AllMissing)?;
     let missing = pooled(&holes, map.size_mm());
     let pixels = pooled(map.filled().heights_um(), map.size_mm());
     let (width, height) = (pixels.width(), pixels.height());
@@ -89,14 +80,10 @@ fn pooled(values: &Grid<f64>, size_mm: [f64; 2]) -> Grid<f64> {
         let end = (pixel + 1) * n_points[axis] / n_pixels[axis];
         first..end.max(first + 1)
     };
-    let mut pixels = Grid::filled(width, height, 0.0);
-    for row in 0..height {
-        for column in 0..width {
-            let rows = span(row, 1);
-            let n = (rows.len() * span(column, 0).len()) as f64;
-            let sums = rows.map(|r| values.row(r)[span(column, 0)].iter().sum::<f64>());
-            pixels.row_mut(row)[column] = sums.sum::<f64>() / n;
-        }
-    }
-    pixels
+    Grid::from_fn(width, height, |column, row| {
+        let rows = span(row, 1);
+        let n = (rows.len() * span(column, 0).len()) as f64;
+        let sums = rows.map(|r| values.row(r)[span(column, 0)].iter().sum::<f64>());
+        sums.sum::<f64>() / n
+    })
 }

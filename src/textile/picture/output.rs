@@ -11,7 +11,7 @@ use super::lattice::Lattice;
 use super::overlay::{overlay, range};
 use super::relief::{Relief, ReliefReport};
 use selvedge_foundation::files::{
-    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
+    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, to_json_string,
 };
 use selvedge_foundation::numerics::Grid;
 
@@ -156,13 +156,8 @@ pub fn files(
 }
 
 fn grey(grid: &Grid<f64>, low: f64, high: f64) -> GrayImage {
-    GrayImage {
-        width: grid.width(),
-        height: grid.height(),
-        values: gray_values(grid.values().iter().map(|x| (x - low) / (high - low))),
-        white: u16::MAX,
-        texts: Vec::new(),
-    }
+    let shares = grid.values().iter().map(|x| (x - low) / (high - low));
+    GrayImage::of_shares([grid.width(), grid.height()], shares)
 }
 
 fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {

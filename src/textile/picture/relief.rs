@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::brightness::{Brightness, Extent, brightness_of, shape_of};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
-use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png, gray_values};
+use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png};
 use selvedge_foundation::progress::Progress;
 
 /// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
@@ -183,14 +183,10 @@ impl Relief {
             ("XYUnit", length_unit.to_owned()),
             ("ZUnit", height_unit.to_owned()),
         ];
+        let texts = texts.map(|(key, text)| (format!("Gwy::{key}"), text));
         let picture = GrayImage {
-            width: heights.width(),
-            height: heights.height(),
-            values: gray_values(shares),
-            white: u16::MAX,
-            texts: texts
-                .map(|(key, text)| (format!("Gwy::{key}"), text))
-                .to_vec(),
+            texts: texts.to_vec(),
+            ..GrayImage::of_shares([heights.width(), heights.height()], shares)
         };
         encode_gray_png(&picture, Path::new("height.png"))
     }

@@ -112,18 +112,26 @@ impl HeightMap {
         sum / n
     }
 
+    /// The map with heights that are so many times as large.
+    #[must_use]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            heights_um: self.heights_um.map(|height| height * factor),
+            ..*self
+        }
+    }
+
     /// The map with the plane taken off that fits it best (least squares over what is there).
     #[must_use]
     pub(crate) fn levelled(&self) -> Self {
         let [slope_u, slope_w, offset] = self.plane();
-        let mut heights_um = self.heights_um.clone();
-        for row in 0..heights_um.height() {
-            for (column, height) in heights_um.row_mut(row).iter_mut().enumerate() {
-                *height -= offset + slope_u * column as f64 + slope_w * row as f64;
-            }
-        }
+        let heights = &self.heights_um;
+        let level = |column: usize, row: usize| {
+            let plane = offset + slope_u * column as f64 + slope_w * row as f64;
+            heights.row(row)[column] - plane
+        };
         Self {
-            heights_um,
+            heights_um: Grid::from_fn(heights.width(), heights.height(), level),
             ..*self
         }
     }
@@ -287,13 +295,9 @@ fn fill_gaps(heights: &mut [f64]) {
 
 /// Rows as columns.
 pub(super) fn transposed(grid: &Grid<f64>) -> Grid<f64> {
-    let mut turned = Grid::filled(grid.height(), grid.width(), f64::NAN);
-    for row in 0..grid.height() {
-        for (column, &value) in grid.row(row).iter().enumerate() {
-            turned.row_mut(column)[row] = value;
-        }
-    }
-    turned
+    Grid::from_fn(grid.height(), grid.width(), |column, row| {
+        grid.row(column)[row]
+    })
 }
 
 /// Three linear equations by elimination; `None` if they do not determine the answer.

@@ -20,8 +20,8 @@ use crate::recipe::{
     Checker, Example, Group, Key, Model, ParameterKind, Recipe, SurfaceSample, choice, defaults,
     keys, parameter, parameters_of, seed, source, thinned,
 };
-use crate::surface::{HeightMap, Probe, ProfileSet};
-use selvedge_foundation::numerics::{Grid, Random, to_index};
+use crate::surface::{HeightMap, Probe, ProfileSet, smd_um};
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
 const MAX_POINTS: f64 = 1000.0;
@@ -160,7 +160,7 @@ impl Brownian {
         let n = self.n_points();
         let random = Random::new(u64::from(self.seed));
         let per_mm = 1.0 / self.length_mm;
-        let (mut heights, scale) = match self.generator {
+        let (heights, scale) = match self.generator {
             Generator::Exact => {
                 let heights = stein::surface(self.hurst, n, &random);
                 (
@@ -178,20 +178,13 @@ impl Brownian {
                 (synthesis::surface(&colour, n, unit, &random), rise_um)
             }
         };
-        heights
-            .values_mut()
-            .iter_mut()
-            .for_each(|height| *height *= scale);
-        let map = self.map(heights)?;
+        let step_mm = self.length_mm / n as f64;
+        let map = HeightMap::new(heights.map(|height| height * scale), [step_mm; 2]);
+        let map = map.map_err(no_surface)?;
         Ok(match self.generator {
             Generator::Exact => map,
             Generator::Periodic => map.periodic(),
         })
-    }
-
-    fn map(&self, heights_um: Grid<f64>) -> Result<HeightMap, TextileError> {
-        let step_mm = self.length_mm / self.n_points() as f64;
-        HeightMap::new(heights_um, [step_mm; 2]).map_err(no_surface)
     }
 
     fn strokes(&self, map: &HeightMap) -> Result<ProfileSet, TextileError> {
@@ -219,19 +212,12 @@ impl Brownian {
         let mut strokes = self.strokes(&map)?;
         if let Some(smd_um) = self.smd_um {
             for _ in 0..N_ROUNDS {
-                let found = mean_smd_um(&strokes);
+                let found = smd_um(&strokes);
                 let factor = if found > 0.0 { smd_um / found } else { 0.0 };
                 if (factor - 1.0).abs() < 1e-9 {
                     break;
                 }
-                let mut heights = map.heights_um().clone();
-                heights
-                    .values_mut()
-                    .iter_mut()
-                    .for_each(|height| *height *= factor);
-                let is_periodic = map.is_periodic();
-                map = self.map(heights)?;
-                map = if is_periodic { map.periodic() } else { map };
+                map = map.scaled(factor);
                 strokes = self.strokes(&map)?;
             }
         }
@@ -324,15 +310,6 @@ impl Recipe for Brownian {
             recipe,
         }))
     }
-}
-
-/// The mean SMD of strokes, µm.
-fn mean_smd_um(strokes: &ProfileSet) -> f64 {
-    let each = strokes
-        .iter()
-        .flatten()
-        .map(crate::surface::Profile::smd_um);
-    each.sum::<f64>() / strokes.iter().flatten().count().max(1) as f64
 }
 
 fn no_surface(source: crate::surface::SurfaceError) -> TextileError {

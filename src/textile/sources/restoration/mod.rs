@@ -160,24 +160,20 @@ impl Restoration {
             let period_mm = self.of_axis(is_weft).period_mm.unwrap_or(2.0);
             (2.0 * i as f64 * self.step_mm / period_mm).floor()
         };
-        let mut surface = Grid::filled(samples[0].len(), samples[1].len(), 0.0);
-        for (row, &j) in samples[1].iter().enumerate() {
-            let b = profiles[1][j];
-            for (height, &i) in surface.row_mut(row).iter_mut().zip(samples[0]) {
-                let a = profiles[0][i];
-                *height = match self.composition {
-                    Rule::Additive => a + b,
-                    Rule::Product if norm > 0.0 => a * b / norm,
-                    Rule::Product => 0.0,
-                    Rule::Max => a.max(b),
-                    Rule::Gated => {
-                        let is_warp = (half(false, i) + half(true, j)).rem_euclid(2.0) < 0.5;
-                        if is_warp { a } else { b }
-                    }
-                };
+        Grid::from_fn(samples[0].len(), samples[1].len(), |column, row| {
+            let (i, j) = (samples[0][column], samples[1][row]);
+            let (a, b) = (profiles[0][i], profiles[1][j]);
+            match self.composition {
+                Rule::Additive => a + b,
+                Rule::Product if norm > 0.0 => a * b / norm,
+                Rule::Product => 0.0,
+                Rule::Max => a.max(b),
+                Rule::Gated => {
+                    let is_warp = (half(false, i) + half(true, j)).rem_euclid(2.0) < 0.5;
+                    if is_warp { a } else { b }
+                }
             }
-        }
-        surface
+        })
     }
 }
 

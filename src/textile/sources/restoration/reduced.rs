@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::period::{line, period};
 use crate::error::TextileError;
 use crate::recipe::{Group, Key, keys, parameters_of};
-use crate::surface::Profile;
+use crate::surface::{Profile, mean_deviation};
 use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_index, without_line};
 
 /// Bands an octave of the residual.
@@ -61,7 +61,7 @@ impl Reduced {
         let step_mm = profile.step_mm();
         let heights = without_line(profile.heights_um());
         let mut reduced = Self {
-            smd_um: smd_um(&heights),
+            smd_um: mean_deviation(&heights),
             period_mm: None,
             harmonics: Vec::new(),
             amplitude_um: Vec::new(),
@@ -178,19 +178,19 @@ impl Reduced {
                 .collect()
         };
         let (mut low, mut high) = (0.0, 1.0);
-        while smd_um(&with(high)) < self.smd_um && high < 1e3 {
+        while mean_deviation(&with(high)) < self.smd_um && high < 1e3 {
             high *= 2.0;
         }
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            if smd_um(&with(middle)) < self.smd_um {
+            if mean_deviation(&with(middle)) < self.smd_um {
                 low = middle;
             } else {
                 high = middle;
             }
         }
         let mut restored = with(0.5 * (low + high));
-        let found = smd_um(&restored);
+        let found = mean_deviation(&restored);
         if found > self.smd_um * 1.001 {
             let factor = self.smd_um / found;
             for height in &mut restored {
@@ -245,11 +245,4 @@ fn band_rms_um(heights_um: &[f64], step_mm: f64, from_per_mm: f64) -> Vec<f64> {
         }
     }
     powers.into_iter().map(f64::sqrt).collect()
-}
-
-/// Mean absolute deviation from the mean, µm.
-pub(super) fn smd_um(heights_um: &[f64]) -> f64 {
-    let n = heights_um.len().max(1) as f64;
-    let mean = heights_um.iter().sum::<f64>() / n;
-    heights_um.iter().map(|z| (z - mean).abs()).sum::<f64>() / n
 }
