@@ -77,7 +77,7 @@ fn correlation(one: &[f64], other: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::numerics::{Random, to_index};
+    use selvedge_foundation::numerics::Random;
 
     fn cloth(n: usize) -> Vec<f64> {
         let mut random = Random::new(3);

@@ -11,7 +11,7 @@ use selvedge_foundation::files::FileError;
 /// Reads a profile or a map.
 pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
     let text = decoded(bytes).unwrap_or_default();
-    let table = table_with_gaps(&text).map_err(|none| no_table(none, path))?;
+    let table = table_with_gaps(&text).map_err(|none| no_table(&none, path))?;
     n_points(table.columns.len(), table.lines.len(), path)?;
     let columns = Columns::of(table);
     let keys = MatrixKeys::of(&columns.table.header);
@@ -46,8 +46,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
     Ok(reading)
 }
 
-fn no_table(none: NoTable, path: &Path) -> FileError {
-    match none {
+fn no_table(none: &NoTable, path: &Path) -> FileError {
+    match *none {
         NoTable::Broken {
             line, n_columns, ..
         } => {

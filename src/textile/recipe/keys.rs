@@ -121,9 +121,9 @@ macro_rules! keys {
 
         impl $keys {
             /// Those that can be set by themselves, in their order.
-            pub(crate) const KEYS: &'static [crate::recipe::Key<Self>] = &[
+            pub(crate) const KEYS: &'static [crate::recipe::KeySpec<Self>] = &[
                 $($(
-                    crate::recipe::Key {
+                    crate::recipe::KeySpec {
                         key: stringify!($field),
                         name: $name,
                         what: concat!($($what)? $($text)?),

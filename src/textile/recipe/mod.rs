@@ -13,7 +13,7 @@ pub(crate) use checker::Checker;
 pub(crate) use keys::{ProfileFiles, SourceKeys, defaults, keys, source};
 pub(crate) use model::{Model, profiles_of_files};
 pub use parameter::{Group, Parameter, ParameterKind, Place};
-pub(crate) use parameter::{Key, KeyType, choice, parameter, parameters_of, seed};
+pub(crate) use parameter::{KeySpec, KeyType, choice, parameter, parameters_of, seed};
 pub use surface_sample::lit;
 pub(crate) use surface_sample::{SurfaceSample, thinned};
 

@@ -8,7 +8,7 @@ use crate::error::TextileError;
 
 /// A key of a recipe that can be set by itself: what the reader checks and a window offers.
 #[derive(Debug)]
-pub(crate) struct Key<R: 'static> {
+pub(crate) struct KeySpec<R: 'static> {
     /// The key in its table.
     pub key: &'static str,
     /// What people call it.
@@ -25,7 +25,7 @@ pub(crate) struct Key<R: 'static> {
     pub numbers: fn(&R) -> Vec<f64>,
 }
 
-impl<R> Key<R> {
+impl<R> KeySpec<R> {
     fn ends(&self) -> [f64; 2] {
         self.bounds.try_into().unwrap_or([0.0; 2])
     }
@@ -208,16 +208,16 @@ pub(crate) fn seed() -> Parameter {
 /// The keys of a table as parameters: those in `first`, then the others in their order.
 pub(crate) fn parameters_of<R>(
     table: &'static str,
-    keys: &[Key<R>],
+    keys: &[KeySpec<R>],
     first: &[&str],
 ) -> Vec<Parameter> {
-    let place = |key: &&Key<R>| {
+    let place = |key: &&KeySpec<R>| {
         let place = first.iter().position(|first| *first == key.key);
         place.unwrap_or(first.len())
     };
-    let mut ordered: Vec<&Key<R>> = keys.iter().collect();
+    let mut ordered: Vec<&KeySpec<R>> = keys.iter().collect();
     ordered.sort_by_key(place);
-    let parameter = |key: &Key<R>| Parameter {
+    let parameter = |key: &KeySpec<R>| Parameter {
         place: Place {
             table,
             key: key.key,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured, open};
-use crate::recipe::{Checker, HeightsFile, Key, Recipe, defaults, keys, source};
+use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys, source};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
@@ -209,7 +209,7 @@ impl HeightsFile for Heightmap {
 
 impl Recipe for Heightmap {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         for place in self.place_mm.into_iter().flatten() {
             checker.within("source", "place_mm", place, 0.0..=10_000.0)?;
         }

@@ -5,7 +5,7 @@ use super::heightmap::Heightmap;
 use crate::error::TextileError;
 use crate::metrology::HeightOptions;
 use crate::picture::shading::{Light, Method};
-use crate::recipe::{Checker, HeightsFile, Key, Recipe, defaults, keys};
+use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
 use crate::surface::{Probe, Representation};
 
 keys! {
@@ -109,7 +109,7 @@ impl PictureSource {
 
 impl Recipe for PictureSource {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         self.check_places(checker)?;
         checker.file_name("source", "file", Some(&self.file))
     }

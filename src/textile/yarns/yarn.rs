@@ -3,7 +3,7 @@
 use super::path::{Node, YarnPath};
 use super::variation::{Drift, count};
 use crate::error::TextileError;
-use crate::recipe::{Checker, Group, Key, defaults, keys, parameters_of};
+use crate::recipe::{Checker, Group, KeySpec, defaults, keys, parameters_of};
 use selvedge_foundation::numerics::Random;
 
 keys! {
@@ -91,7 +91,7 @@ defaults! {
 impl Yarn {
     /// Refuses figures that no yarn has.
     pub(crate) fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, table))?;
+        KeySpec::check(Self::KEYS, self, (checker, table))?;
         if parse_colour(&self.colour).is_none() {
             let what = format!("colour is \"{}\"", self.colour);
             return Err(checker.wrong(table, "colour", what, "write it as \"#rrggbb\""));

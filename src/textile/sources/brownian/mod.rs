@@ -17,10 +17,10 @@ pub use hurst::Hurst;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Key, Model, ParameterKind, Recipe, SurfaceSample, choice, defaults,
-    keys, parameter, parameters_of, seed, source, thinned,
+    Checker, Example, Group, KeySpec, Model, ParameterKind, Recipe, SurfaceSample, choice,
+    defaults, keys, parameter, parameters_of, seed, source, thinned,
 };
-use crate::surface::{HeightMap, Probe, ProfileSet, smd_um};
+use crate::surface::{HeightMap, Probe, ProfileSet};
 use selvedge_foundation::numerics::{Random, to_index};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
@@ -212,7 +212,7 @@ impl Brownian {
         let mut strokes = self.strokes(&map)?;
         if let Some(smd_um) = self.smd_um {
             for _ in 0..N_ROUNDS {
-                let found = smd_um(&strokes);
+                let found = crate::surface::smd_um(&strokes);
                 let factor = if found > 0.0 { smd_um / found } else { 0.0 };
                 if (factor - 1.0).abs() < 1e-9 {
                     break;
@@ -235,7 +235,7 @@ impl Brownian {
 
 impl Recipe for Brownian {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
         if n > MAX_POINTS + 0.5 {
             let what = format!("length_mm / step_mm is {n:.0} points");

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Key, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    Checker, Example, Group, KeySpec, Model, Recipe, SurfaceSample, choice, defaults, keys,
     parameters_of, seed, source,
 };
 use crate::surface::HeightMap;
@@ -149,7 +149,7 @@ impl Fourier {
 impl Recipe for Fourier {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
         let max_per_m = 500.0 / self.step_mm;
         if self.highest_per_m > max_per_m {

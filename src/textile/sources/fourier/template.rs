@@ -11,7 +11,7 @@
 //!   with a one-sided sum gives half of them
 
 use crate::error::TextileError;
-use crate::recipe::{Key, KeyType, ParameterKind, keys};
+use crate::recipe::{KeySpec, KeyType, ParameterKind, keys};
 use crate::surface::Profile;
 use selvedge_foundation::numerics::RealTransform;
 
@@ -110,7 +110,7 @@ impl FourierTemplate {
                 return Some((key, what, "give one a harmonic".to_owned()));
             }
         }
-        let (key, value, [min, max]) = Key::outside(Self::KEYS, self)?;
+        let (key, value, [min, max]) = KeySpec::outside(Self::KEYS, self)?;
         let (what, mend) = match key {
             "fundamental_per_m" => ("is", "give"),
             _ => ("holds", "give numbers from"),

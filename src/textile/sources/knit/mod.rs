@@ -15,7 +15,7 @@ pub(crate) use structure::Structure;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Key, Model, Recipe, Side, defaults, keys, parameters_of,
+    Checker, Example, Group, KeySpec, Model, Recipe, Side, defaults, keys, parameters_of,
 };
 use crate::surface::Representation;
 use crate::yarns::{Yarn, YarnGeometry, add_hairs, model, touch_group, turn_over, usual};
@@ -154,7 +154,7 @@ impl Knit {
 
 impl Recipe for Knit {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         self.yarn.check(checker, "source.yarn")
     }
 

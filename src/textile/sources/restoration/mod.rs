@@ -15,7 +15,7 @@ pub use reduced::Reduced;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Key, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    Checker, Example, Group, KeySpec, Model, Recipe, SurfaceSample, choice, defaults, keys,
     parameters_of, seed, source,
 };
 use crate::shipped;
@@ -179,7 +179,7 @@ impl Restoration {
 
 impl Recipe for Restoration {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         for (is_weft, table) in [(false, "source.warp"), (true, "source.weft")] {
             if let Some((key, what, mend)) = self.of_axis(is_weft).fault() {
                 return Err(checker.wrong(table, key, what, mend));

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::period::{line, period};
 use crate::error::TextileError;
-use crate::recipe::{Group, Key, keys, parameters_of};
+use crate::recipe::{Group, KeySpec, keys, parameters_of};
 use crate::surface::{Profile, mean_deviation};
 use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_index, without_line};
 
@@ -132,7 +132,7 @@ impl Reduced {
                 return Some((key, what, "give one a harmonic".to_owned()));
             }
         }
-        if let Some((key, value, [min, max])) = Key::outside(Self::KEYS, self) {
+        if let Some((key, value, [min, max])) = KeySpec::outside(Self::KEYS, self) {
             let mend = format!("give numbers from {min} to {max}");
             return Some((key, format!("{key} holds {value}"), mend));
         }

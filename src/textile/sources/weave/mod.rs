@@ -16,7 +16,7 @@ pub use interlacing::NAMES;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Key, Model, Recipe, Side, defaults, keys, parameters_of,
+    Checker, Example, Group, KeySpec, Model, Recipe, Side, defaults, keys, parameters_of,
 };
 use crate::surface::Representation;
 use crate::yarns::{Yarn, YarnGeometry, add_hairs, model, touch_group, turn_over, usual};
@@ -133,7 +133,7 @@ impl Weave {
 
 impl Recipe for Weave {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Key::check(Self::KEYS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         if let Err(what) = self.interlacing.repeat() {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
             let mend = format!("give rows of X and . or one of {}", names.join(", "));
