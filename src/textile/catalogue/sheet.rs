@@ -158,7 +158,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
             } else {
                 Upright::Upward
             },
-            is_x_shared: matches!(direction, Direction::WarpForward | Direction::WarpReverse),
+            is_x_shared: !direction.is_weft(),
             ..Chart::default()
         };
         let Some(profile) = surface.profile(direction) else {
@@ -174,11 +174,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
         panel.series.push(line(points, Ink::Black, Weight::Thin));
         panel
     };
-    let pairs = [
-        [Direction::WarpForward, Direction::WarpReverse],
-        [Direction::WeftForward, Direction::WeftReverse],
-    ];
-    pairs
+    Direction::BY_AXIS
         .map(|pair| row(pair.map(panel).to_vec(), 100.0))
         .to_vec()
 }

@@ -228,9 +228,8 @@ impl KesFigures {
 
 /// The mean over the strokes of an axis, or of both; `None` of none.
 fn mean_of(values: &[(Direction, f64)], axis: Option<TextileAxis>) -> Option<f64> {
-    let is_weft = |direction| matches!(direction, Direction::WeftForward | Direction::WeftReverse);
     let is_meant = |(direction, _): &&(Direction, f64)| {
-        axis.is_none_or(|axis| is_weft(*direction) == (axis == TextileAxis::Weft))
+        axis.is_none_or(|axis| direction.is_weft() == (axis == TextileAxis::Weft))
     };
     let of_axis: Vec<f64> = values
         .iter()

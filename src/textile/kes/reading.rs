@@ -153,11 +153,7 @@ impl KesReading {
 }
 
 fn hashed(file: &KesFile<'_>) -> [String; 2] {
-    let name = file.path.file_name().unwrap_or_default();
-    [
-        name.to_string_lossy().into_owned(),
-        sha256_hex([file.bytes]),
-    ]
+    [name_of(file.path), sha256_hex([file.bytes])]
 }
 
 /// Strokes in the order of travel, without tilt, at their places.
@@ -208,12 +204,7 @@ fn assembled(
 
 /// The direction of a stroke.
 fn direction_of(axis: TextileAxis, side: StrokeSide) -> Direction {
-    match (axis, side) {
-        (TextileAxis::Warp, StrokeSide::Forward) => Direction::WarpForward,
-        (TextileAxis::Warp, StrokeSide::Return) => Direction::WarpReverse,
-        (TextileAxis::Weft, StrokeSide::Forward) => Direction::WeftForward,
-        (TextileAxis::Weft, StrokeSide::Return) => Direction::WeftReverse,
-    }
+    Direction::BY_AXIS[axis as usize][side as usize]
 }
 
 fn check_once(raw: &[(&Path, RawStroke)]) -> Result<(), TextileError> {

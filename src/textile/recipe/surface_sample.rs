@@ -1,10 +1,6 @@
 //! A sample of a model surface: what four strokes over it read, and a patch for its picture.
 
-use std::path::Path;
-
 use super::Model;
-use crate::error::TextileError;
-use crate::profile_file;
 use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
 use selvedge_foundation::files::Rgb8Image;
 use selvedge_foundation::numerics::{Grid, quantile, to_byte};
@@ -52,16 +48,8 @@ impl SurfaceSample {
 }
 
 impl Model for SurfaceSample {
-    fn profile_files(&self) -> Result<[String; 4], TextileError> {
-        let mut texts: [String; 4] = Default::default();
-        for direction in Direction::ALL {
-            let is_weft = matches!(direction, Direction::WeftForward | Direction::WeftReverse);
-            let step_mm = self.step_mm[usize::from(is_weft)];
-            let heights = &self.strokes_um[direction.index()];
-            texts[direction.index()] =
-                profile_file::write(heights, step_mm, Path::new(direction.key()))?;
-        }
-        Ok(texts)
+    fn strokes_um(&self) -> ([Vec<f64>; 4], [f64; 2]) {
+        (self.strokes_um.clone(), self.step_mm)
     }
 
     fn relief(&self, _step_mm: f64) -> Result<HeightMap, SurfaceError> {

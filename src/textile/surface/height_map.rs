@@ -224,10 +224,7 @@ impl HeightMap {
         random: &Random,
     ) -> Result<ProfileSet, (Direction, SurfaceError)> {
         let mut profiles = ProfileSet::default();
-        for (is_weft, pair) in [
-            (false, [Direction::WarpForward, Direction::WarpReverse]),
-            (true, [Direction::WeftForward, Direction::WeftReverse]),
-        ] {
+        for (is_weft, pair) in [false, true].into_iter().zip(Direction::BY_AXIS) {
             let step_mm = self.step_mm[usize::from(is_weft)];
             let across_mm = middle_mm[usize::from(!is_weft)];
             let lift = self.lift_um(probe, is_weft, across_mm);
