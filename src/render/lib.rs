@@ -18,20 +18,20 @@
 pub mod array;
 mod difference;
 mod error;
+mod error_meter;
 mod gains;
 mod input;
 mod plan;
 mod replay;
-mod running_error;
 pub mod scene;
 mod stats;
 
 pub use array::single;
 pub use difference::{DifferenceMeter, Largest, LevelDifference, Spread, Tally};
 pub use error::RenderError;
+pub use error_meter::ErrorMeter;
 pub use gains::GainTerms;
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 pub use plan::{Counters, Rule};
 pub use replay::{Replay, replay, replay_pair};
-pub use running_error::RunningError;
-pub use stats::{ErrorMeter, Histogram, LevelError, RunStats};
+pub use stats::{Histogram, LevelError, RunStats};

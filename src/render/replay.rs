@@ -7,7 +7,8 @@
 use std::ops::ControlFlow;
 
 use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
-use super::stats::{ErrorMeter, Histogram, RunStats};
+use super::error_meter::ErrorMeter;
+use super::stats::{Histogram, RunStats};
 use super::{RenderError, RenderScene};
 use crate::scene::Pose;
 

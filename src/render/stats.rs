@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Counters;
 use super::array::{ErrorBound, Method};
+use selvedge_foundation::numerics::to_index;
 
 /// Cells a decade: a quantile is at most 0.9 % too large.
 const CELLS_PER_DECADE: f64 = 256.0;
@@ -96,16 +97,8 @@ impl Histogram {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "not negative; saturates"
-)]
 fn cell_of(value: f64) -> usize {
-    if value <= LEAST {
-        return 0;
-    }
-    (CELLS_PER_DECADE * (value / LEAST).log10()).ceil() as usize
+    to_index((CELLS_PER_DECADE * (value / LEAST).log10()).ceil())
 }
 
 fn upper_edge(cell: usize) -> f64 {
@@ -128,56 +121,6 @@ pub struct LevelError {
     pub n_amplitudes: u64,
     /// Largest `|a − a_ref|` of all others, as a share of their band's largest.
     pub max_share_below: f64,
-}
-
-/// Share of a band's largest amplitude from which on an error is a matter of level.
-pub(super) const AUDIBLE_SHARE: f64 = 1e-3;
-
-/// The level error of an amplitude against that of the reference, dB; not negative.
-pub(super) fn level_error_db(a: f64, a_ref: f64) -> f64 {
-    (20.0 * (a / a_ref).log10()).abs()
-}
-
-/// Collects the level error of a run, amplitude by amplitude.
-#[derive(Debug, Clone)]
-pub struct ErrorMeter {
-    largest_um: [f64; 2],
-    levels_db: Histogram,
-    max_share_below: f64,
-}
-
-impl ErrorMeter {
-    /// A meter for a run in which these are the reference's largest amplitudes, by band.
-    pub fn new(largest_um: [f64; 2]) -> Self {
-        Self {
-            largest_um,
-            levels_db: Histogram::default(),
-            max_share_below: 0.0,
-        }
-    }
-
-    /// Adds the amplitudes of a contactor in a tick, µm, beside those of the reference.
-    pub fn add(&mut self, amplitudes_um: [f64; 2], reference_um: [f64; 2]) {
-        for b in 0..2 {
-            let (a, a_ref, largest) = (amplitudes_um[b], reference_um[b], self.largest_um[b]);
-            if largest > 0.0 && a_ref >= AUDIBLE_SHARE * largest {
-                self.levels_db.add(level_error_db(a, a_ref));
-            } else if (a - a_ref).abs() > 0.0 {
-                let share = (a - a_ref).abs() / largest;
-                self.max_share_below = self.max_share_below.max(share);
-            }
-        }
-    }
-
-    /// The error of all that was added.
-    pub fn finish(&self) -> LevelError {
-        LevelError {
-            max_db: self.levels_db.largest(),
-            p99_db: self.levels_db.quantile(0.99),
-            n_amplitudes: self.levels_db.count(),
-            max_share_below: self.max_share_below,
-        }
-    }
 }
 
 /// What a replayed run cost, left out and got wrong.
@@ -236,26 +179,5 @@ mod tests {
         assert_eq!(both.between(&edges), [4, 4, 4]);
         assert_eq!((both.count(), both.largest()), (12, f64::INFINITY));
         assert!(histogram.between(&[1.0]).is_empty(), "no pair of edges");
-    }
-
-    #[test]
-    fn level_errors_count_above_a_thousandth_of_the_largest() {
-        let mut meter = ErrorMeter::new([10.0, 0.0]);
-        meter.add([10.0, 0.0], [10.0, 0.0]);
-        meter.add([2.0, 0.0], [1.0, 0.0]);
-        meter.add([0.009, 0.0], [0.005, 0.0]);
-        let error = meter.finish();
-        assert!((error.max_db - 6.0206).abs() < 1e-4, "{error:?}");
-        assert_eq!(error.n_amplitudes, 2);
-        assert!((error.max_share_below - 4e-4).abs() < 1e-12, "{error:?}");
-    }
-
-    #[test]
-    fn sound_where_the_reference_is_silent_is_an_infinite_error() {
-        let mut meter = ErrorMeter::new([0.0, 1.0]);
-        meter.add([1.0, 0.0], [0.0, 1.0]);
-        let error = meter.finish();
-        assert_eq!(error.max_share_below, f64::INFINITY);
-        assert_eq!(error.max_db, f64::INFINITY);
     }
 }

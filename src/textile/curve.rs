@@ -1,4 +1,26 @@
-//! Long curves with as many corners as a picture shows.
+//! Long curves with as many corners as a picture shows, as lines of a chart.
+
+use selvedge_chart::{Chart, Ink, Row, Series, Style, Weight};
+
+/// A line without a name.
+pub(crate) fn line(points: Vec<[f64; 2]>, ink: Ink, weight: Weight) -> Series {
+    Series {
+        points,
+        style: Style::Line,
+        ink,
+        weight,
+        ..Series::default()
+    }
+}
+
+/// Panels side by side.
+pub(crate) fn row(panels: Vec<Chart>, height_px: f64) -> Row {
+    Row {
+        panels,
+        height_px,
+        bar: None,
+    }
+}
 
 /// Stretches that a curve is drawn by: two corners each.
 const MAX_STRETCHES: usize = 700;

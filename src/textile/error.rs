@@ -124,6 +124,14 @@ pub enum KesAsk {
 const MAX_NAMED: usize = 20;
 
 impl TextileError {
+    /// What is wrong with heights, as an error of where they come from.
+    pub(crate) fn surface<P: Into<PathBuf>>(path: P) -> impl FnOnce(SurfaceError) -> Self {
+        move |source| Self::Surface {
+            path: path.into(),
+            source,
+        }
+    }
+
     /// There is no textile of that id.
     pub(crate) fn unknown(id: &str, library: &Path, ids: &[String]) -> Self {
         let known = match ids.split_at_checked(MAX_NAMED) {

@@ -24,6 +24,7 @@ mod kes;
 mod library;
 mod manifest;
 pub mod metrology;
+mod number_table;
 pub mod picture;
 mod profile_file;
 mod recipe;
@@ -40,8 +41,7 @@ pub use draft::{Draft, Fault, example, restored};
 pub use error::{KesAsk, TextileError};
 pub use import::{
     Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures, KesImport,
-    Measurement, PictureTextile, ScaledRelief, read_measurement, relief_um_of, scaled, smd_um,
-    textile_of,
+    Measurement, PictureTextile, ScaledRelief, read_measurement, relief_um_of, scaled, textile_of,
 };
 pub use kes::{
     ColumnRole, DecimalSign, KesColumn, KesFile, KesFriction, KesKnown, KesLine, KesLook,
@@ -70,6 +70,7 @@ pub use sources::profiles::Profiles;
 pub use sources::restoration::{Reduced, Restoration};
 pub use sources::weave::{NAMES as INTERLACINGS, Weave};
 pub use sources::{RECIPES, Source, groups};
+pub use surface::smd_um;
 pub use unit::{LengthUnit, Unit};
 
 #[cfg(test)]

@@ -15,10 +15,7 @@ pub fn read(text: &str, path: &Path) -> Result<Profile, TextileError> {
         Some(columns) => columns,
         None => columns(text, path, COLUMNS)?,
     };
-    Profile::from_positions(&x_mm, heights_um).map_err(|source| TextileError::Surface {
-        path: path.to_owned(),
-        source,
-    })
+    Profile::from_positions(&x_mm, heights_um).map_err(TextileError::surface(path))
 }
 
 /// The columns of a file as this program writes it: no quotes, comments or odd headers. Reading
@@ -45,10 +42,7 @@ fn columns(text: &str, path: &Path, [x, y]: [&str; 2]) -> Result<(Vec<f64>, Vec<
 /// Reads a friction trace. `path` only names it in errors.
 pub(crate) fn read_friction(text: &str, path: &Path) -> Result<FrictionTrace, TextileError> {
     let (x_mm, mu) = columns(text, path, FRICTION_COLUMNS)?;
-    FrictionTrace::from_positions(&x_mm, mu).map_err(|source| TextileError::Surface {
-        path: path.to_owned(),
-        source,
-    })
+    FrictionTrace::from_positions(&x_mm, mu).map_err(TextileError::surface(path))
 }
 
 /// Writes a friction trace: places to a nanometre, coefficients to a millionth.

@@ -33,32 +33,10 @@ impl LengthUnit {
     pub fn of(word: &str) -> Option<Self> {
         let is_decoration = |c: char| c.is_whitespace() || "[]()\0".contains(c);
         let word = word.trim_matches(is_decoration);
-        Some(match word {
-            "m" => Self::Metre,
-            "cm" => Self::Centimetre,
-            "mm" => Self::Millimetre,
-            // The micro sign, the Greek letter, the letter of an old code page, and what is left
-            // of it where an encoding was lost.
-            "um" | "µm" | "μm" | "æm" | "~m" => Self::Micrometre,
-            "nm" => Self::Nanometre,
-            "pm" => Self::Picometre,
-            "Å" | "A" => Self::Angstrom,
-            _ => return Self::of_name(&word.to_lowercase()),
-        })
-    }
-
-    fn of_name(name: &str) -> Option<Self> {
-        let name = name.strip_suffix('s').unwrap_or(name);
-        Some(match name {
-            "metre" | "meter" => Self::Metre,
-            "centimetre" | "centimeter" => Self::Centimetre,
-            "millimetre" | "millimeter" => Self::Millimetre,
-            "micrometre" | "micrometer" | "micron" => Self::Micrometre,
-            "nanometre" | "nanometer" => Self::Nanometre,
-            "picometre" | "picometer" => Self::Picometre,
-            "angstrom" | "ångström" | "angström" => Self::Angstrom,
-            _ => return None,
-        })
+        let lower = word.to_lowercase();
+        let name = lower.strip_suffix('s').unwrap_or(&lower);
+        let means = |(_, _, signs, names): &&Row| signs.contains(&word) || names.contains(&name);
+        LENGTHS.iter().find(means).map(|(unit, ..)| *unit)
     }
 
     /// The last unit among the words of a column's heading, such as `height_um` or `X [mm]`.
@@ -70,30 +48,49 @@ impl LengthUnit {
 
     /// Micrometres in one.
     pub fn um(self) -> f64 {
-        match self {
-            Self::Metre => 1e6,
-            Self::Centimetre => 1e4,
-            Self::Millimetre => 1e3,
-            Self::Micrometre => 1.0,
-            Self::Nanometre => 1e-3,
-            Self::Picometre => 1e-6,
-            Self::Angstrom => 1e-4,
-        }
+        LENGTHS[self as usize].1
     }
 
     /// How files of this program spell it.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Centimetre => "cm",
-            Self::Millimetre => "mm",
-            Self::Micrometre => "um",
-            Self::Nanometre => "nm",
-            Self::Picometre => "pm",
-            Self::Angstrom => "angstrom",
-        }
+        LENGTHS[self as usize].2[0]
     }
 }
+
+/// A unit, micrometres in one, its signs, of which the first is that of this program's files, and
+/// its names in lower case.
+type Row = (
+    LengthUnit,
+    f64,
+    &'static [&'static str],
+    &'static [&'static str],
+);
+
+/// The units in their order.
+const LENGTHS: [Row; 7] = {
+    use LengthUnit as L;
+    [
+        (L::Metre, 1e6, &["m"], &["metre", "meter"]),
+        (L::Centimetre, 1e4, &["cm"], &["centimetre", "centimeter"]),
+        (L::Millimetre, 1e3, &["mm"], &["millimetre", "millimeter"]),
+        // The micro sign, the Greek letter, the letter of an old code page, and what is left of it
+        // where an encoding was lost.
+        (
+            L::Micrometre,
+            1.0,
+            &["um", "µm", "μm", "æm", "~m"],
+            &["micrometre", "micrometer", "micron"],
+        ),
+        (L::Nanometre, 1e-3, &["nm"], &["nanometre", "nanometer"]),
+        (L::Picometre, 1e-6, &["pm"], &["picometre", "picometer"]),
+        (
+            L::Angstrom,
+            1e-4,
+            &["angstrom", "Å", "A"],
+            &["angstrom", "ångström", "angström"],
+        ),
+    ]
+};
 
 /// The unit of a column: a length, or what else a tester records. Places take lengths alone;
 /// heights take a voltage too, with a sensitivity.

@@ -9,10 +9,7 @@ use super::{FileError, line_at};
 
 /// The bytes of a file.
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(|source| FileError::Read {
-        path: path.to_owned(),
-        source,
-    })
+    fs::read(path).map_err(FileError::read(path))
 }
 
 /// The text of a file, without a byte-order mark.
@@ -35,10 +32,6 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
 
 /// Writes `bytes` to a new file beside `path` and then moves it there, on disk before it returns.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let failed = |source| FileError::Write {
-        path: path.to_owned(),
-        source,
-    };
     let staged = staged_path(path);
     let write = || -> io::Result<()> {
         let mut file = File::create(&staged)?;
@@ -49,17 +42,14 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write().map_err(|error| {
         // The staged file is of no use to anybody; if it cannot go, the first error matters more.
         drop(fs::remove_file(&staged));
-        failed(error)
+        FileError::write(path)(error)
     })
 }
 
 /// Creates (or empties) a file for a stream of rows.
 pub fn create(path: &Path) -> Result<BufWriter<File>, FileError> {
     let file = File::create(path);
-    Ok(BufWriter::new(file.map_err(|source| FileError::Write {
-        path: path.to_owned(),
-        source,
-    })?))
+    Ok(BufWriter::new(file.map_err(FileError::write(path))?))
 }
 
 /// A name that no other process and no other thread of this one stages under.

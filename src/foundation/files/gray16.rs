@@ -27,6 +27,17 @@ pub struct GrayImage {
 }
 
 impl GrayImage {
+    /// A picture of 16 bits of shares of white, 0 to 1, row by row from the top.
+    pub fn of_shares([width, height]: [usize; 2], shares: impl Iterator<Item = f64>) -> Self {
+        Self {
+            width,
+            height,
+            values: gray_values(shares),
+            white: u16::MAX,
+            texts: Vec::new(),
+        }
+    }
+
     /// The text of a key.
     pub fn text(&self, key: &str) -> Option<&str> {
         let found = self.texts.iter().find(|(name, _)| name == key);

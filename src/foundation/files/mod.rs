@@ -113,6 +113,22 @@ pub enum FileError {
 }
 
 impl FileError {
+    /// A file that could not be read, of what the system says.
+    pub fn read(path: &Path) -> impl Fn(std::io::Error) -> Self + '_ {
+        move |source| {
+            let path = path.to_owned();
+            Self::Read { path, source }
+        }
+    }
+
+    /// A file or folder that could not be written, of what the system says.
+    pub fn write(path: &Path) -> impl Fn(std::io::Error) -> Self + '_ {
+        move |source| {
+            let path = path.to_owned();
+            Self::Write { path, source }
+        }
+    }
+
     /// Wrong content at a line (from 1) of a file.
     pub fn content(
         path: &Path,

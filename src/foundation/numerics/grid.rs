@@ -18,6 +18,32 @@ impl<T: Copy> Grid<T> {
         }
     }
 
+    /// A grid of what `value` gives for every column and row, row by row.
+    pub fn from_fn(width: usize, height: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
+        let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
+        Self {
+            width,
+            values: places.map(|(column, row)| value(column, row)).collect(),
+        }
+    }
+
+    /// The same grid of other values.
+    pub fn map<U: Copy>(&self, value: impl FnMut(T) -> U) -> Grid<U> {
+        Grid {
+            width: self.width,
+            values: self.values.iter().copied().map(value).collect(),
+        }
+    }
+
+    /// The same with the first row as the last.
+    #[must_use]
+    pub fn turned_over(&self) -> Self {
+        let height = self.height();
+        Self::from_fn(self.width, height, |column, row| {
+            self.row(height - 1 - row)[column]
+        })
+    }
+
     /// A grid over `values`, row-major; `None` unless they fill whole rows.
     pub fn from_rows(width: usize, values: Vec<T>) -> Option<Self> {
         let is_whole = width > 0 && values.len().is_multiple_of(width);

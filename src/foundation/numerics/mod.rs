@@ -27,6 +27,27 @@ pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
 pub use simplex::{Lowest, lowest};
 
+/// The whole part of a number as an index or a count: 0 of what is negative or no number, and the
+/// largest there is of what is larger.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, as is said"
+)]
+pub fn to_index(x: f64) -> usize {
+    x as usize
+}
+
+/// The same as a byte: 0 to 255.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, as is said"
+)]
+pub fn to_byte(x: f64) -> u8 {
+    x as u8
+}
+
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///
 /// Sorts `values` in place.
@@ -46,13 +67,10 @@ pub fn median(values: &mut [f64]) -> f64 {
 pub fn quantile(values: &mut [f64], q: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let rank = (values.len() as f64 * q.clamp(0.0, 1.0)).ceil();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 ≤ rank ≤ len"
-    )]
-    let index = (rank as usize).saturating_sub(1);
-    values.get(index).copied().unwrap_or(f64::NAN)
+    values
+        .get(to_index(rank).saturating_sub(1))
+        .copied()
+        .unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

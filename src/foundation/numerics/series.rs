@@ -95,12 +95,7 @@ pub fn structure_function(values: &[f64], lag: usize) -> f64 {
 pub fn at_place(values: &[f64], place: f64) -> f64 {
     let last = values.len().saturating_sub(1);
     let below = place.floor().clamp(0.0, last as f64);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 ≤ below ≤ last"
-    )]
-    let i = below as usize;
+    let i = super::to_index(below);
     let (Some(&a), b) = (values.get(i), values.get(i + 1)) else {
         return f64::NAN;
     };

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
 use crate::plan::{Axis, Component, Contacts, Counters, Feel, Motion, ScenePlan};
+use selvedge_foundation::numerics::to_index;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
 
@@ -247,13 +248,8 @@ impl GainRow {
 }
 
 /// How many bins k ≥ 1 lie below a (real) bin number, at most 500.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "0 … 500 after clamping"
-)]
 fn n_bins_below(bin: f64) -> usize {
-    (bin.ceil() - 1.0).clamp(0.0, N_BINS as f64) as usize
+    to_index(bin.ceil() - 1.0).min(N_BINS)
 }
 
 /// The frequencies between which a filter lets at least the share `floor` of an amplitude through,

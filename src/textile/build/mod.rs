@@ -28,6 +28,15 @@ pub struct BuiltFile {
     pub bytes: Vec<u8>,
 }
 
+impl BuiltFile {
+    pub(crate) fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        Self {
+            name: name.into(),
+            bytes: bytes.into(),
+        }
+    }
+}
+
 /// Builds a textile from its recipe: four profiles, the picture and the complete manifest. `path`
 /// only names the recipe in errors.
 ///
@@ -41,17 +50,11 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
         .flatten()
         .map(|profile| 0.25 * profile.smd_um())
         .sum();
-    let file = |(direction, text): (Direction, String)| BuiltFile {
-        name: ProfileFiles::name(direction),
-        bytes: text.into_bytes(),
-    };
+    let file = |(direction, text)| BuiltFile::new(ProfileFiles::name(direction), text);
     let mut files: Vec<_> = Direction::ALL.into_iter().zip(texts).map(file).collect();
     let (picture, px_per_mm) = model.picture();
     let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
-    files.push(BuiltFile {
-        name: PICTURE.to_owned(),
-        bytes,
-    });
+    files.push(BuiltFile::new(PICTURE, bytes));
     let mut manifest = complete(recipe, px_per_mm, path)?;
     let found = [("smd_um", smd_um, 100.0)].into_iter();
     let found = found.chain(
@@ -64,11 +67,7 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
         let rounded = (value * digits).round() / digits;
         manifest.measured.insert(key.to_owned(), rounded);
     }
-    let bytes = manifest.to_toml(path)?.into_bytes();
-    files.push(BuiltFile {
-        name: MANIFEST.to_owned(),
-        bytes,
-    });
+    files.push(BuiltFile::new(MANIFEST, manifest.to_toml(path)?));
     Ok(files)
 }
 
@@ -96,10 +95,7 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
 
 /// Writes the files of a textile into a folder, in their order.
 pub fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
-    fs::create_dir_all(folder).map_err(|source| FileError::Write {
-        path: folder.to_owned(),
-        source,
-    })?;
+    fs::create_dir_all(folder).map_err(FileError::write(folder))?;
     files
         .iter()
         .try_for_each(|file| write_atomic(&folder.join(&file.name), &file.bytes))

@@ -31,10 +31,7 @@ impl RecipePreview {
     pub fn of(recipe: &Manifest, progress: &mut Progress<'_>) -> Result<Self, TextileError> {
         let path = Path::new("the recipe");
         let model = recipe.source.model(path)?;
-        let wrong = |source: SurfaceError| TextileError::Surface {
-            path: path.to_owned(),
-            source,
-        };
+        let wrong = |source: SurfaceError| TextileError::surface(path)(source);
         let floor = recipe.noise_floor_um2_mm.unwrap_or(0.0);
         progress.step(0.1, "the relief")?;
         let areal = (recipe.source.representation() == Representation::Areal)

@@ -31,10 +31,7 @@ pub fn write_catalogue(
     out: &Path,
     progress: &mut Progress<'_>,
 ) -> Result<usize, TextileError> {
-    fs::create_dir_all(out).map_err(|source| FileError::Write {
-        path: out.to_owned(),
-        source,
-    })?;
+    fs::create_dir_all(out).map_err(FileError::write(out))?;
     let mut lines = Vec::new();
     let n = library.ids().len();
     for (done, id) in library.ids().iter().enumerate() {

@@ -1,13 +1,14 @@
 //! The sheet of a textile: picture, amplitudes against speed, four profiles, local spectra,
 //! friction; figures and provenance below.
 
-use crate::curve::corners;
+use crate::curve::{corners, line, row};
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, SpeedResponse};
 use crate::{Source, Textile, TextileError, measured_figures};
 use selvedge_chart::{
-    Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Style, Upright, Weight, Words,
+    Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Upright, Weight, Words,
 };
+use selvedge_foundation::numerics::{to_byte, to_index};
 use selvedge_foundation::quantity::level_db;
 
 /// The side of the textile that is shown, mm.
@@ -30,11 +31,7 @@ const N_BINS_SHOWN: usize = 50;
 /// Its picture or its friction cannot be read.
 pub(super) fn sheet(textile: &Textile) -> Result<Figure, TextileError> {
     let manifest = textile.manifest();
-    let mut rows = vec![Row {
-        panels: vec![picture(textile)?, amplitudes(textile)],
-        height_px: 250.0,
-        bar: None,
-    }];
+    let mut rows = vec![row(vec![picture(textile)?, amplitudes(textile)], 250.0)];
     rows.extend(profiles(textile));
     rows.push(spectra(textile));
     rows.extend(friction(textile)?);
@@ -67,15 +64,7 @@ fn picture(textile: &Textile) -> Result<Chart, TextileError> {
         return Ok(panel);
     };
     let image = &appearance.image;
-    let pixel = |mm: f64, n: usize| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "20 mm at no more than 200 pixels a mm"
-        )]
-        let pixel = (mm * appearance.px_per_mm).floor() as usize;
-        pixel % n.max(1)
-    };
+    let pixel = |mm: f64, n: usize| to_index(mm * appearance.px_per_mm) % n.max(1);
     let place = |cell: u16| (f64::from(cell) + 0.5) * PICTURE_MM / f64::from(N_CELLS);
     let mut cells = Vec::new();
     for row in (0..N_CELLS).rev() {
@@ -122,23 +111,18 @@ fn amplitudes(textile: &Textile) -> Chart {
             Band::Low => Ink::Amber,
             Band::High => Ink::Cyan,
         };
-        let line = |values: Vec<f64>, name: String, weight| Series {
-            name,
-            points: speeds
-                .iter()
-                .zip(&values)
-                .map(|(speed, um)| [*speed, *um])
-                .collect(),
-            style: Style::Line,
-            ink,
-            weight,
-            ..Series::default()
+        let line = |values: Vec<f64>, weight| {
+            let points = speeds.iter().zip(&values).map(|(speed, um)| [*speed, *um]);
+            line(points.collect(), ink, weight)
         };
         let curves = Direction::ALL.map(|direction| curve(direction, band));
         let mean = (0..speeds.len()).map(|i| 0.25 * curves.iter().map(|c| c[i]).sum::<f64>());
         let mean: Vec<f64> = mean.collect();
-        series.extend(curves.map(|values| line(values, String::new(), Weight::Thin)));
-        series.push(line(mean, format!("A{}", band.carrier_hz()), Weight::Bold));
+        series.extend(curves.map(|values| line(values, Weight::Thin)));
+        series.push(Series {
+            name: format!("A{}", band.carrier_hz()),
+            ..line(mean, Weight::Bold)
+        });
     }
     Chart {
         title: "amplitude against speed".to_owned(),
@@ -174,7 +158,7 @@ fn profiles(textile: &Textile) -> Vec<Row> {
             } else {
                 Upright::Upward
             },
-            is_x_shared: matches!(direction, Direction::WarpForward | Direction::WarpReverse),
+            is_x_shared: !direction.is_weft(),
             ..Chart::default()
         };
         let Some(profile) = surface.profile(direction) else {
@@ -186,37 +170,19 @@ fn profiles(textile: &Textile) -> Vec<Row> {
         let heights: Vec<f64> = heights.iter().map(|height| height - mean).collect();
         let length_mm = heights.len() as f64 * profile.step_mm();
         panel.x.range = Some([0.0, length_mm.max(PICTURE_MM)]);
-        panel.series.push(Series {
-            points: corners(|i| i as f64 * profile.step_mm(), &heights),
-            style: Style::Line,
-            ink: Ink::Black,
-            weight: Weight::Thin,
-            ..Series::default()
-        });
+        let points = corners(|i| i as f64 * profile.step_mm(), &heights);
+        panel.series.push(line(points, Ink::Black, Weight::Thin));
         panel
     };
-    let pairs = [
-        [Direction::WarpForward, Direction::WarpReverse],
-        [Direction::WeftForward, Direction::WeftReverse],
-    ];
-    let row = |pair: [Direction; 2]| Row {
-        panels: pair.map(panel).to_vec(),
-        height_px: 100.0,
-        bar: None,
-    };
-    pairs.map(row).to_vec()
+    Direction::BY_AXIS
+        .map(|pair| row(pair.map(panel).to_vec(), 100.0))
+        .to_vec()
 }
 
 /// White paper for little power, black ink for much.
 fn grey(share: f64) -> [u8; 3] {
     let lightness = 252.0 - 236.0 * share.clamp(0.0, 1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "16 to 252"
-    )]
-    let lightness = lightness.round() as u8;
-    [lightness; 3]
+    [to_byte(lightness.round()); 3]
 }
 
 /// Power by wavenumber and place, one panel a direction.
@@ -265,24 +231,15 @@ fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
     let Some(trace) = textile.friction()? else {
         return Ok(None);
     };
+    let points = corners(|i| i as f64 * trace.step_mm(), trace.mu());
     let panel = Chart {
         title: "friction along the warp".to_owned(),
         x: Axis::linear("distance travelled, mm"),
         y: Axis::linear("coefficient"),
-        series: vec![Series {
-            points: corners(|i| i as f64 * trace.step_mm(), trace.mu()),
-            style: Style::Line,
-            ink: Ink::Black,
-            weight: Weight::Thin,
-            ..Series::default()
-        }],
+        series: vec![line(points, Ink::Black, Weight::Thin)],
         ..Chart::default()
     };
-    Ok(Some(Row {
-        panels: vec![panel],
-        height_px: 90.0,
-        bar: None,
-    }))
+    Ok(Some(row(vec![panel], 90.0)))
 }
 
 /// Figures, where it comes from, and how to read the sheet.

@@ -9,7 +9,7 @@ use crate::manifest::{Construction, MANIFEST, Manifest, Provenance};
 use crate::sources::Source;
 
 /// What people say of a textile.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Description {
     /// What it is called.
     pub name: String,
@@ -31,11 +31,7 @@ impl Description {
     pub fn of(name: &str) -> Self {
         Self {
             name: name.to_owned(),
-            construction: Construction::Other,
-            fibre: String::new(),
-            licence: String::new(),
-            notes: String::new(),
-            figures: BTreeMap::new(),
+            ..Self::default()
         }
     }
 
@@ -69,10 +65,7 @@ impl Description {
 pub(super) fn manifest_file(manifest: &Manifest, path: &Path) -> Result<BuiltFile, TextileError> {
     let text = manifest.to_toml(path)?;
     Manifest::from_toml(&text, path)?;
-    Ok(BuiltFile {
-        name: MANIFEST.to_owned(),
-        bytes: text.into_bytes(),
-    })
+    Ok(BuiltFile::new(MANIFEST, text))
 }
 
 #[cfg(test)]

@@ -1,10 +1,8 @@
 //! From heights in pixels to heights in µm.
 
-use super::profile_files::smd_um;
 use crate::error::TextileError;
 use crate::picture::shading::{ShadingError, Shape};
 use crate::surface::{HeightMap, ProfileSet, SurfaceError};
-use selvedge_foundation::numerics::Grid;
 
 /// What is known of the height of a relief.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -48,11 +46,8 @@ pub fn scaled(
     }
     let [low, high] = shape.range_px();
     let of = |relief_um: f64| -> Result<HeightMap, TextileError> {
-        let mut heights_um: Grid<f64> = shape.height_px.clone();
-        for height in heights_um.values_mut() {
-            *height *= relief_um / (high - low);
-        }
-        let map = HeightMap::new(heights_um, step_mm);
+        let factor = relief_um / (high - low);
+        let map = HeightMap::new(shape.height_px.map(|height| height * factor), step_mm);
         Ok(map.map_err(no_surface)?.periodic())
     };
     let (relief_um, smd_um) = match scale {
@@ -60,7 +55,7 @@ pub fn scaled(
         HeightScale::ReliefUm(relief_um) => (checked("the relief", relief_um)?, None),
         HeightScale::SmdUm(smd_um) => {
             let wanted = checked("the SMD", smd_um)?;
-            let of_relief = |relief_um: f64| Ok(self::smd_um(&strokes(&of(relief_um)?)?));
+            let of_relief = |relief_um: f64| Ok(crate::surface::smd_um(&strokes(&of(relief_um)?)?));
             (relief_for(wanted, of_relief)?, Some(wanted))
         }
     };
@@ -122,8 +117,5 @@ fn relief_for(
 }
 
 pub(super) fn no_surface(source: SurfaceError) -> TextileError {
-    TextileError::Surface {
-        path: "the relief of a picture".into(),
-        source,
-    }
+    TextileError::surface("the relief of a picture")(source)
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::description::{Description, manifest_file};
-use super::profile_files::{profile_files, shaded, smd_um};
+use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
@@ -17,7 +17,7 @@ use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{ProfileFiles, SourceKeys as _};
 use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
-use crate::surface::{Direction, HeightMap, ProfileSet, Representation};
+use crate::surface::{Direction, HeightMap, ProfileSet, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::{encode_png_small, sha256_hex};
 
@@ -131,8 +131,7 @@ impl HeightImport {
         keys.place_mm = place.place_mm;
         let mut files = Vec::new();
         if keys.representation == Representation::Areal {
-            let (name, bytes) = (keys.file.clone(), bytes.to_vec());
-            files.push(BuiltFile { name, bytes });
+            files.push(BuiltFile::new(&keys.file, bytes));
         } else {
             files = profile_files(&place.profiles)?;
             let named = Direction::ALL.map(|direction| {
@@ -144,15 +143,9 @@ impl HeightImport {
             keys.set_files(ProfileFiles(named), Some(hash));
         }
         if !self.measured.is_profile() {
-            let picture = shaded(&self.measured);
-            let picture = picture.map_err(|source| TextileError::Surface {
-                path: self.path.clone(),
-                source,
-            })?;
-            files.push(BuiltFile {
-                name: PICTURE.to_owned(),
-                bytes: encode_png_small(&picture, Path::new(PICTURE))?,
-            });
+            let picture = shaded(&self.measured).map_err(TextileError::surface(&self.path))?;
+            let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
+            files.push(BuiltFile::new(PICTURE, bytes));
         }
         let manifest = self.manifest(keys, place, description);
         files.push(manifest_file(&manifest, Path::new(MANIFEST))?);

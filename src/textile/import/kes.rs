@@ -119,10 +119,7 @@ impl KesImport {
             .and_then(|section| stroke.samples_of(&section));
         let mu = friction.mu[section.unwrap_or(0..friction.mu.len())].to_vec();
         let trace = FrictionTrace::new(friction.step_mm, mu);
-        trace.map(Some).map_err(|source| TextileError::Surface {
-            path: FRICTION.into(),
-            source,
-        })
+        trace.map(Some).map_err(TextileError::surface(FRICTION))
     }
 
     fn evaluated(&self, is_official: bool) -> Result<KesFigures, TextileError> {
@@ -152,25 +149,17 @@ impl KesImport {
     /// The files of the textile: profiles of the sections, friction, the manifest last.
     pub fn files(&self, description: &Description) -> Result<Vec<BuiltFile>, TextileError> {
         let mut files = Vec::new();
-        let mut add = |name: &str, text: String| {
-            let (name, bytes) = (name.to_owned(), text.into_bytes());
-            files.push(BuiltFile { name, bytes });
-        };
         let mut profiles = Profiles::default();
         for stroke in &self.reading.strokes {
             let name = format!("{}.csv", stroke.direction.key());
             let heights = &stroke.heights_um[self.samples(stroke)];
-            add(
-                &name,
-                profile_file::write(heights, stroke.step_mm, Path::new(&name))?,
-            );
+            let text = profile_file::write(heights, stroke.step_mm, Path::new(&name))?;
+            files.push(BuiltFile::new(&name, text));
             *profiles.file_mut(stroke.direction) = Some(name);
         }
         if let Some(friction) = self.friction()? {
-            add(
-                FRICTION,
-                profile_file::write_friction(&friction, Path::new(FRICTION))?,
-            );
+            let text = profile_file::write_friction(&friction, Path::new(FRICTION))?;
+            files.push(BuiltFile::new(FRICTION, text));
             profiles.friction = Some(FRICTION.to_owned());
         }
         profiles.imported = Some(Box::new(self.origin()));
@@ -239,9 +228,8 @@ impl KesFigures {
 
 /// The mean over the strokes of an axis, or of both; `None` of none.
 fn mean_of(values: &[(Direction, f64)], axis: Option<TextileAxis>) -> Option<f64> {
-    let is_weft = |direction| matches!(direction, Direction::WeftForward | Direction::WeftReverse);
     let is_meant = |(direction, _): &&(Direction, f64)| {
-        axis.is_none_or(|axis| is_weft(*direction) == (axis == TextileAxis::Weft))
+        axis.is_none_or(|axis| direction.is_weft() == (axis == TextileAxis::Weft))
     };
     let of_axis: Vec<f64> = values
         .iter()

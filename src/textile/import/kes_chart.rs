@@ -1,7 +1,7 @@
 //! The picture of an import: every stroke with its marks, and the evaluated section on it.
 
 use super::kes::KesImport;
-use crate::curve::corners;
+use crate::curve::{corners, line, row};
 use crate::kes::{KesStroke, MarkKind};
 use selvedge_chart::{At, Axis, Chart, Extent, Figure, Ink, Row, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity::fixed;
@@ -73,20 +73,12 @@ impl KesImport {
     fn row(&self, stroke: &KesStroke) -> Row {
         let samples = self.samples(stroke);
         let heights = &stroke.heights_um;
-        let part = |range: std::ops::Range<usize>, ink, weight| Series {
-            points: corners(
-                |i| stroke.place_mm(range.start + i),
-                &heights[range.clone()],
-            ),
-            style: Style::Line,
-            ink,
-            weight,
-            ..Series::default()
+        let part = |range: std::ops::Range<usize>, ink, weight| {
+            let place = |i| stroke.place_mm(range.start + i);
+            line(corners(place, &heights[range.clone()]), ink, weight)
         };
-        let outliers = stroke
-            .marks
-            .iter()
-            .filter(|mark| mark.kind == MarkKind::Outlier);
+        let outliers = stroke.marks.iter();
+        let outliers = outliers.filter(|mark| mark.kind == MarkKind::Outlier);
         let spikes = outliers.flat_map(|mark| mark.samples.clone());
         let spikes = Series {
             points: spikes.map(|i| [stroke.place_mm(i), heights[i]]).collect(),
@@ -103,7 +95,7 @@ impl KesImport {
         let ends = [samples.start, samples.end.saturating_sub(1)];
         let mut rules: Vec<Rule> = ends.map(|end| edge(stroke.place_mm(end), "")).to_vec();
         rules.extend(marked_ends(stroke));
-        panel_row(Chart {
+        let panel = Chart {
             title,
             y: Axis {
                 range: self.height_range_um(),
@@ -116,7 +108,8 @@ impl KesImport {
             ],
             rules,
             ..Chart::default()
-        })
+        };
+        row(vec![panel], HEIGHT_PX)
     }
 
     fn friction_row(&self) -> Option<Row> {
@@ -127,18 +120,11 @@ impl KesImport {
         let inside: Vec<usize> = (0..friction.mu.len()).filter(is_evaluated).collect();
         let first = inside.first().copied().unwrap_or(0);
         let last = inside.last().copied().unwrap_or(0);
-        let line = |points, ink, weight| Series {
-            points,
-            style: Style::Line,
-            ink,
-            weight,
-            ..Series::default()
-        };
         let whole = corners(place, &friction.mu);
         let part = corners(|i| place(first + i), &friction.mu[first..=last]);
         let figure = |value: Option<f64>| fixed(value.unwrap_or(f64::NAN), 4);
         let (miu, mmd) = (figure(self.figures().miu), figure(self.figures().mmd));
-        Some(panel_row(Chart {
+        let panel = Chart {
             title: format!("friction: MIU {miu}, MMD {mmd}"),
             y: Axis::linear("coefficient"),
             series: vec![
@@ -147,15 +133,8 @@ impl KesImport {
             ],
             rules: vec![edge(section.from_mm, ""), edge(section.to_mm, "")],
             ..Chart::default()
-        }))
-    }
-}
-
-fn panel_row(panel: Chart) -> Row {
-    Row {
-        panels: vec![panel],
-        height_px: HEIGHT_PX,
-        bar: None,
+        };
+        Some(row(vec![panel], HEIGHT_PX))
     }
 }
 

@@ -17,7 +17,6 @@ pub use kes::{KesFigures, KesImport};
 #[cfg(test)]
 pub(crate) use picture::to_textile;
 pub use picture::{PictureTextile, relief_um_of, textile_of};
-pub use profile_files::smd_um;
 
 use std::fs;
 use std::path::Path;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::description::manifest_file;
 use super::height_scale::{HeightScale, ScaledRelief, no_surface, scaled};
-use super::profile_files::{profile_files, shaded, smd_um};
+use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance};
@@ -13,27 +13,23 @@ use crate::metrology::{self, HeightOptions, Measured};
 use crate::picture::Tile;
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
-use crate::recipe::{ProfileFiles, SourceKeys as _};
+use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
 use crate::sources::picture::PictureSource;
-use crate::surface::{HeightMap, Probe, Representation};
+use crate::surface::{HeightMap, Probe, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
-use selvedge_foundation::files::{Rgb8Image, encode_png_small, sha256_hex};
+use selvedge_foundation::files::{encode_png_small, sha256_hex};
 
 /// The name of the map in the textile's folder.
 const MAP: &str = "heights.png";
 
 /// What a textile of a picture is called and was made of.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PictureTextile {
     /// What people call it.
     pub name: String,
     /// How the textile is made.
     pub construction: Construction,
-    /// What it is made of.
-    pub fibre: String,
-    /// One line of description.
-    pub notes: String,
     /// The picture's scale, 2 to 2000.
     pub px_per_mm: f64,
     /// Extent of the tile, px of the picture, where a sample of the shape is not quite a pixel.
@@ -48,35 +44,6 @@ pub struct PictureTextile {
     pub light_is_estimated: bool,
     /// Whether it is felt along four strokes or at every point.
     pub representation: Representation,
-    /// One repeat in colour, rows from the top, as many pixels a mm as the shape; the relief in
-    /// grey if there is none.
-    pub appearance: Option<Rgb8Image>,
-    /// Noise of the virtual tester, µm rms.
-    pub noise_um: f64,
-    /// Chooses that noise.
-    pub seed: u32,
-}
-
-impl Default for PictureTextile {
-    /// No name, no scale: both must be set.
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            construction: Construction::Other,
-            fibre: String::new(),
-            notes: String::new(),
-            px_per_mm: 0.0,
-            size_px: None,
-            scale: HeightScale::Unscaled,
-            picture: None,
-            lattice_px: None,
-            light_is_estimated: false,
-            representation: Representation::Economical,
-            appearance: None,
-            noise_um: Probe::default().noise_um,
-            seed: 1,
-        }
-    }
 }
 
 impl PictureTextile {
@@ -100,7 +67,6 @@ pub(crate) fn to_textile(
 ) -> Result<Vec<BuiltFile>, TextileError> {
     let path = Path::new(MAP);
     let mut keys = keys(shape, about);
-    let step_mm = about.step_mm([shape.height_px.width(), shape.height_px.height()]);
     let scaled = heights(shape, about, &keys)?;
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
@@ -108,21 +74,15 @@ pub(crate) fn to_textile(
     // Strokes are drawn over the map as the file has it.
     let kept = metrology::open(&bytes, path, &HeightOptions::default())?;
     let profiles = keys.map().strokes(&kept, path)?;
-    let mut files = vec![file(MAP, bytes)];
+    let mut files = vec![BuiltFile::new(MAP, bytes)];
     files.extend(profile_files(&profiles)?);
-    let (image, px_per_mm) = match &about.appearance {
-        Some(image) => (image.clone(), 1.0 / step_mm[0]),
-        None => (shaded(&kept).map_err(no_surface)?, PX_PER_MM),
-    };
-    files.push(file(PICTURE, encode_png_small(&image, Path::new(PICTURE))?));
-    let appearance = AppearanceKeys {
-        image: PICTURE.to_owned(),
-        px_per_mm,
-    };
+    let image = shaded(&kept).map_err(no_surface)?;
+    let bytes = encode_png_small(&image, Path::new(PICTURE))?;
+    files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
     let figures = [("smd_um", smd_um(&profiles)), ("sq_um", kept.sq_um())];
-    let manifest = manifest(about, keys, appearance, figures);
+    let manifest = manifest(about, keys, figures);
     files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
     Ok(files)
 }
@@ -180,25 +140,21 @@ fn heights(
     scaled(shape, step_mm, about.scale, &drawn)
 }
 
-fn file(name: &str, bytes: Vec<u8>) -> BuiltFile {
-    let name = name.to_owned();
-    BuiltFile { name, bytes }
-}
-
 fn rounded(um: f64) -> f64 {
     (um * 1e3).round() / 1e3
 }
 
 fn measured(map: &HeightMap, title: &str) -> Measured {
-    let mut measured = Measured {
+    Measured {
         heights_um: map.heights_um().clone(),
         step_mm: map.step_mm(),
-        about: metrology::About::default(),
+        about: metrology::About {
+            title: title.to_owned(),
+            ..metrology::About::default()
+        },
         warnings: Vec::new(),
         layers: Vec::new(),
-    };
-    title.clone_into(&mut measured.about.title);
-    measured
+    }
 }
 
 fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
@@ -206,13 +162,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         Some([name, sha256]) => [Some(name.clone()), Some(sha256.clone())],
         None => [None, None],
     };
-    PictureSource {
-        kind: "picture".to_owned(),
-        recipe_hash: None,
-        warp_forward: None,
-        warp_reverse: None,
-        weft_forward: None,
-        weft_reverse: None,
+    source!(PictureSource = "picture" {
         representation: about.representation,
         file: MAP.to_owned(),
         sha256: None,
@@ -228,27 +178,20 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         relief_um: 0.0,
         smd_um: None,
         place_mm: None,
-        noise_um: about.noise_um,
-        seed: about.seed,
-    }
+        noise_um: Probe::default().noise_um,
+        seed: 1,
+    })
 }
 
-fn manifest(
-    about: &PictureTextile,
-    keys: PictureSource,
-    appearance: AppearanceKeys,
-    figures: [(&str, f64); 2],
-) -> Manifest {
-    let notes = format!(
-        "heights from a picture ({}); {}",
-        keys.method.label(),
-        about.notes
-    );
+fn manifest(about: &PictureTextile, keys: PictureSource, figures: [(&str, f64); 2]) -> Manifest {
+    let appearance = AppearanceKeys {
+        image: PICTURE.to_owned(),
+        px_per_mm: PX_PER_MM,
+    };
     let figures = figures.map(|(key, um)| (key.to_owned(), rounded(um)));
     Manifest {
         construction: about.construction,
-        fibre: about.fibre.clone(),
-        notes: notes.trim_end_matches([';', ' ']).to_owned(),
+        notes: format!("heights from a picture ({})", keys.method.label()),
         appearance: Some(appearance),
         measured: figures.into_iter().collect(),
         provenance: Some(Provenance::of(Vec::new())),

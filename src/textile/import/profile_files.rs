@@ -1,5 +1,4 @@
-//! What a textile made of measured heights consists of: profile files, their roughness, and a
-//! picture of the relief.
+//! What a textile made of measured heights consists of: profile files, and a picture of the relief.
 
 use std::path::Path;
 
@@ -8,10 +7,10 @@ use crate::error::TextileError;
 use crate::metrology::Measured;
 use crate::profile_file;
 use crate::recipe::ProfileFiles;
-use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
+use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_byte, to_index};
 
 /// The strokes as profile files, those that are there.
 pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, TextileError> {
@@ -21,17 +20,10 @@ pub(crate) fn profile_files(profiles: &ProfileSet) -> Result<Vec<BuiltFile>, Tex
             let name = ProfileFiles::name(direction);
             let (heights_um, step_mm) = (profile.heights_um(), profile.step_mm());
             let text = profile_file::write(heights_um, step_mm, Path::new(&name))?;
-            let bytes = text.into_bytes();
-            files.push(BuiltFile { name, bytes });
+            files.push(BuiltFile::new(name, text));
         }
     }
     Ok(files)
-}
-
-/// The mean roughness SMD of strokes, µm.
-pub fn smd_um(profiles: &ProfileSet) -> f64 {
-    let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
-    smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
 }
 
 /// Grey of what lies level, and how much a slope of one rms is lighter or darker.
@@ -45,10 +37,8 @@ const MAX_PIXELS: f64 = 2000.0;
 /// The map lit from the upper left, from the top row on; what is mostly missing is plain and dark.
 pub(super) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm)?;
-    let holes = map.heights_um().values().iter();
+    let holes = map.heights_um();
     let holes = holes.map(|height| f64::from(u8::from(height.is_nan())));
-    let holes = Grid::from_rows(map.heights_um().width(), holes.collect());
-    let holes = holes.ok_or(SurfaceError::AllMissing)?;
     let missing = pooled(&holes, map.size_mm());
     let pixels = pooled(map.filled().heights_um(), map.size_mm());
     let (width, height) = (pixels.width(), pixels.height());
@@ -77,38 +67,23 @@ fn grey(slope: Option<f64>, rms: f64) -> [u8; 3] {
         return [MISSING_GREY; 3];
     };
     let lit = if rms > 0.0 { slope / rms } else { 0.0 };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "within a byte"
-    )]
-    let grey = (LEVEL_GREY + SLOPE_GREY * lit).clamp(0.0, 255.0) as u8;
-    [grey; 3]
+    [to_byte(LEVEL_GREY + SLOPE_GREY * lit); 3]
 }
 
 /// Means over the pixels of a picture with 10 pixels a mm.
 fn pooled(values: &Grid<f64>, size_mm: [f64; 2]) -> Grid<f64> {
     let n_points = [values.width(), values.height()];
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "1 to 2000"
-    )]
-    let n_pixels = size_mm.map(|mm| (mm * PX_PER_MM).round().clamp(1.0, MAX_PIXELS) as usize);
+    let n_pixels = size_mm.map(|mm| to_index((mm * PX_PER_MM).round().clamp(1.0, MAX_PIXELS)));
     let [width, height] = n_pixels;
     let span = |pixel: usize, axis: usize| {
         let first = pixel * n_points[axis] / n_pixels[axis];
         let end = (pixel + 1) * n_points[axis] / n_pixels[axis];
         first..end.max(first + 1)
     };
-    let mut pixels = Grid::filled(width, height, 0.0);
-    for row in 0..height {
-        for column in 0..width {
-            let rows = span(row, 1);
-            let n = (rows.len() * span(column, 0).len()) as f64;
-            let sums = rows.map(|r| values.row(r)[span(column, 0)].iter().sum::<f64>());
-            pixels.row_mut(row)[column] = sums.sum::<f64>() / n;
-        }
-    }
-    pixels
+    Grid::from_fn(width, height, |column, row| {
+        let rows = span(row, 1);
+        let n = (rows.len() * span(column, 0).len()) as f64;
+        let sums = rows.map(|r| values.row(r)[span(column, 0)].iter().sum::<f64>());
+        sums.sum::<f64>() / n
+    })
 }

@@ -1,6 +1,6 @@
 //! What the columns of a table are: by what the user says, by their names, else by their number.
 
-use super::dialect::RawTable;
+use crate::number_table::RawTable;
 use crate::unit::{LengthUnit, Unit};
 
 /// One of the two axes of a textile.
@@ -189,7 +189,9 @@ pub(super) fn columns_of(
     said: Option<&[ColumnRole]>,
 ) -> Result<Vec<Column>, String> {
     let n = table.columns.len();
-    let names = names(table);
+    let names: Option<Vec<Vec<String>>> = table
+        .headings(n)
+        .map(|names| names.iter().map(|name| tokens(name)).collect());
     let unit = |index: usize| names.as_ref().and_then(|names| unit_of(&names[index]));
     let column = |(index, role)| Column {
         role,
@@ -214,31 +216,6 @@ pub(super) fn columns_of(
         None => by_number(table).ok_or_else(|| format!("{n} columns without names"))?,
     };
     Ok(roles.into_iter().enumerate().map(column).collect())
-}
-
-/// The names of the columns: the cells of the header's lines that have as many, from the top.
-pub(super) fn headings(table: &RawTable) -> Option<Vec<String>> {
-    let n = table.columns.len();
-    let mut names: Vec<String> = vec![String::new(); n];
-    let mut is_named = false;
-    let near = table.header.len().saturating_sub(2);
-    for line in &table.header[near..] {
-        let cells = table.dialect.cells(line);
-        // A unit in a line of its own may leave no cell empty but the first.
-        if cells.len() == n {
-            is_named = true;
-            for (name, cell) in names.iter_mut().zip(cells) {
-                name.push(' ');
-                name.push_str(cell);
-            }
-        }
-    }
-    is_named.then_some(names)
-}
-
-/// The words of the columns' names.
-fn names(table: &RawTable) -> Option<Vec<Vec<String>>> {
-    Some(headings(table)?.iter().map(|name| tokens(name)).collect())
 }
 
 /// What unnamed columns are: places first, if the first rises or falls throughout, or goes out and
@@ -273,8 +250,8 @@ fn by_number(table: &RawTable) -> Option<Vec<ColumnRole>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::dialect::table_of;
     use super::*;
+    use crate::number_table::table_of;
 
     fn columns(text: &str) -> Result<Vec<Column>, String> {
         columns_of(&table_of(text, None).unwrap(), None)

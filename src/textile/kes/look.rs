@@ -1,11 +1,11 @@
 //! A first look at a file: its first lines in cells, what its columns were taken for, and by what.
 //! Nothing is refused here that a word of the user could mend.
 
-use super::columns::{columns_of, headings};
-use super::dialect::{NoTable, RawTable, Separator, table_of};
+use super::columns::columns_of;
 use super::text::text_of;
 use super::{ColumnRole, DecimalSign, KesFile, KesOptions};
 use crate::error::TextileError;
+use crate::number_table::{NoTable, RawTable, Separator, table_of};
 use selvedge_foundation::files::FileError;
 
 /// Lines above the numbers that are shown: the last ones.
@@ -122,7 +122,7 @@ impl KesLook {
 }
 
 fn columns(table: &RawTable, said: Option<&[ColumnRole]>) -> Vec<KesColumn> {
-    let names = headings(table);
+    let names = table.headings(table.columns.len());
     let name = |index: usize| {
         let name = names.as_ref().and_then(|names| names.get(index));
         name.map_or_else(String::new, |name| name.trim().to_owned())

@@ -10,7 +10,7 @@
 //! by more than eight spreads of that difference, and by more than the spread of all heights.
 
 use crate::surface::{Direction, mean_deviation};
-use selvedge_foundation::numerics::median;
+use selvedge_foundation::numerics::{median, to_index};
 
 /// The length of a piece, mm.
 const PIECE_MM: f64 = 1.0;
@@ -82,13 +82,7 @@ pub(super) fn marks_of(heights: &[f64], step_mm: f64, direction: Direction) -> V
 
 /// Samples in so many millimetres, at least one.
 pub(crate) fn n_samples(length_mm: f64, step_mm: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "lengths are a few hundred mm, steps at least 0.0005 mm"
-    )]
-    let n = (length_mm / step_mm).round() as usize;
-    n.max(1)
+    to_index((length_mm / step_mm).round()).max(1)
 }
 
 /// How many samples at the start and at the end do not look like the middle.

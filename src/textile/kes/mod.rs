@@ -16,7 +16,6 @@
 //! - nothing is resampled: uneven steps are refused
 
 mod columns;
-mod dialect;
 mod look;
 mod marks;
 #[cfg(test)]
@@ -31,8 +30,8 @@ mod tests;
 mod text;
 mod units;
 
+pub use crate::number_table::DecimalSign;
 pub use columns::{ColumnRole, StrokeSide, TextileAxis};
-pub use dialect::DecimalSign;
 pub use look::KesLine;
 pub use look::{KesColumn, KesKnown, KesLook};
 pub(crate) use marks::n_samples;
@@ -45,6 +44,7 @@ pub(crate) use section::{covered_mm, suggested};
 use std::path::{Path, PathBuf};
 
 use crate::error::{KesAsk, TextileError};
+use crate::number_table::{NoTable, table_of};
 use crate::unit::{LengthUnit, Unit};
 
 /// What is known of files beyond what they say. The default knows nothing.
@@ -107,9 +107,9 @@ pub(crate) fn is_export(bytes: &[u8]) -> bool {
     let Ok(text) = text::text_of(bytes, path) else {
         return false;
     };
-    let table = match dialect::table_of(&text, None) {
+    let table = match table_of(&text, None) {
         Ok(table) => table,
-        Err(dialect::NoTable::Ambiguous { .. }) => return true,
+        Err(NoTable::Ambiguous { .. }) => return true,
         Err(_) => return false,
     };
     let is_foreign = |line: &String| {

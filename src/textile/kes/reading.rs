@@ -9,6 +9,7 @@ use super::{KesAsk, KesOptions, ReturnOrder, StrokeSide, TextileAxis, asks, retu
 use crate::error::TextileError;
 use crate::surface::{Direction, SurfaceError, WINDOW_LENGTH_MM};
 use selvedge_foundation::files::{FileError, sha256_hex};
+use selvedge_foundation::numerics::to_index;
 
 /// Heights that span more than this are in another unit than they say, µm.
 const MAX_SPAN_UM: f64 = 20_000.0;
@@ -152,11 +153,7 @@ impl KesReading {
 }
 
 fn hashed(file: &KesFile<'_>) -> [String; 2] {
-    let name = file.path.file_name().unwrap_or_default();
-    [
-        name.to_string_lossy().into_owned(),
-        sha256_hex([file.bytes]),
-    ]
+    [name_of(file.path), sha256_hex([file.bytes])]
 }
 
 /// Strokes in the order of travel, without tilt, at their places.
@@ -207,12 +204,7 @@ fn assembled(
 
 /// The direction of a stroke.
 fn direction_of(axis: TextileAxis, side: StrokeSide) -> Direction {
-    match (axis, side) {
-        (TextileAxis::Warp, StrokeSide::Forward) => Direction::WarpForward,
-        (TextileAxis::Warp, StrokeSide::Return) => Direction::WarpReverse,
-        (TextileAxis::Weft, StrokeSide::Forward) => Direction::WeftForward,
-        (TextileAxis::Weft, StrokeSide::Return) => Direction::WeftReverse,
-    }
+    Direction::BY_AXIS[axis as usize][side as usize]
 }
 
 fn check_once(raw: &[(&Path, RawStroke)]) -> Result<(), TextileError> {
@@ -245,19 +237,10 @@ fn check_length(stroke: &RawStroke, path: &Path) -> Result<(), TextileError> {
     if n_samples as f64 + 0.5 >= window {
         return Ok(());
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a step of 0.0005 to 0.5 mm gives 9 to 8696 samples"
-    )]
-    let n_window = window.round() as usize;
-    Err(TextileError::Surface {
-        path: path.to_owned(),
-        source: SurfaceError::TooShort {
-            n_samples,
-            n_window,
-        },
-    })
+    Err(TextileError::surface(path)(SurfaceError::TooShort {
+        n_samples,
+        n_window: to_index(window.round()),
+    }))
 }
 
 fn check_span(

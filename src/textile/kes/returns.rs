@@ -5,6 +5,7 @@
 //! the other; textile that looks alike both ways, such as a pure sine, does not tell.
 
 use super::ReturnOrder;
+use selvedge_foundation::numerics::to_index;
 
 /// How far the way back may be shifted against the way out, mm.
 const MAX_PLAY_MM: f64 = 2.0;
@@ -26,12 +27,7 @@ pub(super) fn order_of(forward: &[f64], back: &[f64], step_mm: f64) -> Option<Re
     let forward = thin(&mut forward.iter());
     let by_place = thin(&mut back.iter());
     let by_travel = thin(&mut back.iter().rev());
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a step of at least 0.0005 mm gives at most 4000 lags"
-    )]
-    let max_lag = (MAX_PLAY_MM / (step_mm * every as f64)).floor() as usize;
+    let max_lag = to_index(MAX_PLAY_MM / (step_mm * every as f64));
     let [mirrored, travel] =
         [&by_place, &by_travel].map(|back| best_correlation(&forward, back, max_lag));
     let (best, other) = (mirrored.max(travel), mirrored.min(travel));

@@ -31,11 +31,10 @@ pub struct KesSection {
 impl KesStroke {
     /// The axis it runs along.
     pub fn axis(&self) -> TextileAxis {
-        use crate::surface::Direction::{WarpForward, WarpReverse};
-
-        match self.direction {
-            WarpForward | WarpReverse => TextileAxis::Warp,
-            _ => TextileAxis::Weft,
+        if self.direction.is_weft() {
+            TextileAxis::Weft
+        } else {
+            TextileAxis::Warp
         }
     }
 

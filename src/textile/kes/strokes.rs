@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::columns::{Column, axis_of, columns_of, side_of, tokens};
-use super::dialect::{NoTable, RawTable, table_of};
 use super::places::{Run, Uneven, run_of, step_of};
 use super::text::text_of;
 use super::{ColumnRole, KesAsk, KesOptions, KesPlace, StrokeSide, TextileAxis, asks};
 use crate::error::TextileError;
+use crate::number_table::{NoTable, RawTable, table_of};
 use selvedge_foundation::files::FileError;
 
 /// Longer strokes than this are in another unit than they say, mm.
@@ -93,14 +93,14 @@ impl Reader<'_> {
 
     fn no_table(&self, none: NoTable) -> TextileError {
         match none {
-            NoTable::NoNumbers => FileError::content(
+            NoTable::NoNumbers { .. } => FileError::content(
                 self.path,
                 1,
                 "no table of numbers",
                 "give rows of numbers with tabs, commas, semicolons or blanks between",
             )
             .into(),
-            NoTable::Broken { line, text } => FileError::content(
+            NoTable::Broken { line, text, .. } => FileError::content(
                 self.path,
                 line,
                 format!("\"{text}\" is no row of the table of numbers"),

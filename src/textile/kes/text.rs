@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::number_table::decoded;
 use selvedge_foundation::files::FileError;
 
 /// Larger files are refused before they are read as text.
@@ -17,29 +18,15 @@ pub(super) fn text_of(bytes: &[u8], path: &Path) -> Result<String, FileError> {
     if bytes.len() > MAX_BYTES {
         return Err(wrong("this file is larger than 64 MB"));
     }
-    let text = match bytes {
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
-        _ => Some(match std::str::from_utf8(bytes) {
-            Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
-            // Latin-1: every byte is the character of its number, 0xb5 the micro sign.
-            Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
-        }),
-    };
     let is_binary = |text: &String| {
         text.chars()
             .any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\x0c' | '\x1a'))
     };
-    match text.filter(|text| !is_binary(text)) {
+    match decoded(bytes).filter(|text| !is_binary(text)) {
         None => Err(wrong("this is not text")),
         Some(text) if text.trim().is_empty() => Err(wrong("this file is empty")),
         Some(text) => Ok(text),
     }
-}
-
-fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
-    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
-    char::decode_utf16(units).collect::<Result<_, _>>().ok()
 }
 
 #[cfg(test)]

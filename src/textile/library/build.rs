@@ -101,8 +101,8 @@ pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, Texti
         }
     }
     let copy = |name: String| {
-        let bytes = store.read(id, &name)?.into_owned();
-        Ok(BuiltFile { name, bytes })
+        let bytes = store.read(id, &name)?;
+        Ok(BuiltFile::new(name, bytes))
     };
     names.into_iter().map(copy).collect()
 }

@@ -139,10 +139,7 @@ fn decode(bytes: &[u8]) -> Option<Vec<BuiltFile>> {
         let (about, after) = line(rest)?;
         let (name, length) = about.rsplit_once(' ')?;
         let (bytes, after) = after.split_at_checked(length.parse().ok()?)?;
-        files.push(BuiltFile {
-            name: name.to_owned(),
-            bytes: bytes.to_vec(),
-        });
+        files.push(BuiltFile::new(name, bytes));
         rest = after;
     }
     Some(files)

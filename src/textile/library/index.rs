@@ -8,9 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::TextileError;
 use crate::recipe::Checker;
-use crate::tactile::Tuning;
+use crate::tactile::{Tuning, level_of_means};
 use selvedge_foundation::files::{keys_from_str, keys_to_string};
-use selvedge_foundation::quantity::level_db;
 
 /// The name of the index in a library's folder.
 pub(crate) const INDEX: &str = "library.toml";
@@ -45,8 +44,7 @@ pub struct IndexEntry {
 impl IndexEntry {
     /// `½(20 log₁₀ Ā40 + 20 log₁₀ Ā320)`, dB re 1 µm; `None` when either is silent.
     pub fn level_db(&self) -> Option<f64> {
-        let level = 0.5 * (level_db(self.a40_um) + level_db(self.a320_um));
-        level.is_finite().then_some(level)
+        level_of_means([self.a40_um, self.a320_um])
     }
 }
 

@@ -93,11 +93,8 @@ impl Library {
     /// A folder with textiles. Without a `library.toml` its textiles are the sub-folders that hold
     /// a manifest, in the order of their names.
     pub fn open(folder: &Path) -> Result<Self, TextileError> {
-        let failed = |source| FileError::Read {
-            path: folder.to_owned(),
-            source,
-        };
-        let entries = fs::read_dir(folder).map_err(failed)?;
+        let failed = FileError::read(folder);
+        let entries = fs::read_dir(folder).map_err(&failed)?;
         let store = Store::Folder(folder.to_owned());
         let path = folder.join(INDEX);
         if path.exists() {
@@ -108,7 +105,7 @@ impl Library {
         }
         let mut ids = Vec::new();
         for entry in entries {
-            let entry = entry.map_err(failed)?;
+            let entry = entry.map_err(&failed)?;
             if let (Ok(id), true) = (
                 entry.file_name().into_string(),
                 entry.path().join(MANIFEST).is_file(),

@@ -48,10 +48,7 @@ impl Textile {
         let surface = surface.map_err(|(direction, source)| {
             let files = manifest.source.keys().files();
             let name = files.of(direction).unwrap_or(MANIFEST);
-            TextileError::Surface {
-                path: store.path(id, name),
-                source,
-            }
+            TextileError::surface(store.path(id, name))(source)
         })?;
         Ok(Self {
             id: id.to_owned(),
@@ -163,10 +160,7 @@ fn relief_of(
         return heights.height_map(&bytes, &path).map(Some);
     }
     let map = manifest.source.height_map().transpose();
-    map.map_err(|source| TextileError::Surface {
-        path: store.path(id, MANIFEST),
-        source,
-    })
+    map.map_err(TextileError::surface(store.path(id, MANIFEST)))
 }
 
 /// The profiles that a manifest names, or those of its model.

@@ -21,174 +21,56 @@ struct Known {
     what: &'static str,
     /// The unit for people.
     unit: &'static str,
-    range: [f64; 2],
+    /// The largest that is taken.
+    max: f64,
     has_directions: bool,
 }
 
-const fn known(
-    [symbol, suffix]: [&'static str; 2],
-    [name, what, unit]: [&'static str; 3],
-    range: [f64; 2],
-    has_directions: bool,
-) -> Known {
-    Known {
-        symbol,
-        suffix,
-        name,
-        what,
-        unit,
-        range,
-        has_directions,
-    }
+/// Rows of known figures: symbol, suffix: name, what, unit, the largest that is taken; `by_axis`
+/// where there may be one of a direction.
+macro_rules! known {
+    ($($symbol:literal $suffix:literal: $name:literal, $what:literal, $unit:literal,
+        $max:literal $(, $by_axis:ident)?;)+) => {
+        &[$(Known {
+            symbol: $symbol,
+            suffix: $suffix,
+            name: $name,
+            what: $what,
+            unit: $unit,
+            max: $max,
+            has_directions: !concat!($(stringify!($by_axis))?).is_empty(),
+        }),+]
+    };
 }
 
 /// In the order in which a sheet shows them.
-const KNOWN: [Known; 25] = [
-    known(["smd", "_um"], ["SMD", "roughness", "µm"], [0.0, 1e4], true),
-    known(
-        ["smd_official", "_um"],
-        ["SMD ≤ 1 mm", "roughness, official band", "µm"],
-        [0.0, 1e4],
-        true,
-    ),
-    known(
-        ["hurst", ""],
-        ["H", "Hurst exponent found", ""],
-        [0.0, 2.0],
-        false,
-    ),
-    known(
-        ["hurst_error", ""],
-        ["± H", "standard error of H", ""],
-        [0.0, 10.0],
-        false,
-    ),
-    known(
-        ["n_missing", ""],
-        [
-            "missing",
-            "points without a height, filled for the strokes",
-            "",
-        ],
-        [0.0, 64e6],
-        false,
-    ),
-    known(["miu", ""], ["MIU", "mean friction", ""], [0.0, 10.0], true),
-    known(
-        ["mmd", ""],
-        ["MMD", "mean deviation of friction", ""],
-        [0.0, 10.0],
-        true,
-    ),
-    known(
-        ["mmd_official", ""],
-        ["MMD ≤ 1 mm", "the same, official band", ""],
-        [0.0, 10.0],
-        true,
-    ),
-    known(
-        ["lc", ""],
-        ["LC", "linearity of compression", ""],
-        [0.0, 2.0],
-        false,
-    ),
-    known(
-        ["wc", "_gf_cm_per_cm2"],
-        ["WC", "energy of compression", "gf·cm/cm²"],
-        [0.0, 100.0],
-        false,
-    ),
-    known(
-        ["rc", "_percent"],
-        ["RC", "resilience of compression", "%"],
-        [0.0, 100.0],
-        false,
-    ),
-    known(
-        ["t0", "_mm"],
-        ["T0", "thickness at 0.5 gf/cm²", "mm"],
-        [0.0, 100.0],
-        false,
-    ),
-    known(
-        ["tm", "_mm"],
-        ["TM", "thickness at 50 gf/cm²", "mm"],
-        [0.0, 100.0],
-        false,
-    ),
-    known(
-        ["thickness", "_mm"],
-        ["T", "thickness", "mm"],
-        [0.0, 100.0],
-        false,
-    ),
-    known(
-        ["weight", "_mg_per_cm2"],
-        ["W", "weight", "mg/cm²"],
-        [0.0, 1e3],
-        false,
-    ),
-    known(
-        ["b", "_gf_cm2_per_cm"],
-        ["B", "bending rigidity", "gf·cm²/cm"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["2hb", "_gf_cm_per_cm"],
-        ["2HB", "hysteresis of bending", "gf·cm/cm"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["g", "_gf_per_cm_deg"],
-        ["G", "shear stiffness", "gf/(cm·°)"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["2hg", "_gf_per_cm"],
-        ["2HG", "hysteresis of shear at 0.5°", "gf/cm"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["2hg5", "_gf_per_cm"],
-        ["2HG5", "hysteresis of shear at 5°", "gf/cm"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["lt", ""],
-        ["LT", "linearity of extension", ""],
-        [0.0, 2.0],
-        true,
-    ),
-    known(
-        ["wt", "_gf_cm_per_cm2"],
-        ["WT", "energy of extension", "gf·cm/cm²"],
-        [0.0, 1e4],
-        true,
-    ),
-    known(
-        ["rt", "_percent"],
-        ["RT", "resilience of extension", "%"],
-        [0.0, 100.0],
-        true,
-    ),
-    known(
-        ["emt", "_percent"],
-        ["EMT", "extension at 500 gf/cm", "%"],
-        [0.0, 1e3],
-        true,
-    ),
-    known(
-        ["em", "_percent"],
-        ["EM", "extension", "%"],
-        [0.0, 1e3],
-        true,
-    ),
-];
+const KNOWN: &[Known] = known! {
+    "smd" "_um": "SMD", "roughness", "µm", 1e4, by_axis;
+    "smd_official" "_um": "SMD ≤ 1 mm", "roughness, official band", "µm", 1e4, by_axis;
+    "hurst" "": "H", "Hurst exponent found", "", 2.0;
+    "hurst_error" "": "± H", "standard error of H", "", 10.0;
+    "n_missing" "": "missing", "points without a height, filled for the strokes", "", 64e6;
+    "miu" "": "MIU", "mean friction", "", 10.0, by_axis;
+    "mmd" "": "MMD", "mean deviation of friction", "", 10.0, by_axis;
+    "mmd_official" "": "MMD ≤ 1 mm", "the same, official band", "", 10.0, by_axis;
+    "lc" "": "LC", "linearity of compression", "", 2.0;
+    "wc" "_gf_cm_per_cm2": "WC", "energy of compression", "gf·cm/cm²", 100.0;
+    "rc" "_percent": "RC", "resilience of compression", "%", 100.0;
+    "t0" "_mm": "T0", "thickness at 0.5 gf/cm²", "mm", 100.0;
+    "tm" "_mm": "TM", "thickness at 50 gf/cm²", "mm", 100.0;
+    "thickness" "_mm": "T", "thickness", "mm", 100.0;
+    "weight" "_mg_per_cm2": "W", "weight", "mg/cm²", 1e3;
+    "b" "_gf_cm2_per_cm": "B", "bending rigidity", "gf·cm²/cm", 1e3, by_axis;
+    "2hb" "_gf_cm_per_cm": "2HB", "hysteresis of bending", "gf·cm/cm", 1e3, by_axis;
+    "g" "_gf_per_cm_deg": "G", "shear stiffness", "gf/(cm·°)", 1e3, by_axis;
+    "2hg" "_gf_per_cm": "2HG", "hysteresis of shear at 0.5°", "gf/cm", 1e3, by_axis;
+    "2hg5" "_gf_per_cm": "2HG5", "hysteresis of shear at 5°", "gf/cm", 1e3, by_axis;
+    "lt" "": "LT", "linearity of extension", "", 2.0, by_axis;
+    "wt" "_gf_cm_per_cm2": "WT", "energy of extension", "gf·cm/cm²", 1e4, by_axis;
+    "rt" "_percent": "RT", "resilience of extension", "%", 100.0, by_axis;
+    "emt" "_percent": "EMT", "extension at 500 gf/cm", "%", 1e3, by_axis;
+    "em" "_percent": "EM", "extension", "%", 1e3, by_axis;
+};
 
 /// Units that other figures may end with.
 const UNITS: [&str; 22] = [
@@ -289,8 +171,7 @@ fn find(key: &str) -> Option<(usize, &'static str)> {
 /// Refuses a figure out of its range, and a key that says no unit.
 pub(super) fn check(checker: &Checker<'_>, key: &str, value: f64) -> Result<(), TextileError> {
     if let Some((place, _)) = find(key) {
-        let [low, high] = KNOWN[place].range;
-        return checker.within("measured", key, value, low..=high);
+        return checker.within("measured", key, value, 0.0..=KNOWN[place].max);
     }
     checker.within("measured", key, value, -1e12..=1e12)?;
     let has_unit = |unit: &str| key.len() > unit.len() && key.ends_with(unit);
@@ -323,8 +204,8 @@ mod tests {
         for (place, known) in KNOWN.iter().enumerate() {
             let key = [known.symbol, known.suffix].concat();
             assert_eq!(find(&key), Some((place, "")), "{key}");
-            checked(&key, known.range[1]).unwrap();
-            for value in [f64::NAN, -0.1, known.range[1] * 1.01] {
+            checked(&key, known.max).unwrap();
+            for value in [f64::NAN, -0.1, known.max * 1.01] {
                 let error = checked(&key, value).unwrap_err();
                 assert!(
                     error.starts_with(&format!("t.toml:2: {key} is ")),

@@ -60,7 +60,7 @@ pub struct Manifest<S = Source> {
 }
 
 /// How a textile is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Construction {
     /// Two sets of yarns that cross.
@@ -70,6 +70,7 @@ pub enum Construction {
     /// Bonded fibres.
     Nonwoven,
     /// Anything else.
+    #[default]
     Other,
 }
 

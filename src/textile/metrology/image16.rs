@@ -9,7 +9,6 @@ use super::{HeightOptions, LengthUnit, Measured, Reading};
 use crate::surface::MAX_POINTS;
 use selvedge_foundation::files::{
     FileError, GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff,
-    gray_values,
 };
 
 const PREFIX: &str = "Gwy::";
@@ -123,10 +122,7 @@ fn picture(measured: &Measured, path: &Path) -> Result<GrayImage, FileError> {
         texts.push((format!("{PREFIX}{key}"), value.to_owned()));
     }
     Ok(GrayImage {
-        width: grid.width(),
-        height: grid.height(),
-        values: gray_values(shares),
-        white: u16::MAX,
         texts,
+        ..GrayImage::of_shares([grid.width(), grid.height()], shares)
     })
 }

@@ -16,7 +16,6 @@ mod npy;
 mod reading;
 mod sur;
 mod text;
-mod text_layout;
 mod tmd;
 mod x3p;
 
@@ -37,46 +36,15 @@ use crate::error::TextileError;
 use reading::{Reading, n_points};
 use selvedge_foundation::files::{FileError, NPY_MAGIC};
 
-/// The formats that are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
-    X3p,
-    Sur,
-    Gwy,
-    Gsf,
-    Npy,
-    Png,
-    Tiff,
-    Tmd,
-    Frt,
-    Text,
-}
-
 /// What can be read, for people.
 const READABLE: &str =
     "give X3P, SUR or PRO, GWY, GSF, NPY, TMD, FRT, grey PNG or TIFF of 16 bits, or text";
 
-impl Format {
-    fn of(bytes: &[u8]) -> Option<Self> {
-        let begins = |magic: &[u8]| bytes.starts_with(magic);
-        Some(match () {
-            () if begins(b"PK\x03\x04") => Self::X3p,
-            () if begins(b"DIGITAL SURF") || begins(b"DSCOMPRESSED") => Self::Sur,
-            () if begins(b"GWYP") => Self::Gwy,
-            () if begins(gsf::MAGIC) => Self::Gsf,
-            () if begins(NPY_MAGIC) => Self::Npy,
-            () if begins(b"\x89PNG\r\n\x1a\n") => Self::Png,
-            () if begins(b"II*\0") || begins(b"MM\0*") => Self::Tiff,
-            () if begins(tmd::MAGIC) => Self::Tmd,
-            () if begins(frt::MAGIC) => Self::Frt,
-            () if is_text(bytes) => Self::Text,
-            () => return None,
-        })
-    }
-}
-
-/// Whether the beginning holds no bytes that texts do not hold.
+/// Whether the beginning holds no bytes that texts do not hold, or is that of UTF-16.
 pub(crate) fn is_text(bytes: &[u8]) -> bool {
+    if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] = bytes {
+        return true;
+    }
     let head = &bytes[..bytes.len().min(4096)];
     let is_control = |byte: &u8| *byte < 32 && !b"\t\n\r\x0c".contains(byte);
     !head.is_empty() && !head.iter().any(is_control)
@@ -89,18 +57,19 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
 /// be given, no height at all.
 pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
-    let reading = match Format::of(bytes) {
-        Some(Format::X3p) => x3p::read(bytes, path)?,
-        Some(Format::Sur) => sur::read(bytes, path)?,
-        Some(Format::Gwy) => gwy::read(bytes, path, asked)?,
-        Some(Format::Gsf) => gsf::read(bytes, path)?,
-        Some(Format::Npy) => npy::read(bytes, path)?,
-        Some(Format::Png) => image16::read_png(bytes, path, asked)?,
-        Some(Format::Tiff) => image16::read_tiff(bytes, path, asked)?,
-        Some(Format::Tmd) => tmd::read(bytes, path)?,
-        Some(Format::Frt) => frt::read(bytes, path)?,
-        Some(Format::Text) => text::read(bytes, path, asked)?,
-        None => {
+    let begins = |magic: &[u8]| bytes.starts_with(magic);
+    let reading = match () {
+        () if begins(b"PK\x03\x04") => x3p::read(bytes, path)?,
+        () if begins(b"DIGITAL SURF") || begins(b"DSCOMPRESSED") => sur::read(bytes, path)?,
+        () if begins(b"GWYP") => gwy::read(bytes, path, asked)?,
+        () if begins(gsf::MAGIC) => gsf::read(bytes, path)?,
+        () if begins(NPY_MAGIC) => npy::read(bytes, path)?,
+        () if begins(b"\x89PNG\r\n\x1a\n") => image16::read_png(bytes, path, asked)?,
+        () if begins(b"II*\0") || begins(b"MM\0*") => image16::read_tiff(bytes, path, asked)?,
+        () if begins(tmd::MAGIC) => tmd::read(bytes, path)?,
+        () if begins(frt::MAGIC) => frt::read(bytes, path)?,
+        () if is_text(bytes) => text::read(bytes, path, asked)?,
+        () => {
             let what = "this is no file of measured heights that is known here";
             return Err(FileError::whole(path, what, READABLE).into());
         }

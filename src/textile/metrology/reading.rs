@@ -188,12 +188,7 @@ impl Reading {
 
     /// The same with the first row of the file as the last: files that begin at the top.
     pub(super) fn turned_over(mut self) -> Self {
-        let (width, height) = (self.values.width(), self.values.height());
-        let rows = (0..height).rev();
-        let turned: Vec<f64> = rows.flat_map(|row| self.values.row(row).to_vec()).collect();
-        if let Some(grid) = Grid::from_rows(width, turned) {
-            self.values = grid;
-        }
+        self.values = self.values.turned_over();
         self
     }
 
@@ -214,10 +209,7 @@ impl Reading {
             }
         }
         if self.values.values().iter().all(|value| value.is_nan()) {
-            return Err(TextileError::Surface {
-                path: path.to_owned(),
-                source: SurfaceError::AllMissing,
-            });
+            return Err(TextileError::surface(path)(SurfaceError::AllMissing));
         }
         let mut measured = Measured {
             heights_um: self.values,

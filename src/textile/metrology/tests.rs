@@ -467,3 +467,24 @@ fn files_of_instruments_have_the_sq_that_independent_readers_find() {
         assert!(error.contains(expected), "{name}: {error}");
     }
 }
+
+#[test]
+fn a_text_in_utf_16_reads_like_any_other() {
+    let text = "x µm;z µm\n0,0;1,5\n0,1;2,5\n0,2;3\n";
+    let plain = read_text(text, &HeightOptions::default()).unwrap();
+    assert_eq!(plain.heights_um.row(0), [1.5, 2.5, 3.0]);
+    for unit in [u16::to_le_bytes, u16::to_be_bytes] {
+        let units = format!("\u{feff}{text}");
+        let bytes: Vec<u8> = units.encode_utf16().flat_map(unit).collect();
+        let read = open(&bytes, Path::new("a.txt"), &HeightOptions::default());
+        assert_eq!(read.unwrap(), plain);
+    }
+    assert!(
+        open(
+            b"\xff\xfe\x00\xd8",
+            Path::new("a.txt"),
+            &HeightOptions::default()
+        )
+        .is_err()
+    );
+}

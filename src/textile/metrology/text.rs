@@ -3,21 +3,22 @@
 
 use std::path::Path;
 
-use super::reading::{Stated, UNEVEN_MEND, even_step};
-use super::text_layout::{Columns, Layout, MatrixKeys, decoded};
-use super::{HeightOptions, LengthUnit, Reading};
+use super::reading::{About, Stated, UNEVEN_MEND, even_step};
+use super::{HeightOptions, LengthUnit, Reading, n_points};
+use crate::number_table::{NoTable, RawTable, decoded, table_with_gaps};
 use selvedge_foundation::files::FileError;
 
 /// Reads a profile or a map.
 pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
-    let text = decoded(bytes);
-    let layout = Layout::of(&text, path)?;
-    let columns = layout.columns(path)?;
-    let keys = MatrixKeys::of(&layout.header);
+    let text = decoded(bytes).unwrap_or_default();
+    let table = table_with_gaps(&text).map_err(|none| no_table(&none, path))?;
+    n_points(table.columns.len(), table.lines.len(), path)?;
+    let columns = Columns::of(table);
+    let keys = MatrixKeys::of(&columns.table.header);
     let is_named = columns.headings.iter().any(|heading| !heading.is_empty());
-    let is_matrix = keys.extents[0].is_some() || (columns.numbers.len() > 3 && !is_named);
+    let is_matrix = keys.extents[0].is_some() || (columns.numbers().len() > 3 && !is_named);
     if is_matrix && asked.column.is_none() {
-        return matrix(columns, keys, path);
+        return matrix(columns.numbers(), keys, path);
     }
     let choice = Choice::of(&columns, asked, path)?;
     let mut reading = profile(&columns, &choice, path)?;
@@ -26,9 +27,10 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
         return Ok(reading);
     }
     if let Some(x) = choice.x {
-        let slack = rounding(&columns.numbers[x], columns.decimals);
-        let step = even_step(&columns.numbers[x], slack).map_err(|what| {
-            let what = format!("from line {}: {what}", columns.first_line);
+        let places = &columns.numbers()[x];
+        let slack = rounding(places, columns.table.quanta[x]);
+        let step = even_step(places, slack).map_err(|what| {
+            let what = format!("from line {}: {what}", columns.table.lines[0]);
             FileError::whole(path, what, UNEVEN_MEND)
         })?;
         if step < 0.0 {
@@ -44,13 +46,62 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
     Ok(reading)
 }
 
+fn no_table(none: &NoTable, path: &Path) -> FileError {
+    match *none {
+        NoTable::Broken {
+            line, n_columns, ..
+        } => {
+            let what = format!("not {n_columns} numbers as in the lines before");
+            FileError::content(path, line, what, "correct or remove the line")
+        }
+        NoTable::NoNumbers { line } | NoTable::Ambiguous { line } => {
+            let mend = "give lines of numbers, parted by tab, semicolon, comma or blanks";
+            FileError::content(path, line, "no numbers at the end of the text", mend)
+        }
+    }
+}
+
+/// The columns of a table with their headings, empty where there is none.
+struct Columns {
+    table: RawTable,
+    headings: Vec<String>,
+}
+
+impl Columns {
+    fn of(mut table: RawTable) -> Self {
+        // Separators at the end of lines make columns that hold nothing and have no heading.
+        let holds = |column: &Vec<f64>| column.iter().any(|number| !number.is_nan());
+        let last = table.columns.iter().rposition(holds);
+        let headed = table.header.last().and_then(|line| {
+            let cells = table.dialect.cells(line);
+            cells.iter().rposition(|cell| !cell.is_empty())
+        });
+        let n = headed.max(last).map_or(0, |last| last + 1);
+        table.columns.truncate(n);
+        let n = table.columns.len();
+        let headings = table.headings(n).filter(|_| n > 1);
+        let plain = |heading: String| {
+            let plain = heading.replace(" #", " ");
+            plain.trim_matches(['"', '#', ' ']).to_owned()
+        };
+        let headings = headings.unwrap_or_else(|| vec![String::new(); n]);
+        Self {
+            headings: headings.into_iter().map(plain).collect(),
+            table,
+        }
+    }
+
+    fn numbers(&self) -> &[Vec<f64>] {
+        &self.table.columns
+    }
+}
+
 /// Places that rounding may displace: fewer cannot show that they were even before.
 const MIN_ROUNDED: usize = 32;
 
-/// How far the digits that were written may displace places: a unit of the last digit, for a place
-/// against the line between two others, where steps are longer than that.
-fn rounding(places: &[f64], decimals: i32) -> f64 {
-    let digit = 10.0_f64.powi(-decimals);
+/// How far the digits that were written may displace places: a unit of the last `digit`, for a
+/// place against the line between two others, where steps are longer than that.
+fn rounding(places: &[f64], digit: f64) -> f64 {
     let span = (places[places.len() - 1] - places[0]).abs();
     let is_fine = span > digit * places.len() as f64;
     if is_fine && places.len() >= MIN_ROUNDED {
@@ -69,8 +120,8 @@ struct Choice {
 
 impl Choice {
     fn of(columns: &Columns, asked: &HeightOptions, path: &Path) -> Result<Self, FileError> {
-        let n = columns.numbers.len();
-        let x = (n > 1 && rises(&columns.numbers[0])).then_some(0);
+        let n = columns.numbers().len();
+        let x = (n > 1 && rises(&columns.numbers()[0])).then_some(0);
         if let Some(name) = &asked.column {
             let height = column_of(columns, name, path)?;
             // Numbers of rows are no places.
@@ -83,7 +134,7 @@ impl Choice {
             });
         }
         let valid = (n == 3).then_some(2).filter(|&last| {
-            let marks = columns.numbers[last].iter();
+            let marks = columns.numbers()[last].iter();
             columns.headings[last].to_lowercase().contains("valid")
                 || marks
                     .into_iter()
@@ -130,7 +181,7 @@ fn column_of(columns: &Columns, name: &str, path: &Path) -> Result<usize, FileEr
     let by_name = columns.headings.iter().position(|heading| heading == name);
     let by_number = || {
         let number: usize = name.parse().ok()?;
-        (1..=columns.numbers.len())
+        (1..=columns.numbers().len())
             .contains(&number)
             .then(|| number - 1)
     };
@@ -142,9 +193,9 @@ fn column_of(columns: &Columns, name: &str, path: &Path) -> Result<usize, FileEr
 }
 
 fn profile(columns: &Columns, choice: &Choice, path: &Path) -> Result<Reading, FileError> {
-    let mut heights = columns.numbers[choice.height].clone();
+    let mut heights = columns.numbers()[choice.height].clone();
     if let Some(valid) = choice.valid {
-        for (height, mark) in heights.iter_mut().zip(&columns.numbers[valid]) {
+        for (height, mark) in heights.iter_mut().zip(&columns.numbers()[valid]) {
             if mark.is_nan() || *mark <= 0.0 {
                 *height = f64::NAN;
             }
@@ -164,8 +215,7 @@ fn profile(columns: &Columns, choice: &Choice, path: &Path) -> Result<Reading, F
 }
 
 /// A matrix: rows from the top.
-fn matrix(columns: Columns, keys: MatrixKeys, path: &Path) -> Result<Reading, FileError> {
-    let columns = columns.numbers;
+fn matrix(columns: &[Vec<f64>], keys: MatrixKeys, path: &Path) -> Result<Reading, FileError> {
     let (width, height) = (columns.len(), columns.first().map_or(0, Vec::len));
     let rows = (0..height).flat_map(|row| columns.iter().map(move |column| column[row]));
     let mut reading = Reading::of_rows(width, rows.collect(), "text matrix", path)?.turned_over();
@@ -177,4 +227,42 @@ fn matrix(columns: Columns, keys: MatrixKeys, path: &Path) -> Result<Reading, Fi
     reading.height_unit = keys.height_unit;
     reading.about.title = keys.about.title;
     Ok(reading)
+}
+
+/// What the comment lines of a text matrix say, as Gwyddion writes them.
+#[derive(Debug, Default)]
+struct MatrixKeys {
+    /// Extents with their units.
+    extents: [Option<(f64, LengthUnit)>; 2],
+    height_unit: Stated,
+    about: About,
+}
+
+impl MatrixKeys {
+    /// The keys among the lines above the data.
+    fn of(header: &[String]) -> Self {
+        let mut keys = Self::default();
+        for line in header {
+            let line = line.trim_start_matches(['#', ' ']);
+            let Some((key, value)) = line.split_once(':') else {
+                continue;
+            };
+            let value = value.trim();
+            match key.trim() {
+                "Width" => keys.extents[0] = extent(value),
+                "Height" => keys.extents[1] = extent(value),
+                "Value units" => keys.height_unit = Stated::of(value),
+                "Channel" => value.clone_into(&mut keys.about.title),
+                _ => {}
+            }
+        }
+        keys
+    }
+}
+
+/// A length such as `10.00 µm`.
+fn extent(text: &str) -> Option<(f64, LengthUnit)> {
+    let (number, unit) = text.split_once(char::is_whitespace)?;
+    let number: f64 = number.parse().ok()?;
+    Some((number, LengthUnit::of(unit)?)).filter(|(number, _)| *number > 0.0)
 }

@@ -5,7 +5,7 @@
 //! over their middle.
 
 use super::basis::{Place, whole};
-use selvedge_foundation::files::{GrayImage, gray_values};
+use selvedge_foundation::files::GrayImage;
 use selvedge_foundation::numerics::{Grid, overlap_autocorrelation};
 
 /// Pixels that are correlated at most; of a larger picture the middle.
@@ -89,13 +89,7 @@ impl Autocorrelation {
         let (reach_x, reach_y) = (self.reach[0].cast_signed(), self.reach[1].cast_signed());
         let shifts = (-reach_y..=reach_y).flat_map(|y| (-reach_x..=reach_x).map(move |x| (x, y)));
         let shares = shifts.map(|(x, y)| 0.5 + 0.5 * self.at(x, y).unwrap_or(0.0));
-        GrayImage {
-            width: 2 * self.reach[0] + 1,
-            height: 2 * self.reach[1] + 1,
-            values: gray_values(shares),
-            white: u16::MAX,
-            texts: Vec::new(),
-        }
+        GrayImage::of_shares(self.reach.map(|reach| 2 * reach + 1), shares)
     }
 }
 

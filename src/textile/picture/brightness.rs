@@ -10,8 +10,7 @@
 
 use super::basis::{Basis, dot, length, whole};
 use super::shading::{
-    Light, LightEstimate, ShadingError, ShadingOptions, Shape, estimate_light, rows_turned_over,
-    shape_from_shading,
+    Light, LightEstimate, ShadingError, ShadingOptions, Shape, estimate_light, shape_from_shading,
 };
 use super::tile::Tile;
 use crate::surface::WINDOW_LENGTH_MM;
@@ -72,11 +71,7 @@ pub fn brightness_of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightnes
 
 /// Rows from the lowest y. Divided light may pass white by a little: 0…1 is kept.
 fn upright(values: &Grid<f64>) -> Grid<f64> {
-    let mut values = rows_turned_over(values);
-    for value in values.values_mut() {
-        *value = value.clamp(0.0, 1.0);
-    }
-    values
+    values.turned_over().map(|value| value.clamp(0.0, 1.0))
 }
 
 /// Textile along p1, whole periods wide, as high as closes best.

@@ -37,13 +37,12 @@ impl PeriodicColour {
             }
         };
         let channel = |colours: &Grid<[f32; 2]>, i: usize| {
-            let values = colours.values().iter().map(|c| f64::from(c[i])).collect();
-            let grid = Grid::from_rows(colours.width(), values)?;
+            let grid = colours.map(|colour| f64::from(colour[i]));
             let variance = mean_and_variance(&Tile::fold(&grid, basis, n_threads).values).1;
-            Some(3.0 * variance.sqrt())
+            3.0 * variance.sqrt()
         };
         let of_channels = colour.map_or(0.0, |colours| {
-            let both = (0..2).filter_map(|i| channel(colours, i));
+            let both = (0..2).map(|i| channel(colours, i));
             both.fold(0.0, f64::max)
         });
         Self {

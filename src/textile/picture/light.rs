@@ -1,6 +1,6 @@
 //! Uneven light: what varies over the whole picture is divided out.
 
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_index};
 
 /// The smooth part is taken over this share of the shorter side unless a radius is said.
 const SHARE_OF_SIDE: f64 = 0.125;
@@ -58,12 +58,7 @@ fn smoothed(grid: &Grid<f64>, sigma: f64) -> Grid<f64> {
     // A box of 2r + 1 has the variance r(r + 1)/3; three of them add up.
     let widest = grid.width().max(grid.height()) as f64;
     let radius = ((0.25 + sigma * sigma).sqrt() - 0.5).min(widest);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 ≤ radius ≤ the longer side"
-    )]
-    let radius = radius.round().max(0.0) as usize;
+    let radius = to_index(radius.round());
     let mut smooth = grid.clone();
     for _ in 0..N_PASSES {
         for row in 0..smooth.height() {

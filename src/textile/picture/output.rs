@@ -7,11 +7,10 @@ use serde::Serialize;
 use super::analysis::{Analysis, Found, Measurements};
 use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
-use super::lattice::Lattice;
 use super::overlay::{overlay, range};
-use super::relief::{Relief, ReliefReport};
+use super::relief::{Relief, object};
 use selvedge_foundation::files::{
-    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, gray_values, to_json_string,
+    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, to_json_string,
 };
 use selvedge_foundation::numerics::Grid;
 
@@ -45,58 +44,6 @@ pub struct About {
     pub relief: Option<(Relief, Option<f64>)>,
     /// Why there are no heights, where they were looked for.
     pub no_relief: Option<String>,
-}
-
-#[derive(Serialize)]
-struct Image<'a> {
-    file: &'a str,
-    width: usize,
-    height: usize,
-    region: Option<[usize; 4]>,
-    corners_px: Option<[Place; 4]>,
-    light_was_evened: bool,
-    correlated_part: [usize; 4],
-}
-
-#[derive(Serialize)]
-struct Reported<'a> {
-    image: Image<'a>,
-    px_per_mm: Option<f64>,
-    lattice: Option<Lattice>,
-    reason: Option<String>,
-    p1_mm: Option<Place>,
-    p2_mm: Option<Place>,
-    p1_length_mm: Option<f64>,
-    p2_length_mm: Option<f64>,
-    p1_length_px: Option<f64>,
-    p2_length_px: Option<f64>,
-    angle_deg: Option<f64>,
-    n_cells: Option<f64>,
-    explained_variance: Option<f64>,
-    flat_part: Option<[usize; 4]>,
-    explained_variance_of_flat_part: Option<f64>,
-    from_maxima_px: Option<[Place; 2]>,
-    tile: Option<[usize; 2]>,
-    tile_p1_px: Option<Place>,
-    tile_p2_px: Option<Place>,
-    colour_spread: Option<f64>,
-    brightness_spread: Option<f64>,
-    colour_carries_the_period: Option<bool>,
-    n_maxima: usize,
-    n_significant_maxima: usize,
-    directions: Option<[Reading; 2]>,
-    shading: Option<ReliefReport>,
-    no_shading: Option<&'a str>,
-}
-
-/// Directions and lengths by one measure.
-#[derive(Serialize)]
-struct Reading {
-    measure: &'static str,
-    lambda_per_px: f64,
-    directions_deg: Option<[f64; 2]>,
-    p1_px: Option<Place>,
-    p2_px: Option<Place>,
 }
 
 /// The files of an analysis, by name.
@@ -156,13 +103,8 @@ pub fn files(
 }
 
 fn grey(grid: &Grid<f64>, low: f64, high: f64) -> GrayImage {
-    GrayImage {
-        width: grid.width(),
-        height: grid.height(),
-        values: gray_values(grid.values().iter().map(|x| (x - low) / (high - low))),
-        white: u16::MAX,
-        texts: Vec::new(),
-    }
+    let shares = grid.values().iter().map(|x| (x - low) / (high - low));
+    GrayImage::of_shares([grid.width(), grid.height()], shares)
 }
 
 fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
@@ -190,7 +132,8 @@ fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
+/// What `periodicity.json` says.
+fn reported(analysis: &Analysis, about: &About) -> impl Serialize {
     let (width, height) = (analysis.luminance.width(), analysis.luminance.height());
     let found = analysis.found.as_ref().ok();
     let lattice = found.map(|f| f.lattice);
@@ -199,18 +142,18 @@ fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
     let vector_mm = |i: usize| Some([mm(vector(i)?[0])?, mm(vector(i)?[1])?]);
     let lengths = [0, 1].map(|i| vector(i).map(length));
     let measured = analysis.measured.as_ref();
-    Reported {
-        image: Image {
+    object! {
+        image: object! {
             file: &about.image,
-            width,
-            height,
+            width: width,
+            height: height,
             region: about.region,
             corners_px: about.corners,
             light_was_evened: analysis.was_evened,
             correlated_part: correlated_part(width, height),
         },
         px_per_mm: about.px_per_mm,
-        lattice,
+        lattice: lattice,
         reason: analysis.found.as_ref().err().map(ToString::to_string),
         p1_mm: vector_mm(0),
         p2_mm: vector_mm(1),
@@ -238,17 +181,20 @@ fn reported<'a>(analysis: &'a Analysis, about: &'a About) -> Reported<'a> {
     }
 }
 
-fn readings(measured: &Measurements) -> [Reading; 2] {
+/// Directions and lengths by either measure.
+fn readings(measured: &Measurements) -> [impl Serialize; 2] {
     let d = &measured.directions;
     let pairs = [
         ("mean concentration", &d.by_concentration),
         ("hough", &d.by_hough),
     ];
-    pairs.map(|(measure, by)| Reading {
-        measure,
-        lambda_per_px: d.lambda_per_px,
-        directions_deg: by.best.map(|both| both.map(f64::to_degrees)),
-        p1_px: by.basis.map(|b| b.p1),
-        p2_px: by.basis.map(|b| b.p2),
+    pairs.map(|(measure, by)| {
+        object! {
+            measure: measure,
+            lambda_per_px: d.lambda_per_px,
+            directions_deg: by.best.map(|both| both.map(f64::to_degrees)),
+            p1_px: by.basis.map(|b| b.p1),
+            p2_px: by.basis.map(|b| b.p2),
+        }
     })
 }

@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, Place, length, whole};
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_byte};
 
 /// Pictures are enlarged by a whole factor until a cell measures this.
 const CELL_PX: f64 = 30.0;
@@ -45,7 +45,7 @@ pub fn overlay(luminance: &Grid<f64>, lattice: Option<Basis>) -> Rgb8Image {
                     }
                 }
             }
-            pixels.push(colour.map(byte));
+            pixels.push(colour.map(|value| to_byte(value.round())));
         }
     }
     Rgb8Image {
@@ -85,16 +85,6 @@ pub fn range(grid: &Grid<f64>) -> (f64, f64) {
     } else {
         (low - 0.5, low + 0.5)
     }
-}
-
-fn byte(value: f64) -> u8 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…255"
-    )]
-    let byte = value.round().clamp(0.0, 255.0) as u8;
-    byte
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::brightness::{Brightness, Extent, brightness_of, shape_of};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
-use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png, gray_values};
+use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png};
 use selvedge_foundation::progress::Progress;
 
 /// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
@@ -28,56 +28,31 @@ pub struct Relief {
     pub estimate: Option<LightEstimate>,
 }
 
-/// What a file says of heights that were found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct ReliefReport {
-    /// The method's word.
-    pub method: &'static str,
-    /// Iterations done.
-    pub iterations: usize,
-    /// Rounds of conjugate gradients.
-    pub rounds: usize,
-    /// Slant and tilt of the light on the picture (tilt from +x, y up, towards the light), degrees.
-    pub(crate) light_deg: [f64; 2],
-    /// Whether it was estimated.
-    pub light_estimated: bool,
-    /// How sure the estimate is.
-    pub(crate) light_words: Option<String>,
-    /// How much gradients agree on the tilt's side, 0 to 1.
-    pub(crate) tilt_agreement: Option<f64>,
-    /// How much more brightness changes along the tilt than across it, 0 to 1.
-    pub(crate) axis_coherence: Option<f64>,
-    /// The albedo.
-    pub albedo: f64,
-    /// Mean of |E/a − R| of a level surface.
-    pub residual_of_level: f64,
-    /// The same of the heights.
-    pub residual: f64,
-    /// How far the method can be trusted under this light.
-    pub reliability: String,
-    /// Samples along rows and across.
-    pub samples: [usize; 2],
-    /// Their extent, px of the picture.
-    pub size_px: [f64; 2],
-    /// Direction of the rows in the picture, degrees clockwise from +x.
-    pub angle_deg: f64,
-    /// What the rectangle was sheared by to close, degrees.
-    pub(crate) shear_deg: Option<f64>,
-    /// The sideways jump at the upper edge of textile that has no rectangle, px.
-    pub(crate) seam_px: Option<f64>,
-    /// From the lowest to the highest height and rms, samples' widths.
-    pub height_px: Span,
-    /// The same in µm, where the relief is known.
-    pub height_um: Option<Span>,
+/// An object of a file, key by key in their order.
+macro_rules! object {
+    ($($key:ident: $value:expr,)+) => {{
+        #[expect(non_camel_case_types, reason = "the type of every key is called like the key")]
+        fn object<$($key: serde::Serialize),+>(($($key,)+): ($($key,)+)) -> impl serde::Serialize {
+            #[derive(serde::Serialize)]
+            struct Object<$($key),+> {
+                $($key: $key,)+
+            }
+
+            Object { $($key,)+ }
+        }
+
+        object(($($value,)+))
+    }};
 }
+pub(super) use object;
 
 /// How high a relief is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Span {
+struct Span {
     /// From the lowest to the highest height.
-    pub relief: f64,
+    relief: f64,
     /// Root of the mean square about the mean.
-    pub rms: f64,
+    rms: f64,
 }
 
 impl Relief {
@@ -114,8 +89,10 @@ impl Relief {
         high - low
     }
 
-    /// What files say of it; heights in µm if `relief_um`, from lowest to highest, is known.
-    pub(crate) fn report(&self, relief_um: Option<f64>) -> ReliefReport {
+    /// What files say of it: angles in degrees, the light on the picture from +x with y up, the rows
+    /// clockwise from +x; heights in widths of a sample and, if `relief_um`, from lowest to highest,
+    /// is known, in µm. Residuals are means of |E/a − R|.
+    pub(crate) fn report(&self, relief_um: Option<f64>) -> impl Serialize {
         let shape = &self.shape;
         let heights = &shape.height_px;
         let n = heights.values().len().max(1) as f64;
@@ -129,25 +106,25 @@ impl Relief {
         };
         let estimate = self.estimate.as_ref();
         let residual = |at: usize| shape.residuals.get(at).copied().unwrap_or(0.0);
-        ReliefReport {
+        object! {
             method: shape.method.word(),
             iterations: shape.n_iterations(),
             rounds: shape.n_rounds,
             light_deg: [self.light.slant_deg, self.light.tilt_deg],
             light_estimated: estimate.is_some(),
-            light_words: estimate.map(|e| e.words.clone()),
+            light_words: estimate.map(|e| &e.words),
             tilt_agreement: estimate.map(|e| e.tilt_agreement),
             axis_coherence: estimate.map(|e| e.axis_coherence),
             albedo: shape.albedo,
             residual_of_level: residual(0),
             residual: residual(shape.n_iterations()),
-            reliability: shape.reliability.clone(),
+            reliability: &shape.reliability,
             samples: [heights.width(), heights.height()],
             size_px: self.brightness.size_px,
             angle_deg: self.brightness.angle_rad.to_degrees(),
-            shear_deg,
-            seam_px,
-            height_px,
+            shear_deg: shear_deg,
+            seam_px: seam_px,
+            height_px: height_px,
             height_um: relief_um.filter(|_| height_px.relief > 0.0).map(|um| Span {
                 relief: um,
                 rms: height_px.rms * um / height_px.relief,
@@ -183,14 +160,10 @@ impl Relief {
             ("XYUnit", length_unit.to_owned()),
             ("ZUnit", height_unit.to_owned()),
         ];
+        let texts = texts.map(|(key, text)| (format!("Gwy::{key}"), text));
         let picture = GrayImage {
-            width: heights.width(),
-            height: heights.height(),
-            values: gray_values(shares),
-            white: u16::MAX,
-            texts: texts
-                .map(|(key, text)| (format!("Gwy::{key}"), text))
-                .to_vec(),
+            texts: texts.to_vec(),
+            ..GrayImage::of_shares([heights.width(), heights.height()], shares)
         };
         encode_gray_png(&picture, Path::new("height.png"))
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::PictureError;
 use super::basis::{Place, length, mix};
 use selvedge_foundation::files::{FileError, decode_picture};
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_index};
 
 /// Channels that differ by more than this share of white are coloured.
 const COLOURED: f64 = 0.02;
@@ -116,12 +116,7 @@ impl Picture {
             return Err(PictureError::Input(format!("{what}; {mend}")));
         }
         let map = Projection::onto(corners);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "1 ≤ side ≤ 16 000"
-        )]
-        let n = size.map(|side| side as usize);
+        let n = size.map(to_index);
         let places = (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| [i, j]));
         let places: Vec<Place> = places
             .map(|[i, j]| map.at([(i as f64 + 0.5) / size[0], (j as f64 + 0.5) / size[1]]))
@@ -152,12 +147,7 @@ impl Picture {
 fn between<T: Copy>(grid: &Grid<T>, [x, y]: Place, blend: impl Fn(T, T, f64) -> T) -> T {
     let index = |at: f64, n: usize| {
         let at = at.clamp(0.0, n as f64 - 1.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "0 ≤ at ≤ n − 1"
-        )]
-        let first = at as usize;
+        let first = to_index(at);
         (first, (first + 1).min(n - 1), at - first as f64)
     };
     let (i, next_i, s) = index(x, grid.width());

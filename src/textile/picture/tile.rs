@@ -5,7 +5,7 @@
 
 use super::basis::{Basis, Place, dot, greatest_divisor, length, whole};
 use super::light::mean_and_variance;
-use selvedge_foundation::numerics::{Grid, in_pieces};
+use selvedge_foundation::numerics::{Grid, in_pieces, to_index};
 
 /// Samples of a tile at most.
 const MAX_SAMPLES: f64 = 1_048_576.0;
@@ -89,7 +89,17 @@ impl Tile {
         let (s, c) = angle_rad.sin_cos();
         let along = basis.coordinates([step_px * c, step_px * s]);
         let across = basis.coordinates([-step_px * s, step_px * c]);
-        let mut patch = Grid::filled(width, height, 0.0);
+        self.sampled([width, height], [along, across], n_threads)
+    }
+
+    /// The values at lattice coordinates `x·along + y·across`.
+    fn sampled(
+        &self,
+        [width, height]: [usize; 2],
+        [along, across]: [Place; 2],
+        n_threads: usize,
+    ) -> Grid<f64> {
+        let mut samples = Grid::filled(width, height, 0.0);
         let work = |(): &mut (), row: usize, values: &mut [f64]| {
             let y = row as f64;
             for (x, value) in values.iter_mut().enumerate() {
@@ -97,8 +107,8 @@ impl Tile {
                 *value = self.at([x * along[0] + y * across[0], x * along[1] + y * across[1]]);
             }
         };
-        in_pieces(patch.values_mut(), width, n_threads, || (), work);
-        patch
+        in_pieces(samples.values_mut(), width, n_threads, || (), work);
+        samples
     }
 
     /// The smallest rectangle that repeats, if the lattice has one: two of its vectors at a right
@@ -114,21 +124,10 @@ impl Tile {
                 .max(1)
                 .cast_unsigned()
         });
-        let (along, across) = (
-            at(first).map(|x| x / n[0] as f64),
-            at(second).map(|x| x / n[1] as f64),
-        );
-        let mut values = Grid::filled(n[0], n[1], 0.0);
-        let work = |(): &mut (), row: usize, values: &mut [f64]| {
-            let y = row as f64;
-            for (x, value) in values.iter_mut().enumerate() {
-                let x = x as f64;
-                *value = self.at([x * along[0] + y * across[0], x * along[1] + y * across[1]]);
-            }
-        };
-        in_pieces(values.values_mut(), n[0], n_threads, || (), work);
+        let along = at(first).map(|x| x / n[0] as f64);
+        let across = at(second).map(|x| x / n[1] as f64);
         Some(Rectangle {
-            values,
+            values: self.sampled(n, [along, across], n_threads),
             size_px,
             angle_rad: a[1].atan2(a[0]),
             shear_rad: cosine(a, b).asin(),
@@ -169,12 +168,7 @@ impl Tile {
 #[inline]
 fn around(at: f64, n: usize) -> ([usize; 2], f64) {
     let place = (at - at.floor()) * n as f64;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 ≤ place ≤ n"
-    )]
-    let first = (place as usize).min(n - 1);
+    let first = to_index(place).min(n - 1);
     let next = if first + 1 == n { 0 } else { first + 1 };
     ([first, next], place - first as f64)
 }

@@ -44,8 +44,9 @@ pub(crate) trait SourceKeys {
 /// Declares the keys of a `source`, with those that all sources have alike before its own, or of a
 /// `table` within one.
 ///
-/// A key is a field; a number also states `=> "name" min..=max "unit" "what it does"`, which
-/// becomes a line of the table `NUMBERS`.
+/// A key is a field. One that can be set by itself states `=> "name": "what it does"`, a number
+/// `=> "name" min..=max "unit" "what it does"`: a line of the table `KEYS`, by which the reader
+/// checks and which a window offers.
 macro_rules! keys {
     ($(#[$meta:meta])* source $keys:ident { $($fields:tt)* }) => {
         crate::recipe::keys! {
@@ -103,28 +104,33 @@ macro_rules! keys {
     ($(#[$meta:meta])* table $struct_vis:vis $keys:ident {
         $(
             $(#[$field_meta:meta])* $vis:vis $field:ident: $type:ty
-            $(=> $name:literal $min:literal ..= $max:literal $unit:literal $what:literal)?,
+            $(=> $name:literal
+                $($min:literal ..= $max:literal $unit:literal $what:literal)? $(: $text:literal)?
+            )?,
         )*
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
         $struct_vis struct $keys {
-            $( $(#[$field_meta])* $(#[doc = $what])? $vis $field: $type, )*
+            $(
+                $(#[$field_meta])* $($(#[doc = $what])? $(#[doc = $text])?)?
+                $vis $field: $type,
+            )*
         }
 
         impl $keys {
-            /// Its numbers, in their order.
-            pub(crate) const NUMBERS: &'static [crate::recipe::Number<Self>] = &[
+            /// Those that can be set by themselves, in their order.
+            pub(crate) const KEYS: &'static [crate::recipe::KeySpec<Self>] = &[
                 $($(
-                    crate::recipe::Number {
+                    crate::recipe::KeySpec {
                         key: stringify!($field),
                         name: $name,
-                        unit: $unit,
-                        min: $min,
-                        max: $max,
-                        what: $what,
-                        get: |keys| crate::recipe::Figure::figure(&keys.$field),
+                        what: concat!($($what)? $($text)?),
+                        unit: concat!($($unit)?),
+                        bounds: &[$($min, $max)?],
+                        kind: <$type as crate::recipe::KeyType>::kind,
+                        numbers: |keys| crate::recipe::KeyType::numbers(&keys.$field),
                     },
                 )?)*
             ];
@@ -132,3 +138,29 @@ macro_rules! keys {
     };
 }
 pub(crate) use keys;
+
+/// A source with these keys of its own, and no file made from it yet.
+macro_rules! source {
+    ($keys:ident = $kind:literal { $($own:tt)* }) => {
+        $keys {
+            kind: $kind.to_owned(),
+            recipe_hash: None,
+            warp_forward: None,
+            warp_reverse: None,
+            weft_forward: None,
+            weft_reverse: None,
+            $($own)*
+        }
+    };
+}
+pub(crate) use source;
+
+/// Declares what keys are where a file leaves them out, as functions that serde calls.
+macro_rules! defaults {
+    ($($(#[$meta:meta])* $name:ident: $type:ty = $value:expr;)+) => {
+        $($(#[$meta])* pub(crate) fn $name() -> $type {
+            $value
+        })+
+    };
+}
+pub(crate) use defaults;

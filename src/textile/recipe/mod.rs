@@ -10,10 +10,10 @@ mod parameter;
 mod surface_sample;
 
 pub(crate) use checker::Checker;
-pub(crate) use keys::{ProfileFiles, SourceKeys, keys};
+pub(crate) use keys::{ProfileFiles, SourceKeys, defaults, keys, source};
 pub(crate) use model::{Model, profiles_of_files};
-pub(crate) use parameter::{Figure, Number, choice, numbers_of, optional, parameter, seed};
 pub use parameter::{Group, Parameter, ParameterKind, Place};
+pub(crate) use parameter::{KeySpec, KeyType, choice, parameter, parameters_of, seed};
 pub use surface_sample::lit;
 pub(crate) use surface_sample::{SurfaceSample, thinned};
 

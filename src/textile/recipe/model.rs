@@ -9,8 +9,21 @@ use selvedge_foundation::files::Rgb8Image;
 
 /// A model of a textile, ready to be felt.
 pub(crate) trait Model {
+    /// Heights of the four strokes, µm, by [`Direction::index`], in travel order, and the distance
+    /// of their samples along warp and weft, mm.
+    fn strokes_um(&self) -> ([Vec<f64>; 4], [f64; 2]);
+
     /// The four strokes as profile files, by [`Direction::index`].
-    fn profile_files(&self) -> Result<[String; 4], TextileError>;
+    fn profile_files(&self) -> Result<[String; 4], TextileError> {
+        let (strokes_um, step_mm) = self.strokes_um();
+        let mut texts: [String; 4] = Default::default();
+        for (direction, heights) in Direction::ALL.into_iter().zip(&strokes_um) {
+            let step_mm = step_mm[usize::from(direction.is_weft())];
+            texts[direction.index()] =
+                profile_file::write(heights, step_mm, Path::new(direction.key()))?;
+        }
+        Ok(texts)
+    }
 
     /// The relief of the whole textile, which repeats: heights of the model itself, without a
     /// probe; `None` where the model knows its strokes alone.

@@ -1,74 +1,104 @@
 //! The parameters of recipes as tables: what can be set, within which bounds, and what it does.
 //!
-//! The reader of manifests checks numbers by the same tables that a window offers them from, so
-//! there is one list of bounds.
+//! The reader of manifests checks by the same tables that a window offers parameters from, so there
+//! is one list of bounds.
 
 use super::Checker;
 use crate::error::TextileError;
 
-/// A number of a recipe: what the reader checks and a window offers.
+/// A key of a recipe that can be set by itself: what the reader checks and a window offers.
 #[derive(Debug)]
-pub(crate) struct Number<R: 'static> {
+pub(crate) struct KeySpec<R: 'static> {
     /// The key in its table.
     pub key: &'static str,
     /// What people call it.
     pub name: &'static str,
-    /// Its unit; empty for plain numbers.
-    pub unit: &'static str,
-    /// The smallest that is taken.
-    pub min: f64,
-    /// The largest that is taken.
-    pub max: f64,
     /// What it does, in a few words.
     pub what: &'static str,
-    /// Its value in a recipe; `None` where it is left out.
-    pub get: fn(&R) -> Option<f64>,
+    /// The unit of a number; empty for plain ones.
+    pub unit: &'static str,
+    /// The smallest and the largest number that is taken; empty of what is no number.
+    pub bounds: &'static [f64],
+    /// What it is.
+    pub kind: fn([f64; 2], &'static str) -> ParameterKind,
+    /// Its numbers in a recipe; none where it is left out, or is no number.
+    pub numbers: fn(&R) -> Vec<f64>,
 }
 
-impl<R> Number<R> {
+impl<R> KeySpec<R> {
+    fn ends(&self) -> [f64; 2] {
+        self.bounds.try_into().unwrap_or([0.0; 2])
+    }
+
+    /// The first number of a recipe that is out of its bounds: its key, itself, its bounds.
+    pub(crate) fn outside(keys: &[Self], recipe: &R) -> Option<(&'static str, f64, [f64; 2])> {
+        keys.iter().find_map(|key| {
+            let [min, max] = key.ends();
+            let is_wrong = |number: &f64| !(min..=max).contains(number);
+            let wrong = (key.numbers)(recipe).into_iter().find(is_wrong)?;
+            Some((key.key, wrong, [min, max]))
+        })
+    }
+
     /// Refuses the first number of a recipe that is out of its bounds; `table` is where they stand.
     pub(crate) fn check(
-        numbers: &[Self],
+        keys: &[Self],
         recipe: &R,
         (checker, table): (&Checker<'_>, &str),
     ) -> Result<(), TextileError> {
-        for number in numbers {
-            if let Some(value) = (number.get)(recipe) {
-                checker.within(table, number.key, value, number.min..=number.max)?;
-            }
+        match Self::outside(keys, recipe) {
+            Some((key, value, [min, max])) => checker.within(table, key, value, min..=max),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
-/// What a key of a recipe may hold a number as.
-pub(crate) trait Figure {
-    /// The number; `None` if it is left out.
-    fn figure(&self) -> Option<f64>;
-}
+/// What a key of a recipe may hold.
+pub(crate) trait KeyType {
+    /// What a window offers; bounds and unit of numbers.
+    fn kind(bounds: [f64; 2], unit: &'static str) -> ParameterKind;
 
-impl Figure for f64 {
-    fn figure(&self) -> Option<f64> {
-        Some(*self)
+    /// Its numbers, which the reader checks.
+    fn numbers(&self) -> Vec<f64> {
+        Vec::new()
     }
 }
 
-impl Figure for u32 {
-    fn figure(&self) -> Option<f64> {
-        Some(f64::from(*self))
+/// Says of types what parameter they are, and the numbers in them.
+macro_rules! key_types {
+    ($($type:ty, |$bounds:pat_param, $unit:pat_param| $kind:expr, |$value:ident| $numbers:expr;)+) => {
+        $(impl KeyType for $type {
+            fn kind($bounds: [f64; 2], $unit: &'static str) -> ParameterKind {
+                $kind
+            }
+
+            fn numbers(&self) -> Vec<f64> {
+                let $value = self;
+                $numbers
+            }
+        })+
+    };
+}
+
+const fn number([min, max]: [f64; 2], unit: &'static str, is_whole: bool) -> ParameterKind {
+    ParameterKind::Number {
+        min,
+        max,
+        unit,
+        is_whole,
     }
 }
 
-impl Figure for u8 {
-    fn figure(&self) -> Option<f64> {
-        Some(f64::from(*self))
-    }
-}
-
-impl Figure for Option<f64> {
-    fn figure(&self) -> Option<f64> {
-        *self
-    }
+key_types! {
+    f64, |bounds, unit| number(bounds, unit, false), |number| vec![*number];
+    u32, |bounds, unit| number(bounds, unit, true), |number| vec![f64::from(*number)];
+    u8, |bounds, unit| number(bounds, unit, true), |number| vec![f64::from(*number)];
+    Option<f64>, |[min, max], unit| ParameterKind::Optional { min, max, unit, instead_of: "" },
+        |number| number.iter().copied().collect();
+    Vec<f64>, |_, unit| ParameterKind::Numbers(unit), |numbers| numbers.clone();
+    Vec<u32>, |_, _| ParameterKind::Counts, |counts| counts.iter().copied().map(f64::from).collect();
+    bool, |_, _| ParameterKind::Flag, |_flag| Vec::new();
+    String, |_, _| ParameterKind::Colour, |_colour| Vec::new();
 }
 
 /// Where a parameter stands in a manifest.
@@ -175,46 +205,28 @@ pub(crate) fn seed() -> Parameter {
     )
 }
 
-/// The numbers of a table as parameters: those in `first`, then the others in their order.
-pub(crate) fn numbers_of<R>(
+/// The keys of a table as parameters: those in `first`, then the others in their order.
+pub(crate) fn parameters_of<R>(
     table: &'static str,
-    numbers: &[Number<R>],
+    keys: &[KeySpec<R>],
     first: &[&str],
 ) -> Vec<Parameter> {
-    let place = |number: &&Number<R>| {
-        let place = first.iter().position(|key| *key == number.key);
+    let place = |key: &&KeySpec<R>| {
+        let place = first.iter().position(|first| *first == key.key);
         place.unwrap_or(first.len())
     };
-    let mut ordered: Vec<&Number<R>> = numbers.iter().collect();
+    let mut ordered: Vec<&KeySpec<R>> = keys.iter().collect();
     ordered.sort_by_key(place);
-    let parameter = |number: &Number<R>| Parameter {
+    let parameter = |key: &KeySpec<R>| Parameter {
         place: Place {
             table,
-            key: number.key,
+            key: key.key,
         },
-        name: number.name,
-        what: number.what,
-        kind: ParameterKind::Number {
-            min: number.min,
-            max: number.max,
-            unit: number.unit,
-            is_whole: false,
-        },
+        name: key.name,
+        what: key.what,
+        kind: (key.kind)(key.ends(), key.unit),
     };
     ordered.into_iter().map(parameter).collect()
-}
-
-/// The same number where it may be left out.
-pub(crate) fn optional(kind: ParameterKind, instead_of: &'static str) -> ParameterKind {
-    match kind {
-        ParameterKind::Number { min, max, unit, .. } => ParameterKind::Optional {
-            min,
-            max,
-            unit,
-            instead_of,
-        },
-        other => other,
-    }
 }
 
 /// Declares an enum with the words that files use for its variants: `Variant = "word",`.
@@ -231,6 +243,12 @@ macro_rules! choice {
         impl $name {
             /// The words of files, in order.
             pub(crate) const WORDS: &'static [&'static str] = &[$($word),+];
+        }
+
+        impl crate::recipe::KeyType for $name {
+            fn kind(_: [f64; 2], _: &'static str) -> crate::recipe::ParameterKind {
+                crate::recipe::ParameterKind::Choice(Self::WORDS)
+            }
         }
     };
 }

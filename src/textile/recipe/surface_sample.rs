@@ -1,13 +1,9 @@
 //! A sample of a model surface: what four strokes over it read, and a patch for its picture.
 
-use std::path::Path;
-
 use super::Model;
-use crate::error::TextileError;
-use crate::profile_file;
 use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::{Grid, quantile};
+use selvedge_foundation::numerics::{Grid, quantile, to_byte};
 
 /// Four strokes and a patch.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,16 +48,8 @@ impl SurfaceSample {
 }
 
 impl Model for SurfaceSample {
-    fn profile_files(&self) -> Result<[String; 4], TextileError> {
-        let mut texts: [String; 4] = Default::default();
-        for direction in Direction::ALL {
-            let is_weft = matches!(direction, Direction::WeftForward | Direction::WeftReverse);
-            let step_mm = self.step_mm[usize::from(is_weft)];
-            let heights = &self.strokes_um[direction.index()];
-            texts[direction.index()] =
-                profile_file::write(heights, step_mm, Path::new(direction.key()))?;
-        }
-        Ok(texts)
+    fn strokes_um(&self) -> ([Vec<f64>; 4], [f64; 2]) {
+        (self.strokes_um.clone(), self.step_mm)
     }
 
     fn relief(&self, _step_mm: f64) -> Result<HeightMap, SurfaceError> {
@@ -122,21 +110,15 @@ pub fn lit(heights_um: &Grid<f64>) -> Rgb8Image {
     }
     let mut sizes: Vec<f64> = slopes.iter().map(|slope| slope.abs()).collect();
     let usual = quantile(&mut sizes, 0.9).max(f64::MIN_POSITIVE);
-    let grey = |slope: &f64| [to_byte(GREY + CONTRAST * (slope / usual).clamp(-2.0, 1.5)); 3];
+    let grey = |slope: &f64| {
+        let grey = GREY + CONTRAST * (slope / usual).clamp(-2.0, 1.5);
+        [to_byte((grey / GREY_STEP).round() * GREY_STEP); 3]
+    };
     Rgb8Image {
         width,
         height,
         pixels: slopes.iter().map(grey).collect(),
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "0…255"
-)]
-fn to_byte(value: f64) -> u8 {
-    ((value / GREY_STEP).round() * GREY_STEP).clamp(0.0, 255.0) as u8
 }
 
 #[cfg(test)]

@@ -5,14 +5,14 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured, open};
-use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
+use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys, source};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
     WINDOW_LENGTH_MM,
 };
 use crate::unit::LengthUnit;
 use selvedge_foundation::files::{FileError, sha256_hex};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 keys! {
     /// Measured heights (`kind = "heightmap"`, or `"x3p"` for a file of that format).
@@ -60,24 +60,15 @@ keys! {
     }
 }
 
-fn default_noise() -> f64 {
-    Probe::default().noise_um
-}
-
-fn default_seed() -> u32 {
-    1
+defaults! {
+    default_noise: f64 = Probe::default().noise_um;
+    default_seed: u32 = 1;
 }
 
 impl Heightmap {
     /// The recipe of a file: the middle, with the tester's usual noise.
     pub(crate) fn new(file: String, asked: &HeightOptions) -> Self {
-        Self {
-            kind: "heightmap".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "heightmap" {
             representation: Representation::default(),
             file,
             sha256: None,
@@ -91,7 +82,7 @@ impl Heightmap {
             periodic: false,
             noise_um: default_noise(),
             seed: default_seed(),
-        }
+        })
     }
 
     fn asked(&self) -> HeightOptions {
@@ -127,9 +118,9 @@ impl Heightmap {
 
     fn level(&self, measured: &Measured, path: &Path) -> Result<HeightMap, TextileError> {
         let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm);
-        let map = map.map_err(|source| surface_error(source, path))?;
+        let map = map.map_err(TextileError::surface(path))?;
         if measured.is_profile() {
-            return levelled_profile(&map).map_err(|source| surface_error(source, path));
+            return levelled_profile(&map).map_err(TextileError::surface(path));
         }
         Ok(if self.periodic {
             map.periodic()
@@ -179,10 +170,9 @@ impl Heightmap {
         place_mm: Option<[f64; 2]>,
         path: &Path,
     ) -> Result<ProfileSet, TextileError> {
-        let failed = |source: SurfaceError| surface_error(source, path);
         let size_mm = laid.map.size_mm();
         if laid.is_profile {
-            return profile(&laid.map).map_err(failed);
+            return profile(&laid.map).map_err(TextileError::surface(path));
         }
         let place_mm = place_mm.unwrap_or_else(|| size_mm.map(|mm| 0.5 * mm));
         check_place(place_mm, size_mm, path)?;
@@ -192,7 +182,7 @@ impl Heightmap {
         };
         let random = Random::new(u64::from(self.seed)).branch("probe");
         let strokes = laid.map.strokes(&probe, place_mm, &random);
-        let mut profiles = strokes.map_err(|(_, error)| failed(error))?;
+        let mut profiles = strokes.map_err(|(_, error)| TextileError::surface(path)(error))?;
         if !laid.has_weft {
             for direction in [Direction::WeftForward, Direction::WeftReverse] {
                 profiles[direction.index()] = None;
@@ -219,7 +209,7 @@ impl HeightsFile for Heightmap {
 
 impl Recipe for Heightmap {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         for place in self.place_mm.into_iter().flatten() {
             checker.within("source", "place_mm", place, 0.0..=10_000.0)?;
         }
@@ -247,13 +237,6 @@ pub(crate) struct Laid {
     pub(crate) notes: Vec<String>,
 }
 
-fn surface_error(source: SurfaceError, path: &Path) -> TextileError {
-    TextileError::Surface {
-        path: path.to_owned(),
-        source,
-    }
-}
-
 /// How missing points are filled for the strokes; the file keeps them missing.
 const FILLED: &str = "filled along row and column between the nearest heights, mean of both";
 
@@ -263,13 +246,7 @@ fn n_of(map: &HeightMap) -> [usize; 2] {
 
 /// Samples of one window along an axis.
 fn n_window(map: &HeightMap, axis: usize) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a step of 0.0005 to 0.5 mm: 9 to 8696"
-    )]
-    let n = (WINDOW_LENGTH_MM / map.step_mm()[axis] + 0.5) as usize;
-    n
+    to_index(WINDOW_LENGTH_MM / map.step_mm()[axis] + 0.5)
 }
 
 fn too_short(map: &HeightMap, path: &Path) -> FileError {

@@ -5,7 +5,7 @@ use super::heightmap::Heightmap;
 use crate::error::TextileError;
 use crate::metrology::HeightOptions;
 use crate::picture::shading::{Light, Method};
-use crate::recipe::{Checker, HeightsFile, Number, Recipe, keys};
+use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
 use crate::surface::{Probe, Representation};
 
 keys! {
@@ -61,12 +61,9 @@ keys! {
     }
 }
 
-fn default_noise() -> f64 {
-    Probe::default().noise_um
-}
-
-fn default_seed() -> u32 {
-    1
+defaults! {
+    default_noise: f64 = Probe::default().noise_um;
+    default_seed: u32 = 1;
 }
 
 impl PictureSource {
@@ -112,7 +109,7 @@ impl PictureSource {
 
 impl Recipe for PictureSource {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         self.check_places(checker)?;
         checker.file_name("source", "file", Some(&self.file))
     }

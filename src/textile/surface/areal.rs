@@ -15,12 +15,12 @@ use super::{
     BIN_SPACING_PER_MM, Direction, HeightMap, LocalSpectra, N_BINS, Probe, Profile, ProfileSet,
     Representation, SpectralPlan, Surface, SurfaceError, WINDOW_LENGTH_MM,
 };
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// Width of the wire that areal spectra are read with, mm: the distance of points.
 pub const AREAL_WIRE_MM: f64 = 1.0;
 /// Points along a repeat of a periodic map at which looking for a better fit ends.
-const MAX_POINTS_OF_REPEATS: u32 = 64;
+const MAX_POINTS_OF_REPEATS: usize = 64;
 /// How far the last point of a periodic map may miss the first, mm, without looking further.
 const SEAM_MM: f64 = 0.05;
 
@@ -133,22 +133,16 @@ impl Points {
 /// that a whole number of repeats follows within [`SEAM_MM`], else those that miss it least.
 fn starts_in_repeats(n_samples: usize, step_mm: f64) -> Vec<usize> {
     let repeat_mm = n_samples as f64 * step_mm;
-    let miss_mm = |n: u32| {
-        let n_repeats = (f64::from(n) / repeat_mm).round().max(1.0);
-        (f64::from(n) - n_repeats * repeat_mm).abs()
+    let miss_mm = |n: usize| {
+        let n_repeats = (n as f64 / repeat_mm).round().max(1.0);
+        (n as f64 - n_repeats * repeat_mm).abs()
     };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a map is at most 32 km long"
-    )]
-    let whole = |x: f64| (x + 0.5).floor() as u32;
-    let max = MAX_POINTS_OF_REPEATS.max(whole(repeat_mm));
-    let closer = |best: u32, n: u32| if miss_mm(n) < miss_mm(best) { n } else { best };
+    let max = MAX_POINTS_OF_REPEATS.max(to_index(repeat_mm + 0.5));
+    let closer = |best: usize, n: usize| if miss_mm(n) < miss_mm(best) { n } else { best };
     let first_fit = (1..=max).find(|&n| miss_mm(n) <= SEAM_MM);
     let n_points = first_fit.unwrap_or_else(|| (2..=max).fold(1, closer));
     (0..n_points)
-        .map(|j| whole(f64::from(j) / step_mm) as usize % n_samples)
+        .map(|j| to_index(j as f64 / step_mm + 0.5) % n_samples)
         .collect()
 }
 

@@ -24,6 +24,17 @@ impl Direction {
         Self::WeftReverse,
     ];
 
+    /// Forward and reverse along the warp, then along the weft.
+    pub(crate) const BY_AXIS: [[Self; 2]; 2] = [
+        [Self::WarpForward, Self::WarpReverse],
+        [Self::WeftForward, Self::WeftReverse],
+    ];
+
+    /// Whether the stroke runs along the weft.
+    pub(crate) fn is_weft(self) -> bool {
+        matches!(self, Self::WeftForward | Self::WeftReverse)
+    }
+
     /// 0 … 3.
     pub fn index(self) -> usize {
         self as usize

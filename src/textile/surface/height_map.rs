@@ -5,7 +5,7 @@
 
 use super::tracks::Tracks;
 use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 /// Most points of a map: 64 million, half a gigabyte of heights.
 pub(crate) const MAX_POINTS: usize = 64_000_000;
@@ -112,18 +112,26 @@ impl HeightMap {
         sum / n
     }
 
+    /// The map with heights that are so many times as large.
+    #[must_use]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            heights_um: self.heights_um.map(|height| height * factor),
+            ..*self
+        }
+    }
+
     /// The map with the plane taken off that fits it best (least squares over what is there).
     #[must_use]
     pub(crate) fn levelled(&self) -> Self {
         let [slope_u, slope_w, offset] = self.plane();
-        let mut heights_um = self.heights_um.clone();
-        for row in 0..heights_um.height() {
-            for (column, height) in heights_um.row_mut(row).iter_mut().enumerate() {
-                *height -= offset + slope_u * column as f64 + slope_w * row as f64;
-            }
-        }
+        let heights = &self.heights_um;
+        let level = |column: usize, row: usize| {
+            let plane = offset + slope_u * column as f64 + slope_w * row as f64;
+            heights.row(row)[column] - plane
+        };
         Self {
-            heights_um,
+            heights_um: Grid::from_fn(heights.width(), heights.height(), level),
             ..*self
         }
     }
@@ -216,10 +224,7 @@ impl HeightMap {
         random: &Random,
     ) -> Result<ProfileSet, (Direction, SurfaceError)> {
         let mut profiles = ProfileSet::default();
-        for (is_weft, pair) in [
-            (false, [Direction::WarpForward, Direction::WarpReverse]),
-            (true, [Direction::WeftForward, Direction::WeftReverse]),
-        ] {
+        for (is_weft, pair) in [false, true].into_iter().zip(Direction::BY_AXIS) {
             let step_mm = self.step_mm[usize::from(is_weft)];
             let across_mm = middle_mm[usize::from(!is_weft)];
             let lift = self.lift_um(probe, is_weft, across_mm);
@@ -240,13 +245,7 @@ impl HeightMap {
         let n = [self.heights_um.width(), self.heights_um.height()][usize::from(is_weft)];
         // What repeats is stroked for 20 mm, in whole repeats, so that its end fits its beginning.
         let n_repeats = if self.is_periodic {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a step of 0.0005 to 0.5 mm: at most 40,000 repeats"
-            )]
-            let n_repeats = (STROKE_MM / (n as f64 * step_mm)).ceil() as usize;
-            n_repeats.max(1)
+            to_index((STROKE_MM / (n as f64 * step_mm)).ceil()).max(1)
         } else {
             1
         };
@@ -293,13 +292,9 @@ fn fill_gaps(heights: &mut [f64]) {
 
 /// Rows as columns.
 pub(super) fn transposed(grid: &Grid<f64>) -> Grid<f64> {
-    let mut turned = Grid::filled(grid.height(), grid.width(), f64::NAN);
-    for row in 0..grid.height() {
-        for (column, &value) in grid.row(row).iter().enumerate() {
-            turned.row_mut(column)[row] = value;
-        }
-    }
-    turned
+    Grid::from_fn(grid.height(), grid.width(), |column, row| {
+        grid.row(column)[row]
+    })
 }
 
 /// Three linear equations by elimination; `None` if they do not determine the answer.

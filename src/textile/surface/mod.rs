@@ -28,7 +28,7 @@ pub(crate) use friction::mean_deviation;
 pub use height_map::HeightMap;
 pub(crate) use height_map::MAX_POINTS;
 pub use probe::Probe;
-pub use profile::{Profile, ProfileSet};
+pub use profile::{Profile, ProfileSet, smd_um};
 pub(crate) use spectra::SpectralPlan;
 pub use spectra::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS, WINDOW_LENGTH_MM};
 
@@ -104,12 +104,7 @@ impl Surface {
     /// The KES roughness figure SMD in µm: the mean over the profiles that were measured, or, of an
     /// areal surface, over the strokes through its middle.
     pub fn smd_um(&self) -> f64 {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for profile in self.profiles.iter().flatten() {
-            sum += profile.smd_um();
-            count += 1.0;
-        }
-        sum / count
+        smd_um(&self.profiles)
     }
 }
 

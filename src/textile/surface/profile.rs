@@ -83,6 +83,12 @@ impl Profile {
     }
 }
 
+/// The mean roughness SMD of strokes, µm.
+pub fn smd_um(profiles: &ProfileSet) -> f64 {
+    let smd_um: Vec<f64> = profiles.iter().flatten().map(Profile::smd_um).collect();
+    smd_um.iter().sum::<f64>() / smd_um.len().max(1) as f64
+}
+
 /// The mean step of places in mm that rise evenly; `None` of less than two samples.
 ///
 /// # Errors

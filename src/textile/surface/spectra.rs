@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::{Profile, SurfaceError};
-use selvedge_foundation::numerics::{ChirpTransform, Complex, RealTransform};
+use selvedge_foundation::numerics::{ChirpTransform, Complex, RealTransform, to_index};
 
 /// Number of bins: wavenumbers 0.23 k cycles/mm, k = 1 … 500.
 pub const N_BINS: usize = 500;
@@ -41,12 +41,7 @@ impl SpectralPlan {
     /// The same for the first `n_bins` bins only.
     pub(super) fn with_bins(step_mm: f64, n_bins: usize) -> Self {
         let samples = WINDOW_LENGTH_MM / step_mm;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a step of 0.0005 to 0.5 mm gives 9 to 8696 samples"
-        )]
-        let n_window = (samples + 0.5).floor() as usize;
+        let n_window = to_index(samples + 0.5);
         let hamming = |i: usize| 0.54 - 0.46 * (TAU * i as f64 / samples).cos();
         let is_whole = (samples - n_window as f64).abs() < 1e-9 * samples;
         let transform = if is_whole {
@@ -207,15 +202,9 @@ impl LocalSpectra {
 /// The first sample of every point's window: points 1 mm apart, as many as fit into `slack`
 /// samples beyond one window.
 pub(super) fn starts_of_points(slack: usize, step_mm: f64) -> Vec<usize> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "non-negative and at most the number of samples"
-    )]
-    let whole = |x: f64| x.floor() as usize;
-    let last = whole(slack as f64 * step_mm + 1e-6);
+    let last = to_index(slack as f64 * step_mm + 1e-6);
     (0..=last)
-        .map(|j| whole(j as f64 / step_mm + 0.5).min(slack))
+        .map(|j| to_index(j as f64 / step_mm + 0.5).min(slack))
         .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::HeightMap;
 use super::height_map::transposed;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_index};
 
 /// The tracks of a map along u, or along w, missing heights filled.
 pub(super) struct Tracks {
@@ -56,13 +56,10 @@ impl Tracks {
     /// The tracks within a wire's width about a place across the stroke; at least one.
     fn within(&self, middle_mm: f64, width_mm: f64) -> Vec<usize> {
         let n = self.rows.height();
-        let middle = (middle_mm / self.step_mm).floor().max(0.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "places within a map"
-        )]
-        let (middle, half) = (middle as usize, (0.5 * width_mm / self.step_mm) as usize);
+        let (middle, half) = (
+            to_index(middle_mm / self.step_mm),
+            to_index(0.5 * width_mm / self.step_mm),
+        );
         if self.is_periodic {
             let n_tracks = (2 * half + 1).min(n);
             let first = middle + n - (half % n);

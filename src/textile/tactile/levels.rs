@@ -75,7 +75,7 @@ impl Levels {
 }
 
 /// The level of two mean amplitudes in µm; `None` when either is 0 (or not a number).
-fn level_of_means([low_um, high_um]: [f64; 2]) -> Option<f64> {
+pub(crate) fn level_of_means([low_um, high_um]: [f64; 2]) -> Option<f64> {
     let level = 0.5 * (level_db(low_um) + level_db(high_um));
     level.is_finite().then_some(level)
 }

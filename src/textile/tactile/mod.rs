@@ -15,6 +15,7 @@ mod response;
 mod tuning;
 
 pub use filters::Filters;
+pub(crate) use levels::level_of_means;
 pub use levels::{LEVEL_SPEED_MM_PER_S, Levels};
 pub use perception::{Perception, detection_threshold_db, just_noticeable_db, vibrating_mean_um};
 pub use response::{

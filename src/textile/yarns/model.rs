@@ -1,12 +1,8 @@
 //! Yarns under the virtual tester: a model that is felt.
 
-use std::path::Path;
-
 use super::path::YarnGeometry;
 use super::portrait::{PX_PER_MM, portrait};
 use super::relief::{Axis, Relief, Window, relief_map};
-use crate::error::TextileError;
-use crate::profile_file;
 use crate::recipe::{Model, Side};
 use crate::surface::{Direction, HeightMap, Probe, SurfaceError};
 use selvedge_foundation::files::Rgb8Image;
@@ -50,14 +46,9 @@ pub(crate) fn model(
 }
 
 impl Model for StrokedYarns {
-    fn profile_files(&self) -> Result<[String; 4], TextileError> {
-        let mut texts: [String; 4] = Default::default();
+    fn strokes_um(&self) -> ([Vec<f64>; 4], [f64; 2]) {
         let strokes = profiles(&self.geometry, &self.probe, &self.random);
-        for (direction, heights) in Direction::ALL.into_iter().zip(&strokes) {
-            texts[direction.index()] =
-                profile_file::write(heights, STEP_MM, Path::new(direction.key()))?;
-        }
-        Ok(texts)
+        (strokes, [STEP_MM; 2])
     }
 
     fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
@@ -79,10 +70,7 @@ impl Model for StrokedYarns {
 /// the mean height of the strip.
 fn profiles(geometry: &YarnGeometry, probe: &Probe, random: &Random) -> [Vec<f64>; 4] {
     let mut heights: [Vec<f64>; 4] = Default::default();
-    for (axis, pair) in [
-        (Axis::Warp, [Direction::WarpForward, Direction::WarpReverse]),
-        (Axis::Weft, [Direction::WeftForward, Direction::WeftReverse]),
-    ] {
+    for (axis, pair) in [Axis::Warp, Axis::Weft].into_iter().zip(Direction::BY_AXIS) {
         let margin = probe.margin_samples(STEP_MM);
         let track_mm = probe.width_mm / N_TRACKS as f64;
         let window = Window {

@@ -6,7 +6,7 @@ use super::path::YarnGeometry;
 use super::relief::{Axis, Relief, Window};
 use super::variation::count;
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::quantile;
+use selvedge_foundation::numerics::{quantile, to_byte};
 
 /// Pixels a millimetre of the finished picture.
 pub(crate) const PX_PER_MM: f64 = 10.0;
@@ -53,7 +53,10 @@ pub(crate) fn portrait(geometry: &YarnGeometry) -> Rgb8Image {
                     (0..3).for_each(|c| sum[c] += own[c] * light);
                 }
             }
-            pixels.push(sum.map(|s| to_byte(s / (FINE * FINE) as f64)));
+            pixels.push(sum.map(|s| {
+                let value = s / (FINE * FINE) as f64;
+                to_byte((255.0 * value / COLOUR_STEP).round() * COLOUR_STEP)
+            }));
         }
     }
     Rgb8Image {
@@ -110,14 +113,4 @@ impl Depth {
         let share = ((height - self.low_um) / (self.high_um - self.low_um)).clamp(0.0, 1.15);
         0.45 + 0.55 * share.sqrt()
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "0…255"
-)]
-fn to_byte(value: f64) -> u8 {
-    let stepped = (255.0 * value / COLOUR_STEP).round() * COLOUR_STEP;
-    stepped.clamp(0.0, 255.0) as u8
 }

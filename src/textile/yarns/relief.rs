@@ -3,7 +3,7 @@
 use super::path::{Node, YarnGeometry, YarnPath};
 use super::variation::count;
 use crate::surface::{HeightMap, SurfaceError};
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_index};
 
 /// Which way the columns of a window run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -164,13 +164,7 @@ impl Window {
             let index = |x: f64| (x - self.start_mm[k]) / self.step_mm[k];
             let first = index(piece.from[k].min(to) - reach).ceil();
             let end = index(piece.from[k].max(to) + reach).floor() + 1.0;
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "clamped to the window first"
-            )]
-            let cell = |x: f64| x.clamp(0.0, self.n[k] as f64) as usize;
-            [cell(first), cell(end)]
+            [first, end].map(|x| to_index(x).min(self.n[k]))
         };
         (range(0), range(1))
     }

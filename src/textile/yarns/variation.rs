@@ -4,7 +4,7 @@
 //! on themselves. Every variation here is periodic too. All have mean 0 and variance 1 (over the
 //! draws), so a recipe's figure is the standard deviation that it says.
 
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// Smooth normal noise on a circle, sampled evenly and interpolated.
 #[derive(Debug, Clone)]
@@ -97,13 +97,8 @@ fn cell(turns: f64, n: usize) -> (usize, f64) {
 }
 
 /// A non-negative number as a count; 0 for what is none.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates, as wanted"
-)]
 pub(crate) fn count(x: f64) -> usize {
-    x.ceil().max(0.0) as usize
+    to_index(x.ceil())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::path::{Node, YarnPath};
 use super::variation::{Drift, count};
 use crate::error::TextileError;
-use crate::recipe::{Checker, Group, Number, Parameter, ParameterKind, Place, keys, numbers_of};
+use crate::recipe::{Checker, Group, KeySpec, defaults, keys, parameters_of};
 use selvedge_foundation::numerics::Random;
 
 keys! {
@@ -70,8 +70,8 @@ keys! {
         pub(crate) hair_clump: f64
             => "Clumped hairs" 0.0 ..= 2.0 ""
             "How unevenly the loose fibres are raised: standard deviation of the logarithm",
-        /// Colour of the fibre, `#rrggbb`.
-        pub(crate) colour: String,
+        pub(crate) colour: String
+            => "Colour": "Colour of the fibre, #rrggbb",
         #[serde(default)]
         pub(crate) colour_cv: f64
             => "Uneven colour" 0.0 ..= 0.6 ""
@@ -79,29 +79,19 @@ keys! {
     }
 }
 
-fn default_uneven_mm() -> f64 {
-    3.0
-}
-fn default_slub_mm() -> f64 {
-    8.0
-}
-fn default_band_mm() -> f64 {
-    4.0
-}
-fn default_plies() -> u8 {
-    2
-}
-fn default_hair_mm() -> f64 {
-    1.5
-}
-fn default_hair_um() -> f64 {
-    18.0
+defaults! {
+    default_uneven_mm: f64 = 3.0;
+    default_slub_mm: f64 = 8.0;
+    default_band_mm: f64 = 4.0;
+    default_plies: u8 = 2;
+    default_hair_mm: f64 = 1.5;
+    default_hair_um: f64 = 18.0;
 }
 
 impl Yarn {
     /// Refuses figures that no yarn has.
     pub(crate) fn check(&self, checker: &Checker<'_>, table: &str) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, table))?;
+        KeySpec::check(Self::KEYS, self, (checker, table))?;
         if parse_colour(&self.colour).is_none() {
             let what = format!("colour is \"{}\"", self.colour);
             return Err(checker.wrong(table, "colour", what, "write it as \"#rrggbb\""));
@@ -111,23 +101,11 @@ impl Yarn {
 
     /// Its parameters as those of a table.
     pub(crate) fn group(table: &'static str, title: &'static str) -> Group {
-        let mut parameters = numbers_of(table, Self::NUMBERS, &[]);
-        for parameter in &mut parameters {
-            if let ("plies", ParameterKind::Number { is_whole, .. }) =
-                (parameter.place.key, &mut parameter.kind)
-            {
-                *is_whole = true;
-            }
+        let mut parameters = parameters_of(table, Self::KEYS, &[]);
+        // The colour stands last.
+        if let Some(colour) = parameters.iter().position(|one| one.place.key == "colour") {
+            parameters[colour..].rotate_left(1);
         }
-        parameters.push(Parameter {
-            place: Place {
-                table,
-                key: "colour",
-            },
-            name: "Colour",
-            what: "Colour of the fibre, #rrggbb",
-            kind: ParameterKind::Colour,
-        });
         Group { title, parameters }
     }
 

@@ -24,13 +24,9 @@ impl Weights {
     fn of(brightness: &Grid<f64>, light: Light, options: &ShadingOptions) -> Self {
         let (width, height) = (brightness.width(), brightness.height());
         let lean = light.lean();
-        let mut h = Grid::filled(width / 2 + 1, height, 0.0);
-        for row in 0..height {
-            let ky = wavenumber(row, height);
-            for (column, h) in h.row_mut(row).iter_mut().enumerate() {
-                *h = -(lean[0] * wavenumber(column, width) + lean[1] * ky);
-            }
-        }
+        let h = Grid::from_fn(width / 2 + 1, height, |column, row| {
+            -(lean[0] * wavenumber(column, width) + lean[1] * wavenumber(row, height))
+        });
         // The variational method's regulariser is of another kind.
         let stated = options.regulariser;
         let is_linear = options.method == Method::Linear;
@@ -54,11 +50,7 @@ fn wavenumber(k: usize, n: usize) -> f64 {
 /// The brightness over its mean, less 1, transformed.
 fn contrast(brightness: &Grid<f64>, transform: &PlaneTransform) -> Grid<Complex> {
     let level = mean(brightness);
-    let mut contrast = brightness.clone();
-    for e in contrast.values_mut() {
-        *e = *e / level - 1.0;
-    }
-    transform.forward(&contrast)
+    transform.forward(&brightness.map(|e| e / level - 1.0))
 }
 
 /// Heights by the linear inversion, px.

@@ -10,7 +10,7 @@
 //!
 //! # Invariants
 //! - x runs along rows, y across them; **row 0 is the lowest y** as in height maps, so pictures,
-//!   whose rows come from the top, are turned over first ([`rows_turned_over`])
+//!   whose rows come from the top, are turned over first ([`Grid::turned_over`])
 //! - the tile repeats both ways; heights are in pixels, about their mean
 //! - same brightness, same options, same bytes; every height is finite
 
@@ -67,7 +67,7 @@ pub fn shape_from_shading(
     let blind = linear::blind(brightness, light, options);
     progress.step(1.0, "shape from shading")?;
     Ok(Shape {
-        height_px: about_mean(found.height_px),
+        height_px: about_mean(&found.height_px),
         method: options.method,
         light,
         albedo: found.albedo,
@@ -122,24 +122,7 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
     })
 }
 
-/// The rows in the other order: from a picture's, which come from the top, to those of heights,
-/// which come from the lowest y, and back.
-#[must_use]
-pub(crate) fn rows_turned_over(grid: &Grid<f64>) -> Grid<f64> {
-    let mut turned = grid.clone();
-    let height = grid.height();
-    for row in 0..height {
-        turned
-            .row_mut(row)
-            .copy_from_slice(grid.row(height - 1 - row));
-    }
-    turned
-}
-
-fn about_mean(mut grid: Grid<f64>) -> Grid<f64> {
-    let mean = mean(&grid);
-    for value in grid.values_mut() {
-        *value -= mean;
-    }
-    grid
+fn about_mean(grid: &Grid<f64>) -> Grid<f64> {
+    let mean = mean(grid);
+    grid.map(|value| value - mean)
 }

@@ -70,14 +70,9 @@ pub(super) fn along(z: &Grid<f64>) -> Grid<f64> {
 /// Central differences across rows, a px.
 pub(super) fn across(z: &Grid<f64>) -> Grid<f64> {
     let n = z.height();
-    let mut slopes = Grid::filled(z.width(), n, 0.0);
-    for row in 0..n {
-        let pairs = z.row(after(row, n)).iter().zip(z.row(before(row, n)));
-        for (slope, (above, below)) in slopes.row_mut(row).iter_mut().zip(pairs) {
-            *slope = 0.5 * (above - below);
-        }
-    }
-    slopes
+    Grid::from_fn(z.width(), n, |column, row| {
+        0.5 * (z.row(after(row, n))[column] - z.row(before(row, n))[column])
+    })
 }
 
 /// The sum of the four neighbours less four times the point.

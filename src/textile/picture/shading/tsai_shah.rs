@@ -80,10 +80,7 @@ pub(super) fn solve(
     progress: &mut Progress<'_>,
 ) -> Result<Found, ShadingError> {
     let albedo = options.albedo_for(brightness, light);
-    let mut target = brightness.clone();
-    for e in target.values_mut() {
-        *e /= albedo;
-    }
+    let target = brightness.map(|e| e / albedo);
     let mut state = State::flat(target.width(), target.height());
     let n = options.n_iterations();
     let mut residuals = Vec::with_capacity(n + 1);
@@ -91,10 +88,7 @@ pub(super) fn solve(
         progress.step(done as f64 / n as f64, "Tsai & Shah")?;
         residuals.push(state.step(&target, light.lean(), options.edges));
     }
-    let mut height_px = state.depth.clone();
-    for z in height_px.values_mut() {
-        *z = -*z;
-    }
+    let height_px = state.depth.map(|z| -z);
     residuals.push(state.step(&target, light.lean(), options.edges));
     Ok(Found {
         height_px,

@@ -151,11 +151,7 @@ pub(super) fn solve(
 /// Heights of a coarse tile as those of a finer one, whose pixels are smaller.
 fn finer(coarse: &Grid<f64>, size: [usize; 2]) -> Grid<f64> {
     let factor = size[0] as f64 / coarse.width() as f64;
-    let mut fine = resampled(coarse, size);
-    for z in fine.values_mut() {
-        *z *= factor;
-    }
-    fine
+    resampled(coarse, size).map(|z| z * factor)
 }
 
 impl Fit<'_> {
@@ -344,18 +340,14 @@ impl Tangent {
         let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
         let pq = dot(&self.by_p, &self.by_q) / n;
         let (width, height) = (self.by_p.width(), self.by_p.height());
-        let mut weights = Grid::filled(width / 2 + 1, height, 0.0);
-        for row in 0..height {
+        Grid::from_fn(width / 2 + 1, height, |column, row| {
+            let x = TAU * column as f64 / width as f64;
             let y = TAU * row as f64 / height as f64;
-            for (column, weight) in weights.row_mut(row).iter_mut().enumerate() {
-                let x = TAU * column as f64 / width as f64;
-                let [sx, sy] = [x.sin(), y.sin()];
-                let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
-                let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-                *weight = slope.max(0.0) + smoothness * bend * bend + shift;
-            }
-        }
-        weights
+            let [sx, sy] = [x.sin(), y.sin()];
+            let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
+            let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
+            slope.max(0.0) + smoothness * bend * bend + shift
+        })
     }
 }
 

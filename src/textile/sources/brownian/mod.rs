@@ -17,16 +17,27 @@ pub use hurst::Hurst;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, optional, parameter, seed, thinned,
+    Checker, Example, Group, KeySpec, Model, ParameterKind, Recipe, SurfaceSample, choice,
+    defaults, keys, parameter, parameters_of, seed, source, thinned,
 };
 use crate::surface::{HeightMap, Probe, ProfileSet};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// Most points along a side: the embedding of 1000 takes half a gigabyte.
 const MAX_POINTS: f64 = 1000.0;
 /// Rounds that bring a wire's reading to the SMD asked for.
 const N_ROUNDS: usize = 8;
+
+/// The order in which a window shows what has bounds.
+const FIRST: &[&str] = &[
+    "generator",
+    "hurst",
+    "length_mm",
+    "step_mm",
+    "noise_um",
+    "smd_um",
+    "rise_um",
+];
 
 choice! {
     /// How a Brownian surface is made.
@@ -57,9 +68,10 @@ keys! {
         pub seed: u32,
         pub hurst: f64
             => "Hurst exponent" 0.01 ..= 0.99 "" "Low is jagged, high gently rolling",
-        /// How it is made.
         #[serde(default = "exact")]
-        pub generator: Generator,
+        pub generator: Generator
+            => "Generator":
+            "Exact: no approximation and no repeat; periodic: repeats, takes cut-offs",
         /// Amplitude: the mean roughness SMD of the four strokes, µm. This or `rise_um`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub smd_um: Option<f64>
@@ -81,35 +93,25 @@ keys! {
         #[serde(default = "default_step_mm")]
         pub step_mm: f64
             => "Step" 0.005 ..= 0.2 "mm" "Distance of its points: 1000 along a side are the most",
-        /// What is drawn over it.
         #[serde(default)]
-        pub(crate) tip: Tip,
+        pub(crate) tip: Tip
+            => "Tip": "A point, or the 5 mm wide wire of the virtual tester",
         #[serde(default)]
         pub noise_um: f64
             => "Noise of the tip" 0.0 ..= 10.0 "µm" "Noise of the tip, rms",
     }
 }
 
-fn exact() -> Generator {
-    Generator::Exact
-}
-fn default_length_mm() -> f64 {
-    20.0
-}
-fn default_step_mm() -> f64 {
-    0.02
+defaults! {
+    exact: Generator = Generator::Exact;
+    default_length_mm: f64 = 20.0;
+    default_step_mm: f64 = 0.02;
 }
 
 impl Brownian {
     /// A recipe with this exponent and roughness, everything else as usual.
     pub fn new(hurst: f64, smd_um: f64, generator: Generator, seed: u32) -> Self {
-        Self {
-            kind: "brownian".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "brownian" {
             seed,
             hurst,
             generator,
@@ -121,20 +123,13 @@ impl Brownian {
             step_mm: default_step_mm(),
             tip: Tip::Point,
             noise_um: 0.0,
-        }
+        })
     }
 
     /// Points along a side.
     fn n_points(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most a thousand"
-        )]
-        let n = (self.length_mm / self.step_mm)
-            .round()
-            .clamp(2.0, MAX_POINTS) as usize;
-        n
+        let n = (self.length_mm / self.step_mm).round();
+        to_index(n.clamp(2.0, MAX_POINTS))
     }
 
     fn check_cut_offs(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
@@ -165,7 +160,7 @@ impl Brownian {
         let n = self.n_points();
         let random = Random::new(u64::from(self.seed));
         let per_mm = 1.0 / self.length_mm;
-        let (mut heights, scale) = match self.generator {
+        let (heights, scale) = match self.generator {
             Generator::Exact => {
                 let heights = stein::surface(self.hurst, n, &random);
                 (
@@ -183,20 +178,13 @@ impl Brownian {
                 (synthesis::surface(&colour, n, unit, &random), rise_um)
             }
         };
-        heights
-            .values_mut()
-            .iter_mut()
-            .for_each(|height| *height *= scale);
-        let map = self.map(heights)?;
+        let step_mm = self.length_mm / n as f64;
+        let map = HeightMap::new(heights.map(|height| height * scale), [step_mm; 2]);
+        let map = map.map_err(no_surface)?;
         Ok(match self.generator {
             Generator::Exact => map,
             Generator::Periodic => map.periodic(),
         })
-    }
-
-    fn map(&self, heights_um: Grid<f64>) -> Result<HeightMap, TextileError> {
-        let step_mm = self.length_mm / self.n_points() as f64;
-        HeightMap::new(heights_um, [step_mm; 2]).map_err(no_surface)
     }
 
     fn strokes(&self, map: &HeightMap) -> Result<ProfileSet, TextileError> {
@@ -224,19 +212,12 @@ impl Brownian {
         let mut strokes = self.strokes(&map)?;
         if let Some(smd_um) = self.smd_um {
             for _ in 0..N_ROUNDS {
-                let found = mean_smd_um(&strokes);
+                let found = crate::surface::smd_um(&strokes);
                 let factor = if found > 0.0 { smd_um / found } else { 0.0 };
                 if (factor - 1.0).abs() < 1e-9 {
                     break;
                 }
-                let mut heights = map.heights_um().clone();
-                heights
-                    .values_mut()
-                    .iter_mut()
-                    .for_each(|height| *height *= factor);
-                let is_periodic = map.is_periodic();
-                map = self.map(heights)?;
-                map = if is_periodic { map.periodic() } else { map };
+                map = map.scaled(factor);
                 strokes = self.strokes(&map)?;
             }
         }
@@ -254,7 +235,7 @@ impl Brownian {
 
 impl Recipe for Brownian {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         let n = self.length_mm / self.step_mm;
         if n > MAX_POINTS + 0.5 {
             let what = format!("length_mm / step_mm is {n:.0} points");
@@ -277,22 +258,6 @@ impl Recipe for Brownian {
     }
 
     fn groups() -> Vec<Group> {
-        let generator = parameter(
-            "generator",
-            (
-                "Generator",
-                "Exact: no approximation and no repeat; periodic: repeats, takes cut-offs",
-            ),
-            ParameterKind::Choice(Generator::WORDS),
-        );
-        let tip = parameter(
-            "tip",
-            (
-                "Tip",
-                "A point, or the 5 mm wide wire of the virtual tester",
-            ),
-            ParameterKind::Choice(Tip::WORDS),
-        );
         let cut_off = |key, name, what| {
             let kind = ParameterKind::Optional {
                 min: 0.01,
@@ -302,21 +267,17 @@ impl Recipe for Brownian {
             };
             parameter(key, (name, what), kind)
         };
-        let mut surface = vec![generator];
-        surface.extend(numbers_of(
-            "source",
-            Self::NUMBERS,
-            &["hurst", "length_mm", "step_mm", "noise_um"],
-        ));
-        for (key, other) in [("smd_um", "rise_um"), ("rise_um", "smd_um")] {
-            let found = surface
-                .iter_mut()
-                .find(|parameter| parameter.place.key == key);
-            if let Some(parameter) = found {
-                parameter.kind = optional(parameter.kind, other);
+        let mut parameters = parameters_of("source", Self::KEYS, FIRST);
+        for parameter in &mut parameters {
+            if let ParameterKind::Optional { instead_of, .. } = &mut parameter.kind {
+                *instead_of = match parameter.place.key {
+                    "smd_um" => "rise_um",
+                    _ => "smd_um",
+                };
             }
         }
-        surface.extend([
+        let tip = parameters.split_off(FIRST.len());
+        parameters.extend([
             cut_off(
                 "shortest_mm",
                 "Shortest wave",
@@ -327,12 +288,12 @@ impl Recipe for Brownian {
                 "Longest wave",
                 "Waves longer than this are no stronger than this one; periodic alone",
             ),
-            tip,
-            seed(),
         ]);
+        parameters.extend(tip);
+        parameters.push(seed());
         vec![Group {
             title: "Surface",
-            parameters: surface,
+            parameters,
         }]
     }
 
@@ -351,18 +312,6 @@ impl Recipe for Brownian {
     }
 }
 
-/// The mean SMD of strokes, µm.
-fn mean_smd_um(strokes: &ProfileSet) -> f64 {
-    let each = strokes
-        .iter()
-        .flatten()
-        .map(crate::surface::Profile::smd_um);
-    each.sum::<f64>() / strokes.iter().flatten().count().max(1) as f64
-}
-
 fn no_surface(source: crate::surface::SurfaceError) -> TextileError {
-    TextileError::Surface {
-        path: "the Brownian surface".into(),
-        source,
-    }
+    TextileError::surface("the Brownian surface")(source)
 }

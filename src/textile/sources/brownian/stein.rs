@@ -69,15 +69,10 @@ impl Embedding {
     /// The covariance over the periodic grid, point (0, 0) at distance 0.
     fn grid(&self, n: usize) -> Grid<f64> {
         let n_embedded = self.n_embedded(n);
-        let mut grid = Grid::filled(n_embedded, n_embedded, 0.0);
         let away = |i: usize| i.min(n_embedded - i) as f64 / n as f64;
-        for row in 0..n_embedded {
-            let y = away(row);
-            for (column, value) in grid.row_mut(row).iter_mut().enumerate() {
-                *value = self.covariance(away(column).hypot(y));
-            }
-        }
-        grid
+        Grid::from_fn(n_embedded, n_embedded, |column, row| {
+            self.covariance(away(column).hypot(away(row)))
+        })
     }
 }
 
@@ -89,12 +84,7 @@ pub(super) fn surface(hurst: f64, n: usize, random: &Random) -> Grid<f64> {
     let transform = PlaneTransform::new(n_embedded, n_embedded);
     let powers = transform.forward(&embedding.grid(n));
     let mut noise = random.branch("surface");
-    let values = (0..n_embedded * n_embedded)
-        .map(|_| noise.normal())
-        .collect();
-    let Some(white) = Grid::from_rows(n_embedded, values) else {
-        return Grid::filled(n, n, 0.0);
-    };
+    let white = Grid::from_fn(n_embedded, n_embedded, |_, _| noise.normal());
     let mut spectrum = transform.forward(&white);
     for (x, power) in spectrum.values_mut().iter_mut().zip(powers.values()) {
         // Rounding may leave the least powers just below 0.
@@ -105,15 +95,10 @@ pub(super) fn surface(hurst: f64, n: usize, random: &Random) -> Grid<f64> {
     let slopes =
         [plane.normal(), plane.normal()].map(|x| x * (2.0 * embedding.c2).sqrt() / n as f64);
     let corner = whole.row(0)[0];
-    let mut patch = Grid::filled(n, n, 0.0);
-    for row in 0..n {
+    Grid::from_fn(n, n, |column, row| {
         let rise = slopes[1] * row as f64 - corner;
-        let from = whole.row(row);
-        for (column, height) in patch.row_mut(row).iter_mut().enumerate() {
-            *height = from[column] + rise + slopes[0] * column as f64;
-        }
-    }
-    patch
+        whole.row(row)[column] + rise + slopes[0] * column as f64
+    })
 }
 
 #[cfg(test)]

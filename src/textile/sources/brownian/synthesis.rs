@@ -34,10 +34,7 @@ impl Colour {
 pub(super) fn surface(colour: &Colour, n: usize, unit: f64, random: &Random) -> Grid<f64> {
     let transform = PlaneTransform::new(n, n);
     let mut noise = random.branch("surface");
-    let values = (0..n * n).map(|_| noise.normal()).collect();
-    let Some(white) = Grid::from_rows(n, values) else {
-        return Grid::filled(n, n, 0.0);
-    };
+    let white = Grid::from_fn(n, n, |_, _| noise.normal());
     let mut spectrum = transform.forward(&white);
     let rise = rises(colour, n, &[unit])[0];
     let scale = if rise > 0.0 { 1.0 / rise.sqrt() } else { 0.0 };

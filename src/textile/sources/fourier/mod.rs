@@ -22,12 +22,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, parameter, seed,
+    Checker, Example, Group, KeySpec, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    parameters_of, seed, source,
 };
 use crate::surface::HeightMap;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string, line_of_key};
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_index};
 
 /// The five templates that are part of the program: invented, see the file.
 const EXAMPLES: &str = include_str!("../../../../textiles/fourier-templates.toml");
@@ -65,12 +65,12 @@ keys! {
     source Fourier {
         /// Chooses what is drawn.
         pub(crate) seed: u32,
-        /// How two profiles become a surface.
         #[serde(default)]
-        pub(crate) composition: Composition,
-        /// How the paper's sum is read.
+        pub(crate) composition: Composition
+            => "Composition": "How two profiles become a surface",
         #[serde(default)]
-        pub(crate) reading: Reading,
+        pub(crate) reading: Reading
+            => "Reading": "The printed sum as corrected, or to the letter (with product)",
         #[serde(default = "default_lowest_per_m")]
         pub(crate) lowest_per_m: f64
             => "From" 0.0 ..= 1e5 "/m" "Harmonics below this are left out, cycles per metre",
@@ -84,36 +84,26 @@ keys! {
         pub(crate) step_mm: f64
             => "Step" 0.004 ..= 0.5 "mm" "Distance of the samples",
         /// The material along the warp.
-        pub(crate) template: FourierTemplate,
+        pub(crate) template: FourierTemplate
+            => "Template": "Mean and spread of the coefficients of each harmonic",
         /// The material along the weft; the warp's if it is left out.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        pub(crate) weft_template: Option<FourierTemplate>,
+        pub(crate) weft_template: Option<FourierTemplate>
+            => "Template": "Mean and spread of the coefficients of each harmonic",
     }
 }
 
-fn default_lowest_per_m() -> f64 {
-    100.0
-}
-fn default_highest_per_m() -> f64 {
-    1000.0
-}
-fn default_length_mm() -> f64 {
-    50.0
-}
-fn default_step_mm() -> f64 {
-    0.05
+defaults! {
+    default_lowest_per_m: f64 = 100.0;
+    default_highest_per_m: f64 = 1000.0;
+    default_length_mm: f64 = 50.0;
+    default_step_mm: f64 = 0.05;
 }
 
 impl Fourier {
     /// The recipe of a template, everything else as usual.
     pub(crate) fn new(template: FourierTemplate, seed: u32) -> Self {
-        Self {
-            kind: "fourier".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "fourier" {
             seed,
             composition: Composition::default(),
             reading: Reading::default(),
@@ -123,7 +113,7 @@ impl Fourier {
             step_mm: default_step_mm(),
             template,
             weft_template: None,
-        }
+        })
     }
 
     fn templates(&self) -> [&FourierTemplate; 2] {
@@ -140,29 +130,18 @@ impl Fourier {
         let random = Random::new(u64::from(self.seed));
         let how = (self.composition, self.reading);
         let plane = series::Plane::draw(self.templates(), self.band_per_m(), how, &random);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 50 000"
-        )]
-        let n = (2.0 * self.length_mm / self.step_mm).round() as usize;
-        let at = |i: usize, step_mm: f64| mirrored(i as f64 * step_mm, self.length_mm);
-        let line: Vec<f64> = (0..n).map(|i| at(i, self.step_mm)).collect();
+        let n = |step_mm: f64| to_index((2.0 * self.length_mm / step_mm).round());
+        let line = |step_mm: f64| -> Vec<f64> {
+            let at = |i: usize| mirrored(i as f64 * step_mm, self.length_mm);
+            (0..n(step_mm)).map(at).collect()
+        };
+        let places = line(self.step_mm);
         let middle = [0.5 * self.length_mm];
-        let warp = plane.heights_um(&line, &middle).values().to_vec();
-        let weft = plane.heights_um(&middle, &line).values().to_vec();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 500"
-        )]
-        let n_picture = (2.0 * self.length_mm / PICTURE_STEP_MM).round() as usize;
-        let places: Vec<f64> = (0..n_picture).map(|i| at(i, PICTURE_STEP_MM)).collect();
+        let warp = plane.heights_um(&places, &middle).values().to_vec();
+        let weft = plane.heights_um(&middle, &places).values().to_vec();
+        let places = line(PICTURE_STEP_MM);
         let patch = HeightMap::new(plane.heights_um(&places, &places), [PICTURE_STEP_MM; 2]);
-        let patch = patch.map_err(|source| TextileError::Surface {
-            path: "the drawn surface".into(),
-            source,
-        })?;
+        let patch = patch.map_err(TextileError::surface("the drawn surface"))?;
         Ok(SurfaceSample::of_lines([warp, weft], self.step_mm, patch))
     }
 }
@@ -170,7 +149,7 @@ impl Fourier {
 impl Recipe for Fourier {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         within("highest_per_m", self.highest_per_m, self.lowest_per_m..=1e5)?;
         let max_per_m = 500.0 / self.step_mm;
         if self.highest_per_m > max_per_m {
@@ -205,34 +184,26 @@ impl Recipe for Fourier {
     }
 
     fn groups() -> Vec<Group> {
-        let composition = parameter(
-            "composition",
-            ("Composition", "How two profiles become a surface"),
-            ParameterKind::Choice(Composition::WORDS),
-        );
-        let reading = parameter(
-            "reading",
-            (
-                "Reading",
-                "The printed sum as corrected, or to the letter (with product)",
-            ),
-            ParameterKind::Choice(Reading::WORDS),
-        );
-        let mut surface = vec![composition, reading];
-        surface.extend(numbers_of(
-            "source",
-            Self::NUMBERS,
-            &["length_mm", "step_mm"],
-        ));
+        let first = &["composition", "reading", "length_mm", "step_mm"];
+        let mut surface = parameters_of("source", Self::KEYS, first);
+        let templates = surface.split_off(surface.len() - 2);
         surface.push(seed());
-        vec![
-            Group {
-                title: "Surface",
-                parameters: surface,
-            },
-            FourierTemplate::group("source.template", "Along the warp", false),
-            FourierTemplate::group("source.weft_template", "Along the weft", true),
-        ]
+        let of_axis = |((title, table), template)| {
+            let mut parameters = vec![template];
+            parameters.extend(parameters_of(table, FourierTemplate::KEYS, &[]));
+            Group { title, parameters }
+        };
+        let axes = [
+            ("Along the warp", "source.template"),
+            ("Along the weft", "source.weft_template"),
+        ];
+        let axes = axes.into_iter().zip(templates);
+        let mut groups = vec![Group {
+            title: "Surface",
+            parameters: surface,
+        }];
+        groups.extend(axes.map(of_axis));
+        groups
     }
 
     fn example() -> Result<Option<Example<Self>>, TextileError> {

@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::error::TextileError;
 use crate::surface::Profile;
 use selvedge_foundation::files::{FileError, Table};
-use selvedge_foundation::numerics::without_line;
+use selvedge_foundation::numerics::{to_index, without_line};
 
 /// Both instruments are resampled at this interval, s.
 const INTERVAL_S: f64 = 0.1;
@@ -90,12 +90,7 @@ pub fn import(probe: &Readings, tracker: &Readings) -> Result<ImportedProfile, T
             (to_s - from_s).max(0.0)
         )));
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked just above"
-    )]
-    let times = (0..=n as usize).map(|i| from_s + INTERVAL_S * i as f64);
+    let times = (0..=to_index(n)).map(|i| from_s + INTERVAL_S * i as f64);
     let mut pairs: Vec<[f64; 2]> = times.map(|s| [tracker.at(s), probe.at(s)]).collect();
     if pairs[pairs.len() - 1][0] < pairs[0][0] {
         pairs.reverse();
@@ -114,10 +109,8 @@ pub fn import(probe: &Readings, tracker: &Readings) -> Result<ImportedProfile, T
     let heights: Vec<f64> = (0..N_SAMPLES)
         .map(|i| between(&places, places[0][0] + STEP_MM * i as f64))
         .collect();
-    let profile = Profile::new(STEP_MM, without_line(&heights)).map_err(|source| {
-        let path = "the readings".into();
-        TextileError::Surface { path, source }
-    })?;
+    let profile = Profile::new(STEP_MM, without_line(&heights))
+        .map_err(TextileError::surface("the readings"))?;
     Ok(ImportedProfile {
         profile,
         worst_step_mm,

@@ -11,7 +11,7 @@
 //!   with a one-sided sum gives half of them
 
 use crate::error::TextileError;
-use crate::recipe::{Group, Parameter, ParameterKind, Place, keys, numbers_of};
+use crate::recipe::{KeySpec, KeyType, ParameterKind, keys};
 use crate::surface::Profile;
 use selvedge_foundation::numerics::RealTransform;
 
@@ -28,14 +28,14 @@ keys! {
         pub notes: String,
         pub fundamental_per_m: f64
             => "Harmonic 1" 0.1 ..= 10_000.0 "/m" "Harmonic 1, cycles per metre",
-        /// Mean of the cosines' coefficients, µm.
-        pub mean_cos_um: Vec<f64>,
-        /// Their standard deviation, µm.
-        pub(crate) sd_cos_um: Vec<f64>,
-        /// Mean of the sines' coefficients, µm.
-        pub(crate) mean_sin_um: Vec<f64>,
-        /// Their standard deviation, µm.
-        pub(crate) sd_sin_um: Vec<f64>,
+        pub mean_cos_um: Vec<f64>
+            => "Cosines, mean" -1e6 ..= 1e6 "µm" "Mean of the cosines",
+        pub(crate) sd_cos_um: Vec<f64>
+            => "Cosines, sd" 0.0 ..= 1e6 "µm" "Spread of the cosines",
+        pub(crate) mean_sin_um: Vec<f64>
+            => "Sines, mean" -1e6 ..= 1e6 "µm" "Mean of the sines",
+        pub(crate) sd_sin_um: Vec<f64>
+            => "Sines, sd" 0.0 ..= 1e6 "µm" "Spread of the sines",
     }
 }
 
@@ -96,64 +96,27 @@ impl FourierTemplate {
     /// What is wrong with it, if anything: the key, what, and how to mend it.
     pub fn fault(&self) -> Option<(&'static str, String, String)> {
         let n = self.mean_cos_um.len();
-        for number in Self::NUMBERS {
-            let (key, min, max) = (number.key, number.min, number.max);
-            let value = (number.get)(self).unwrap_or(min);
-            if !(min..=max).contains(&value) {
-                let what = format!("{key} is {value}");
-                return Some((key, what, format!("give {min} to {max}")));
-            }
-        }
         if n == 0 || n > MAX_HARMONICS {
             let what = format!("{n} harmonics");
             return Some(("mean_cos_um", what, format!("give 1 to {MAX_HARMONICS}")));
         }
-        for (key, values, is_sd) in [
-            ("mean_cos_um", &self.mean_cos_um, false),
-            ("sd_cos_um", &self.sd_cos_um, true),
-            ("mean_sin_um", &self.mean_sin_um, false),
-            ("sd_sin_um", &self.sd_sin_um, true),
+        for (key, found) in [
+            ("sd_cos_um", self.sd_cos_um.len()),
+            ("mean_sin_um", self.mean_sin_um.len()),
+            ("sd_sin_um", self.sd_sin_um.len()),
         ] {
-            if values.len() != n {
-                let what = format!("{key} has {} values, mean_cos_um {n}", values.len());
+            if found != n {
+                let what = format!("{key} has {found} values, mean_cos_um {n}");
                 return Some((key, what, "give one a harmonic".to_owned()));
             }
-            let min = if is_sd { 0.0 } else { -1e6 };
-            let is_wrong = |value: &&f64| !(min..=1e6).contains(*value);
-            if let Some(value) = values.iter().find(is_wrong) {
-                let mend = format!("give numbers from {min} to 1000000");
-                return Some((key, format!("{key} holds {value}"), mend));
-            }
         }
-        None
-    }
-
-    /// Its parameters as those of a table.
-    pub(super) fn group(table: &'static str, title: &'static str, is_optional: bool) -> Group {
-        let key = table.rsplit('.').next().unwrap_or(table);
-        let mut parameters = vec![Parameter {
-            place: Place {
-                table: "source",
-                key,
-            },
-            name: "Template",
-            what: "Mean and spread of the coefficients of each harmonic",
-            kind: ParameterKind::Template { is_optional },
-        }];
-        parameters.extend(numbers_of(table, Self::NUMBERS, &[]));
-        let lists = [
-            ("mean_cos_um", "Cosines, mean", "Mean of the cosines"),
-            ("sd_cos_um", "Cosines, sd", "Spread of the cosines"),
-            ("mean_sin_um", "Sines, mean", "Mean of the sines"),
-            ("sd_sin_um", "Sines, sd", "Spread of the sines"),
-        ];
-        parameters.extend(lists.map(|(key, name, what)| Parameter {
-            place: Place { table, key },
-            name,
-            what,
-            kind: ParameterKind::Numbers("µm"),
-        }));
-        Group { title, parameters }
+        let (key, value, [min, max]) = KeySpec::outside(Self::KEYS, self)?;
+        let (what, mend) = match key {
+            "fundamental_per_m" => ("is", "give"),
+            _ => ("holds", "give numbers from"),
+        };
+        let mend = format!("{mend} {min} to {max}");
+        Some((key, format!("{key} {what} {value}"), mend))
     }
 
     /// Harmonic numbers within a band of cycles a metre.
@@ -180,6 +143,18 @@ impl FourierTemplate {
             self.sd_sin_um[n - 1],
         ];
         0.5 * (a * a + b * b + c * c + d * d)
+    }
+}
+
+impl KeyType for FourierTemplate {
+    fn kind(_: [f64; 2], _: &'static str) -> ParameterKind {
+        ParameterKind::Template { is_optional: false }
+    }
+}
+
+impl KeyType for Option<FourierTemplate> {
+    fn kind(_: [f64; 2], _: &'static str) -> ParameterKind {
+        ParameterKind::Template { is_optional: true }
     }
 }
 

@@ -15,15 +15,15 @@ pub(crate) use structure::Structure;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, Side, keys, numbers_of,
-    parameter,
+    Checker, Example, Group, KeySpec, Model, Recipe, Side, defaults, keys, parameters_of,
 };
 use crate::surface::Representation;
 use crate::yarns::{Yarn, YarnGeometry, add_hairs, model, touch_group, turn_over, usual};
 use selvedge_foundation::numerics::Random;
 
-/// The numbers that a window shows first; needle lines belong to the loops.
-const NUMBERS_FIRST: &[&str] = &[
+/// What a window shows first; needle lines belong to the loops.
+const FIRST: &[&str] = &[
+    "structure",
     "wales_per_cm",
     "courses_per_cm",
     "loop_height",
@@ -43,8 +43,8 @@ keys! {
         pub(crate) side: Side,
         /// Chooses the irregularities.
         pub(crate) seed: u32,
-        /// Which stitch stands where.
-        pub(crate) structure: Structure,
+        pub(crate) structure: Structure
+            => "Structure": "Which stitch stands where",
         pub(crate) wales_per_cm: f64
             => "Wales" 1.0 ..= 40.0 "/cm" "Columns of loops per centimetre",
         pub(crate) courses_per_cm: f64
@@ -110,14 +110,10 @@ keys! {
     }
 }
 
-fn default_loop_height() -> f64 {
-    1.6
-}
-fn default_bulge() -> f64 {
-    0.1
-}
-fn default_leg_spread() -> f64 {
-    0.03
+defaults! {
+    default_loop_height: f64 = 1.6;
+    default_bulge: f64 = 0.1;
+    default_leg_spread: f64 = 0.03;
 }
 
 impl Knit {
@@ -158,7 +154,7 @@ impl Knit {
 
 impl Recipe for Knit {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         self.yarn.check(checker, "source.yarn")
     }
 
@@ -190,15 +186,8 @@ impl Recipe for Knit {
     }
 
     fn groups() -> Vec<Group> {
-        let structure = parameter(
-            "structure",
-            ("Structure", "Which stitch stands where"),
-            ParameterKind::Choice(Structure::WORDS),
-        );
-        let mut numbers = numbers_of("source", Self::NUMBERS, NUMBERS_FIRST);
-        let noise = numbers.split_off(numbers.len() - 1);
-        let mut cloth = vec![structure];
-        cloth.extend(numbers);
+        let mut cloth = parameters_of("source", Self::KEYS, FIRST);
+        let noise = cloth.split_off(cloth.len() - 1);
         vec![
             Group {
                 title: "Cloth",

@@ -15,12 +15,12 @@ pub use reduced::Reduced;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, SurfaceSample, choice, keys,
-    numbers_of, parameter, seed,
+    Checker, Example, Group, KeySpec, Model, Recipe, SurfaceSample, choice, defaults, keys,
+    parameters_of, seed, source,
 };
 use crate::shipped;
 use crate::surface::{Direction, HeightMap, Profile};
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
 
 /// The shipped textile that the example restores.
 const LIKE: &str = "polyester-panama";
@@ -50,12 +50,12 @@ keys! {
     source Restoration {
         /// Chooses the noise.
         pub(crate) seed: u32,
-        /// How two profiles become a surface.
         #[serde(default)]
-        pub(crate) composition: Rule,
-        /// Whether noise with the residual's spectrum is added.
+        pub(crate) composition: Rule
+            => "Composition": "How a warp and a weft profile become a surface",
         #[serde(default = "yes")]
-        pub(crate) residual: bool,
+        pub(crate) residual: bool
+            => "Residual": "Whether noise with the spectrum of the residual is added",
         #[serde(default = "default_length_mm")]
         pub(crate) length_mm: f64
             => "Side" 5.0 ..= 100.0 "mm" "Side of the patch",
@@ -70,26 +70,16 @@ keys! {
     }
 }
 
-fn yes() -> bool {
-    true
-}
-fn default_length_mm() -> f64 {
-    20.0
-}
-fn default_step_mm() -> f64 {
-    1.0 / 230.0
+defaults! {
+    yes: bool = true;
+    default_length_mm: f64 = 20.0;
+    default_step_mm: f64 = 1.0 / 230.0;
 }
 
 impl Restoration {
     /// The recipe of reduced profiles, everything else as usual.
     pub(crate) fn new(warp: Reduced, weft: Option<Reduced>, composition: Rule, seed: u32) -> Self {
-        Self {
-            kind: "restoration".to_owned(),
-            recipe_hash: None,
-            warp_forward: None,
-            warp_reverse: None,
-            weft_forward: None,
-            weft_reverse: None,
+        source!(Self = "restoration" {
             seed,
             composition,
             residual: true,
@@ -97,7 +87,7 @@ impl Restoration {
             step_mm: default_step_mm(),
             warp,
             weft,
-        }
+        })
     }
 
     /// The recipe that restores a warp and a weft profile: what repeats in them and the spectrum of
@@ -124,13 +114,7 @@ impl Restoration {
     }
 
     fn n_samples(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "checked: at most 50 000"
-        )]
-        let n = (self.length_mm / self.step_mm).round() as usize;
-        n
+        to_index((self.length_mm / self.step_mm).round())
     }
 
     /// The restored profiles of warp and weft, µm.
@@ -155,19 +139,11 @@ impl Restoration {
         let middle = [n / 2];
         let compose = |u: &[usize], w: &[usize]| self.composed_um([&warp, &weft], [u, w]);
         let lines = [compose(&all, &middle), compose(&middle, &all)];
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "0.1 mm of samples 0.002 to 0.1 mm apart"
-        )]
-        let stride = (PICTURE_STEP_MM / self.step_mm).round().max(1.0) as usize;
+        let stride = to_index((PICTURE_STEP_MM / self.step_mm).round()).max(1);
         let few: Vec<usize> = (0..n).step_by(stride).collect();
         let step_mm = [self.step_mm * stride as f64; 2];
         let patch = HeightMap::new(compose(&few, &few), step_mm);
-        let patch = patch.map_err(|source| TextileError::Surface {
-            path: "the restored surface".into(),
-            source,
-        })?;
+        let patch = patch.map_err(TextileError::surface("the restored surface"))?;
         let lines = lines.map(|line| line.values().to_vec());
         Ok(SurfaceSample::of_lines(lines, self.step_mm, patch))
     }
@@ -184,30 +160,26 @@ impl Restoration {
             let period_mm = self.of_axis(is_weft).period_mm.unwrap_or(2.0);
             (2.0 * i as f64 * self.step_mm / period_mm).floor()
         };
-        let mut surface = Grid::filled(samples[0].len(), samples[1].len(), 0.0);
-        for (row, &j) in samples[1].iter().enumerate() {
-            let b = profiles[1][j];
-            for (height, &i) in surface.row_mut(row).iter_mut().zip(samples[0]) {
-                let a = profiles[0][i];
-                *height = match self.composition {
-                    Rule::Additive => a + b,
-                    Rule::Product if norm > 0.0 => a * b / norm,
-                    Rule::Product => 0.0,
-                    Rule::Max => a.max(b),
-                    Rule::Gated => {
-                        let is_warp = (half(false, i) + half(true, j)).rem_euclid(2.0) < 0.5;
-                        if is_warp { a } else { b }
-                    }
-                };
+        Grid::from_fn(samples[0].len(), samples[1].len(), |column, row| {
+            let (i, j) = (samples[0][column], samples[1][row]);
+            let (a, b) = (profiles[0][i], profiles[1][j]);
+            match self.composition {
+                Rule::Additive => a + b,
+                Rule::Product if norm > 0.0 => a * b / norm,
+                Rule::Product => 0.0,
+                Rule::Max => a.max(b),
+                Rule::Gated => {
+                    let is_warp = (half(false, i) + half(true, j)).rem_euclid(2.0) < 0.5;
+                    if is_warp { a } else { b }
+                }
             }
-        }
-        surface
+        })
     }
 }
 
 impl Recipe for Restoration {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         for (is_weft, table) in [(false, "source.warp"), (true, "source.weft")] {
             if let Some((key, what, mend)) = self.of_axis(is_weft).fault() {
                 return Err(checker.wrong(table, key, what, mend));
@@ -221,24 +193,7 @@ impl Recipe for Restoration {
     }
 
     fn groups() -> Vec<Group> {
-        let rule = parameter(
-            "composition",
-            (
-                "Composition",
-                "How a warp and a weft profile become a surface",
-            ),
-            ParameterKind::Choice(Rule::WORDS),
-        );
-        let residual = parameter(
-            "residual",
-            (
-                "Residual",
-                "Whether noise with the spectrum of the residual is added",
-            ),
-            ParameterKind::Flag,
-        );
-        let mut surface = vec![rule, residual];
-        surface.extend(numbers_of("source", Self::NUMBERS, &[]));
+        let mut surface = parameters_of("source", Self::KEYS, &[]);
         surface.push(seed());
         vec![
             Group {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use selvedge_foundation::numerics::{Complex, LineFit, autocorrelation};
+use selvedge_foundation::numerics::{Complex, LineFit, autocorrelation, to_index};
 
 /// The first maximum that reaches this share of the largest is the period, not its multiple.
 const SHARE_OF_LARGEST: f64 = 0.85;
@@ -34,7 +34,7 @@ pub(super) fn period(heights_um: &[f64]) -> Option<f64> {
             times * period - 0.25 * period,
             times * period + 0.25 * period,
         ];
-        let top = highest(&r, index(low), index(high));
+        let top = highest(&r, to_index(low), to_index(high));
         if r.get(top).is_none_or(|&value| value < 0.4 * largest) {
             // One that does not come again is none.
             return (times > 2.5).then(|| sharpened(heights_um, period));
@@ -45,15 +45,6 @@ pub(super) fn period(heights_um: &[f64]) -> Option<f64> {
     (times > 2.5).then(|| sharpened(heights_um, period))
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "lags within a profile, from 0"
-)]
-fn index(lag: f64) -> usize {
-    lag.max(0.0) as usize
-}
-
 /// The lag of the largest value between two lags.
 fn highest(r: &[f64], low: usize, high: usize) -> usize {
     let range = low.min(r.len() - 1)..=high.min(r.len() - 1);
@@ -62,7 +53,7 @@ fn highest(r: &[f64], low: usize, high: usize) -> usize {
 
 /// Where a parabola through the values around a maximum has its top (least squares).
 fn vertex(r: &[f64], top: usize, reach: f64) -> f64 {
-    let reach = index(reach)
+    let reach = to_index(reach)
         .clamp(1, top.max(1))
         .min(r.len() - 1 - top.min(r.len() - 1));
     if reach == 0 {

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::period::{line, period};
 use crate::error::TextileError;
-use crate::recipe::{Group, Number, Parameter, ParameterKind, Place, keys, numbers_of, optional};
-use crate::surface::Profile;
-use selvedge_foundation::numerics::{Complex, Random, RealTransform, without_line};
+use crate::recipe::{Group, KeySpec, keys, parameters_of};
+use crate::surface::{Profile, mean_deviation};
+use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_index, without_line};
 
 /// Bands an octave of the residual.
 const BANDS_PER_OCTAVE: f64 = 3.0;
@@ -26,21 +26,23 @@ keys! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub period_mm: Option<f64>
             => "Period" 1e-3 ..= 1e3 "mm" "The period of its harmonics",
-        /// Which harmonics of the period are kept, strongest first.
+        /// Strongest first.
         #[serde(default)]
-        pub harmonics: Vec<u32>,
-        /// Their amplitudes, µm.
+        pub harmonics: Vec<u32>
+            => "Harmonics" 1.0 ..= 100_000.0 "" "Which harmonics of the period are kept",
         #[serde(default)]
-        pub amplitude_um: Vec<f64>,
-        /// Their phases: `A cos(2πkx/p + φ)`, degrees.
+        pub amplitude_um: Vec<f64>
+            => "Amplitudes" 0.0 ..= 1e5 "µm" "Amplitudes of the harmonics",
+        /// Of `A cos(2πkx/p + φ)`.
         #[serde(default)]
-        pub(crate) phase_deg: Vec<f64>,
+        pub(crate) phase_deg: Vec<f64>
+            => "Phases" -1e6 ..= 1e6 "°" "Phases of the harmonics",
         pub(crate) residual_from_per_mm: f64
             => "Residual from" 1e-4 ..= 1e3 "/mm"
             "Where the first band of the residual begins, cycles per mm",
-        /// The residual's rms in bands of a third of an octave, µm.
         #[serde(default)]
-        pub(crate) residual_um: Vec<f64>,
+        pub(crate) residual_um: Vec<f64>
+            => "Residual" 0.0 ..= 1e5 "µm" "The residual in bands of a third of an octave, rms",
     }
 }
 
@@ -59,7 +61,7 @@ impl Reduced {
         let step_mm = profile.step_mm();
         let heights = without_line(profile.heights_um());
         let mut reduced = Self {
-            smd_um: smd_um(&heights),
+            smd_um: mean_deviation(&heights),
             period_mm: None,
             harmonics: Vec::new(),
             amplitude_um: Vec::new(),
@@ -83,54 +85,13 @@ impl Reduced {
 
     /// Its parameters as those of a table.
     pub(super) fn group(table: &'static str, title: &'static str) -> Group {
-        let mut parameters = numbers_of(table, Self::NUMBERS, &[]);
-        for parameter in &mut parameters {
-            if parameter.place.key == "period_mm" {
-                parameter.kind = optional(parameter.kind, "");
-            }
-        }
-        let lists = [
-            (
-                "harmonics",
-                "Harmonics",
-                "Which harmonics of the period are kept",
-                ParameterKind::Counts,
-            ),
-            (
-                "amplitude_um",
-                "Amplitudes",
-                "Amplitudes of the harmonics",
-                ParameterKind::Numbers("µm"),
-            ),
-            (
-                "phase_deg",
-                "Phases",
-                "Phases of the harmonics",
-                ParameterKind::Numbers("°"),
-            ),
-            (
-                "residual_um",
-                "Residual",
-                "The residual in bands of a third of an octave, rms",
-                ParameterKind::Numbers("µm"),
-            ),
-        ];
-        parameters.extend(lists.map(|(key, name, what, kind)| Parameter {
-            place: Place { table, key },
-            name,
-            what,
-            kind,
-        }));
+        let first = &["smd_um", "period_mm", "residual_from_per_mm"];
+        let parameters = parameters_of(table, Self::KEYS, first);
         Group { title, parameters }
     }
 
     fn keep_harmonics(&mut self, heights: &[f64], period: f64, n_harmonics: usize) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number of periods within the profile"
-        )]
-        let n_whole = ((heights.len() as f64 / period).floor() * period).round() as usize;
+        let n_whole = to_index(((heights.len() as f64 / period).floor() * period).round());
         let whole = &heights[..n_whole.min(heights.len())];
         let at = |k: f64| line(whole, k / period);
         let harmonics = 1..=MAX_HARMONICS;
@@ -171,31 +132,9 @@ impl Reduced {
                 return Some((key, what, "give one a harmonic".to_owned()));
             }
         }
-        let range = |min: f64, max: f64| format!("give numbers from {min} to {max}");
-        let outside = |values: &[f64], min: f64, max: f64| {
-            let is_wrong = |value: &&f64| !(min..=max).contains(*value);
-            values.iter().find(is_wrong).copied()
-        };
-        for &Number {
-            key, min, max, get, ..
-        } in Self::NUMBERS
-        {
-            if let Some(value) = get(self).and_then(|value| outside(&[value], min, max)) {
-                return Some((key, format!("{key} holds {value}"), range(min, max)));
-            }
-        }
-        for (key, values, min, max) in [
-            ("amplitude_um", &self.amplitude_um[..], 0.0, 1e5),
-            ("phase_deg", &self.phase_deg[..], -1e6, 1e6),
-            ("residual_um", &self.residual_um[..], 0.0, 1e5),
-        ] {
-            if let Some(value) = outside(values, min, max) {
-                return Some((key, format!("{key} holds {value}"), range(min, max)));
-            }
-        }
-        let is_wrong = |&&k: &&u32| k == 0 || k > 100_000;
-        if let Some(k) = self.harmonics.iter().find(is_wrong) {
-            return Some(("harmonics", format!("harmonics holds {k}"), range(1.0, 1e5)));
+        if let Some((key, value, [min, max])) = KeySpec::outside(Self::KEYS, self) {
+            let mend = format!("give numbers from {min} to {max}");
+            return Some((key, format!("{key} holds {value}"), mend));
         }
         if self.period_mm.is_none() && n > 0 {
             let what = "harmonics of no period".to_owned();
@@ -239,19 +178,19 @@ impl Reduced {
                 .collect()
         };
         let (mut low, mut high) = (0.0, 1.0);
-        while smd_um(&with(high)) < self.smd_um && high < 1e3 {
+        while mean_deviation(&with(high)) < self.smd_um && high < 1e3 {
             high *= 2.0;
         }
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            if smd_um(&with(middle)) < self.smd_um {
+            if mean_deviation(&with(middle)) < self.smd_um {
                 low = middle;
             } else {
                 high = middle;
             }
         }
         let mut restored = with(0.5 * (low + high));
-        let found = smd_um(&restored);
+        let found = mean_deviation(&restored);
         if found > self.smd_um * 1.001 {
             let factor = self.smd_um / found;
             for height in &mut restored {
@@ -289,13 +228,7 @@ impl Reduced {
 /// The band of a wavenumber.
 fn band_of(per_mm: f64, from_per_mm: f64) -> Option<usize> {
     let band = (BANDS_PER_OCTAVE * (per_mm / from_per_mm).log2()).floor();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…59 just checked"
-    )]
-    let index = (0.0..60.0).contains(&band).then_some(band as usize);
-    index
+    (0.0..60.0).contains(&band).then(|| to_index(band))
 }
 
 /// Rms of a series in bands, µm.
@@ -312,11 +245,4 @@ fn band_rms_um(heights_um: &[f64], step_mm: f64, from_per_mm: f64) -> Vec<f64> {
         }
     }
     powers.into_iter().map(f64::sqrt).collect()
-}
-
-/// Mean absolute deviation from the mean, µm.
-pub(super) fn smd_um(heights_um: &[f64]) -> f64 {
-    let n = heights_um.len().max(1) as f64;
-    let mean = heights_um.iter().sum::<f64>() / n;
-    heights_um.iter().map(|z| (z - mean).abs()).sum::<f64>() / n
 }

@@ -72,9 +72,9 @@ fn the_restored_profile_is_as_rough_as_the_measured() {
             let profile = measured(0.617, snr_db, seed);
             let recipe = restored(&profile, Rule::Additive);
             let flat = selvedge_foundation::numerics::without_line(profile.heights_um());
-            let truth = reduced::smd_um(&flat);
+            let truth = crate::surface::mean_deviation(&flat);
             for restored in recipe.profiles_um() {
-                let ratio = reduced::smd_um(&restored) / truth;
+                let ratio = crate::surface::mean_deviation(&restored) / truth;
                 assert!((ratio - 1.0).abs() < 0.05, "{snr_db} dB: {ratio}");
             }
         }
@@ -139,7 +139,7 @@ fn noise_and_the_level_have_no_period_and_stay_finite() {
             drawn.strokes_um.iter().flatten().all(|z| z.is_finite()),
             "{reduced:?}"
         );
-        let smd = reduced::smd_um(&recipe.profiles_um()[0]);
+        let smd = crate::surface::mean_deviation(&recipe.profiles_um()[0]);
         assert!(
             (smd - reduced.smd_um).abs() <= 0.05 * reduced.smd_um + 1e-12,
             "{smd}"

@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::recipe::{KeyType, ParameterKind};
+
 /// An interlacing: a name, or a matrix of rows of `X` (warp on top) and `.` (weft on top).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -65,6 +67,12 @@ pub const NAMES: [(&str, &[&str]); 15] = [
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Repeat {
     rows: Vec<Vec<bool>>,
+}
+
+impl KeyType for Interlacing {
+    fn kind(_: [f64; 2], _: &'static str) -> ParameterKind {
+        ParameterKind::Interlacing
+    }
 }
 
 impl Interlacing {

@@ -16,8 +16,7 @@ pub use interlacing::NAMES;
 
 use crate::error::TextileError;
 use crate::recipe::{
-    Checker, Example, Group, Model, Number, ParameterKind, Recipe, Side, keys, numbers_of,
-    parameter,
+    Checker, Example, Group, KeySpec, Model, Recipe, Side, defaults, keys, parameters_of,
 };
 use crate::surface::Representation;
 use crate::yarns::{Yarn, YarnGeometry, add_hairs, model, touch_group, turn_over, usual};
@@ -34,8 +33,8 @@ keys! {
         pub(crate) side: Side,
         /// Chooses the irregularities.
         pub seed: u32,
-        /// Which yarn lies on top where.
-        pub(crate) interlacing: Interlacing,
+        pub(crate) interlacing: Interlacing
+            => "Interlacing": "Which yarn lies on top at every crossing",
         pub(crate) warp_per_cm: f64
             => "Ends" 2.0 ..= 100.0 "/cm" "Ends per centimetre",
         pub weft_per_cm: f64
@@ -81,11 +80,9 @@ keys! {
     }
 }
 
-fn half() -> f64 {
-    0.5
-}
-fn default_compaction() -> f64 {
-    0.9
+defaults! {
+    half: f64 = 0.5;
+    default_compaction: f64 = 0.9;
 }
 
 impl Weave {
@@ -136,7 +133,7 @@ impl Weave {
 
 impl Recipe for Weave {
     fn check(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
-        Number::check(Self::NUMBERS, self, (checker, "source"))?;
+        KeySpec::check(Self::KEYS, self, (checker, "source"))?;
         if let Err(what) = self.interlacing.repeat() {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| *name).collect();
             let mend = format!("give rows of X and . or one of {}", names.join(", "));
@@ -168,15 +165,8 @@ impl Recipe for Weave {
     }
 
     fn groups() -> Vec<Group> {
-        let interlacing = parameter(
-            "interlacing",
-            ("Interlacing", "Which yarn lies on top at every crossing"),
-            ParameterKind::Interlacing,
-        );
-        let mut numbers = numbers_of("source", Self::NUMBERS, &[]);
-        let noise = numbers.split_off(numbers.len() - 1);
-        let mut cloth = vec![interlacing];
-        cloth.extend(numbers);
+        let mut cloth = parameters_of("source", Self::KEYS, &[]);
+        let noise = cloth.split_off(cloth.len() - 1);
         vec![
             Group {
                 title: "Cloth",

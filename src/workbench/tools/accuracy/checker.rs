@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::Pose;
-use selvedge_render::{LevelError, RenderScene, RunningError};
+use selvedge_render::{ErrorMeter, LevelError, RenderScene};
 
 /// The level error of an amplitude rounded to single precision, at most: `20 log₁₀(1 + 2⁻²⁴)` dB.
 pub(crate) const ROUNDING_DB: f64 = 5.2e-7;
@@ -83,7 +83,7 @@ pub(crate) fn edges_db() -> Vec<f64> {
 pub(crate) struct Checker {
     run: u64,
     reference: Option<(Arc<Setting>, ArrayRenderer)>,
-    error: RunningError,
+    error: ErrorMeter,
     now_db: [Option<f64>; 2],
     n_ticks: u64,
     poses: Vec<Pose>,

@@ -190,7 +190,7 @@ fn the_work_tells_how_far_it_is_stops_when_asked_and_repeats() {
 #[test]
 fn a_picture_turned_over_twice_is_itself() {
     let e = Truth::plain_weave(8, 0.1, 0.1).picture(45.0, 30.0);
-    let turned = rows_turned_over(&e);
+    let turned = e.turned_over();
     assert_eq!(turned.row(0), e.row(7));
-    assert_eq!(rows_turned_over(&turned), e);
+    assert_eq!(turned.turned_over(), e);
 }

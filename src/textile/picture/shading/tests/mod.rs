@@ -53,7 +53,7 @@ impl Truth {
     }
 
     fn height_px(&self) -> Grid<f64> {
-        about_mean(averaged(&self.fine))
+        about_mean(&averaged(&self.fine))
     }
 
     /// Its picture: slopes by differences of the fine relief, pixels as means of what is in them.
@@ -94,7 +94,7 @@ fn averaged(fine: &Grid<f64>) -> Grid<f64> {
 }
 
 fn correlation(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
-    let [a, b] = [a, b].map(|grid| about_mean(grid.clone()));
+    let [a, b] = [a, b].map(about_mean);
     let dot = |a: &Grid<f64>, b: &Grid<f64>| -> f64 {
         a.values().iter().zip(b.values()).map(|(a, b)| a * b).sum()
     };

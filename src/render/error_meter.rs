@@ -1,4 +1,5 @@
-//! The level error of a run that goes on: nobody knows yet how strong it will become.
+//! The level error of a run against the reference, perhaps of one that goes on: nobody knows yet how
+//! strong it will become.
 //!
 //! An error is a matter of level where the reference reaches a thousandth of its band's largest
 //! amplitude in the run. As the run goes on that largest amplitude grows, and what counted before
@@ -8,12 +9,19 @@
 
 use std::collections::BTreeMap;
 
-use super::stats::{AUDIBLE_SHARE, level_error_db};
 use super::{Histogram, LevelError};
 
-/// Collects the level error of a run that goes on, amplitude by amplitude.
+/// Share of a band's largest amplitude from which on an error is a matter of level.
+const AUDIBLE_SHARE: f64 = 1e-3;
+
+/// The level error of an amplitude against that of the reference, dB; not negative.
+fn level_error_db(a: f64, a_ref: f64) -> f64 {
+    (20.0 * (a / a_ref).log10()).abs()
+}
+
+/// Collects the level error of a run, amplitude by amplitude.
 #[derive(Debug, Clone, Default)]
-pub struct RunningError {
+pub struct ErrorMeter {
     bands: [BandRun; 2],
 }
 
@@ -38,7 +46,15 @@ struct Octave {
     max_um: f64,
 }
 
-impl RunningError {
+impl ErrorMeter {
+    /// A meter for a run in which these are the reference's largest amplitudes, by band, µm; by
+    /// default they are found on the way.
+    pub fn new(largest_um: [f64; 2]) -> Self {
+        let mut meter = Self::default();
+        meter.reach(largest_um);
+        meter
+    }
+
     /// Adds the amplitudes of a contactor in a tick, µm, beside those of the reference.
     pub fn add(&mut self, amplitudes_um: [f64; 2], reference_um: [f64; 2]) {
         for (b, band) in self.bands.iter_mut().enumerate() {
@@ -172,7 +188,6 @@ fn octave_of(amplitude_um: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ErrorMeter;
 
     #[test]
     fn a_run_that_went_on_is_judged_like_one_that_is_over() {
@@ -185,7 +200,7 @@ mod tests {
             .collect();
         let largest = run.iter().map(|[_, exact]| *exact).fold(0.0, f64::max);
         let mut meter = ErrorMeter::new([largest, 0.0]);
-        let mut running = RunningError::default();
+        let mut running = ErrorMeter::default();
         for [a, exact] in run {
             meter.add([a, 0.0], [exact, 0.0]);
             running.add([a, 0.0], [exact, 0.0]);
@@ -204,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_wrong_amplitude_shows_in_its_band_alone() {
-        let mut running = RunningError::default();
+        let mut running = ErrorMeter::default();
         running.add([2.0, 1.0], [1.0, 1.0]);
         assert!((running.of_band(0).max_db - 6.0206).abs() < 1e-4);
         assert_eq!(running.of_band(1).max_db, 0.0);
@@ -214,7 +229,7 @@ mod tests {
 
     #[test]
     fn another_gain_begins_a_section_and_forgets_no_error() {
-        let mut running = RunningError::default();
+        let mut running = ErrorMeter::default();
         running.add([101.0, 0.0], [100.0, 0.0]);
         running.begin_section();
         // 100 dB less: weak beside what was, but as strong as things are now.
@@ -226,12 +241,33 @@ mod tests {
     }
 
     #[test]
-    fn sound_where_the_reference_is_silent_is_an_infinite_error() {
-        let mut running = RunningError::default();
+    fn sound_where_the_reference_of_a_run_that_goes_on_is_silent_is_an_infinite_error() {
+        let mut running = ErrorMeter::default();
         running.add([0.0, 0.0], [0.0, 0.0]);
         assert_eq!(running.finish().max_share_below, 0.0);
         running.add([1.0, 0.0], [0.0, 1.0]);
         let error = running.finish();
+        assert_eq!(error.max_share_below, f64::INFINITY);
+        assert_eq!(error.max_db, f64::INFINITY);
+    }
+
+    #[test]
+    fn level_errors_count_above_a_thousandth_of_the_largest() {
+        let mut meter = ErrorMeter::new([10.0, 0.0]);
+        meter.add([10.0, 0.0], [10.0, 0.0]);
+        meter.add([2.0, 0.0], [1.0, 0.0]);
+        meter.add([0.009, 0.0], [0.005, 0.0]);
+        let error = meter.finish();
+        assert!((error.max_db - 6.0206).abs() < 1e-4, "{error:?}");
+        assert_eq!(error.n_amplitudes, 2);
+        assert!((error.max_share_below - 4e-4).abs() < 1e-12, "{error:?}");
+    }
+
+    #[test]
+    fn sound_where_the_reference_is_silent_is_an_infinite_error() {
+        let mut meter = ErrorMeter::new([0.0, 1.0]);
+        meter.add([1.0, 0.0], [0.0, 1.0]);
+        let error = meter.finish();
         assert_eq!(error.max_share_below, f64::INFINITY);
         assert_eq!(error.max_db, f64::INFINITY);
     }

@@ -1,7 +1,32 @@
-//! How a table is spelt: what stands between cells, and what the decimal sign is.
+//! Tables of numbers in texts: how they are spelt, where they begin, what stands above.
 //!
 //! Every spelling is tried; the one that reads the longest table wins. Where two read as much, they
 //! read the same, but for one case, which has rules of its own: see [`settled`].
+//!
+//! Of strokes every cell must be a number. Other tables may have gaps: cells that are empty or say
+//! that they hold nothing, and the spelling that reads most numbers wins.
+
+use std::borrow::Cow;
+
+use selvedge_foundation::files::latin1;
+
+/// A text, without a byte-order mark: UTF-8, UTF-16 or Latin-1, as old programs write it. `None`
+/// where it begins as UTF-16 and is none.
+pub(crate) fn decoded(bytes: &[u8]) -> Option<String> {
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        _ => Some(match std::str::from_utf8(bytes) {
+            Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
+            Err(_) => latin1(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+        }),
+    }
+}
+
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Option<String> {
+    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(units).collect::<Result<_, _>>().ok()
+}
 
 /// The decimal sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,7 +39,7 @@ pub enum DecimalSign {
 
 /// What stands between cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Separator {
+pub(crate) enum Separator {
     Tab,
     Semicolon,
     Comma,
@@ -23,57 +48,58 @@ pub(super) enum Separator {
 
 /// A spelling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Dialect {
-    pub(super) separator: Separator,
-    pub(super) decimal: DecimalSign,
+pub(crate) struct Dialect {
+    pub(crate) separator: Separator,
+    pub(crate) decimal: DecimalSign,
+    /// Whether cells may hold nothing: NaN.
+    has_gaps: bool,
 }
 
 /// A table of numbers and the text above it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct RawTable {
-    pub(super) dialect: Dialect,
+pub(crate) struct RawTable {
+    pub(crate) dialect: Dialect,
     /// Column by column.
-    pub(super) columns: Vec<Vec<f64>>,
+    pub(crate) columns: Vec<Vec<f64>>,
     /// The unit of the last digit of each column: 0.001 for `0.125`.
-    pub(super) quanta: Vec<f64>,
+    pub(crate) quanta: Vec<f64>,
     /// The line of every row, from 1.
-    pub(super) lines: Vec<usize>,
+    pub(crate) lines: Vec<usize>,
     /// The lines above that are not blank.
-    pub(super) header: Vec<String>,
+    pub(crate) header: Vec<String>,
 }
 
 /// Why there is no table.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum NoTable {
-    /// Not two rows of numbers.
-    NoNumbers,
-    /// A line (from 1) among the numbers that is none.
-    Broken { line: usize, text: String },
+pub(crate) enum NoTable {
+    /// Not two rows of numbers; the last line that is not blank.
+    NoNumbers { line: usize },
+    /// A line (from 1) among the numbers that is none of the table's, which has so many columns.
+    Broken {
+        line: usize,
+        n_columns: usize,
+        text: String,
+    },
     /// Two columns of whole numbers, or one with a decimal comma.
     Ambiguous { line: usize },
 }
 
 /// The spellings, of those that read the same the plainest first.
-const DIALECTS: [Dialect; 7] = {
-    use DecimalSign as D;
-    use Separator as S;
-    const fn of(separator: S, decimal: D) -> Dialect {
-        Dialect { separator, decimal }
-    }
-    [
-        of(S::Tab, D::Point),
-        of(S::Semicolon, D::Point),
-        of(S::Comma, D::Point),
-        of(S::Blanks, D::Point),
-        of(S::Tab, D::Comma),
-        of(S::Semicolon, D::Comma),
-        of(S::Blanks, D::Comma),
-    ]
-};
+const DIALECTS: [(Separator, DecimalSign); 7] = [
+    (Separator::Tab, DecimalSign::Point),
+    (Separator::Semicolon, DecimalSign::Point),
+    (Separator::Comma, DecimalSign::Point),
+    (Separator::Blanks, DecimalSign::Point),
+    (Separator::Tab, DecimalSign::Comma),
+    (Separator::Semicolon, DecimalSign::Comma),
+    (Separator::Blanks, DecimalSign::Comma),
+];
+/// What cells say that hold nothing and are not empty, whatever their sign.
+const NOTHING: [&str; 6] = ["nan", "inf", "infinity", "bad", "---", "null"];
 
 impl Dialect {
-    /// The cells of a line; empty ones at its end are dropped.
-    pub(super) fn cells(self, line: &str) -> Vec<&str> {
+    /// The cells of a line; empty ones at its end are dropped unless there may be gaps.
+    pub(crate) fn cells(self, line: &str) -> Vec<&str> {
         let mut cells: Vec<&str> = match self.separator {
             Separator::Tab => line.split('\t').collect(),
             Separator::Semicolon => line.split(';').collect(),
@@ -83,37 +109,61 @@ impl Dialect {
         for cell in &mut cells {
             *cell = cell.trim().trim_matches('"');
         }
-        while cells.last().is_some_and(|cell| cell.is_empty()) {
+        while !self.has_gaps && cells.last().is_some_and(|cell| cell.is_empty()) {
             cells.pop();
         }
         cells
     }
 
+    /// The number of a cell and the power of ten of its last digit: `0.125` is (0.125, −3).
+    fn number(self, cell: &str) -> Option<(f64, i32)> {
+        let plain = cell.trim_start_matches(['+', '-']);
+        let says = |word: &&str| {
+            [plain, cell]
+                .iter()
+                .any(|cell| cell.eq_ignore_ascii_case(word))
+        };
+        if self.has_gaps && (cell.is_empty() || NOTHING.iter().any(says)) {
+            return Some((f64::NAN, 0));
+        }
+        // Some programs write places with a point and heights with a comma.
+        let is_mixed = self.has_gaps && self.decimal == DecimalSign::Comma && cell.contains('.');
+        let decimal = if is_mixed {
+            DecimalSign::Point
+        } else {
+            self.decimal
+        };
+        number(cell, decimal)
+    }
+
+    /// The numbers of a line; `None` if one of its cells is none, or all of them hold nothing.
     fn numbers(self, line: &str) -> Option<Vec<(f64, i32)>> {
         let cells = self.cells(line);
-        let number = |cell: &&str| number(cell, self.decimal);
-        let numbers: Option<Vec<_>> = cells.iter().map(number).collect();
-        numbers.filter(|numbers| !numbers.is_empty())
+        let numbers: Option<Vec<_>> = cells.iter().map(|cell| self.number(cell)).collect();
+        numbers.filter(|numbers| numbers.iter().any(|(number, _)| !number.is_nan()))
     }
 }
 
-/// A finite number and the power of ten of its last digit: `0.125` is (0.125, −3).
+/// A finite number and the power of ten of its last digit.
 fn number(cell: &str, decimal: DecimalSign) -> Option<(f64, i32)> {
-    let plain = cell.replace('\u{2212}', "-");
-    let is_plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | 'e' | 'E');
-    let plain = match decimal {
-        DecimalSign::Point if plain.contains(',') => return None,
-        DecimalSign::Comma if plain.contains('.') => return None,
-        DecimalSign::Point => plain,
-        DecimalSign::Comma => plain.replace(',', "."),
+    let is_plain =
+        |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | 'e' | 'E' | '\u{2212}');
+    let foreign = match decimal {
+        DecimalSign::Point => ',',
+        DecimalSign::Comma => '.',
     };
-    if !plain.chars().all(is_plain) {
+    if !cell.chars().all(|c| is_plain(c) && c != foreign) {
         return None;
     }
+    let plain = if cell.contains([',', '\u{2212}']) {
+        Cow::Owned(cell.replace('\u{2212}', "-").replace(',', "."))
+    } else {
+        Cow::Borrowed(cell)
+    };
     let value: f64 = plain.parse().ok().filter(|value: &f64| value.is_finite())?;
     let (digits, exponent) = match plain.split_once(['e', 'E']) {
         Some((digits, exponent)) => (digits, exponent.parse().unwrap_or(0)),
-        None => (plain.as_str(), 0),
+        None => (&*plain, 0),
     };
     let n_decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
     Some((value, exponent - i32::try_from(n_decimals).unwrap_or(0)))
@@ -128,34 +178,78 @@ struct Run {
     n_columns: usize,
 }
 
-/// The table of a text.
-pub(super) fn table_of(text: &str, decimal: Option<DecimalSign>) -> Result<RawTable, NoTable> {
+/// The table of a text, every cell a number.
+pub(crate) fn table_of(text: &str, decimal: Option<DecimalSign>) -> Result<RawTable, NoTable> {
+    found(text, decimal, false)
+}
+
+/// The table of a text in which cells may hold nothing.
+pub(crate) fn table_with_gaps(text: &str) -> Result<RawTable, NoTable> {
+    found(text, None, true)
+}
+
+fn found(text: &str, decimal: Option<DecimalSign>, has_gaps: bool) -> Result<RawTable, NoTable> {
     let lines: Vec<&str> = text.lines().collect();
-    let wanted = |dialect: &Dialect| decimal.is_none_or(|sign| dialect.decimal == sign);
+    let size = |run: &Run| run.n_rows * if has_gaps { run.n_columns } else { 1 };
     let mut best: Option<(Dialect, Vec<Run>, Run)> = None;
-    for dialect in DIALECTS.into_iter().filter(wanted) {
+    for (separator, sign) in DIALECTS {
+        if decimal.is_some_and(|decimal| decimal != sign) {
+            continue;
+        }
+        let dialect = Dialect {
+            separator,
+            decimal: sign,
+            has_gaps,
+        };
         let runs = runs(&lines, dialect);
-        let Some(longest) = runs.iter().copied().max_by_key(|run| run.n_rows) else {
+        let Some(longest) = runs.iter().copied().max_by_key(size) else {
             continue;
         };
         if best
             .as_ref()
-            .is_none_or(|(_, _, run)| longest.n_rows > run.n_rows)
+            .is_none_or(|(_, _, run)| size(&longest) > size(run))
         {
             best = Some((dialect, runs, longest));
         }
     }
-    let (mut dialect, runs, run) = best.ok_or(NoTable::NoNumbers)?;
-    if run.n_rows < 2 {
-        return Err(NoTable::NoNumbers);
-    }
+    let min_rows = if has_gaps { 1 } else { 2 };
+    let Some((mut dialect, runs, run)) = best.filter(|(.., run)| run.n_rows >= min_rows) else {
+        let last = lines.iter().rposition(|line| !line.trim().is_empty());
+        let line = last.map_or(1, |last| last + 1);
+        return Err(NoTable::NoNumbers { line });
+    };
     check_whole(&lines, dialect, &runs, run)?;
-    if dialect.separator == Separator::Comma && run.n_columns == 2 && decimal.is_none() {
+    let is_pair = dialect.separator == Separator::Comma && run.n_columns == 2;
+    if is_pair && decimal.is_none() && !has_gaps {
         dialect = settled(&lines[run.first..=run.last], dialect).ok_or(NoTable::Ambiguous {
             line: run.first + 1,
         })?;
     }
     Ok(table(&lines, dialect, run))
+}
+
+impl RawTable {
+    /// The headings of the first `n` columns: the cells of the last two lines above that have as
+    /// many, from the top. `None` where no line has.
+    pub(crate) fn headings(&self, n: usize) -> Option<Vec<String>> {
+        let mut headings = vec![String::new(); n];
+        let mut is_headed = false;
+        for line in &self.header[self.header.len().saturating_sub(2)..] {
+            let mut cells = self.dialect.cells(line);
+            while cells.len() > n && cells.last().is_some_and(|cell| cell.is_empty()) {
+                cells.pop();
+            }
+            // A unit in a line of its own may leave no cell empty but the first.
+            if cells.len() == n {
+                is_headed = true;
+                for (heading, cell) in headings.iter_mut().zip(cells) {
+                    heading.push(' ');
+                    heading.push_str(cell);
+                }
+            }
+        }
+        is_headed.then_some(headings)
+    }
 }
 
 fn runs(lines: &[&str], dialect: Dialect) -> Vec<Run> {
@@ -192,6 +286,7 @@ fn check_whole(lines: &[&str], dialect: Dialect, runs: &[Run], table: Run) -> Re
         found.map_or(Ok(()), |(index, line)| {
             Err(NoTable::Broken {
                 line: index + 1,
+                n_columns: table.n_columns,
                 text: shortened(line),
             })
         })
@@ -199,7 +294,7 @@ fn check_whole(lines: &[&str], dialect: Dialect, runs: &[Run], table: Run) -> Re
     // Numbers in a header come singly; rows like those of the table are part of it.
     let is_part = |run: &&Run| {
         let is_like = run.n_columns == table.n_columns && run.first < table.first;
-        is_like && (run.n_columns > 1 || run.n_rows > 2)
+        is_like && ((run.n_columns > 1 && !dialect.has_gaps) || run.n_rows > 2)
     };
     if let Some(run) = runs.iter().find(is_part) {
         return broken(run.last + 1);
@@ -216,8 +311,9 @@ fn check_whole(lines: &[&str], dialect: Dialect, runs: &[Run], table: Run) -> Re
 /// Whether the line above a table begins like one of its rows.
 fn is_half_a_row(line: &str, dialect: Dialect, table: Run) -> bool {
     let cells = dialect.cells(line);
-    let first = cells.first().and_then(|cell| number(cell, dialect.decimal));
-    table.n_columns > 1 && cells.len() == table.n_columns && first.is_some()
+    let is_number = |cell: &&str| number(cell, dialect.decimal).is_some();
+    let is_like = table.n_columns > 1 && cells.len() == table.n_columns;
+    is_like && !dialect.has_gaps && cells.first().is_some_and(is_number)
 }
 
 fn shortened(line: &str) -> String {
@@ -255,6 +351,7 @@ fn settled(lines: &[&str], two_columns: Dialect) -> Option<Dialect> {
         return Some(Dialect {
             separator: Separator::Blanks,
             decimal: DecimalSign::Comma,
+            ..two_columns
         });
     }
     let places: Vec<f64> = pairs
@@ -354,11 +451,15 @@ mod tests {
             let text_of_line = "7;NaN".to_owned();
             let expected = NoTable::Broken {
                 line,
+                n_columns: 2,
                 text: text_of_line,
             };
             assert_eq!(table_of(&text, None), Err(expected));
         }
-        assert_eq!(table_of("a\nb 5\n", None), Err(NoTable::NoNumbers));
+        assert_eq!(
+            table_of("a\nb 5\n", None),
+            Err(NoTable::NoNumbers { line: 2 })
+        );
     }
 
     #[test]
