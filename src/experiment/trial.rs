@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::named::named;
+
 /// Alternatives of a ranking.
 pub const N_RANKED: usize = 4;
 /// Items of a triad.
@@ -79,33 +81,15 @@ pub enum Task {
     },
 }
 
-/// How hard it was to find the odd one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Grade {
-    /// Easy.
-    Easy,
-    /// Neither.
-    Normal,
-    /// Hard.
-    Hard,
-}
-
-impl Grade {
-    /// All, from easy to hard.
-    pub const ALL: [Self; 3] = [Self::Easy, Self::Normal, Self::Hard];
-
-    /// As files and people call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Easy => "easy",
-            Self::Normal => "normal",
-            Self::Hard => "hard",
-        }
-    }
-
-    /// The grade of a name.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|grade| grade.name() == name)
+named! { "grade",
+    /// How hard it was to find the odd one.
+    pub enum Grade {
+        /// Easy.
+        Easy = "easy",
+        /// Neither.
+        Normal = "normal",
+        /// Hard.
+        Hard = "hard",
     }
 }
 
