@@ -61,6 +61,37 @@ impl FieldWriter {
     }
 }
 
+/// What stands in one field of a message.
+pub(super) trait Field: Copy {
+    fn read(fields: &mut FieldReader<'_>) -> Self;
+    fn write(self, fields: &mut FieldWriter);
+}
+
+macro_rules! number_fields {
+    ($($number:ident),+) => {$(
+        impl Field for $number {
+            fn read(fields: &mut FieldReader<'_>) -> Self {
+                fields.$number()
+            }
+
+            fn write(self, fields: &mut FieldWriter) {
+                fields.$number(self);
+            }
+        }
+    )+};
+}
+number_fields!(u8, u16, i16, u32, i32);
+
+impl<const N: usize> Field for [u8; N] {
+    fn read(fields: &mut FieldReader<'_>) -> Self {
+        fields.bytes()
+    }
+
+    fn write(self, fields: &mut FieldWriter) {
+        fields.bytes(&self);
+    }
+}
+
 /// Reads fields from a payload.
 #[derive(Debug)]
 pub(super) struct FieldReader<'a> {

@@ -217,7 +217,9 @@ one_cell!(
 
 impl<T: Cells, const N: usize> Cells for [T; N] {
     fn add_to(self, row: &mut Vec<Cell>) {
-        self.into_iter().for_each(|one| one.add_to(row));
+        for one in self {
+            one.add_to(row);
+        }
     }
 }
 
@@ -289,7 +291,13 @@ macro_rules! whole_number {
         }
     )+};
 }
-whole_number!(usize, u64, u32);
+whole_number!(usize, u64);
+
+impl From<u32> for Cell {
+    fn from(value: u32) -> Self {
+        Self::Number(value.into())
+    }
+}
 
 impl From<bool> for Cell {
     fn from(is_so: bool) -> Self {

@@ -28,10 +28,11 @@ const EFFECTS: [(&str, &str); 17] = [
 pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Table {
     let mut table = Table::new(key, title, &EFFECTS);
     match found {
-        Ok(found) => found
-            .effects
-            .iter()
-            .for_each(|effect| table.push(row(effect, found.n))),
+        Ok(found) => {
+            for effect in &found.effects {
+                table.push(row(effect, found.n));
+            }
+        }
         Err(why) => {
             let blank = vec![Cell::none(&why.reason); EFFECTS.len() - 2];
             table.push(cells!["all", blank, format!("refused: {}", why.reason)]);

@@ -145,19 +145,7 @@ fn check_method(design: &Design) -> Checked {
         )
     };
     match &design.method {
-        Method::Ranking(ranking) => {
-            let place = ("ranking", 0, "target");
-            let what = format!("{n} stimuli cannot be ranked in fours");
-            need(is_ranked(n), place, what, "give 4, 7, 10, 13, 16 … of them")?;
-            let mend = match ranking.target {
-                Standard::None => "give \"virtual\" or \"real-cloth\"",
-                Standard::Virtual if design.medium == Medium::RealCloth => {
-                    "give \"real-cloth\": nothing is virtual here"
-                }
-                _ => return Ok(()),
-            };
-            Err(Flaw::new(place, "there is no target to rank against", mend))
-        }
+        Method::Ranking(ranking) => check_ranking(ranking.target, design.medium, n),
         Method::OddOneOut(choosing) => {
             at_least(2)?;
             let weights = choosing.weights;
@@ -194,6 +182,20 @@ fn check_method(design: &Design) -> Checked {
             check_repeats(table, rating.repeats)
         }
     }
+}
+
+fn check_ranking(target: Standard, medium: Medium, n: usize) -> Checked {
+    let place = ("ranking", 0, "target");
+    let what = format!("{n} stimuli cannot be ranked in fours");
+    need(is_ranked(n), place, what, "give 4, 7, 10, 13, 16 … of them")?;
+    let mend = match target {
+        Standard::None => "give \"virtual\" or \"real-cloth\"",
+        Standard::Virtual if medium == Medium::RealCloth => {
+            "give \"real-cloth\": nothing is virtual here"
+        }
+        _ => return Ok(()),
+    };
+    Err(Flaw::new(place, "there is no target to rank against", mend))
 }
 
 pub(super) fn check_repeats(table: &'static str, repeats: usize) -> Checked {

@@ -83,7 +83,8 @@ fn check_quest_plus(track: &QuestPlusTrack, span_db: f64) -> Checked {
         format!("grid_db is {grid_db}"),
         mend,
     )?;
-    let are_widths = (1..=100).contains(&widths.len()) && widths.iter().all(is_above_0);
+    let are_widths =
+        (1..=100).contains(&widths.len()) && widths.iter().all(|&value| is_above_0(value));
     let what = format!("the widths are {widths:?}");
     need(
         are_widths,
@@ -102,8 +103,8 @@ fn check_quest_plus(track: &QuestPlusTrack, span_db: f64) -> Checked {
     )
 }
 
-fn is_above_0(value: &f64) -> bool {
-    *value > 0.0 && value.is_finite()
+fn is_above_0(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
 }
 
 fn check_staircase(staircase: &StaircaseTrack) -> Checked {
@@ -117,7 +118,7 @@ fn check_staircase(staircase: &StaircaseTrack) -> Checked {
         "give 1 to 10 for each",
     )?;
     let steps_db = &staircase.steps_db;
-    let are_steps = !steps_db.is_empty() && steps_db.iter().all(is_above_0);
+    let are_steps = !steps_db.is_empty() && steps_db.iter().all(|&value| is_above_0(value));
     let what = format!("steps_db is {steps_db:?}");
     need(
         are_steps,
@@ -128,7 +129,7 @@ fn check_staircase(staircase: &StaircaseTrack) -> Checked {
     let ratio = staircase.up_over_down;
     let what = format!("up_over_down is {ratio}");
     let mend = "give a finite number above 0";
-    need(is_above_0(&ratio), place("up_over_down"), what, mend)?;
+    need(is_above_0(ratio), place("up_over_down"), what, mend)?;
     let n = staircase.starts_db.len();
     let what = format!("{n} series are interleaved");
     let mend = "give where 1 to 16 series begin";
