@@ -93,7 +93,9 @@ pub(super) fn lie(text: &str) -> Result<Lie, String> {
         .ok_or_else(|| format!("\"{text}\": write KEY=VALUE with a KEY of {KEYS}"))?;
     let read = Lie::read(key, value);
     let read = read.ok_or_else(|| format!("\"{key}\" is nothing that CAPS say: choose {KEYS}"))?;
-    read.map_err(|_| format!("{key}=\"{value}\": write a whole number that fits its field"))
+    read.map_err(|_no_number| {
+        format!("{key}=\"{value}\": write a whole number that fits its field")
+    })
 }
 
 /// Two channels that move each other's contactor: `3,7`.

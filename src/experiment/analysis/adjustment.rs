@@ -6,7 +6,7 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, tests};
 use super::options::Options;
 use super::properties::Measures;
-use super::variance::effects;
+use super::variance::{complete_rows, effects};
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::{Answer, Task};
 use selvedge_chart::{Axis, Style};
@@ -114,7 +114,8 @@ fn parameter_section(
     section.table(table);
     let title = format!("{}: {key}, mean ± sd", experiment.design.title);
     section.figure(bars("bars", &title, key, (&shown, None), &[]));
-    let (crossed, rows) = by_subject(all, &names);
+    let crossed = by_subject(all, &names);
+    let rows = complete_rows(&crossed);
     let variance = crossed.and_then(|table| repeated_one_way(&table));
     section.table(effects("anova", "Stimuli, within subjects", &variance));
     let hysteresis = start_effect(experiment, all, middle)
@@ -164,25 +165,15 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
     ]
 }
 
-type Rows = Computed<Vec<Vec<f64>>>;
-
 /// Subjects by stimuli, means of repeats.
-fn by_subject(all: &[Setting<'_>], names: &[String]) -> (Computed<Crossed>, Rows) {
+fn by_subject(all: &[Setting<'_>], names: &[String]) -> Computed<Crossed> {
     let answer = |s: &Setting<'_>| CellAnswer {
         subject: s.subject.to_owned(),
         levels: vec![names[s.item].clone()],
         value: s.value,
     };
     let answers: Vec<CellAnswer> = all.iter().map(answer).collect();
-    let crossed = Crossed::of_answers(&["stimulus"], &answers);
-    let rows = crossed.clone().and_then(|table| {
-        let values = table.complete()?;
-        Ok(values
-            .chunks(table.n_cells().max(1))
-            .map(<[f64]>::to_vec)
-            .collect())
-    });
-    (crossed, rows)
+    Crossed::of_answers(&["stimulus"], &answers)
 }
 
 /// What subjects set when it began high less when it began low.

@@ -2,6 +2,8 @@
 
 use std::borrow::Borrow;
 
+use serde::Serialize;
+
 use super::options::Options;
 use selvedge_chart::Figure;
 use selvedge_statistics::{
@@ -47,7 +49,7 @@ pub struct Table {
 }
 
 /// A column.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Column {
     /// Its name in files: letters, digits and `_`, its unit at the end.
     pub name: String,

@@ -5,7 +5,7 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Drawn, SUMMARY, Section, Table, cells, file_name, summary_cells, tests};
 use super::options::Options;
 use super::properties::Measures;
-use super::variance::effects;
+use super::variance::{complete_rows, effects};
 use crate::design::{Rating, Scale};
 use crate::{Answer, Task};
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -72,14 +72,7 @@ pub(super) fn sections(
         section.figure(picture(experiment, scale, &shown));
         let key = file_name(&scale.key, '-');
         let crossed = crossed(experiment, &names, &all);
-        let rows = crossed.clone().and_then(|table| {
-            let values = table.complete()?;
-            let n_cells = table.n_cells().max(1);
-            Ok(values
-                .chunks(n_cells)
-                .map(<[f64]>::to_vec)
-                .collect::<Vec<_>>())
-        });
+        let rows = complete_rows(&crossed);
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
         let variance = crossed.and_then(|table| repeated_one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);

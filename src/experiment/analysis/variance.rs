@@ -2,7 +2,7 @@
 
 use super::model::{Cell, Table, cells};
 use selvedge_statistics::Computed;
-use selvedge_statistics::variance::{Effect, Repeated};
+use selvedge_statistics::variance::{Crossed, Effect, Repeated};
 
 const EFFECTS: [(&str, &str); 17] = [
     ("effect", "effect"),
@@ -23,6 +23,16 @@ const EFFECTS: [(&str, &str); 17] = [
     ("p_huynh_feldt", "p so corrected"),
     ("remarks", "remarks"),
 ];
+
+/// The cells of every subject, where nobody lacks one.
+pub(super) fn complete_rows(crossed: &Computed<Crossed>) -> Computed<Vec<Vec<f64>>> {
+    let table = crossed.as_ref().map_err(Clone::clone)?;
+    let rows = table.complete()?;
+    Ok(rows
+        .chunks(table.n_cells().max(1))
+        .map(<[f64]>::to_vec)
+        .collect())
+}
 
 /// Every effect of an analysis, a row each, or one row that says why there is none.
 pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Table {
