@@ -174,11 +174,8 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     };
     let strokes = args.files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let friction = args.friction.as_ref().map(read).transpose()?;
-    let given = |(path, bytes): &'_ (PathBuf, Vec<u8>)| KesFile { path, bytes };
-    let (given, friction): (Vec<KesFile<'_>>, _) = (
-        strokes.iter().map(given).collect(),
-        friction.as_ref().map(given),
-    );
+    let given: Vec<KesFile<'_>> = strokes.iter().map(given).collect();
+    let friction = friction.as_ref().map(self::given);
     let reading = KesReading::of(&given, friction, &options)?;
     let import = KesImport::new(reading, args.sections(), args.official_band)?;
     for note in &import.reading().notes {
@@ -189,6 +186,10 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     selvedge_textile::write(&built, &args.out)?;
     selvedge_textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
     output::print(&report(&import, &args.out)?)
+}
+
+fn given((path, bytes): &(PathBuf, Vec<u8>)) -> KesFile<'_> {
+    KesFile { path, bytes }
 }
 
 /// What was imported: strokes, sections, figures.
