@@ -3,14 +3,15 @@
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::mds_json::{Chance, Document};
-use super::terminal::Meter;
-use super::{CliError, output, signals};
+use super::terminal::with_meter;
+use super::usage::one_of;
+use super::{CliError, output};
 use selvedge_foundation::files::{self, NamedMatrix};
 use selvedge_foundation::numerics;
-use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::mds::{
     DEFAULT_STARTS, Dissimilarities, Elbow, LEAST_STARTS_ON_A_LINE, Loss, MOST_DIMENSIONS, Map,
@@ -31,11 +32,13 @@ pub(super) struct MdsArgs {
     #[arg(long, value_name = "K-K", value_parser = dimensions, default_value = "1-5")]
     dims: Dimensions,
     /// What tied dissimilarities ask of distances: nothing, to be equal, to be equal in the mean
-    #[arg(long, value_enum, default_value_t = TiesArg::Primary)]
-    ties: TiesArg,
+    #[arg(long, default_value = "primary",
+        value_parser = one_of(Ties::ALL.map(|ties| (ties.name(), ties))))]
+    ties: Ties,
     /// What is made small: Kruskal's stress-1, or the loss of ALSCAL on squared distances
-    #[arg(long, value_enum, default_value_t = LossArg::Stress1)]
-    loss: LossArg,
+    #[arg(long, default_value = "stress1",
+        value_parser = one_of([("stress1", Loss::Stress1), ("sstress", Loss::SStress)]))]
+    loss: Loss,
     /// Starts in two dimensions and more; on a line at least 1000
     #[arg(long, value_name = "N", default_value_t = DEFAULT_STARTS,
         value_parser = starts)]
@@ -61,31 +64,14 @@ pub(super) struct MdsArgs {
 }
 
 /// From so many dimensions to so many.
-#[derive(Debug, Clone, Copy)]
-struct Dimensions {
-    least: usize,
-    most: usize,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TiesArg {
-    Primary,
-    Secondary,
-    Tertiary,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum LossArg {
-    Stress1,
-    Sstress,
-}
+type Dimensions = RangeInclusive<usize>;
 
 fn dimensions(text: &str) -> Result<Dimensions, String> {
     let (least, most) = text.split_once('-').unwrap_or((text, text));
     let number = |part: &str| part.trim().parse::<usize>().ok();
     match (number(least), number(most)) {
         (Some(least), Some(most)) if (1..=most).contains(&least) && most <= MOST_DIMENSIONS => {
-            Ok(Dimensions { least, most })
+            Ok(least..=most)
         }
         _ => Err(format!(
             "give 1 to {MOST_DIMENSIONS} dimensions, such as 2 or 1-5"
@@ -101,25 +87,14 @@ fn starts(text: &str) -> Result<usize, String> {
 impl MdsArgs {
     fn mds(&self) -> Mds {
         Mds {
-            ties: match self.ties {
-                TiesArg::Primary => Ties::Primary,
-                TiesArg::Secondary => Ties::Secondary,
-                TiesArg::Tertiary => Ties::Tertiary,
-            },
-            loss: match self.loss {
-                LossArg::Stress1 => Loss::Stress1,
-                LossArg::Sstress => Loss::SStress,
-            },
+            ties: self.ties,
+            loss: self.loss,
             n_starts: self.starts,
             n_starts_on_a_line: self.starts.max(LEAST_STARTS_ON_A_LINE),
             seed: self.seed,
             n_threads: self.threads.map_or_else(numerics::n_threads, usize::from),
             ..Mds::default()
         }
-    }
-
-    fn dims(&self) -> RangeInclusive<usize> {
-        self.dims.least..=self.dims.most
     }
 }
 
@@ -129,13 +104,10 @@ pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
     let table = NamedMatrix::read(&files::read_text(path)?, path)?;
     let data = checked(&table, path, args.average)?;
     let mds = args.mds();
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("mds");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let mut progress = Progress::new(&mut report, cancel);
-    let maps = mds.maps(&data, args.dims(), &mut progress)?;
-    let chance = chance(args, &data, &mut progress)?;
-    drop(meter);
+    let (maps, chance) = with_meter("mds", |progress| -> Result<_, CliError> {
+        let maps = mds.maps(&data, args.dims.clone(), progress)?;
+        Ok((maps, chance(args, &data, progress)?))
+    })??;
     let elbow = elbow(&maps, mds.loss, &chance);
     let out = args.json.as_deref();
     if let Some(out) = out {
@@ -213,7 +185,7 @@ fn chance(
         (NullKind::RandomRanks, args.random_data),
         (NullKind::Permuted, args.permutations),
     ] {
-        for k in args.dims().filter(|_| n > 0) {
+        for k in args.dims.clone().filter(|_| n > 0) {
             let null = Null::of(&mds, data, kind, (k, usize::from(n)), progress)?;
             match kind {
                 NullKind::RandomRanks => all.random_data.push(null),

@@ -109,6 +109,14 @@ pub(super) fn write_text(path: Option<&Path>, text: &str) -> Result<(), CliError
     }
 }
 
+/// Makes a folder where it is missing.
+pub(super) fn make_folder(folder: &Path, mend: &str) -> Result<(), CliError> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let folder = folder.display();
+        CliError::Input(format!("cannot make the folder {folder}: {error}; {mend}"))
+    })
+}
+
 /// Writes a whole file.
 pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     let staged = Staged::new(path);

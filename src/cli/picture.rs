@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::picture_relief::{Origin, ReliefArgs, tell_none};
-use super::terminal::{self, Meter};
-use super::{CliError, output, signals};
+use super::terminal::{self, with_meter};
+use super::{CliError, output};
 use selvedge_foundation::files;
-use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::n_threads;
 use selvedge_textile::picture::{
@@ -129,24 +129,17 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         },
         n_threads,
     };
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("picture");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let mut progress = Progress::new(&mut report, cancel);
-    let analysis = picture::analyse(&chosen, &options, &mut progress)?;
+    let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
+        let analysis = picture::analyse(&chosen, &options, progress)?;
+        let of = (&origin, px_per_mm);
+        let felt = analysis.found.as_ref().ok();
+        let felt = felt.map(|found| args.relief.felt(&found.tile, of, n_threads, progress));
+        let felt = felt.transpose()?;
+        Ok((analysis, felt))
+    };
+    let (analysis, felt) = with_meter("picture", work)??;
     let mut about = args.about();
     let mut told = summary(&analysis, px_per_mm, &args.out);
-    let felt = match &analysis.found {
-        Ok(found) => {
-            let of = (&origin, px_per_mm);
-            Some(
-                args.relief
-                    .felt(&found.tile, of, n_threads, &mut progress)?,
-            )
-        }
-        Err(_) => None,
-    };
-    drop(meter);
     match felt {
         Some(Ok(felt)) => {
             told.push_str(&args.relief.finish(&felt, &args.out)?);
@@ -166,12 +159,7 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
 }
 
 fn write(made: &[(&'static str, Vec<u8>)], out: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(out).map_err(|error| {
-        let out = out.display();
-        CliError::Input(format!(
-            "cannot make the folder {out}: {error}; name another with --out"
-        ))
-    })?;
+    output::make_folder(out, "name another with --out")?;
     // What an earlier picture left there would pass for this one's.
     for name in picture::FILE_NAMES {
         let is_made = made.iter().any(|(made, _)| *made == name);

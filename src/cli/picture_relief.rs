@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::picture::{numbers, positive};
-use super::textile_words::Made;
+use super::textile_words::construction;
+use super::usage::one_of;
 use super::{CliError, terminal};
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -14,7 +15,7 @@ use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOpt
 use selvedge_textile::picture::{Relief, Tile};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
-    BuiltFile, Description, HeightScale, PictureTextile, relief_um_of, textile_of,
+    BuiltFile, Construction, Description, HeightScale, PictureTextile, relief_um_of, textile_of,
 };
 
 /// How heights are found on the cell, and what becomes of them.
@@ -25,8 +26,8 @@ pub(super) struct ReliefArgs {
     #[arg(long, value_name = "SLANT,TILT", value_parser = light_from, allow_hyphen_values = true)]
     light: Option<Light>,
     /// How heights are found from brightness (variational)
-    #[arg(long, value_enum, value_name = "METHOD")]
-    shading: Option<By>,
+    #[arg(long, value_name = "METHOD", value_parser = one_of(SHADINGS))]
+    shading: Option<Method>,
     /// Iterations at most, 1 to 10000 (the method's own number)
     #[arg(long, value_name = "N")]
     iterations: Option<usize>,
@@ -43,20 +44,18 @@ pub(super) struct ReliefArgs {
     #[arg(long, default_value = "", requires = "textile")]
     name: String,
     /// How the textile is made
-    #[arg(long, value_enum, default_value = "other", requires = "textile")]
-    construction: Made,
+    #[arg(long, value_parser = construction(), default_value = "other", requires = "textile")]
+    construction: Construction,
     /// Feel the textile at every point, not along the strokes
     #[arg(long, requires = "textile")]
     areal: bool,
 }
 
-/// Methods as words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum By {
-    TsaiShah,
-    Linear,
-    Variational,
-}
+const SHADINGS: [(&str, Method); 3] = [
+    ("tsai-shah", Method::TsaiShah),
+    ("linear", Method::Linear),
+    ("variational", Method::Variational),
+];
 
 fn light_from(text: &str) -> Result<Light, String> {
     let wrong = || "give two numbers in degrees, such as 45,30".to_owned();
@@ -125,13 +124,8 @@ impl ReliefArgs {
     }
 
     fn options(&self) -> ShadingOptions {
-        let method = match self.shading {
-            Some(By::TsaiShah) => Method::TsaiShah,
-            Some(By::Linear) => Method::Linear,
-            Some(By::Variational) | None => Method::Variational,
-        };
         ShadingOptions {
-            method,
+            method: self.shading.unwrap_or_default(),
             iterations: self.iterations,
             ..ShadingOptions::default()
         }
@@ -152,7 +146,7 @@ impl ReliefArgs {
         };
         PictureTextile {
             name: Description::of(&called).name,
-            construction: self.construction.construction(),
+            construction: self.construction,
             px_per_mm: px_per_mm.unwrap_or(0.0),
             scale,
             picture: Some([name.to_string_lossy().into_owned(), origin.sha256.clone()]),

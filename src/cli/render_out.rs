@@ -8,11 +8,10 @@ use std::sync::atomic::AtomicBool;
 use clap::ValueEnum;
 
 use super::output::TableOut;
-use super::terminal::Meter;
+use super::terminal::with_meter_until;
 use super::{CliError, terminal};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{ClipKind, ClipWriter, side_by_side};
-use selvedge_foundation::progress::{CancelFlag, Progress};
 use selvedge_render::array::DisplayFrame;
 use selvedge_render::scene::LoadedScene;
 
@@ -145,11 +144,7 @@ impl Clips {
     /// The files are whole; says what a listener should know.
     pub(super) fn finish(self, stop: &Arc<AtomicBool>) -> Result<(), CliError> {
         for clip in self.clips {
-            let mut meter = Meter::new("writing");
-            let mut report = |share: f64, _: &str| meter.show(share, "");
-            let flag = CancelFlag::shared(Arc::clone(stop));
-            let written = clip.finish(&mut Progress::new(&mut report, flag))?;
-            drop(meter);
+            let written = with_meter_until("writing", stop, |progress| clip.finish(progress))?;
             if let [first, .., last] = &written.paths[..] {
                 let (first, last) = (first.display(), last.display());
                 let n = written.paths.len();

@@ -1,6 +1,5 @@
 //! `selvedge report`: error against run time, stability, and what is left out, as tables and plots.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -54,12 +53,7 @@ fn list(studies: &[Study]) -> Result<(), CliError> {
 }
 
 fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(out).map_err(|error| {
-        let out = out.display();
-        CliError::Input(format!(
-            "cannot make the folder {out}: {error}; choose another --out"
-        ))
-    })?;
+    output::make_folder(out, "choose another --out")?;
     let options = Options {
         out: out.to_owned(),
         effort: if args.quick {

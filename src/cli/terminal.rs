@@ -3,7 +3,12 @@
 //! Nothing here writes results. Errors of stderr are dropped: there is nowhere left to tell them.
 
 use std::io::{self, IsTerminal as _, Write as _};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
+
+use super::{CliError, signals};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// Work that is shorter than this says nothing.
 const QUIET: Duration = Duration::from_secs(1);
@@ -59,6 +64,27 @@ impl Meter {
             notice(line.trim_end());
         }
     }
+}
+
+/// Does work that shows its progress, until it is done or a signal stops it.
+pub(super) fn with_meter<T>(
+    doing: &'static str,
+    work: impl FnOnce(&mut Progress<'_>) -> T,
+) -> Result<T, CliError> {
+    let stop = signals::stop_flag()?;
+    Ok(with_meter_until(doing, &stop, work))
+}
+
+/// The same, until a flag is set.
+pub(super) fn with_meter_until<T>(
+    doing: &'static str,
+    stop: &Arc<AtomicBool>,
+    work: impl FnOnce(&mut Progress<'_>) -> T,
+) -> T {
+    let mut meter = Meter::new(doing);
+    let mut report = |share: f64, what: &str| meter.show(share, what);
+    let cancel = CancelFlag::shared(Arc::clone(stop));
+    work(&mut Progress::new(&mut report, cancel))
 }
 
 /// Time spent, and the time left if the rest goes as fast; at first nobody knows.

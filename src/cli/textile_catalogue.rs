@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::terminal::Meter;
-use super::{CliError, output, signals};
-use selvedge_foundation::progress::{CancelFlag, Progress};
-use selvedge_textile::Library;
+use super::terminal::with_meter;
+use super::{CliError, output};
+use selvedge_foundation::progress::Progress;
+use selvedge_textile::{Library, write_catalogue};
 
 /// Where the catalogue goes.
 #[derive(Debug, Args)]
@@ -19,11 +19,8 @@ pub(super) struct CatalogueArgs {
 
 /// Writes it.
 pub(super) fn run(library: &Library, args: &CatalogueArgs) -> Result<(), CliError> {
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("drawing");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let mut progress = Progress::new(&mut report, cancel);
-    let n_textiles = selvedge_textile::write_catalogue(library, &args.out, &mut progress)?;
+    let write = |progress: &mut Progress<'_>| write_catalogue(library, &args.out, progress);
+    let n_textiles = with_meter("drawing", write)??;
     let index = args.out.join("index.md");
     output::print(&format!("{}: {n_textiles} textiles\n", index.display()))
 }

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::textile_words::{Made, WordsArgs};
+use super::textile_words::{WordsArgs, construction};
 use super::{CliError, output, terminal};
 use selvedge_textile::LengthUnit;
 use selvedge_textile::metrology::{self, HeightOptions};
 use selvedge_textile::surface::Representation;
-use selvedge_textile::{Description, HeightImport, HeightPlace, ImportOptions, TextileError};
+use selvedge_textile::{
+    Construction, Description, HeightImport, HeightPlace, ImportOptions, TextileError,
+};
 
 /// What a file may leave open.
 #[derive(Debug, Args)]
@@ -73,8 +75,8 @@ pub(super) struct ImportArgs {
     #[arg(long, default_value = "")]
     name: String,
     /// How it is made
-    #[arg(long, value_enum, default_value = "other")]
-    construction: Made,
+    #[arg(long, value_parser = construction(), default_value = "other")]
+    construction: Construction,
     #[command(flatten)]
     words: WordsArgs,
 }

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::textile_words::{Made, WordsArgs};
+use super::textile_words::{WordsArgs, construction};
+use super::usage::one_of;
 use super::{CliError, output, terminal};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{
-    ColumnRole, DecimalSign, KesFile, KesImport, KesOptions, KesPlace, KesReading, LengthUnit,
-    ReturnOrder, TextileAxis, Unit, measured_figures,
+    ColumnRole, Construction, DecimalSign, KesFile, KesImport, KesOptions, KesPlace, KesReading,
+    LengthUnit, ReturnOrder, TextileAxis, Unit, measured_figures,
 };
 
 /// Files of the tester, what they do not say, and where the textile goes.
@@ -26,8 +27,8 @@ pub(super) struct ImportKesArgs {
     #[arg(long)]
     name: String,
     /// How it is made
-    #[arg(long, value_enum, default_value = "woven")]
-    construction: Made,
+    #[arg(long, value_parser = construction(), default_value = "woven")]
+    construction: Construction,
     #[command(flatten)]
     words: WordsArgs,
     /// What a file holds, once a file in their order: warp, weft, warp-forward, warp-return …
@@ -46,20 +47,20 @@ pub(super) struct ImportKesArgs {
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     um_per_volt: Option<f64>,
     /// The unit of places
-    #[arg(long, value_enum)]
-    x_unit: Option<XUnit>,
+    #[arg(long, value_parser = one_of(LENGTHS))]
+    x_unit: Option<LengthUnit>,
     /// The unit of heights
     #[arg(long, value_enum)]
     height_unit: Option<ZUnit>,
     /// The decimal sign
-    #[arg(long, value_enum)]
-    decimal: Option<Decimal>,
+    #[arg(long, value_parser = one_of(DECIMALS))]
+    decimal: Option<DecimalSign>,
     /// What the columns are: x, t, height, forward, return, warp-forward …, mu, skip
     #[arg(long, value_delimiter = ',', value_parser = role)]
     columns: Option<Vec<ColumnRole>>,
     /// How rows of a return stroke follow one another: as measured, or by place
-    #[arg(long, value_enum)]
-    return_order: Option<Order>,
+    #[arg(long, value_parser = one_of(ORDERS))]
+    return_order: Option<ReturnOrder>,
     /// The evaluated section, mm on the cloth; warp=FROM,TO or weft=FROM,TO for one axis
     #[arg(long, value_name = "FROM,TO", value_parser = section, allow_hyphen_values = true)]
     section: Vec<Section>,
@@ -71,12 +72,17 @@ pub(super) struct ImportKesArgs {
     friction: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum XUnit {
-    Mm,
-    Cm,
-    Um,
-}
+const LENGTHS: [(&str, LengthUnit); 3] = [
+    ("mm", LengthUnit::Millimetre),
+    ("cm", LengthUnit::Centimetre),
+    ("um", LengthUnit::Micrometre),
+];
+const DECIMALS: [(&str, DecimalSign); 2] =
+    [("point", DecimalSign::Point), ("comma", DecimalSign::Comma)];
+const ORDERS: [(&str, ReturnOrder); 2] = [
+    ("travel", ReturnOrder::Travel),
+    ("mirrored", ReturnOrder::Mirrored),
+];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ZUnit {
@@ -84,18 +90,6 @@ enum ZUnit {
     Mm,
     #[value(name = "V", alias = "v")]
     Volt,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Decimal {
-    Point,
-    Comma,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Order {
-    Travel,
-    Mirrored,
 }
 
 /// A section of one axis, or of both.
@@ -149,25 +143,15 @@ impl ImportKesArgs {
             speed_mm_per_s: self.speed_mm_per_s,
             rate_hz: self.rate_hz,
             um_per_volt: self.um_per_volt,
-            x_unit: self.x_unit.map(|unit| match unit {
-                XUnit::Mm => LengthUnit::Millimetre,
-                XUnit::Cm => LengthUnit::Centimetre,
-                XUnit::Um => LengthUnit::Micrometre,
-            }),
+            x_unit: self.x_unit,
             height_unit: self.height_unit.map(|unit| match unit {
                 ZUnit::Um => Unit::Length(LengthUnit::Micrometre),
                 ZUnit::Mm => Unit::Length(LengthUnit::Millimetre),
                 ZUnit::Volt => Unit::Volt,
             }),
-            decimal: self.decimal.map(|sign| match sign {
-                Decimal::Point => DecimalSign::Point,
-                Decimal::Comma => DecimalSign::Comma,
-            }),
+            decimal: self.decimal,
             columns: self.columns.clone(),
-            return_order: self.return_order.map(|order| match order {
-                Order::Travel => ReturnOrder::Travel,
-                Order::Mirrored => ReturnOrder::Mirrored,
-            }),
+            return_order: self.return_order,
         })
     }
 
@@ -185,27 +169,13 @@ impl ImportKesArgs {
 /// Imports.
 pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let options = args.options()?;
-    let bytes: Vec<Vec<u8>> = args
-        .files
-        .iter()
-        .map(|path| selvedge_textile::read_measurement(path))
-        .collect::<Result<_, _>>()?;
-    let friction_bytes = args
-        .friction
-        .as_deref()
-        .map(selvedge_textile::read_measurement)
-        .transpose()?;
-    let given: Vec<KesFile<'_>> = args
-        .files
-        .iter()
-        .zip(&bytes)
-        .map(|(path, bytes)| KesFile { path, bytes })
-        .collect();
-    let friction = args
-        .friction
-        .as_deref()
-        .zip(friction_bytes.as_deref())
-        .map(|(path, bytes)| KesFile { path, bytes });
+    let read = |path: &PathBuf| -> Result<_, CliError> {
+        Ok((path.clone(), selvedge_textile::read_measurement(path)?))
+    };
+    let strokes = args.files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let friction = args.friction.as_ref().map(read).transpose()?;
+    let given: Vec<KesFile<'_>> = strokes.iter().map(given).collect();
+    let friction = friction.as_ref().map(self::given);
     let reading = KesReading::of(&given, friction, &options)?;
     let import = KesImport::new(reading, args.sections(), args.official_band)?;
     for note in &import.reading().notes {
@@ -216,6 +186,10 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     selvedge_textile::write(&built, &args.out)?;
     selvedge_textile::write_figure(&import.figure(&args.name), &args.out, "import")?;
     output::print(&report(&import, &args.out)?)
+}
+
+fn given((path, bytes): &(PathBuf, Vec<u8>)) -> KesFile<'_> {
+    KesFile { path, bytes }
 }
 
 /// What was imported: strokes, sections, figures.

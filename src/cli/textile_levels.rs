@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::output::TableOut;
-use super::terminal::Meter;
-use super::{CliError, output, signals};
-use selvedge_foundation::progress::{CancelFlag, Progress};
+use super::terminal::with_meter;
+use super::{CliError, output};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db};
 use selvedge_textile::tactile::{Band, Filters, Levels, Tuning};
 use selvedge_textile::{Library, Textile};
@@ -32,12 +32,8 @@ const LEVELS_HEADER: [&str; 10] = [
 
 /// Writes the table, and when it goes to a file what the library spans to standard output.
 pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliError> {
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("reading");
-    let mut report = |share: f64, id: &str| meter.show(share, id);
-    let mut progress = Progress::new(&mut report, cancel);
-    let textiles = library.load_all(library.ids(), &mut progress)?;
-    drop(meter);
+    let load = |progress: &mut Progress<'_>| library.load_all(library.ids(), progress);
+    let textiles = with_meter("reading", load)??;
     let all: Vec<Measured> = textiles
         .into_iter()
         .map(|textile| {

@@ -7,12 +7,12 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
-use super::terminal::Meter;
+use super::terminal::with_meter;
 use super::textile::FromLibrary;
 use super::textile_models::{self, BrownianArgs, FourierArgs, RestorationArgs};
-use super::{CliError, output, signals};
+use super::{CliError, output};
 use selvedge_foundation::files::{self, FileError};
-use selvedge_foundation::progress::{CancelFlag, Progress};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{Library, Manifest};
 
@@ -103,12 +103,11 @@ fn build_into(library: &Library, to: &Path, n_threads: Option<u8>) -> Result<(),
     let mut tuning = library.default_tuning();
     // The reference level follows from the textiles made.
     tuning.compression_reference_db = None;
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
     let n_threads = n_threads.map_or_else(selvedge_textile::n_threads, usize::from);
-    let mut meter = Meter::new("making");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let mut progress = Progress::new(&mut report, cancel);
-    let index = selvedge_textile::build_library(library, to, tuning, n_threads, &mut progress)?;
+    let build = |progress: &mut Progress<'_>| {
+        selvedge_textile::build_library(library, to, tuning, n_threads, progress)
+    };
+    let index = with_meter("making", build)??;
     let n_made = index.textiles.len();
     let seconds = fixed(started.elapsed().as_secs_f64(), 1);
     output::print(&format!(

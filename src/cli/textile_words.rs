@@ -2,30 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::TypedValueParser;
 
 use super::CliError;
+use super::usage::one_of;
 use selvedge_textile::{Construction, Description};
 
-/// How a textile is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Made {
-    Woven,
-    Knitted,
-    Nonwoven,
-    Other,
-}
-
-impl Made {
-    /// The same in a manifest.
-    pub(super) fn construction(self) -> Construction {
-        match self {
-            Self::Woven => Construction::Woven,
-            Self::Knitted => Construction::Knitted,
-            Self::Nonwoven => Construction::Nonwoven,
-            Self::Other => Construction::Other,
-        }
-    }
+/// Reads how a textile is made.
+pub(super) fn construction() -> impl TypedValueParser<Value = Construction> {
+    let all = [
+        Construction::Woven,
+        Construction::Knitted,
+        Construction::Nonwoven,
+        Construction::Other,
+    ];
+    one_of(all.map(|one| (one.word(), one)))
 }
 
 /// What people say of a textile.
@@ -54,7 +46,11 @@ fn figure(text: &str) -> Result<(String, f64), String> {
 
 impl WordsArgs {
     /// The words with a name and how it is made.
-    pub(super) fn words(&self, name: &str, made: Made) -> Result<Description, CliError> {
+    pub(super) fn words(
+        &self,
+        name: &str,
+        construction: Construction,
+    ) -> Result<Description, CliError> {
         let mut figures = BTreeMap::new();
         for (key, value) in &self.figure {
             if figures.insert(key.clone(), *value).is_some() {
@@ -64,7 +60,7 @@ impl WordsArgs {
         }
         Ok(Description {
             name: name.to_owned(),
-            construction: made.construction(),
+            construction,
             fibre: self.fibre.clone(),
             licence: self.licence.clone(),
             notes: self.notes.clone(),

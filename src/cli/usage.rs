@@ -3,9 +3,23 @@
 
 use std::process::ExitCode;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 
 use super::{output, terminal};
+
+/// Reads one of some values by its name.
+pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [(&'static str, T); N],
+) -> impl TypedValueParser<Value = T> {
+    let parser = PossibleValuesParser::new(all.map(|(name, _)| name));
+    parser.try_map(move |text: String| {
+        let found = all.iter().find(|(name, _)| *name == text);
+        found
+            .map(|(_, value)| *value)
+            .ok_or("this has no meaning here")
+    })
+}
 
 /// Answers help and version on standard output, everything else with one line and exit code 2.
 pub(super) fn answer(error: &clap::Error) -> ExitCode {

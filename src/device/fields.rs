@@ -61,6 +61,70 @@ impl FieldWriter {
     }
 }
 
+/// What stands in one field of a message.
+pub(super) trait Field: Copy {
+    fn read(fields: &mut FieldReader<'_>) -> Self;
+    fn write(self, fields: &mut FieldWriter);
+}
+
+macro_rules! number_fields {
+    ($($number:ident),+) => {$(
+        impl Field for $number {
+            fn read(fields: &mut FieldReader<'_>) -> Self {
+                fields.$number()
+            }
+
+            fn write(self, fields: &mut FieldWriter) {
+                fields.$number(self);
+            }
+        }
+    )+};
+}
+number_fields!(u8, u16, i16, u32, i32);
+
+macro_rules! pair_fields {
+    ($($number:ty),+) => {$(
+        impl Field for [$number; 2] {
+            fn read(fields: &mut FieldReader<'_>) -> Self {
+                [Field::read(fields), Field::read(fields)]
+            }
+
+            fn write(self, fields: &mut FieldWriter) {
+                for number in self {
+                    number.write(fields);
+                }
+            }
+        }
+    )+};
+}
+pair_fields!(u16, u32);
+
+/// Reads some fields of a message in order.
+macro_rules! read_fields {
+    ($from:expr, $message:ident { $($field:ident)+ }) => {
+        $($message.$field = $crate::fields::Field::read($from);)+
+    };
+}
+pub(super) use read_fields;
+
+/// Writes some fields of a message in order.
+macro_rules! write_fields {
+    ($to:expr, $message:ident { $($field:ident)+ }) => {
+        $($crate::fields::Field::write($message.$field, $to);)+
+    };
+}
+pub(super) use write_fields;
+
+impl<const N: usize> Field for [u8; N] {
+    fn read(fields: &mut FieldReader<'_>) -> Self {
+        fields.bytes()
+    }
+
+    fn write(self, fields: &mut FieldWriter) {
+        fields.bytes(&self);
+    }
+}
+
 /// Reads fields from a payload.
 #[derive(Debug)]
 pub(super) struct FieldReader<'a> {

@@ -3,14 +3,13 @@
 //! Commands are plain values; what they need prepared (buffers, tables, ports) is prepared by
 //! [`Engine::send`](super::Engine::send) before they reach the thread.
 
-use std::fmt;
-
 use super::{InputSource, PreparedScene, Tap, VibrationStep};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
 use selvedge_render::{PlacedLevel, RenderError};
 use selvedge_textile::tactile::Tuning;
 
 /// Something asked of the engine. Every one takes effect at a tick, except the stops.
+#[derive(Debug)]
 pub enum Command {
     /// Feel this scene from the next tick on. Ends a recording; disconnects the device if the
     /// number of contactors changed.
@@ -122,42 +121,4 @@ pub enum Notice {
     SourceEnded,
     /// The recording reached its limit, or nobody collected its blocks: it ended.
     RecordingEnded(&'static str),
-}
-
-impl fmt::Debug for Command {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SetScene(_) => "SetScene",
-            Self::UpdateScene(_) => "UpdateScene",
-            Self::SetTuning(_) => "SetTuning",
-            Self::SetTextileGain { .. } => "SetTextileGain",
-            Self::SetContactorMask(_) => "SetContactorMask",
-            Self::Vibrate(_) => "Vibrate",
-            Self::SetLevels(_) => "SetLevels",
-            Self::SetSource(_) => "SetSource",
-            Self::SetAngle(_) => "SetAngle",
-            Self::TurnBy(_) => "TurnBy",
-            Self::Play => "Play",
-            Self::Pause => "Pause",
-            Self::Step => "Step",
-            Self::Rewind => "Rewind",
-            Self::Seek(_) => "Seek",
-            Self::SetLoop(_) => "SetLoop",
-            Self::Connect(_) => "Connect",
-            Self::SetArray(_) => "SetArray",
-            Self::Identify(_) => "Identify",
-            Self::IdentifyChannel { .. } => "IdentifyChannel",
-            Self::Disconnect => "Disconnect",
-            Self::Arm => "Arm",
-            Self::Disarm => "Disarm",
-            Self::ClearFaults => "ClearFaults",
-            Self::StopAll => "StopAll",
-            Self::StartRecording => "StartRecording",
-            Self::StopRecording => "StopRecording",
-            Self::SampleTicks(_) => "SampleTicks",
-            Self::Watch(_) => "Watch",
-            Self::SetTap(_) => "SetTap",
-            Self::Shutdown => "Shutdown",
-        })
-    }
 }

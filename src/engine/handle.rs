@@ -178,8 +178,8 @@ impl Engine {
             return Err(EngineError::Busy);
         }
         let command = match command {
-            Command::SetScene(scene) => self.ready_scene(NextScene::Other(scene)),
-            Command::UpdateScene(scene) => self.ready_scene(NextScene::Edited(scene)),
+            Command::SetScene(scene) => self.ready_scene(scene, false),
+            Command::UpdateScene(scene) => self.ready_scene(scene, true),
             Command::SetArray(array) => self.driven.choose(array),
             Command::Identify(is_begun) => ReadyCommand::Identify(is_begun),
             Command::IdentifyChannel {
@@ -326,13 +326,13 @@ impl Engine {
     }
 
     /// Another scene, with a channel for snapshots of its size.
-    fn ready_scene(&mut self, mut next: NextScene) -> ReadyCommand {
-        if self.driven.follow(next.scene_mut()) {
+    fn ready_scene(&mut self, mut scene: Box<PreparedScene>, is_edited: bool) -> ReadyCommand {
+        if self.driven.follow(&mut scene) {
             self.switch.set_device(None);
         }
-        let (input, output) = triple_buffer::triple_buffer(&next.scene().first_snapshot());
+        let (input, output) = triple_buffer::triple_buffer(&scene.first_snapshot());
         self.coming.push(output);
-        ReadyCommand::Scene(next, input)
+        ReadyCommand::Scene(NextScene { scene, is_edited }, input)
     }
 
     fn ready_recording(&mut self) -> ReadyCommand {

@@ -53,27 +53,10 @@ pub(super) struct NextArray {
 }
 
 /// The scene that is felt next.
-pub(super) enum NextScene {
-    /// Another one.
-    Other(Box<PreparedScene>),
-    /// The same one after an edit.
-    Edited(Box<PreparedScene>),
-}
-
-impl NextScene {
-    /// The scene, whichever it is.
-    pub(super) fn scene(&self) -> &PreparedScene {
-        match self {
-            Self::Other(scene) | Self::Edited(scene) => scene,
-        }
-    }
-
-    /// The scene, to be fitted to the device at hand.
-    pub(super) fn scene_mut(&mut self) -> &mut PreparedScene {
-        match self {
-            Self::Other(scene) | Self::Edited(scene) => scene,
-        }
-    }
+pub(super) struct NextScene {
+    pub(super) scene: Box<PreparedScene>,
+    /// Whether it is the one before after an edit.
+    pub(super) is_edited: bool,
 }
 
 impl ReadyCommand {

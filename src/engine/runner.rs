@@ -255,11 +255,11 @@ impl Runner {
     }
 
     fn set_scene(&mut self, mut next: NextScene, snapshots: Input<Snapshot>) {
-        if self.link.is_some() && next.scene().n_felt() != self.core.scene().n_felt() {
+        if self.link.is_some() && next.scene.n_felt() != self.core.scene().n_felt() {
             self.connect(None);
             self.say(Notice::DisplayChanged);
         }
-        next.scene_mut().set_link_limit(self.link.comp_limit());
+        next.scene.set_link_limit(self.link.comp_limit());
         self.obey_core(CoreCommand::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));

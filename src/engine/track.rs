@@ -23,7 +23,7 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// A track without samples. Allocates; nothing else here does.
+    /// A track without samples. Nothing here allocates.
     pub(super) fn new(method: VelocityMethod) -> Self {
         Self {
             gate: SampleGate::default(),
@@ -39,14 +39,7 @@ impl Track {
 
     /// Begins anew with the same method.
     pub(super) fn forget(&mut self) {
-        self.gate = SampleGate::default();
-        self.estimator.reset();
-        self.newest = None;
-        self.fresh = None;
-        self.estimate = Estimate::REST;
-        self.age = None;
-        self.rate = RateMeter::default();
-        self.is_lifted = false;
+        *self = Self::new(self.estimator.method());
     }
 
     /// The finger left the surface: at rest, and what comes next is a new series.

@@ -23,6 +23,7 @@ mod course;
 pub mod design;
 mod error;
 pub mod layout;
+mod named;
 mod noise;
 pub mod observer;
 mod participants;

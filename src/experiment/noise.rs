@@ -11,6 +11,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 
 use super::ExperimentError;
+use super::named::named;
 use selvedge_foundation::files::{FileError, Staged};
 use selvedge_foundation::numerics::{Complex, Random, RealTransform};
 use selvedge_foundation::progress::Progress;
@@ -31,14 +32,16 @@ pub const MOST_NOISE_MINUTES: u16 = 120;
 /// The longest fade, s.
 pub(crate) const LONGEST_FADE_S: f64 = 30.0;
 
-/// How the power of a noise lies over frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Colour {
-    /// As much in every third of an octave.
-    #[default]
-    Pink,
-    /// As much in every Hz.
-    White,
+named! { "colour",
+    /// How the power of a noise lies over frequency.
+    #[derive(Default)]
+    pub enum Colour {
+        /// As much in every third of an octave.
+        #[default]
+        Pink = "pink",
+        /// As much in every Hz.
+        White = "white",
+    }
 }
 
 /// A masking noise that is to be written.

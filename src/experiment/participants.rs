@@ -3,7 +3,6 @@
 //! It only grows, and what people are told apart by is all that it holds: pseudonyms and words
 //! without blanks, so that no name finds its way in. What was not told is empty.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -120,38 +119,20 @@ impl Participant {
         Some((told(name, value), mend.to_owned()))
     }
 
-    /// The first particular that was told of `self` and is another of `other`.
-    fn difference(&self, other: &Self) -> Option<Difference> {
-        let pairs = self.particulars.iter().zip(&other.particulars);
+    /// The first particular that was told of `self` and is another of `known`, in one line.
+    fn difference(&self, known: &Self) -> Option<String> {
+        let pairs = self.particulars.iter().zip(&known.particulars);
         let mut pairs = COLUMNS[1..].iter().zip(pairs);
         let (column, (told, known)) =
             pairs.find(|(_, (told, known))| !told.is_empty() && told != known)?;
-        Some(Difference {
-            column,
-            told: told.clone(),
-            known: known.clone(),
-        })
-    }
-}
-
-/// A particular that was told in two ways.
-struct Difference {
-    column: &'static str,
-    told: String,
-    known: String,
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            column,
-            told,
-            known,
-        } = self;
-        match known.as_str() {
-            "" => write!(f, "{column} was not told then, and is {told} now"),
-            known => write!(f, "{column} was {known} then, and is {told} now"),
-        }
+        let then = match known.as_str() {
+            "" => "was not told".to_owned(),
+            known => format!("was {known}"),
+        };
+        let who = &self.pseudonym;
+        Some(format!(
+            "{who} took part already: {column} {then} then, and is {told} now"
+        ))
     }
 }
 
@@ -255,8 +236,7 @@ impl Participants {
     pub fn contradiction(&self, participant: &Participant) -> Option<String> {
         let nth = self.nth(&participant.pseudonym)?;
         let difference = participant.difference(&self.rows[nth])?;
-        let who = &participant.pseudonym;
-        Some(format!("{who} took part already: {difference}; {MEND}"))
+        Some(format!("{difference}; {MEND}"))
     }
 
     fn known(
@@ -267,11 +247,10 @@ impl Participants {
         let Some(nth) = self.nth(&participant.pseudonym) else {
             return Ok(None);
         };
-        let Some(difference) = participant.difference(&self.rows[nth]) else {
-            return Ok(Some(nth));
-        };
-        let what = format!("{} took part already: {difference}", participant.pseudonym);
-        Err(FileError::whole(path, what, MEND).into())
+        match participant.difference(&self.rows[nth]) {
+            None => Ok(Some(nth)),
+            Some(difference) => Err(FileError::whole(path, difference, MEND).into()),
+        }
     }
 }
 

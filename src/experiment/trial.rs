@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::named::named;
+
 /// Alternatives of a ranking.
 pub const N_RANKED: usize = 4;
 /// Items of a triad.
@@ -79,33 +81,15 @@ pub enum Task {
     },
 }
 
-/// How hard it was to find the odd one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Grade {
-    /// Easy.
-    Easy,
-    /// Neither.
-    Normal,
-    /// Hard.
-    Hard,
-}
-
-impl Grade {
-    /// All, from easy to hard.
-    pub const ALL: [Self; 3] = [Self::Easy, Self::Normal, Self::Hard];
-
-    /// As files and people call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Easy => "easy",
-            Self::Normal => "normal",
-            Self::Hard => "hard",
-        }
-    }
-
-    /// The grade of a name.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|grade| grade.name() == name)
+named! { "grade",
+    /// How hard it was to find the odd one.
+    pub enum Grade {
+        /// Easy.
+        Easy = "easy",
+        /// Neither.
+        Normal = "normal",
+        /// Hard.
+        Hard = "hard",
     }
 }
 
@@ -191,10 +175,7 @@ impl Answer {
     /// Whether a choice is one of `n`.
     pub(super) fn check_choice(&self, n: usize) -> Result<(), AnswerError> {
         match self {
-            Self::Chosen { position, .. } if *position >= n => Err(AnswerError::value(
-                describe_position(*position),
-                format!("give 1 to {n}"),
-            )),
+            Self::Chosen { position, .. } => check_position(*position, n),
             _ => Ok(()),
         }
     }
@@ -207,14 +188,7 @@ impl Task {
     /// The answer is none to this question. How many scales and parameters there are is the
     /// design's to check.
     pub(crate) fn verdict(&self, answer: &Answer) -> Result<Option<bool>, AnswerError> {
-        let chosen = |position: usize, n: usize| {
-            let mend = || AnswerError::value(describe_position(position), format!("give 1 to {n}"));
-            if position < n {
-                Ok(position)
-            } else {
-                Err(mend())
-            }
-        };
+        let chosen = |position: usize, n: usize| check_position(position, n).map(|()| position);
         match (self, answer) {
             (
                 Self::Rank {
@@ -264,8 +238,12 @@ impl Task {
     }
 }
 
-fn describe_position(position: usize) -> String {
-    format!("there is no number {}", position.saturating_add(1))
+fn check_position(position: usize, n: usize) -> Result<(), AnswerError> {
+    if position < n {
+        return Ok(());
+    }
+    let what = format!("there is no number {}", position.saturating_add(1));
+    Err(AnswerError::value(what, format!("give 1 to {n}")))
 }
 
 fn check_ranks(ranks: [u8; N_RANKED]) -> Result<(), AnswerError> {

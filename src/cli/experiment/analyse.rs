@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::super::terminal::{self, Meter};
-use super::super::{CliError, output, signals};
+use super::super::terminal::{self, with_meter};
+use super::super::{CliError, output};
 
 use selvedge_experiment::ExperimentError;
 use selvedge_experiment::analysis::{Analysis, Cell, Options, UNREAD, analyse_folder};
-use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// Logs, and how they are analysed.
 #[derive(Debug, Args)]
@@ -52,19 +51,13 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
         cache: selvedge_workbench::build_cache(),
         ..Options::default()
     };
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("analysing");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let analysis = analyse_folder(
-        &args.logs,
-        &options,
-        &mut Progress::new(&mut report, cancel),
-    )
-    .map_err(|error| match error {
+    let analysed = with_meter("analysing", |progress| {
+        analyse_folder(&args.logs, &options, progress)
+    })?;
+    let analysis = analysed.map_err(|error| match error {
         ExperimentError::Cancelled(stopped) => CliError::from(stopped),
         other => other.into(),
     })?;
-    drop(meter);
     for (log, why) in left_out(&analysis) {
         terminal::notice(&format!("{log} is left out: {why}"));
     }

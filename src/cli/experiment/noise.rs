@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use crate::terminal::Meter;
-use crate::{CliError, signals};
+use crate::CliError;
+use crate::terminal::with_meter;
+use crate::usage::one_of;
 use selvedge_experiment::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
-use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A noise and its file.
 #[derive(Debug, Args)]
@@ -20,8 +20,9 @@ pub(crate) struct NoiseArgs {
         value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_NOISE_MINUTES)))]
     minutes: u16,
     /// As strong in every third of an octave, or in every Hz; both from 30 Hz to 6 kHz
-    #[arg(long, value_enum, default_value_t = ColourArg::Pink)]
-    colour: ColourArg,
+    #[arg(long, default_value = "pink",
+        value_parser = one_of(Colour::ALL.map(|one| (one.name(), one))))]
+    colour: Colour,
     /// What chance begins with
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -35,25 +36,15 @@ pub(crate) struct NoiseArgs {
     fade_s: f64,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ColourArg {
-    Pink,
-    White,
-}
-
 /// Writes it.
 pub(super) fn run(args: &NoiseArgs) -> Result<(), CliError> {
     let noise = MaskingNoise {
-        colour: match args.colour {
-            ColourArg::Pink => Colour::Pink,
-            ColourArg::White => Colour::White,
-        },
+        colour: args.colour,
         seed: args.seed,
         minutes: args.minutes,
         fade_s: args.fade_s,
     };
-    let mut meter = Meter::new("writing");
-    let mut report = |share: f64, what: &str| meter.show(share, what);
-    let mut progress = Progress::new(&mut report, CancelFlag::shared(signals::stop_flag()?));
-    Ok(noise.write(&args.out, &mut progress)?)
+    Ok(with_meter("writing", |progress| {
+        noise.write(&args.out, progress)
+    })??)
 }

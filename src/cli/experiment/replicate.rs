@@ -5,11 +5,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::super::terminal::Meter;
-use super::super::{CliError, output, signals};
+use super::super::terminal::with_meter;
+use super::super::{CliError, output};
 
 use selvedge_experiment::replication::{Comparison, Options, Replication, replicate};
-use selvedge_foundation::progress::{CancelFlag, Progress};
 use selvedge_foundation::quantity::fixed;
 
 /// How much is simulated, and where it goes.
@@ -41,11 +40,7 @@ pub(super) fn run(args: &ReplicateArgs) -> Result<(), CliError> {
         is_detailed: !args.brief,
         cache: selvedge_workbench::build_cache(),
     };
-    let cancel = CancelFlag::shared(signals::stop_flag()?);
-    let mut meter = Meter::new("replicating");
-    let mut report = |share: f64, doing: &str| meter.show(share, doing);
-    let found = replicate(&options, &mut Progress::new(&mut report, cancel))?;
-    drop(meter);
+    let found = with_meter("replicating", |progress| replicate(&options, progress))??;
     found.analysis.write(&args.out)?;
     output::print(&summary(&found, args))
 }

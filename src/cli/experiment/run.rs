@@ -11,7 +11,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
 
-use super::super::{CliError, terminal};
+use super::super::{CliError, output, terminal};
 use super::desk::{Bench, Desk, Ended, Moment};
 use selvedge_experiment::by_hand::needs_array;
 use selvedge_experiment::design::{Design, Source, Subject};
@@ -20,7 +20,6 @@ use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particul
 use selvedge_foundation::files;
 use selvedge_foundation::quantity::moment_of;
 use selvedge_textile::tactile::Tuning;
-use selvedge_textile::{Library, is_of_the_program};
 
 /// What presents cloth on the table.
 const TABLE: &str = "cloth on the table";
@@ -145,22 +144,12 @@ fn tuning(args: &RunArgs, design: &Design) -> Result<Tuning, CliError> {
     let mut sources = design.stimuli.iter().map(|stimulus| &stimulus.source);
     match design.tuning {
         Some(tuning) => Ok(tuning),
-        None if sources.any(is_textile) => Ok(library(&args.design, design)?.default_tuning()),
+        None if sources.any(is_textile) => {
+            let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
+            Ok(design.open_library(folder, None)?.default_tuning())
+        }
         None => Ok(Tuning::default()),
     }
-}
-
-/// The library of a design, which names it relative to its file.
-fn library(file: &Path, design: &Design) -> Result<Library, CliError> {
-    let library = match &design.library {
-        None => Library::shipped()?,
-        Some(named) if is_of_the_program(named) => Library::named(named, None)?,
-        Some(named) => {
-            let beside = file.parent().unwrap_or_else(|| Path::new("")).join(named);
-            Library::named(&beside, None)?
-        }
-    };
-    Ok(library)
 }
 
 /// Opens what was begun, or begins.
@@ -210,7 +199,7 @@ fn opened(
     } else {
         session
     };
-    make_folder(&folder)?;
+    output::make_folder(&folder, "choose another with --folder")?;
     let nth = Participants::enrol(&folder, &participant, now)?;
     Ok(Session::create(
         &folder,
@@ -278,15 +267,6 @@ fn latest(folder: &Path, design: &Design, pseudonym: &str) -> Option<u32> {
 /// Whether there is a row below the header of a log.
 fn has_row(log: &Path) -> Result<bool, CliError> {
     Ok(files::read_text(log)?.lines().nth(1).is_some())
-}
-
-fn make_folder(folder: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(folder).map_err(|error| {
-        let folder = folder.display();
-        CliError::Input(format!(
-            "cannot make the folder {folder}: {error}; choose another with --folder"
-        ))
-    })
 }
 
 /// A gap as people say it.

@@ -3,13 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use crate::terminal::Meter;
+use crate::terminal::with_meter_until;
+use crate::usage::one_of;
 use crate::{CliError, output, signals};
 use selvedge_experiment::observer::{Jnd, Observer, Stimuli, Strategy, Weighting};
 use selvedge_experiment::{ExperimentError, Simulation};
-use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// A design, and who takes part.
 #[derive(Debug, Args)]
@@ -27,11 +27,13 @@ pub(crate) struct SimulateArgs {
     out: PathBuf,
     /// What observers go by: nothing, the levels of both bands, these and their balance, variation
     /// over the textile or over directions, or all
-    #[arg(long, value_enum, default_value_t = StrategyArg::Level)]
-    strategy: StrategyArg,
+    #[arg(long, default_value = "level",
+        value_parser = one_of(Strategy::ALL.map(|one| (one.name(), one))))]
+    strategy: Strategy,
     /// What each of these counts: as much as any other, or as much as it tells (practised)
-    #[arg(long, value_enum, default_value_t = WeightingArg::Equal)]
-    weighting: WeightingArg,
+    #[arg(long, default_value = "equal",
+        value_parser = one_of(Weighting::ALL.map(|one| (one.name(), one))))]
+    weighting: Weighting,
     /// Independent looks that exploring a stimulus is worth
     #[arg(long, value_name = "N", default_value_t = 1,
         value_parser = clap::value_parser!(u32).range(1..))]
@@ -61,22 +63,6 @@ pub(crate) struct SimulateArgs {
     sessions: u32,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum StrategyArg {
-    None,
-    Level,
-    Spectrum,
-    Space,
-    Direction,
-    All,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum WeightingArg {
-    Equal,
-    Learnt,
-}
-
 fn two_numbers(text: &str) -> Result<[f64; 2], String> {
     let mut parts = text.split(',').map(|part| part.trim().parse().ok());
     match (parts.next(), parts.next(), parts.next()) {
@@ -88,18 +74,8 @@ fn two_numbers(text: &str) -> Result<[f64; 2], String> {
 impl SimulateArgs {
     fn observer(&self) -> Observer {
         Observer {
-            strategy: match self.strategy {
-                StrategyArg::None => Strategy::None,
-                StrategyArg::Level => Strategy::LevelOnly,
-                StrategyArg::Spectrum => Strategy::Spectrum,
-                StrategyArg::Space => Strategy::Space,
-                StrategyArg::Direction => Strategy::Direction,
-                StrategyArg::All => Strategy::All,
-            },
-            weighting: match self.weighting {
-                WeightingArg::Equal => Weighting::Equal,
-                WeightingArg::Learnt => Weighting::Learnt,
-            },
+            strategy: self.strategy,
+            weighting: self.weighting,
             looks: self.looks,
             jnd: self.jnd_db.map_or(Jnd::Published, Jnd::Fixed),
             jnd_spread: self.spread,
@@ -122,24 +98,19 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
         .open_library(folder, selvedge_workbench::build_cache().as_ref())
         .map_err(ExperimentError::from)?;
     let stop = signals::stop_flag()?;
-    let stimuli = {
-        let mut meter = Meter::new("reading");
-        let mut report = |share: f64, id: &str| meter.show(share, id);
-        let mut progress = Progress::new(&mut report, CancelFlag::shared(stop.clone()));
-        Stimuli::of(&design, &library, &mut progress)?
-    };
+    let stimuli = with_meter_until("reading", &stop, |progress| {
+        Stimuli::of(&design, &library, progress)
+    })?;
     let simulation = Simulation {
         design: &design,
         stimuli: &stimuli,
         observer: &observer,
         seed: args.seed,
     };
-    let mut meter = Meter::new("simulating");
-    let mut report = |share: f64, subject: &str| meter.show(share, subject);
-    let mut progress = Progress::new(&mut report, CancelFlag::shared(stop));
     let numbers = (usize::from(args.observers), args.sessions);
-    let logs = simulation.write(&args.out, numbers, &mut progress)?;
-    drop(meter);
+    let logs = with_meter_until("simulating", &stop, |progress| {
+        simulation.write(&args.out, numbers, progress)
+    })?;
     let told = format!(
         "{} sessions of {} {} in {}; {}\n",
         logs.len(),

@@ -1,49 +1,63 @@
 //! What an emulated device is wrong about: CAPS that are not so, and contactors wired otherwise
 //! than they should be.
 
+use std::num::ParseIntError;
+
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::message::{Caps, Message as _, kind};
 
-/// One thing that a device says in CAPS although it is not so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lie {
-    /// The protocol version chosen; 0 is none.
-    Version(u8),
-    /// Rows.
-    Rows(u8),
-    /// Columns.
-    Columns(u8),
-    /// Channels.
-    Channels(u16),
-    /// Components a channel.
-    Components(u8),
-    /// Length of a tick in µs.
-    TickUs(u32),
-    /// The lower carrier in mHz.
-    LowMhz(u32),
-    /// The upper carrier in mHz.
-    HighMhz(u32),
-    /// The largest body in bytes.
-    MaxBody(u16),
-    /// The payload is cut after so many bytes.
-    Cut(u16),
+/// Declares what can be said in CAPS although it is not so: the word for it, its value, and what
+/// it does to them.
+macro_rules! lies {
+    ($($(#[$doc:meta])* $lie:ident($type:ty) = $key:literal, $apply:expr;)+) => {
+        /// One thing that a device says in CAPS although it is not so.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Lie {
+            $($(#[$doc])* $lie($type),)+
+        }
+
+        impl Lie {
+            fn apply_to(self, caps: &mut Caps) {
+                match self {
+                    $(Self::$lie(value) => {
+                        let apply: fn(&mut Caps, $type) = $apply;
+                        apply(caps, value);
+                    })+
+                }
+            }
+
+            /// Reads a value of a key; `None` where nothing is called so.
+            pub(crate) fn read(key: &str, value: &str) -> Option<Result<Self, ParseIntError>> {
+                match key {
+                    $($key => Some(value.parse().map(Self::$lie)),)+
+                    _ => None,
+                }
+            }
+        }
+    };
 }
 
-impl Lie {
-    fn apply_to(self, caps: &mut Caps) {
-        match self {
-            Self::Version(version) => caps.version = version,
-            Self::Rows(rows) => caps.rows = rows,
-            Self::Columns(cols) => caps.cols = cols,
-            Self::Channels(n_ch) => caps.n_ch = n_ch,
-            Self::Components(n_comp) => caps.n_comp = n_comp,
-            Self::TickUs(tick_us) => caps.tick_us = tick_us,
-            Self::LowMhz(mhz) => caps.freq_mhz[0] = mhz,
-            Self::HighMhz(mhz) => caps.freq_mhz[1] = mhz,
-            Self::MaxBody(max_body) => caps.max_body = max_body,
-            Self::Cut(_) => {}
-        }
-    }
+lies! {
+    /// The protocol version chosen; 0 is none.
+    Version(u8) = "version", |caps, version| caps.version = version;
+    /// Rows.
+    Rows(u8) = "rows", |caps, rows| caps.rows = rows;
+    /// Columns.
+    Columns(u8) = "cols", |caps, cols| caps.cols = cols;
+    /// Channels.
+    Channels(u16) = "channels", |caps, n_ch| caps.n_ch = n_ch;
+    /// Components a channel.
+    Components(u8) = "components", |caps, n_comp| caps.n_comp = n_comp;
+    /// Length of a tick in µs.
+    TickUs(u32) = "tick-us", |caps, tick_us| caps.tick_us = tick_us;
+    /// The lower carrier in mHz.
+    LowMhz(u32) = "low-mhz", |caps, mhz| caps.freq_mhz[0] = mhz;
+    /// The upper carrier in mHz.
+    HighMhz(u32) = "high-mhz", |caps, mhz| caps.freq_mhz[1] = mhz;
+    /// The largest body in bytes.
+    MaxBody(u16) = "max-body", |caps, max_body| caps.max_body = max_body;
+    /// The payload is cut after so many bytes.
+    Cut(u16) = "cut", |_, _| {};
 }
 
 /// CAPS as a device with these lies sends them.

@@ -280,18 +280,13 @@ impl Bridge {
     /// Everything that is counted on this link.
     pub fn counters(&self) -> BridgeCounters {
         let session = self.session.counters();
-        let Some(link) = self.link.as_ref().map(Link::counters) else {
-            return session;
+        let with_link = |link: &Link| BridgeCounters {
+            device: session.device,
+            codes: session.codes,
+            frames_rejected: session.frames_rejected,
+            ..link.counters()
         };
-        BridgeCounters {
-            frames_sent: link.frames_sent,
-            frames_superseded: link.frames_superseded,
-            samples_sent: link.samples_sent,
-            bad_received: link.bad_received,
-            events_dropped: link.events_dropped,
-            write_timeouts: link.write_timeouts,
-            ..session
-        }
+        self.link.as_ref().map_or(session, with_link)
     }
 
     /// A look at the contactors of the emulator in this process; there is one.

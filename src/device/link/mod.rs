@@ -22,7 +22,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::BridgeError;
 use super::framing::Packet;
-use super::host::Sequence;
+use super::host::{BridgeCounters, Sequence};
 use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use reader::Reader;
@@ -153,6 +153,11 @@ impl Shared {
     }
 }
 
+/// Counts one more.
+fn count(counter: &AtomicU64) {
+    counter.fetch_add(1, Ordering::Relaxed);
+}
+
 /// Counts a thread as running for as long as it lives.
 struct Running(Arc<Shared>);
 
@@ -167,17 +172,6 @@ impl Drop for Running {
     fn drop(&mut self) {
         self.0.running.fetch_sub(1, Ordering::AcqRel);
     }
-}
-
-/// Counters of the threads.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LinkCounters {
-    pub(super) frames_sent: u64,
-    pub(super) frames_superseded: u64,
-    pub(super) samples_sent: u64,
-    pub(super) bad_received: u64,
-    pub(super) events_dropped: u64,
-    pub(super) write_timeouts: u64,
 }
 
 /// The owner's end of a link.
@@ -256,9 +250,7 @@ impl Link {
     /// way to silence.
     pub(super) fn send_frame(&mut self, frame: &QueuedFrame) {
         if self.frames.push(*frame).is_err() {
-            self.shared
-                .frames_superseded
-                .fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.frames_superseded);
         }
         self.shared.unpark_writer();
     }
@@ -278,9 +270,7 @@ impl Link {
     pub(super) fn has_room(&self, n_packets: usize) -> bool {
         let slots = self.samples.as_ref().map_or(0, Producer::slots);
         if slots < n_packets {
-            self.shared
-                .frames_superseded
-                .fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.frames_superseded);
         }
         slots >= n_packets
     }
@@ -311,15 +301,16 @@ impl Link {
         }
     }
 
-    pub(super) fn counters(&self) -> LinkCounters {
+    pub(super) fn counters(&self) -> BridgeCounters {
         let get = |count: &AtomicU64| count.load(Ordering::Relaxed);
-        LinkCounters {
+        BridgeCounters {
             frames_sent: get(&self.shared.frames_sent),
             frames_superseded: get(&self.shared.frames_superseded),
             samples_sent: get(&self.shared.samples_sent),
             bad_received: get(&self.shared.bad_received),
             events_dropped: get(&self.shared.events_dropped),
             write_timeouts: get(&self.shared.write_timeouts),
+            ..BridgeCounters::default()
         }
     }
 

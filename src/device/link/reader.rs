@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::Producer;
 
-use super::{Incoming, Opener, Running, Shared, Writer};
+use super::{Incoming, Opener, Running, Shared, Writer, count};
 use crate::framing::{Decoder, LARGEST_BODY};
 use crate::message::{DeviceMessage, Unreadable};
 use crate::port::Port;
@@ -86,7 +86,7 @@ impl Reader {
                     found = true;
                     let incoming = Incoming::Message { message, received };
                     if self.to_owner.push(incoming).is_err() {
-                        self.shared.events_dropped.fetch_add(1, Ordering::Relaxed);
+                        count(&self.shared.events_dropped);
                     }
                 }
                 // A later version may send what this one does not know.
@@ -104,7 +104,7 @@ impl Reader {
 
     fn send(&mut self, incoming: Incoming) {
         if self.to_owner.push(incoming).is_err() {
-            self.shared.events_dropped.fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.events_dropped);
         }
         (self.shared.waker)();
     }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer};
 
-use super::{QueuedFrame, QueuedSamples, Shared};
+use super::{QueuedFrame, QueuedSamples, Shared, count};
 use crate::framing::Packet;
 use crate::port::Port;
 
@@ -122,18 +122,14 @@ impl Writer {
             self.supersede(&samples);
         }
         if self.newest_frame().is_some() {
-            self.shared
-                .frames_superseded
-                .fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.frames_superseded);
         }
     }
 
     fn newest_frame(&mut self) -> Option<QueuedFrame> {
         let mut newest = self.outgoing.frames.pop().ok()?;
         while let Ok(newer) = self.outgoing.frames.pop() {
-            self.shared
-                .frames_superseded
-                .fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.frames_superseded);
             newest = newer;
         }
         Some(newest)
@@ -153,7 +149,7 @@ impl Writer {
     fn write_samples(&mut self, port: &mut dyn Port, samples: &QueuedSamples) -> Written {
         let written = self.write(port, &samples.frame.packet);
         if written == Written::Yes {
-            self.shared.samples_sent.fetch_add(1, Ordering::Relaxed);
+            count(&self.shared.samples_sent);
             if samples.ends_tick {
                 self.record(&samples.frame, Instant::now());
             }
@@ -170,7 +166,7 @@ impl Writer {
     }
 
     fn record(&mut self, frame: &QueuedFrame, written: Instant) {
-        self.shared.frames_sent.fetch_add(1, Ordering::Relaxed);
+        count(&self.shared.frames_sent);
         if let Some(last) = self.last_frame.replace(written) {
             let interval = written.saturating_duration_since(last);
             self.shared.frame_interval.record(interval);
@@ -194,7 +190,7 @@ impl Writer {
                 return Written::Yes;
             }
             Err(error) if error.kind() == io::ErrorKind::TimedOut => {
-                self.shared.write_timeouts.fetch_add(1, Ordering::Relaxed);
+                count(&self.shared.write_timeouts);
                 if !std::mem::replace(&mut self.timed_out, true) {
                     return Written::TimedOut;
                 }

@@ -1,6 +1,7 @@
 //! CAPS: what a device says of itself in answer to HELLO.
 
 use super::{FieldReader, FieldWriter, Message, kind};
+use crate::fields::{read_fields, write_fields};
 use crate::framing::Packet;
 
 /// What a device is and can do.
@@ -15,7 +16,7 @@ use crate::framing::Packet;
 /// ```
 ///
 /// With `n_comp` other than 2 nothing behind offset 36 is read: such a device is refused anyway.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Caps {
     /// `HBP1`.
     pub magic: [u8; 4],
@@ -97,40 +98,32 @@ impl Caps {
     }
 }
 
+/// What stands before the fields of two components, in order.
+macro_rules! head {
+    ($fields:ident, $at:expr, $caps:ident) => {
+        $fields! { $at, $caps {
+            magic session version n_comp n_ch rows cols pitch_um tick_us queue dac_bits modes
+            fs_mv hv_max_dv slew_max max_body sample_hz
+        } }
+    };
+}
+
+/// What stands behind it, before the name.
+macro_rules! tail {
+    ($fields:ident, $at:expr, $caps:ident) => {
+        $fields! { $at, $caps { freq_mhz comp_limit uid firmware } }
+    };
+}
+
 impl Message for Caps {
     const KIND: u8 = kind::CAPS;
 
     fn decode(payload: &[u8]) -> Option<Self> {
         let mut f = FieldReader::new(payload);
-        let mut caps = Self {
-            magic: f.bytes(),
-            session: f.u32(),
-            version: f.u8(),
-            n_comp: f.u8(),
-            n_ch: f.u16(),
-            rows: f.u8(),
-            cols: f.u8(),
-            pitch_um: f.u16(),
-            tick_us: f.u32(),
-            queue: f.u8(),
-            dac_bits: f.u8(),
-            modes: f.u16(),
-            fs_mv: f.u32(),
-            hv_max_dv: f.u16(),
-            slew_max: f.u16(),
-            max_body: f.u16(),
-            sample_hz: f.u16(),
-            freq_mhz: [0; 2],
-            comp_limit: [0; 2],
-            uid: [0; 12],
-            firmware: [0; 3],
-            name: [0; 32],
-        };
+        let mut caps = Self::default();
+        head!(read_fields, &mut f, caps);
         if caps.n_comp == 2 {
-            caps.freq_mhz = [f.u32(), f.u32()];
-            caps.comp_limit = [f.u16(), f.u16()];
-            caps.uid = f.bytes();
-            caps.firmware = f.bytes();
+            tail!(read_fields, &mut f, caps);
             let name_len = usize::from(f.u8());
             let name = f.rest().get(..name_len)?;
             for (slot, &byte) in caps.name.iter_mut().zip(name) {
@@ -143,26 +136,8 @@ impl Message for Caps {
     fn packet(&self, seq: u16) -> Option<Packet> {
         let name = self.name().as_bytes();
         let mut f = FieldWriter::new();
-        f.bytes(&self.magic)
-            .u32(self.session)
-            .u8(self.version)
-            .u8(self.n_comp)
-            .u16(self.n_ch);
-        f.u8(self.rows)
-            .u8(self.cols)
-            .u16(self.pitch_um)
-            .u32(self.tick_us);
-        f.u8(self.queue)
-            .u8(self.dac_bits)
-            .u16(self.modes)
-            .u32(self.fs_mv);
-        f.u16(self.hv_max_dv)
-            .u16(self.slew_max)
-            .u16(self.max_body)
-            .u16(self.sample_hz);
-        f.u32(self.freq_mhz[0]).u32(self.freq_mhz[1]);
-        f.u16(self.comp_limit[0]).u16(self.comp_limit[1]);
-        f.bytes(&self.uid).bytes(&self.firmware);
+        head!(write_fields, &mut f, self);
+        tail!(write_fields, &mut f, self);
         f.u8(u8::try_from(name.len()).unwrap_or(0)).bytes(name);
         Packet::encode(Self::KIND, seq, f.finish()?)
     }

@@ -2,6 +2,7 @@
 //! effect.
 
 use super::{FieldReader, FieldWriter, kind};
+use crate::fields::{read_fields, write_fields};
 use crate::framing::Packet;
 
 /// The most channels that a v1 FRAME can carry.
@@ -54,7 +55,7 @@ impl ChannelMask {
 /// 0 mode u8 | 1 flags u8 | 2 hold_ms u16 | 4 ramp_ms u16 | 6 slew u16 | 8 hv_dV u16
 /// 10 comp_limit u16[2] | 14 reserved u16 | 16 ch_mask u32, one more per further 32 channels
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
     /// 0: amplitudes (mode A); 1: samples (mode B).
     pub mode: u8,
@@ -85,16 +86,10 @@ impl Config {
     /// Reads a CONFIG or CFG payload of a device with `n_channels` channels.
     pub fn decode(payload: &[u8], n_channels: usize) -> Option<Self> {
         let mut fields = FieldReader::new(payload);
-        let mut config = Self {
-            mode: fields.u8(),
-            flags: fields.u8(),
-            hold_ms: fields.u16(),
-            ramp_ms: fields.u16(),
-            slew: fields.u16(),
-            hv_dv: fields.u16(),
-            comp_limit: [fields.u16(), fields.u16()],
-            mask: ChannelMask::default(),
-        };
+        let mut config = Self::default();
+        read_fields! { &mut fields, config {
+            mode flags hold_ms ramp_ms slew hv_dv comp_limit
+        } }
         fields.u16();
         for word in config.mask.words.iter_mut().take(mask_words(n_channels)) {
             *word = fields.u32();
@@ -114,16 +109,10 @@ impl Config {
 
     fn packet(&self, kind: u8, seq: u16, n_channels: usize) -> Option<Packet> {
         let mut fields = FieldWriter::new();
-        fields
-            .u8(self.mode)
-            .u8(self.flags)
-            .u16(self.hold_ms)
-            .u16(self.ramp_ms);
-        fields.u16(self.slew).u16(self.hv_dv);
-        fields
-            .u16(self.comp_limit[0])
-            .u16(self.comp_limit[1])
-            .u16(0);
+        write_fields! { &mut fields, self {
+            mode flags hold_ms ramp_ms slew hv_dv comp_limit
+        } }
+        fields.u16(0);
         for &word in self.mask.words.iter().take(mask_words(n_channels)) {
             fields.u32(word);
         }

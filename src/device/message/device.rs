@@ -5,119 +5,68 @@ use std::fmt;
 use super::{AckCode, Caps, Config, DeviceState, Message as _, kind, message};
 use crate::framing::{Packet, Received};
 
-/// Answers ARM, STOP, CLEAR, IDENT, and whatever was refused.
-///
-/// ```text
-/// 0 acked type u8 | 1 code u8 | 2 acked seq u16
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ack {
-    /// Type of the packet answered.
-    pub kind: u8,
-    /// What became of it.
-    pub(crate) code: AckCode,
-    /// Seq of the packet answered.
-    pub seq: u16,
+message! {
+    /// Answers ARM, STOP, CLEAR, IDENT, and whatever was refused.
+    ///
+    /// ```text
+    /// 0 acked type u8 | 1 code u8 | 2 acked seq u16
+    /// ```
+    pub struct Ack = kind::ACK {
+        /// Type of the packet answered.
+        pub kind: u8,
+        /// What became of it.
+        pub(crate) code: AckCode,
+        /// Seq of the packet answered.
+        pub seq: u16,
+    }
 }
 
-message!(
-    Ack,
-    kind::ACK,
-    |f| Self {
-        kind: f.u8(),
-        code: AckCode::from_code(f.u8()),
-        seq: f.u16()
-    },
-    |m, f| {
-        f.u8(m.kind).u8(m.code.code()).u16(m.seq);
+message! {
+    /// The device at the start of a tick, the frame of that tick applied. Counters run from boot and
+    /// wrap at 65536.
+    ///
+    /// ```text
+    /// 0 tick u32 | 4 dev_us u32 | 8 last_seq u16 | 10 state u8 | 11 queued u8
+    /// 12 underrun u16 | 14 late u16 | 16 dup u16
+    /// 18 bad u16 | 20 clipped u16 | 22 hv_dV u16 | 24 i_mA u16
+    /// 26 temp i16 | 28 faults u16 | 30 age_ms u16 | 32 amp_sum u32
+    /// ```
+    #[derive(Default)]
+    pub struct Status = kind::STATUS {
+        /// Ticks since boot.
+        pub tick: u32,
+        /// Device clock in µs, modulo 2³².
+        pub dev_us: u32,
+        /// Seq of the last accepted FRAME of this session.
+        pub last_seq: u16,
+        /// State code, see [`DeviceState`].
+        pub state: u8,
+        /// Frames waiting for later ticks.
+        pub queued: u8,
+        /// Ticks without a frame while armed.
+        pub underrun: u16,
+        /// Frames for a tick that had passed.
+        pub late: u16,
+        /// Repeated frames.
+        pub dup: u16,
+        /// Texts that were no packet.
+        pub bad: u16,
+        /// Values above the limit and channels over full drive.
+        pub clipped: u16,
+        /// Measured high voltage in 0.1 V.
+        pub hv_dv: u16,
+        /// Measured current in mA.
+        pub i_ma: u16,
+        /// Temperature in 0.01 °C.
+        pub temp_cdeg: i16,
+        /// Fault bits.
+        pub faults: u16,
+        /// Age of the last accepted frame in ms; 65535 = none or older.
+        pub age_ms: u16,
+        /// Sum of all output codes after gain, rounded down.
+        pub amp_sum: u32,
     }
-);
-
-/// The device at the start of a tick, the frame of that tick applied. Counters run from boot and
-/// wrap at 65536.
-///
-/// ```text
-/// 0 tick u32 | 4 dev_us u32 | 8 last_seq u16 | 10 state u8 | 11 queued u8
-/// 12 underrun u16 | 14 late u16 | 16 dup u16
-/// 18 bad u16 | 20 clipped u16 | 22 hv_dV u16 | 24 i_mA u16
-/// 26 temp i16 | 28 faults u16 | 30 age_ms u16 | 32 amp_sum u32
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Status {
-    /// Ticks since boot.
-    pub tick: u32,
-    /// Device clock in µs, modulo 2³².
-    pub dev_us: u32,
-    /// Seq of the last accepted FRAME of this session.
-    pub last_seq: u16,
-    /// State code, see [`DeviceState`].
-    pub state: u8,
-    /// Frames waiting for later ticks.
-    pub queued: u8,
-    /// Ticks without a frame while armed.
-    pub underrun: u16,
-    /// Frames for a tick that had passed.
-    pub late: u16,
-    /// Repeated frames.
-    pub dup: u16,
-    /// Texts that were no packet.
-    pub bad: u16,
-    /// Values above the limit and channels over full drive.
-    pub clipped: u16,
-    /// Measured high voltage in 0.1 V.
-    pub hv_dv: u16,
-    /// Measured current in mA.
-    pub i_ma: u16,
-    /// Temperature in 0.01 °C.
-    pub temp_cdeg: i16,
-    /// Fault bits.
-    pub faults: u16,
-    /// Age of the last accepted frame in ms; 65535 = none or older.
-    pub age_ms: u16,
-    /// Sum of all output codes after gain, rounded down.
-    pub amp_sum: u32,
 }
-
-message!(
-    Status,
-    kind::STATUS,
-    |f| Self {
-        tick: f.u32(),
-        dev_us: f.u32(),
-        last_seq: f.u16(),
-        state: f.u8(),
-        queued: f.u8(),
-        underrun: f.u16(),
-        late: f.u16(),
-        dup: f.u16(),
-        bad: f.u16(),
-        clipped: f.u16(),
-        hv_dv: f.u16(),
-        i_ma: f.u16(),
-        temp_cdeg: f.i16(),
-        faults: f.u16(),
-        age_ms: f.u16(),
-        amp_sum: f.u32(),
-    },
-    |m, f| {
-        f.u32(m.tick)
-            .u32(m.dev_us)
-            .u16(m.last_seq)
-            .u8(m.state)
-            .u8(m.queued);
-        f.u16(m.underrun)
-            .u16(m.late)
-            .u16(m.dup)
-            .u16(m.bad)
-            .u16(m.clipped);
-        f.u16(m.hv_dv)
-            .u16(m.i_ma)
-            .i16(m.temp_cdeg)
-            .u16(m.faults)
-            .u16(m.age_ms)
-            .u32(m.amp_sum);
-    }
-);
 
 impl Status {
     /// The state, if v1 knows its code.
@@ -126,67 +75,41 @@ impl Status {
     }
 }
 
-/// Something is wrong; repeated every 100 ms until cleared.
-///
-/// ```text
-/// 0 faults u16 | 2 channel u16 (FFFF none) | 4 value i32 | 8 tick u32
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// Fault bits.
-    pub faults: u16,
-    /// Channel concerned, 65535 = none.
-    pub channel: u16,
-    /// Measured value in the fault's own unit.
-    pub value: i32,
-    /// Tick at which it was seen.
-    pub tick: u32,
+message! {
+    /// Something is wrong; repeated every 100 ms until cleared.
+    ///
+    /// ```text
+    /// 0 faults u16 | 2 channel u16 (FFFF none) | 4 value i32 | 8 tick u32
+    /// ```
+    pub struct Fault = kind::FAULT {
+        /// Fault bits.
+        pub faults: u16,
+        /// Channel concerned, 65535 = none.
+        pub channel: u16,
+        /// Measured value in the fault's own unit.
+        pub value: i32,
+        /// Tick at which it was seen.
+        pub tick: u32,
+    }
 }
 
-message!(
-    Fault,
-    kind::FAULT,
-    |f| Self {
-        faults: f.u16(),
-        channel: f.u16(),
-        value: f.i32(),
-        tick: f.u32()
-    },
-    |m, f| {
-        f.u16(m.faults).u16(m.channel).i32(m.value).u32(m.tick);
+message! {
+    /// Answers PING with the device's clock.
+    ///
+    /// ```text
+    /// 0 token u32 | 4 dev_us u32 | 8 tick u32 | 12 phase_us u16
+    /// ```
+    pub struct Pong = kind::PONG {
+        /// Of the PING.
+        pub token: u32,
+        /// Device clock in µs, modulo 2³².
+        pub dev_us: u32,
+        /// Present tick.
+        pub tick: u32,
+        /// Time since the tick began in µs.
+        pub phase_us: u16,
     }
-);
-
-/// Answers PING with the device's clock.
-///
-/// ```text
-/// 0 token u32 | 4 dev_us u32 | 8 tick u32 | 12 phase_us u16
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pong {
-    /// Of the PING.
-    pub token: u32,
-    /// Device clock in µs, modulo 2³².
-    pub dev_us: u32,
-    /// Present tick.
-    pub tick: u32,
-    /// Time since the tick began in µs.
-    pub phase_us: u16,
 }
-
-message!(
-    Pong,
-    kind::PONG,
-    |f| Self {
-        token: f.u32(),
-        dev_us: f.u32(),
-        tick: f.u32(),
-        phase_us: f.u16()
-    },
-    |m, f| {
-        f.u32(m.token).u32(m.dev_us).u32(m.tick).u16(m.phase_us);
-    }
-);
 
 /// The first bytes of a LOG text; `Copy`, so it crosses threads without allocation.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -2,54 +2,35 @@
 //! file, being two messages).
 
 use super::{FieldReader, FieldWriter, MAGIC, kind, message};
+use crate::fields::Field;
 
 /// XOR-ed with the session to make the ARM key, so that no stray bytes arm a device.
 pub(crate) const ARM_KEY: u32 = 0xa5c3_0f96;
 /// The apply tick that means "the next one".
 pub(crate) const NEXT_TICK: u32 = u32::MAX;
 
-/// Opens a session; from any state it stops, empties the queue and disarms.
-///
-/// ```text
-/// 0 "HBP1" | 4 session u32 | 8 ver_min u8 | 9 ver_max u8 | 10 host_flags u16
-/// 12 lease_ms u16 | 14 reserved u16
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Hello {
-    /// The first four bytes; anything but `HBP1` is not for us.
-    pub magic: [u8; 4],
-    /// Random, non-zero; CAPS echoes it.
-    pub session: u32,
-    /// Lowest version the host speaks.
-    pub ver_min: u8,
-    /// Highest version the host speaks.
-    pub ver_max: u8,
-    /// Bit 0: wants STATUS; bit 1: wants LOG.
-    pub host_flags: u16,
-    /// Silence after which the device ends the session, in ms; 0 means 1000.
-    pub lease_ms: u16,
+message! {
+    /// Opens a session; from any state it stops, empties the queue and disarms.
+    ///
+    /// ```text
+    /// 0 "HBP1" | 4 session u32 | 8 ver_min u8 | 9 ver_max u8 | 10 host_flags u16
+    /// 12 lease_ms u16 | 14 reserved u16
+    /// ```
+    pub struct Hello = kind::HELLO {
+        /// The first four bytes; anything but `HBP1` is not for us.
+        pub magic: [u8; 4],
+        /// Random, non-zero; CAPS echoes it.
+        pub session: u32,
+        /// Lowest version the host speaks.
+        pub ver_min: u8,
+        /// Highest version the host speaks.
+        pub ver_max: u8,
+        /// Bit 0: wants STATUS; bit 1: wants LOG.
+        pub host_flags: u16,
+        /// Silence after which the device ends the session, in ms; 0 means 1000.
+        pub lease_ms: u16,
+    } reserved u16
 }
-
-message!(
-    Hello,
-    kind::HELLO,
-    |f| {
-        let hello = Self {
-            magic: f.bytes(),
-            session: f.u32(),
-            ver_min: f.u8(),
-            ver_max: f.u8(),
-            host_flags: f.u16(),
-            lease_ms: f.u16(),
-        };
-        f.u16();
-        hello
-    },
-    |m, f| {
-        f.bytes(&m.magic).u32(m.session).u8(m.ver_min).u8(m.ver_max);
-        f.u16(m.host_flags).u16(m.lease_ms).u16(0);
-    }
-);
 
 impl Hello {
     /// Bit of `host_flags` that asks for STATUS at every tick.
@@ -70,30 +51,19 @@ impl Hello {
     }
 }
 
-/// Enables output. Only a host that knows the session can make the key.
-///
-/// ```text
-/// 0 session u32 | 4 key u32 = session XOR A5C30F96
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Arm {
-    /// The session of HELLO.
-    pub session: u32,
-    /// The session XOR [`ARM_KEY`].
-    pub key: u32,
-}
-
-message!(
-    Arm,
-    kind::ARM,
-    |f| Self {
-        session: f.u32(),
-        key: f.u32()
-    },
-    |m, f| {
-        f.u32(m.session).u32(m.key);
+message! {
+    /// Enables output. Only a host that knows the session can make the key.
+    ///
+    /// ```text
+    /// 0 session u32 | 4 key u32 = session XOR A5C30F96
+    /// ```
+    pub struct Arm = kind::ARM {
+        /// The session of HELLO.
+        pub session: u32,
+        /// The session XOR [`ARM_KEY`].
+        pub key: u32,
     }
-);
+}
 
 impl Arm {
     /// The one ARM that `session` accepts.
@@ -114,92 +84,73 @@ pub enum StopHow {
     Now,
 }
 
-/// Ends output in every state, without a session check.
-///
-/// ```text
-/// 0 reason u8 | 1 how u8 (0 ramp, else zero now)
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stop {
-    /// Free for logs.
-    pub reason: u8,
-    /// Ramp or at once.
-    pub how: StopHow,
-}
-
-message!(
-    Stop,
-    kind::STOP,
-    |f| Self {
-        reason: f.u8(),
-        how: if f.u8() == 0 {
-            StopHow::Ramp
+impl Field for StopHow {
+    fn read(fields: &mut FieldReader<'_>) -> Self {
+        if fields.u8() == 0 {
+            Self::Ramp
         } else {
-            StopHow::Now
-        },
-    },
-    |m, f| {
-        f.u8(m.reason).u8(u8::from(m.how == StopHow::Now));
+            Self::Now
+        }
     }
-);
 
-/// Asks for a PONG; renews the lease.
-///
-/// ```text
-/// 0 token u32
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ping {
-    /// Comes back in the PONG.
-    pub token: u32,
-}
-
-message!(Ping, kind::PING, |f| Self { token: f.u32() }, |m, f| {
-    f.u32(m.token);
-});
-
-/// Clears latched faults whose cause is gone.
-///
-/// ```text
-/// 0 bits u16
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Clear {
-    /// Fault bits to clear.
-    pub bits: u16,
-}
-
-message!(Clear, kind::CLEAR, |f| Self { bits: f.u16() }, |m, f| {
-    f.u16(m.bits);
-});
-
-/// Drives one contactor at 320 Hz, for wiring checks.
-///
-/// ```text
-/// 0 channel u16 | 2 ms u16 | 4 amp u16
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ident {
-    /// Contactor index.
-    pub channel: u16,
-    /// Duration in ms, at most 1000.
-    pub ms: u16,
-    /// Amplitude code.
-    pub amp: u16,
-}
-
-message!(
-    Ident,
-    kind::IDENT,
-    |f| Self {
-        channel: f.u16(),
-        ms: f.u16(),
-        amp: f.u16()
-    },
-    |m, f| {
-        f.u16(m.channel).u16(m.ms).u16(m.amp);
+    fn write(self, fields: &mut FieldWriter) {
+        fields.u8(u8::from(self == Self::Now));
     }
-);
+}
+
+message! {
+    /// Ends output in every state, without a session check.
+    ///
+    /// ```text
+    /// 0 reason u8 | 1 how u8 (0 ramp, else zero now)
+    /// ```
+    pub struct Stop = kind::STOP {
+        /// Free for logs.
+        pub reason: u8,
+        /// Ramp or at once.
+        pub how: StopHow,
+    }
+}
+
+message! {
+    /// Asks for a PONG; renews the lease.
+    ///
+    /// ```text
+    /// 0 token u32
+    /// ```
+    pub struct Ping = kind::PING {
+        /// Comes back in the PONG.
+        pub token: u32,
+    }
+}
+
+message! {
+    /// Clears latched faults whose cause is gone.
+    ///
+    /// ```text
+    /// 0 bits u16
+    /// ```
+    pub struct Clear = kind::CLEAR {
+        /// Fault bits to clear.
+        pub bits: u16,
+    }
+}
+
+message! {
+    /// Drives one contactor at 320 Hz, for wiring checks.
+    ///
+    /// ```text
+    /// 0 channel u16 | 2 ms u16 | 4 amp u16
+    /// ```
+    pub struct Ident = kind::IDENT {
+        /// Contactor index.
+        pub channel: u16,
+        /// Duration in ms, at most 1000.
+        pub ms: u16,
+        /// Amplitude code.
+        pub amp: u16,
+    }
+}
 
 /// FRAME: the full state of the array for one tick. Free functions, because its length depends on
 /// the device.

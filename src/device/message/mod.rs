@@ -78,27 +78,34 @@ pub trait Message: Sized {
     fn packet(&self, seq: u16) -> Option<Packet>;
 }
 
-/// Implements [`Message`] from a pair of functions over fields, so that each table stands in one
-/// place.
+/// Declares a message with the fields of its table in order, and what is reserved after them.
 macro_rules! message {
-    ($message:ty, $kind:expr, $read:expr, $write:expr) => {
+    ($(#[$meta:meta])* pub struct $message:ident = $kind:path {
+        $($(#[$doc:meta])* $vis:vis $field:ident: $type:ty,)+
+    } $(reserved $reserved:ty)?) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $message {
+            $($(#[$doc])* $vis $field: $type,)+
+        }
+
         impl $crate::message::Message for $message {
             const KIND: u8 = $kind;
 
             fn decode(payload: &[u8]) -> Option<Self> {
                 let mut fields = $crate::fields::FieldReader::new(payload);
-                let read: fn(&mut $crate::fields::FieldReader<'_>) -> Self = $read;
-                let message = read(&mut fields);
+                let message = Self {
+                    $($field: $crate::fields::Field::read(&mut fields),)+
+                };
+                $(let _: $reserved = $crate::fields::Field::read(&mut fields);)?
                 fields.finish(message)
             }
 
             fn packet(&self, seq: u16) -> Option<$crate::framing::Packet> {
                 let mut fields = $crate::fields::FieldWriter::new();
-                let write: fn(&Self, &mut $crate::fields::FieldWriter) = $write;
-                write(self, &mut fields);
-                fields
-                    .finish()
-                    .and_then(|payload| $crate::framing::Packet::encode($kind, seq, payload))
+                $($crate::fields::Field::write(self.$field, &mut fields);)+
+                $($crate::fields::Field::write(<$reserved>::default(), &mut fields);)?
+                $crate::framing::Packet::encode($kind, seq, fields.finish()?)
             }
         }
     };

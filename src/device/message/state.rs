@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::fields::{Field, FieldReader, FieldWriter};
+
 /// Bits of a fault word.
 pub mod fault_bit {
     /// Too hot.
@@ -59,25 +61,25 @@ pub enum DeviceState {
 }
 
 impl DeviceState {
+    /// In the order of their codes.
+    const ALL: [Self; 7] = [
+        Self::Idle,
+        Self::Ready,
+        Self::Armed,
+        Self::Run,
+        Self::Hold,
+        Self::Ramp,
+        Self::Fault,
+    ];
+
     /// The code in STATUS.
     pub fn code(self) -> u8 {
-        match self {
-            Self::Idle => 0,
-            Self::Ready => 1,
-            Self::Armed => 2,
-            Self::Run => 3,
-            Self::Hold => 4,
-            Self::Ramp => 5,
-            Self::Fault => 6,
-        }
+        self as u8
     }
 
     /// The state of a code, if v1 knows it.
     pub(crate) fn from_code(code: u8) -> Option<Self> {
-        use DeviceState::{Armed, Fault, Hold, Idle, Ramp, Ready, Run};
-        [Idle, Ready, Armed, Run, Hold, Ramp, Fault]
-            .get(usize::from(code))
-            .copied()
+        Self::ALL.get(usize::from(code)).copied()
     }
 
     /// The name in capitals, as the protocol writes it.
@@ -127,50 +129,51 @@ pub(crate) enum AckCode {
 }
 
 impl AckCode {
-    const KNOWN: [Self; 7] = [
-        Self::Ok,
-        Self::BadSession,
-        Self::WrongState,
-        Self::QueueFull,
-        Self::UnknownType,
-        Self::OutOfRange,
-        Self::Faulted,
+    /// In the order of their bytes, with a few words for people.
+    const KNOWN: [(Self, &'static str); 7] = [
+        (Self::Ok, "accepted"),
+        (Self::BadSession, "wrong session"),
+        (Self::WrongState, "not possible in this state"),
+        (Self::QueueFull, "queue full"),
+        (Self::UnknownType, "not understood"),
+        (Self::OutOfRange, "out of range"),
+        (Self::Faulted, "a fault is latched"),
     ];
-
-    /// The byte on the wire.
-    pub(crate) fn code(self) -> u8 {
-        match self {
-            Self::Ok => 0,
-            Self::BadSession => 1,
-            Self::WrongState => 2,
-            Self::QueueFull => 3,
-            Self::UnknownType => 4,
-            Self::OutOfRange => 5,
-            Self::Faulted => 6,
-            Self::Other(code) => code,
-        }
-    }
 
     /// The code of a byte.
     pub(crate) fn from_code(code: u8) -> Self {
-        Self::KNOWN
-            .get(usize::from(code))
-            .copied()
-            .unwrap_or(Self::Other(code))
+        let known = Self::KNOWN.get(usize::from(code));
+        known.map_or(Self::Other(code), |(known, _)| *known)
+    }
+
+    /// The byte on the wire.
+    pub(crate) fn code(self) -> u8 {
+        let place = Self::KNOWN
+            .iter()
+            .zip(0..)
+            .find(|((known, _), _)| *known == self);
+        match (self, place) {
+            (Self::Other(code), _) => code,
+            (_, place) => place.map_or(0, |(_, code)| code),
+        }
     }
 
     /// A few words for people.
     pub(crate) fn describe(self) -> String {
-        let words = match self {
-            Self::Ok => "accepted",
-            Self::BadSession => "wrong session",
-            Self::WrongState => "not possible in this state",
-            Self::QueueFull => "queue full",
-            Self::UnknownType => "not understood",
-            Self::OutOfRange => "out of range",
-            Self::Faulted => "a fault is latched",
-            Self::Other(code) => return format!("code {code}"),
-        };
-        String::from(words)
+        let known = Self::KNOWN.iter().find(|(known, _)| *known == self);
+        known.map_or_else(
+            || format!("code {}", self.code()),
+            |(_, words)| (*words).to_owned(),
+        )
+    }
+}
+
+impl Field for AckCode {
+    fn read(fields: &mut FieldReader<'_>) -> Self {
+        Self::from_code(fields.u8())
+    }
+
+    fn write(self, fields: &mut FieldWriter) {
+        fields.u8(self.code());
     }
 }

@@ -91,20 +91,11 @@ pub(super) fn lie(text: &str) -> Result<Lie, String> {
     let (key, value) = text
         .split_once('=')
         .ok_or_else(|| format!("\"{text}\": write KEY=VALUE with a KEY of {KEYS}"))?;
-    let lie = match key {
-        "version" => Lie::Version(number(key, value)?),
-        "rows" => Lie::Rows(number(key, value)?),
-        "cols" => Lie::Columns(number(key, value)?),
-        "channels" => Lie::Channels(number(key, value)?),
-        "components" => Lie::Components(number(key, value)?),
-        "tick-us" => Lie::TickUs(number(key, value)?),
-        "low-mhz" => Lie::LowMhz(number(key, value)?),
-        "high-mhz" => Lie::HighMhz(number(key, value)?),
-        "max-body" => Lie::MaxBody(number(key, value)?),
-        "cut" => Lie::Cut(number(key, value)?),
-        _ => return Err(format!("\"{key}\" is nothing that CAPS say: choose {KEYS}")),
-    };
-    Ok(lie)
+    let read = Lie::read(key, value);
+    let read = read.ok_or_else(|| format!("\"{key}\" is nothing that CAPS say: choose {KEYS}"))?;
+    read.map_err(|_no_number| {
+        format!("{key}=\"{value}\": write a whole number that fits its field")
+    })
 }
 
 /// Two channels that move each other's contactor: `3,7`.
@@ -112,11 +103,6 @@ pub(super) fn swap(text: &str) -> Result<[u16; 2], String> {
     let channels = text.split_once(',');
     let both = channels.and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
     both.ok_or_else(|| format!("\"{text}\": write two channels such as 3,7"))
-}
-
-fn number<T: std::str::FromStr>(key: &str, value: &str) -> Result<T, String> {
-    let number = value.parse().ok();
-    number.ok_or_else(|| format!("{key}=\"{value}\": write a whole number that fits its field"))
 }
 
 #[cfg(test)]

@@ -259,33 +259,12 @@ impl WiredDevice {
                 self.core.hang_up(&mut out);
             }
             OneOffKind::Reboot | OneOffKind::Watchdog => self.go_down(sink),
-            OneOffKind::OverTemperature => self.fail(
-                fault_bit::OVER_TEMPERATURE,
-                i32::from(HOT_CDEG),
-                Sense {
-                    temp_cdeg: HOT_CDEG,
-                    ..Sense::default()
-                },
-                sink,
-            ),
-            OneOffKind::OverCurrent => self.fail(
-                fault_bit::OVER_CURRENT,
-                i32::from(OVER_CURRENT_MA),
-                Sense {
-                    i_ma: OVER_CURRENT_MA,
-                    ..Sense::default()
-                },
-                sink,
-            ),
-            OneOffKind::HvSag => self.fail(
-                fault_bit::HIGH_VOLTAGE,
-                i32::from(SAGGING_PER_MILLE),
-                Sense {
-                    hv_per_mille: SAGGING_PER_MILLE,
-                    ..Sense::default()
-                },
-                sink,
-            ),
+            OneOffKind::OverTemperature | OneOffKind::OverCurrent | OneOffKind::HvSag => {
+                let (bits, value, sense) = sensed(once.kind);
+                self.core.set_sense(sense);
+                let mut out = link_sink!(self, sink);
+                self.core.raise_fault(bits, u16::MAX, value, &mut out);
+            }
         }
     }
 
@@ -301,9 +280,10 @@ impl WiredDevice {
                 self.core.raise_fault(bits, u16::MAX, 0, &mut out);
                 self.core.end_fault_cause(bits);
             }
-            OneOffKind::OverTemperature => self.mend(fault_bit::OVER_TEMPERATURE),
-            OneOffKind::OverCurrent => self.mend(fault_bit::OVER_CURRENT),
-            OneOffKind::HvSag => self.mend(fault_bit::HIGH_VOLTAGE),
+            OneOffKind::OverTemperature | OneOffKind::OverCurrent | OneOffKind::HvSag => {
+                self.core.set_sense(Sense::default());
+                self.core.end_fault_cause(sensed(once.kind).0);
+            }
         }
         self.report(InjectionKind::Ends(once.kind), once, sink);
     }
@@ -329,29 +309,34 @@ impl WiredDevice {
         self.to_host.say(self.now_us, BOOT_BANNER);
     }
 
-    fn fail(&mut self, bits: u16, value: i32, sense: Sense, sink: &mut impl WireSink) {
-        self.core.set_sense(sense);
-        let mut out = link_sink!(self, sink);
-        self.core.raise_fault(bits, u16::MAX, value, &mut out);
-    }
-
-    fn mend(&mut self, bits: u16) {
-        self.core.set_sense(Sense::default());
-        self.core.end_fault_cause(bits);
-    }
-
     fn report(&self, kind: InjectionKind, once: OneOff, sink: &mut impl WireSink) {
         let amount = once.for_us;
         sink.injected(&self.core.moment(), &Injection { kind, amount });
     }
 }
 
+/// What a device reports and senses of a cause that it measures: fault bits, value, senses.
+fn sensed(kind: OneOffKind) -> (u16, i32, Sense) {
+    let mut sense = Sense::default();
+    match kind {
+        OneOffKind::OverTemperature => {
+            sense.temp_cdeg = HOT_CDEG;
+            (fault_bit::OVER_TEMPERATURE, HOT_CDEG.into(), sense)
+        }
+        OneOffKind::OverCurrent => {
+            sense.i_ma = OVER_CURRENT_MA;
+            (fault_bit::OVER_CURRENT, OVER_CURRENT_MA.into(), sense)
+        }
+        _ => {
+            sense.hv_per_mille = SAGGING_PER_MILLE;
+            (fault_bit::HIGH_VOLTAGE, SAGGING_PER_MILLE.into(), sense)
+        }
+    }
+}
+
 /// The earlier of two times that may not come.
 fn earlier(a: Option<u64>, b: Option<u64>) -> Option<u64> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(a.min(b)),
-        (a, b) => a.or(b),
-    }
+    a.into_iter().chain(b).min()
 }
 
 /// What the device emits: bytes into the link, the rest on to whoever listens.

@@ -74,30 +74,24 @@ impl EngineCore {
 
     /// The next scene is felt from the next tick on; its renderer already holds its tuning.
     fn next_scene(&mut self, next: NextScene) -> [Option<Retired>; 2] {
-        match next {
-            NextScene::Other(scene) => {
-                let recording = self.end_recording();
-                let retired = std::mem::replace(&mut self.scene, scene);
-                if self.track.position().is_none() && self.playable.is_none() {
-                    self.pose = Pose {
-                        position: self.scene.start(),
-                        ..self.pose.at_rest()
-                    };
-                }
-                self.rendered = self.pose.at_rest();
-                self.scene.render(self.rendered, &self.mask);
-                [recording, Some(Retired::Scene(retired))]
+        let mut scene = next.scene;
+        let goes_on = next.is_edited && scene.has_arrays_of(&self.scene);
+        let recording = if goes_on { None } else { self.end_recording() };
+        if next.is_edited {
+            // A device that asks before the next tick feels the last pose on the new scene.
+            scene.renderer.go_on_from(&self.scene.renderer);
+        } else {
+            if self.track.position().is_none() && self.playable.is_none() {
+                self.pose = Pose {
+                    position: scene.start(),
+                    ..self.pose.at_rest()
+                };
             }
-            NextScene::Edited(mut scene) => {
-                scene.renderer.go_on_from(&self.scene.renderer);
-                let goes_on = scene.has_arrays_of(&self.scene);
-                let recording = if goes_on { None } else { self.end_recording() };
-                let retired = std::mem::replace(&mut self.scene, scene);
-                // A device that asks before the next tick feels the last pose on the new scene.
-                self.scene.render(self.rendered, &self.mask);
-                [recording, Some(Retired::Scene(retired))]
-            }
+            self.rendered = self.pose.at_rest();
         }
+        let retired = std::mem::replace(&mut self.scene, scene);
+        self.scene.render(self.rendered, &self.mask);
+        [recording, Some(Retired::Scene(retired))]
     }
 
     /// Counts a change of what a display that stands still shows, or its refusal.

@@ -1,21 +1,23 @@
 //! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
-use super::draw::{Bar, bars, scatter};
-use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, tests, undefined};
+use super::draw::{Bar, bars, scatter, series};
+use super::included_trials::{Experiment, Subject};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, tests};
 use super::options::Options;
 use super::properties::Measures;
-use super::variance::effects;
+use super::variance::{complete_rows, effects};
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::{Answer, Task};
-use selvedge_chart::{Axis, Series, Style};
+use selvedge_chart::{Axis, Style};
 use selvedge_foundation::numerics::LineFit;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::psychometric::{Adjustments, Settings, Starts};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
-use selvedge_statistics::{Computed, Interval, Summary, Undefined, one_sample_t, t_quantile_upper};
+use selvedge_statistics::{
+    Computed, Interval, Summary, Undefined, mean, one_sample_t, t_quantile_upper,
+};
 
 /// A setting of one parameter.
 struct Setting<'a> {
@@ -106,36 +108,24 @@ fn parameter_section(
         let own: Vec<&Setting<'_>> = all.iter().filter(|s| s.item == item).collect();
         table.push(stimulus_row(name, &own, middle));
         let values: Vec<f64> = own.iter().map(|s| s.value).collect();
-        if let Ok(s) = Summary::of(&values) {
-            shown.push(Bar {
-                name: name.clone(),
-                group: String::new(),
-                value: s.mean,
-                interval: Some([s.mean - s.sd, s.mean + s.sd]),
-            });
-        }
+        let summary = Summary::of(&values).ok();
+        shown.extend(summary.map(|s| Bar::about(name, "", s.mean, s.sd)));
     }
-    section.tables.push(table);
+    section.table(table);
     let title = format!("{}: {key}, mean ± sd", experiment.design.title);
-    section
-        .figures
-        .push(bars("bars", &title, key, (&shown, None), &[]));
-    let (crossed, rows) = by_subject(all, &names);
+    section.figure(bars("bars", &title, key, (&shown, None), &[]));
+    let crossed = by_subject(all, &names);
+    let rows = complete_rows(&crossed);
     let variance = crossed.and_then(|table| repeated_one_way(&table));
-    section
-        .tables
-        .push(effects("anova", "Stimuli, within subjects", &variance));
-    let mut found = vec![("stimuli".to_owned(), rows.and_then(|rows| friedman(&rows)))];
-    let hysteresis = start_effect(experiment, all, middle);
-    found.push((
-        "begun high less begun low, subject by subject".to_owned(),
-        hysteresis
-            .and_then(|d| Summary::of(&d))
-            .and_then(|s| one_sample_t(&s, 0.0)),
-    ));
-    section
-        .tables
-        .push(tests("tests", "Stimuli, and where it began", &found));
+    section.table(effects("anova", "Stimuli, within subjects", &variance));
+    let hysteresis = start_effect(experiment, all, middle)
+        .and_then(|d| Summary::of(&d))
+        .and_then(|s| one_sample_t(&s, 0.0));
+    let found = [
+        ("stimuli", rows.and_then(|rows| friedman(&rows))),
+        ("begun high less begun low, subject by subject", hysteresis),
+    ];
+    section.table(tests("tests", "Stimuli, and where it began", &found));
     section
 }
 
@@ -151,47 +141,39 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
     };
     let linear = Adjustments::of(starts, Settings::Linear);
     let log = Adjustments::of(starts, Settings::Log);
-    let mut row = vec![Cell::from(name), own.len().into()];
-    let of = |part: &dyn Fn(&Adjustments) -> Computed| linear.clone().and_then(|a| part(&a));
-    row.push(Cell::of(&of(&|a| Ok(a.all.mean))));
-    row.push(Cell::of(&of(&|a| Ok(a.all.sd))));
-    row.push(Cell::of(&of(&|a| Ok(a.all.se))));
-    for values in [&ascending, &descending] {
-        row.push(values.len().into());
-        row.push(Cell::of(&selvedge_statistics::mean(values)));
-    }
-    row.push(Cell::of(&of(&|a| {
-        a.difference.clone()?.estimate.map(|e| e.value)
-    })));
-    row.push(Cell::of(&of(&|a| Ok(a.difference.clone()?.p))));
-    row.push(Cell::of(&log.clone().map(|a| a.centre)));
-    row.push(Cell::of(&log.map(|a| a.all.sd)));
+    let spread = linear
+        .as_ref()
+        .map(|a| cells![a.all.mean, a.all.sd, a.all.se]);
+    let difference = linear
+        .as_ref()
+        .map_err(Clone::clone)
+        .and_then(|a| a.difference.clone());
+    let estimate = difference.clone().and_then(|d| d.estimate).map(|e| e.value);
     let mut subjects: Vec<&str> = own.iter().map(|s| s.subject).collect();
     subjects.sort_unstable();
     subjects.dedup();
-    row.push(subjects.len().into());
-    row
+    cells![
+        name,
+        own.len(),
+        or_undefined(spread, 3),
+        [&ascending, &descending].map(|values| cells![values.len(), mean(values)]),
+        estimate,
+        difference.map(|d| d.p),
+        log.as_ref().map(|a| a.centre),
+        log.as_ref().map(|a| a.all.sd),
+        subjects.len(),
+    ]
 }
 
-type Rows = Computed<Vec<Vec<f64>>>;
-
 /// Subjects by stimuli, means of repeats.
-fn by_subject(all: &[Setting<'_>], names: &[String]) -> (Computed<Crossed>, Rows) {
+fn by_subject(all: &[Setting<'_>], names: &[String]) -> Computed<Crossed> {
     let answer = |s: &Setting<'_>| CellAnswer {
         subject: s.subject.to_owned(),
         levels: vec![names[s.item].clone()],
         value: s.value,
     };
     let answers: Vec<CellAnswer> = all.iter().map(answer).collect();
-    let crossed = Crossed::of_answers(&["stimulus"], &answers);
-    let rows = crossed.clone().and_then(|table| {
-        let values = table.complete()?;
-        Ok(values
-            .chunks(table.n_cells().max(1))
-            .map(<[f64]>::to_vec)
-            .collect())
-    });
-    (crossed, rows)
+    Crossed::of_answers(&["stimulus"], &answers)
 }
 
 /// What subjects set when it began high less when it began low.
@@ -204,11 +186,10 @@ fn start_effect(
         let own = all
             .iter()
             .filter(|s| s.subject == name && (s.start < middle) == is_low);
-        selvedge_statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>())
+        mean(&own.map(|s| s.value).collect::<Vec<f64>>())
     };
-    let of = |subject: &super::included_trials::Subject<'_>| {
-        Ok(mean_of(subject.name, false)? - mean_of(subject.name, true)?)
-    };
+    let of =
+        |subject: &Subject<'_>| Ok(mean_of(subject.name, false)? - mean_of(subject.name, true)?);
     experiment.subjects.iter().map(of).collect()
 }
 
@@ -230,11 +211,7 @@ pub(super) fn slope(points: &[[f64; 2]]) -> Computed<(LineFit, Interval)> {
 
 /// The compression that the matched gains amount to: gain = offset − κ (level − reference).
 fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Measures) -> Section {
-    let title = format!(
-        "{}: compression from matched gains",
-        experiment.design.title
-    );
-    let mut section = Section::new(experiment.key("compression"), title);
+    let mut section = experiment.section("compression", "compression from matched gains");
     section.note(
         "Matched gain over the textile's level, of both bands at 100 mm/s: a line of slope \
          −κ is what a compression κ makes. κ is fitted to the means over subjects, and to each \
@@ -256,20 +233,16 @@ fn compression(experiment: &Experiment<'_>, all: &[Setting<'_>], measures: &Meas
             let own = all
                 .iter()
                 .filter(|s| s.item == item && name.is_none_or(|n| s.subject == n));
-            let mean = selvedge_statistics::mean(&own.map(|s| s.value).collect::<Vec<f64>>());
+            let mean = mean(&own.map(|s| s.value).collect::<Vec<f64>>());
             Some([*level, mean.ok()?])
         };
         level.values.iter().enumerate().filter_map(of).collect()
     };
     let (table, kappas) = kappas(experiment, &means);
-    section.tables.push(table);
+    section.table(table);
     let t = Summary::of(&kappas).and_then(|s| one_sample_t(&s, 0.0));
-    section.tables.push(tests(
-        "tests",
-        "κ over subjects against none",
-        &[("κ".to_owned(), t)],
-    ));
-    section.figures.push(gain_plot(experiment, &means(None)));
+    section.table(tests("tests", "κ over subjects against none", &[("κ", t)]));
+    section.figure(gain_plot(experiment, &means(None)));
     section
 }
 
@@ -293,49 +266,38 @@ fn kappas(
     for name in names.chain([None]) {
         let points = means(name);
         let found = slope(&points);
-        let mut row = vec![
-            Cell::from(name.unwrap_or("means over subjects")),
-            points.len().into(),
-        ];
-        match &found {
-            Ok((line, interval)) => {
-                if name.is_some() {
-                    kappas.push(-line.slope);
-                }
-                row.extend([-line.slope, -interval.high, -interval.low].map(Cell::from));
-                row.extend([line.offset, factor_of_gain(line.offset)].map(Cell::from));
-            }
-            Err(why) => row.extend(undefined(why, 5)),
+        if let (Ok((line, _)), Some(_)) = (&found, name) {
+            kappas.push(-line.slope);
         }
-        table.push(row);
+        let found = found.map(|(line, interval)| {
+            let kappa = [-line.slope, -interval.high, -interval.low];
+            cells![kappa, line.offset, factor_of_gain(line.offset)]
+        });
+        let name = name.unwrap_or("means over subjects");
+        table.push(cells![name, points.len(), or_undefined(found, 5)]);
     }
     (table, kappas)
 }
 
-fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> super::model::Drawn {
-    let mut series = vec![Series {
-        name: "mean over subjects".to_owned(),
-        points: points.to_vec(),
-        ..Series::default()
-    }];
+fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> Drawn {
+    let means = points.iter().copied();
+    let mut all = vec![series("mean over subjects", Style::Dots, means)];
     if let Ok((line, _)) = slope(points) {
         let x = points.iter().map(|p| p[0]);
         let low = x.clone().fold(f64::INFINITY, f64::min);
         let high = x.fold(f64::NEG_INFINITY, f64::max);
-        let kappa = selvedge_foundation::quantity::fixed(-line.slope, 2);
-        series.push(Series {
-            name: format!("κ = {kappa}"),
-            points: [low, high]
-                .map(|x| [x, line.offset + line.slope * x])
-                .to_vec(),
-            style: Style::Line,
-            ..Series::default()
-        });
+        let ends = [low, high].map(|x| [x, line.offset + line.slope * x]);
+        let name = format!("κ = {}", fixed(-line.slope, 2));
+        all.push(series(name, Style::Line, ends));
     }
-    let title = format!("{}: matched gain over level", experiment.design.title);
     let axes = [
         Axis::linear("level of the textile, dB re 1 µm"),
         Axis::linear("matched gain, dB"),
     ];
-    scatter("gain", &title, axes, series)
+    scatter(
+        "gain",
+        &experiment.titled("matched gain over level"),
+        axes,
+        all,
+    )
 }

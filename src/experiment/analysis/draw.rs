@@ -1,10 +1,11 @@
 //! Figures of the kinds that the papers print, from plain numbers.
 
-use super::model::{Cell, Drawn, Table};
+use super::model::{Drawn, Table, cells, known, percent_interval};
 use selvedge_chart::{
     At, Axis, Chart, ColourBar, Extent, Figure, Ink, Row, Rule, Scale, Series, Style, Tone,
     Upright, Words,
 };
+use selvedge_statistics::Summary;
 
 /// Height of a figure's frame, px.
 const HEIGHT_PX: f64 = 360.0;
@@ -17,6 +18,49 @@ pub(super) struct Bar {
     pub(super) group: String,
     pub(super) value: f64,
     pub(super) interval: Option<[f64; 2]>,
+}
+
+impl Bar {
+    pub(super) fn of(name: &str, group: &str, value: f64, interval: Option<[f64; 2]>) -> Self {
+        Self {
+            name: name.to_owned(),
+            group: group.to_owned(),
+            value,
+            interval,
+        }
+    }
+
+    /// A mean, and what is spread about it by so much.
+    pub(super) fn about(name: &str, group: &str, mean: f64, spread: f64) -> Self {
+        Self::of(name, group, mean, Some([mean - spread, mean + spread]))
+    }
+
+    /// A mean over subjects with its standard error; none of fewer than two.
+    pub(super) fn mean(name: &str, group: &str, values: &[f64]) -> Option<Self> {
+        let summary = Summary::of(values).ok()?;
+        Some(Self::about(name, group, summary.mean, summary.se))
+    }
+
+    /// A share, %, with Wilson's interval.
+    pub(super) fn share(name: &str, hits: u64, n: u64) -> Self {
+        let interval = percent_interval(hits, n).ok();
+        let interval = interval.map(|interval| [interval.low, interval.high]);
+        Self::of(name, "", 100.0 * hits as f64 / n as f64, interval)
+    }
+}
+
+/// A line or dots by name.
+pub(crate) fn series(
+    name: impl Into<String>,
+    style: Style,
+    points: impl IntoIterator<Item = [f64; 2]>,
+) -> Series {
+    Series {
+        name: name.into(),
+        points: points.into_iter().collect(),
+        style,
+        ..Series::default()
+    }
 }
 
 /// Bars with error bars, groups side by side, and levels to compare with.
@@ -78,24 +122,16 @@ fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec
         if let Some([low, high]) = bar.interval {
             let at = place(bar);
             series.push(Series {
-                points: vec![[low, at], [high, at]],
-                style: Style::Line,
                 ink: Ink::Grey,
-                ..Series::default()
+                ..self::series("", Style::Line, [[low, at], [high, at]])
             });
         }
     }
     for group in groups {
         let own = bars.iter().filter(|bar| bar.group == *group);
-        series.push(Series {
-            name: if groups.len() > 1 {
-                (*group).to_owned()
-            } else {
-                String::new()
-            },
-            points: own.map(|bar| [bar.value, place(bar)]).collect(),
-            ..Series::default()
-        });
+        let name = if groups.len() > 1 { group } else { "" };
+        let points = own.map(|bar| [bar.value, place(bar)]);
+        series.push(self::series(name, Style::default(), points));
     }
     series
 }
@@ -162,18 +198,8 @@ fn bar_table(bars: &[Bar], label: &str) -> Table {
     ];
     let mut table = Table::new("points", "", &columns);
     for bar in bars {
-        let ends = match bar.interval {
-            Some(ends) => ends.map(Cell::from),
-            None => [(); 2].map(|()| Cell::none("no interval")),
-        };
-        let [low, high] = ends;
-        table.push([
-            bar.name.as_str().into(),
-            bar.group.as_str().into(),
-            bar.value.into(),
-            low,
-            high,
-        ]);
+        let ends = [0, 1].map(|end| known(bar.interval.map(|ends| ends[end]), "no interval"));
+        table.push(cells![&bar.name, &bar.group, bar.value, ends]);
     }
     table
 }
@@ -215,7 +241,7 @@ pub(crate) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Serie
     let mut points = Table::new("points", "", &columns);
     for one in &series {
         for [x, y] in &one.points {
-            points.push([one.name.as_str().into(), (*x).into(), (*y).into()]);
+            points.push(cells![&one.name, *x, *y]);
         }
     }
     let [x, y] = axes;

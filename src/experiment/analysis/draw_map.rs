@@ -1,7 +1,7 @@
 //! Maps of named points, and squares of colours.
 
-use super::draw::{figure, list};
-use super::model::{Cell, Column, Drawn, Table};
+use super::draw::{self, figure, list};
+use super::model::{Cell, Drawn, Table, cells, known};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Ink, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
 };
@@ -34,11 +34,8 @@ impl MapDrawing<'_> {
         let mut words = Vec::new();
         for (name, direction) in self.directions {
             series.push(Series {
-                name: name.clone(),
-                points: vec![[0.0; 2], *direction],
-                style: Style::Line,
                 weight: Weight::Bold,
-                ..Series::default()
+                ..draw::series(name, Style::Line, [[0.0; 2], *direction])
             });
         }
         series.push(Series {
@@ -91,34 +88,17 @@ impl MapDrawing<'_> {
             ("angle_deg", "angle, °"),
         ];
         let mut table = Table::new("points", "", &columns);
-        for (i, name) in self.names.iter().enumerate() {
-            let mut row = vec![Cell::from(name.as_str())];
-            let coordinate = |axis: usize| self.points.get(i).and_then(|p| p.get(axis));
-            row.extend([0, 1].map(|axis| {
-                coordinate(axis).map_or_else(|| Cell::none("a line has one axis"), |x| (*x).into())
-            }));
-            row.extend(match self.ellipses.get(i) {
-                Some(e) => [
-                    e.middle[0],
-                    e.middle[1],
-                    e.half_axes[0],
-                    e.half_axes[1],
-                    e.angle_rad.to_degrees(),
-                ]
-                .map(Cell::from),
-                None => [(); 5].map(|()| Cell::none("no ellipse")),
-            });
-            table.push(row);
+        for (i, (name, point)) in self.names.iter().zip(self.points).enumerate() {
+            let place = [0, 1].map(|axis| known(point.get(axis).copied(), "a line has one axis"));
+            let ellipse = self.ellipses.get(i).map_or_else(
+                || vec![Cell::none("no ellipse"); 5],
+                |e| cells![e.middle, e.half_axes, e.angle_rad.to_degrees()],
+            );
+            table.push(cells![name, place, ellipse]);
         }
         for (name, direction) in self.directions {
-            let blank = [(); 5].map(|()| Cell::none("a direction"));
-            let mut row = vec![
-                Cell::from(name.as_str()),
-                direction[0].into(),
-                direction[1].into(),
-            ];
-            row.extend(blank);
-            table.push(row);
+            let blank = vec![Cell::none("a direction"); 5];
+            table.push(cells![name, *direction, blank]);
         }
         table
     }
@@ -138,11 +118,9 @@ fn outline(ellipse: &Ellipse) -> Series {
         ]
     };
     Series {
-        points: (0..=N_CORNERS).map(corner).collect(),
-        style: Style::Line,
         ink: Ink::Grey,
         weight: Weight::Thin,
-        ..Series::default()
+        ..draw::series("", Style::Line, (0..=N_CORNERS).map(corner))
     }
 }
 
@@ -209,18 +187,11 @@ pub(super) fn heat(
 
 fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
     let n = names.len();
-    let mut points = Table::new("points", "", &[("row", "row"), ("column", "column")]);
-    points.columns.push(Column {
-        name: "value".to_owned(),
-        heading: label.to_owned(),
-    });
+    let columns = [("row", "row"), ("column", "column"), ("value", label)];
+    let mut points = Table::new("points", "", &columns);
     for (at, value) in values.iter().enumerate() {
-        let value = value.map_or_else(|| Cell::none("never met, or itself"), Cell::from);
-        points.push([
-            names[at / n].as_str().into(),
-            names[at % n].as_str().into(),
-            value,
-        ]);
+        let value = known(*value, "never met, or itself");
+        points.push(cells![&names[at / n], &names[at % n], value]);
     }
     points
 }

@@ -1,10 +1,12 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
-use super::included_trials::Experiment;
+use super::included_trials::{Experiment, Subject};
 use super::model::{Section, summaries, tests};
 use super::ranking_answers::{Rankings, rankings};
 use crate::design::Method;
-use selvedge_statistics::{Computed, Outcome, Summary, Undefined, paired_t, two_sample_t};
+use selvedge_statistics::{
+    Computed, Outcome, Summary, TwoSamples, Undefined, paired_t, two_sample_t,
+};
 
 /// A score of every subject, %.
 type Scores = Vec<(String, f64)>;
@@ -42,10 +44,8 @@ pub(super) fn compared(experiments: &[Experiment<'_>]) -> Option<Section> {
     if all.is_empty() {
         return None;
     }
-    section
-        .tables
-        .push(summaries("means", "Right answers", &means));
-    section.tables.push(tests("tests", "Differences", &all));
+    section.table(summaries("means", "Right answers", &means));
+    section.table(tests("tests", "Differences", &all));
     Some(section)
 }
 
@@ -57,7 +57,7 @@ fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Out
     let summaries =
         Summary::of(&values(first)).and_then(|a| Ok((a, Summary::of(&values(second))?)));
     let both = summaries.and_then(|(a, b)| two_sample_t(&a, &b));
-    let part = |of: fn(selvedge_statistics::TwoSamples) -> Outcome| both.clone().map(of);
+    let part = |of: fn(TwoSamples) -> Outcome| both.clone().map(of);
     let common: Vec<[f64; 2]> = first
         .iter()
         .filter_map(|(name, score)| {
@@ -88,7 +88,7 @@ fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
         Method::OddOneOut(_) | Method::Judgement(_) => true,
         _ => false,
     };
-    let of = |subject: &super::included_trials::Subject<'_>| {
+    let of = |subject: &Subject<'_>| {
         let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
         let n = right.iter().filter(|is_right| **is_right).count();
         (

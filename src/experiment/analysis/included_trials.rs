@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::model::{Cell, Section, Table};
+use super::model::{Cell, Section, Table, cells, file_name};
 use crate::design::Design;
 use crate::record::{Outcome, Record};
 use crate::session::Found;
@@ -53,6 +53,15 @@ impl Experiment<'_> {
         self.design.stimuli.iter().map(|s| s.id.clone()).collect()
     }
 
+    /// An empty section of this experiment.
+    pub(super) fn section(&self, of: &str, title: &str) -> Section {
+        Section::new(self.key(of), self.titled(title))
+    }
+
+    pub(super) fn titled(&self, what: &str) -> String {
+        format!("{}: {what}", self.design.title)
+    }
+
     /// The key of a section of this experiment.
     pub(super) fn key(&self, of: &str) -> String {
         format!("{}-{of}", self.key)
@@ -84,10 +93,10 @@ pub(super) fn experiments(all: &[Found]) -> Vec<Experiment<'_>> {
             } else {
                 String::new()
             };
-            let own = super::model::file_name(&format!("{experiment}{version}"), '-');
+            let own = file_name(&format!("{experiment}{version}"), '-');
             let is_taken = experiments.iter().any(|e| e.key == own);
             let key = if is_taken || own.is_empty() {
-                super::model::file_name(&format!("{study}-{experiment}{version}"), '-')
+                file_name(&format!("{study}-{experiment}{version}"), '-')
             } else {
                 own
             };
@@ -148,11 +157,11 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     let least = design.rules.least_share_correct;
     subjects.retain(|subject| is_right_enough(subject, least, &mut left_out));
     subjects.retain(|subject| subject.trials().next().is_some());
-    section.tables.push(table);
+    section.table(table);
     if left_out.rows.is_empty() {
         section.note("The rules leave nothing out.");
     } else {
-        section.tables.push(left_out);
+        section.table(left_out);
     }
     Experiment {
         key,
@@ -235,8 +244,7 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
         Ok(course) => {
             let (n_done, n_all) = course.progress();
             let planned = n_all.saturating_sub(found.design.course.practice_trials);
-            let is_over = is_over(course);
-            let state = match (is_over, found.has_torn_row) {
+            let state = match (is_over(course), found.has_torn_row) {
                 (true, _) => "complete".to_owned(),
                 (false, false) => format!("**incomplete** ({n_done} of {n_all} with practice)"),
                 (false, true) => "**incomplete**; its last row is torn and left out".to_owned(),
@@ -252,22 +260,17 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
         .records
         .last()
         .map_or("", |r| r.apparatus.device.as_str());
-    vec![
-        found.subject.pseudonym.as_str().into(),
-        Cell::from(f64::from(found.subject.session)),
-        session.trials.len().into(),
+    let log = found.log.file_name().unwrap_or_default().to_string_lossy();
+    let counts = [n_practice, n_aborted];
+    cells![
+        &found.subject.pseudonym,
+        found.subject.session,
+        session.trials.len(),
         planned,
-        n_practice.into(),
-        n_aborted.into(),
-        state.into(),
-        device.into(),
-        found
-            .log
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-            .into(),
+        counts,
+        state,
+        device,
+        log.into_owned(),
     ]
 }
 
@@ -282,12 +285,8 @@ fn is_over(mut course: Course) -> bool {
 }
 
 fn out_row(found: &Found, trials: &[&Record], why: &str) -> Vec<Cell> {
-    vec![
-        found.subject.pseudonym.as_str().into(),
-        Cell::from(f64::from(found.subject.session)),
-        numbers(trials).into(),
-        why.into(),
-    ]
+    let subject = &found.subject;
+    cells![&subject.pseudonym, subject.session, numbers(trials), why]
 }
 
 /// Numbers of trials as people list them: `1–79, 81`.

@@ -3,7 +3,7 @@
 
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::judgements;
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests, undefined};
+use super::model::{Section, Table, cells, or_undefined, tests};
 use super::options::Options;
 use super::{judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::{Judging, JudgingProtocol};
@@ -43,8 +43,7 @@ fn percents(experiment: &Experiment<'_>) -> Vec<f64> {
 }
 
 fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options) -> Section {
-    let title = format!("{}: sensitivity and bias", experiment.design.title);
-    let mut section = Section::new(experiment.key("sensitivity"), title);
+    let mut section = experiment.section("sensitivity", "sensitivity and bias");
     let (table, d_primes) = match judging.protocol {
         JudgingProtocol::Single => {
             section.note(
@@ -60,38 +59,25 @@ fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options
             pair_table(experiment)
         }
     };
-    section.tables.push(table);
+    section.table(table);
     let percents = percents(experiment);
-    let means = [
-        ("right, %".to_owned(), percents.clone()),
-        ("d′".to_owned(), d_primes.clone()),
-    ];
-    section
-        .tables
-        .push(summaries("group", "Over subjects", &means));
-    section.tables.push(resampled(&means, options.resampling()));
+    let means = [("right, %", percents.clone()), ("d′", d_primes.clone())];
+    section.over_subjects(&means, options);
     let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
     let from_half: Vec<f64> = percents.iter().map(|p| p - 50.0).collect();
-    let pooled: (u64, u64) = experiment
-        .subjects
-        .iter()
-        .map(right_of)
-        .fold((0, 0), |(a, b), (right, n)| (a + right, b + n));
+    let rights = experiment.subjects.iter().map(right_of);
+    let (right, n) = rights.fold((0, 0), |(a, b), (right, n)| (a + right, b + n));
+    let flipped = sign_flip(&from_half, options.n_permutations, options.seed);
     let all = [
-        ("right, % against 50".to_owned(), t(&percents, 50.0)),
+        ("right, % against 50", t(&percents, 50.0)),
+        ("right, % less 50, signs flipped", flipped),
+        ("d′ against 0", t(&d_primes, 0.0)),
         (
-            "right, % less 50, signs flipped".to_owned(),
-            sign_flip(&from_half, options.n_permutations, options.seed),
-        ),
-        ("d′ against 0".to_owned(), t(&d_primes, 0.0)),
-        (
-            "right, subjects pooled as if independent".to_owned(),
-            exact_binomial(pooled.0, pooled.1, 0.5, Sides::Two),
+            "right, subjects pooled as if independent",
+            exact_binomial(right, n, 0.5, Sides::Two),
         ),
     ];
-    section
-        .tables
-        .push(tests("tests", "Against guessing", &all));
+    section.table(tests("tests", "Against guessing", &all));
     section
 }
 
@@ -136,27 +122,20 @@ fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
     let mut d_primes = Vec::new();
     for subject in &experiment.subjects {
         let answers = counts(subject);
-        let mut row = vec![
-            Cell::from(subject.name),
-            answers.hits.into(),
-            answers.n_signal.into(),
-            answers.false_alarms.into(),
-            answers.n_noise.into(),
-        ];
-        match yes_no(answers, Correction::LogLinear) {
-            Ok(found) => {
-                d_primes.push(found.d_prime);
-                row.extend([found.hit_rate.into(), found.false_alarm_rate.into()]);
-                row.push(found.correction.name().into());
-                row.extend(
-                    [found.d_prime, found.interval.low, found.interval.high].map(Cell::from),
-                );
-                row.extend([found.criterion, found.ln_beta].map(Cell::from));
-                row.push(Cell::of(&found.uncorrected_d_prime));
-            }
-            Err(why) => row.extend(undefined(&why, 9)),
-        }
-        table.push(row);
+        let found = yes_no(answers, Correction::LogLinear);
+        d_primes.extend(found.as_ref().ok().map(|found| found.d_prime));
+        let found = found.map(|found| {
+            cells![
+                [found.hit_rate, found.false_alarm_rate],
+                found.correction.name(),
+                [found.d_prime, found.interval.low, found.interval.high],
+                [found.criterion, found.ln_beta],
+                found.uncorrected_d_prime,
+            ]
+        });
+        let [hits, alarms] = [answers.hits, answers.false_alarms];
+        let counts = [hits, answers.n_signal, alarms, answers.n_noise];
+        table.push(cells![subject.name, counts, or_undefined(found, 9)]);
     }
     (table, d_primes)
 }
@@ -177,21 +156,22 @@ fn pair_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
     let mut d_primes = Vec::new();
     for subject in &experiment.subjects {
         let (right, n) = right_of(subject);
-        let mut row = vec![Cell::from(subject.name), n.into(), right.into()];
-        row.push((100.0 * right as f64 / n as f64).into());
-        row.push(Cell::of(
-            &exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p),
-        ));
-        match forced_choice(right, n, 2, Correction::LogLinear) {
-            Ok(choice) => {
-                d_primes.push(choice.d_prime);
-                row.push(choice.d_prime.into());
-                row.extend(ends(&choice.interval));
-                row.push(choice.correction.map_or("none", Correction::name).into());
-            }
-            Err(why) => row.extend(undefined(&why, 4)),
-        }
-        table.push(row);
+        let choice = forced_choice(right, n, 2, Correction::LogLinear);
+        d_primes.extend(choice.as_ref().ok().map(|choice| choice.d_prime));
+        let choice = choice.map(|choice| {
+            let correction = choice.correction.map_or("none", Correction::name);
+            cells![choice.d_prime, choice.interval, correction]
+        });
+        let percent = 100.0 * right as f64 / n as f64;
+        let p = exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p);
+        table.push(cells![
+            subject.name,
+            n,
+            right,
+            percent,
+            p,
+            or_undefined(choice, 4)
+        ]);
     }
     (table, d_primes)
 }

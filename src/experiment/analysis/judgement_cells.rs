@@ -7,15 +7,11 @@ use super::model::{Section, summaries, tests};
 use super::variance::effects;
 use crate::design::Stimulus;
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
-use selvedge_statistics::{Computed, Outcome, Summary, Undefined, paired_t};
+use selvedge_statistics::{Computed, Outcome, Undefined, mean, paired_t};
 
 /// What was called real, by material and condition (Table 3 and Fig. 9 of the paper).
 pub(super) fn section(experiment: &Experiment<'_>) -> Section {
-    let title = format!(
-        "{}: called real, by material and condition",
-        experiment.design.title
-    );
-    let mut section = Section::new(experiment.key("called-real"), title);
+    let mut section = experiment.section("called-real", "called real, by material and condition");
     section.note(
         "Percentages of trials in which it was called real. Of few trials a cell they take few \
          values, so the analysis of variance is approximate; see the test by flipped signs.",
@@ -30,24 +26,22 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
         by_subject(experiment, &answers, [material, condition])
     };
     let (rows, shown) = cells(&materials, &conditions, &of);
-    section.tables.push(summaries(
+    section.table(summaries(
         "cells",
         "Called real (as Table 3 of the paper)",
         &rows,
     ));
     let variance = crossed.and_then(|table| repeated_two_way(&table));
-    section.tables.push(effects(
+    section.table(effects(
         "anova",
         "Two-way analysis of variance, both factors within subjects",
         &variance,
     ));
     let all = differences(&conditions, |condition| of(None, Some(condition)));
-    section
-        .tables
-        .push(tests("differences", "Conditions, subject by subject", &all));
-    let title = format!("{}: called real by material", experiment.design.title);
+    section.table(tests("differences", "Conditions, subject by subject", &all));
+    let title = experiment.titled("called real by material");
     let label = "called real, % (± SE)";
-    section.figures.push(bars(
+    section.figure(bars(
         "materials",
         &title,
         label,
@@ -70,14 +64,7 @@ fn cells(materials: &[String], conditions: &[String], of: &Of<'_>) -> (Rows, Vec
     for condition in conditions {
         for material in materials {
             let values = of(Some(material), Some(condition));
-            if let Ok(s) = Summary::of(&values) {
-                shown.push(Bar {
-                    name: material.clone(),
-                    group: condition.clone(),
-                    value: s.mean,
-                    interval: Some([s.mean - s.se, s.mean + s.se]),
-                });
-            }
+            shown.extend(Bar::mean(material, condition, &values));
             rows.push((format!("{material}, {condition}, %"), values));
         }
         rows.push((
@@ -112,7 +99,7 @@ fn by_subject(
                 && condition.is_none_or(|c| a.levels[1] == c)
         });
         let values: Vec<f64> = own.map(|a| a.value).collect();
-        selvedge_statistics::mean(&values).ok()
+        mean(&values).ok()
     };
     experiment.subjects.iter().filter_map(of).collect()
 }

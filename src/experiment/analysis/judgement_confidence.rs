@@ -1,11 +1,11 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
-use super::draw::scatter;
+use super::draw::{scatter, series};
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::{Judgement, judgements};
-use super::model::{Cell, Drawn, Section, Table, ends, tests, undefined};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, tests};
 use crate::design::Judging;
-use selvedge_chart::{Axis, Series, Style};
+use selvedge_chart::{Axis, Style};
 use selvedge_statistics::detection::{Roc, roc};
 use selvedge_statistics::{Computed, Summary, one_sample_t};
 
@@ -34,8 +34,7 @@ fn ratings(answers: impl Iterator<Item = Judgement>, grades: u8) -> [Vec<u64>; 2
 
 /// Areas under the curves of subjects, and the curve of all together.
 pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section {
-    let title = format!("{}: confidence", experiment.design.title);
-    let mut section = Section::new(experiment.key("confidence"), title);
+    let mut section = experiment.section("confidence", "confidence");
     section.note(
         "Ratings run from surely generated to surely real. The area under the curve is the \
          probability that a real one is rated higher than a generated one; d_a = √2 z(area). All \
@@ -68,58 +67,27 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
     let [real, others] = ratings(everyone, grades);
     let pooled = roc(&real, &others);
     table.push(roc_row("all together", &pooled));
-    section.tables.push(table);
+    section.table(table);
     let t = Summary::of(&areas).and_then(|s| one_sample_t(&s, 0.5));
-    section
-        .tables
-        .push(tests("tests", "Areas against ½", &[("area".to_owned(), t)]));
+    section.table(tests("tests", "Areas against ½", &[("area", t)]));
     if let Ok(pooled) = &pooled {
-        section.figures.push(curve(experiment, pooled));
+        section.figure(curve(experiment, pooled));
     }
     section
 }
 
 fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
-    let series = vec![
-        Series {
-            name: "all together".to_owned(),
-            points: pooled.points.clone(),
-            style: Style::LineAndDots,
-            ..Series::default()
-        },
-        Series {
-            name: "guessing".to_owned(),
-            points: vec![[0.0, 0.0], [1.0, 1.0]],
-            style: Style::Dashed,
-            ..Series::default()
-        },
+    let all = vec![
+        series("all together", Style::LineAndDots, pooled.points.clone()),
+        series("guessing", Style::Dashed, [[0.0, 0.0], [1.0, 1.0]]),
     ];
-    let axes = ["false alarms", "hits"].map(|label| {
-        let mut axis = Axis::linear(label);
-        axis.range = Some([0.0, 1.0]);
-        axis
-    });
-    let title = format!(
-        "{}: receiver operating characteristic",
-        experiment.design.title
-    );
-    scatter("roc", &title, axes, series)
+    let axes = ["false alarms", "hits"].map(|label| Axis::linear(label).within([0.0, 1.0]));
+    let title = experiment.titled("receiver operating characteristic");
+    scatter("roc", &title, axes, all)
 }
 
 fn roc_row(name: &str, found: &Computed<Roc>) -> Vec<Cell> {
-    let mut row = vec![Cell::from(name)];
-    match found {
-        Ok(roc) => {
-            row.extend([
-                roc.n[0].into(),
-                roc.n[1].into(),
-                Cell::from(roc.area),
-                Cell::of(&roc.se),
-            ]);
-            row.extend(ends(&roc.interval));
-            row.push(Cell::of(&roc.d_a));
-        }
-        Err(why) => row.extend(undefined(why, 7)),
-    }
-    row
+    let found = found.as_ref();
+    let found = found.map(|roc| cells![roc.n, roc.area, &roc.se, &roc.interval, &roc.d_a]);
+    cells![name, or_undefined(found, 7)]
 }

@@ -22,8 +22,7 @@ fn chosen(record: &Record) -> Option<[usize; 2]> {
 
 /// Scales of conditions and of stimuli.
 pub(super) fn section(experiment: &Experiment<'_>, options: &Options) -> Section {
-    let title = format!("{}: taken for real, pair by pair", experiment.design.title);
-    let mut section = Section::new(experiment.key("pairs"), title);
+    let mut section = experiment.section("pairs", "taken for real, pair by pair");
     section.note(NOTE);
     section.note(
         "Preferred is what was taken for real. Conditions are compared over all materials; stimuli \

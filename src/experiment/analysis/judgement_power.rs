@@ -1,11 +1,12 @@
 //! What a judgement that finds nothing does say: equivalence, and what would have been found.
 
-use super::draw::scatter;
+use super::draw::{scatter, series};
 use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::differences_of_conditions;
-use super::model::{Cell, Drawn, Section, Table, undefined};
-use selvedge_chart::{Axis, Series, Style};
-use selvedge_statistics::{Computed, Summary, power_of_t, tost};
+use super::model::{Drawn, Section, Table, cells, or_undefined};
+use selvedge_chart::{Axis, Style};
+use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::{Computed, Summary, Undefined, mean, power_of_t, tost};
 
 /// Bounds within which a difference of percentages counts as none, points.
 const BOUNDS_PERCENT: f64 = 10.0;
@@ -16,19 +17,18 @@ const POWER: f64 = 0.8;
 /// Equivalence of what was answered to guessing and of conditions to each other, and the power of
 /// the t test of right answers.
 pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section {
-    let title = format!("{}: equivalence and power", experiment.design.title);
-    let mut section = Section::new(experiment.key("power"), title);
+    let mut section = experiment.section("power", "equivalence and power");
     section.note(format!(
         "No difference found is not equivalence: two one-sided tests ask whether the share of \
          right answers lies within 50 ± {BOUNDS_PERCENT} %, and whether conditions differ by less \
          than {BOUNDS_PERCENT} points in how often they were called real. The interval of level \
          90 % lies inside the bounds exactly when p < 0.05."
     ));
-    section.tables.push(equivalence(experiment, percents));
+    section.table(equivalence(experiment, percents));
     let n_trials = trials(experiment);
     let curve = Curve::of(percents, &n_trials);
     section.note(curve.describe(percents.len()));
-    section.tables.push(curve.table());
+    section.table(curve.table());
     section.figures.extend(curve.drawn(experiment));
     section
 }
@@ -52,17 +52,20 @@ fn equivalence(experiment: &Experiment<'_>, percents: &[f64]) -> Table {
     let mut table = Table::new("equivalence", title, &columns);
     let mut enter = |what: &str, values: &[f64], middle: f64| {
         let bounds = [middle - BOUNDS_PERCENT, middle + BOUNDS_PERCENT];
-        let mut row = vec![Cell::from(what), values.len().into()];
-        match Summary::of(values).and_then(|s| tost(&s, bounds, ALPHA)) {
-            Ok(found) => {
-                row.extend([found.mean, bounds[0], bounds[1]].map(Cell::from));
-                row.extend([found.t[0], found.t[1], found.df, found.p].map(Cell::from));
-                row.extend([found.interval.low, found.interval.high].map(Cell::from));
-                row.push(Cell::of(&found.power));
-            }
-            Err(why) => row.extend(undefined(&why, 10)),
-        }
-        table.push(row);
+        let found = Summary::of(values).and_then(|s| tost(&s, bounds, ALPHA));
+        let found = found.map(|found| {
+            let ends = [found.interval.low, found.interval.high];
+            cells![
+                found.mean,
+                bounds,
+                found.t,
+                found.df,
+                found.p,
+                ends,
+                found.power
+            ]
+        });
+        table.push(cells![what, values.len(), or_undefined(found, 10)]);
     };
     enter("right, %", percents, 50.0);
     for (what, differences) in differences_of_conditions(experiment) {
@@ -96,16 +99,14 @@ impl Curve {
         let shares: Vec<f64> = (50..=100).map(f64::from).collect();
         let (n, df) = (percents.len() as f64, percents.len() as f64 - 1.0);
         let sd = Summary::of(percents).map(|summary| summary.sd);
-        let mean_trials = selvedge_statistics::mean(n_trials);
+        let mean_trials = mean(n_trials);
         let power = |share: f64, sd: f64| {
             let errors = (share - 50.0) / (sd / n.sqrt());
             power_of_t(errors.clamp(0.0, 40.0), df, ALPHA)
         };
         let as_seen = |share: &f64| match &sd {
             Ok(sd) if *sd > 0.0 => power(*share, *sd),
-            Ok(_) => Err(selvedge_statistics::Undefined::because(
-                "subjects do not vary",
-            )),
+            Ok(_) => Err(Undefined::because("subjects do not vary")),
             Err(why) => Err(why.clone()),
         };
         let alike = |share: &f64| {
@@ -134,7 +135,7 @@ impl Curve {
             None => "no share".to_owned(),
         };
         let n_trials = match &self.n_trials {
-            Ok(n) => selvedge_foundation::quantity::fixed(*n, 0),
+            Ok(n) => fixed(*n, 0),
             Err(_) => "no".to_owned(),
         };
         format!(
@@ -155,7 +156,7 @@ impl Curve {
         let title = "Power of the two-sided t test against 50 % at 0.05";
         let mut table = Table::new("power", title, &columns);
         for ((share, seen), alike) in self.shares.iter().zip(&self.as_seen).zip(&self.alike) {
-            table.push([(*share).into(), Cell::of(seen), Cell::of(alike)]);
+            table.push(cells![*share, seen, alike]);
         }
         table
     }
@@ -164,31 +165,18 @@ impl Curve {
         let line = |name: &str, powers: &[Computed], style: Style| {
             let all = self.shares.iter().zip(powers);
             let points = all.filter_map(|(share, power)| Some([*share, *power.as_ref().ok()?]));
-            Series {
-                name: name.to_owned(),
-                points: points.collect(),
-                style,
-                ..Series::default()
-            }
+            series(name, style, points)
         };
-        let series = vec![
+        let mut lines = vec![
             line("subjects spread as seen", &self.as_seen, Style::Line),
             line("subjects alike", &self.alike, Style::Dashed),
         ];
-        let series: Vec<Series> = series
-            .into_iter()
-            .filter(|s| !s.points.is_empty())
-            .collect();
-        if series.is_empty() {
-            return None;
-        }
-        let mut axes = [
-            Axis::linear("true share right, %"),
-            Axis::linear("power at 0.05"),
+        lines.retain(|line| !line.points.is_empty());
+        let axes = [
+            Axis::linear("true share right, %").within([50.0, 100.0]),
+            Axis::linear("power at 0.05").within([0.0, 1.0]),
         ];
-        axes[0].range = Some([50.0, 100.0]);
-        axes[1].range = Some([0.0, 1.0]);
-        let title = format!("{}: power against guessing", experiment.design.title);
-        Some(scatter("power-curve", &title, axes, series))
+        let title = experiment.titled("power against guessing");
+        (!lines.is_empty()).then(|| scatter("power-curve", &title, axes, lines))
     }
 }

@@ -1,16 +1,17 @@
 //! Thresholds and just noticeable differences: the mean of the last reversals and a fit to all
 //! trials, track by track and subject by subject.
 
-use super::draw::{Bar, bars, scatter};
+use super::draw::{self, Bar, bars, scatter, series};
 use super::included_trials::{Experiment, Subject};
-use super::model::{Cell, Section, Table, ends, resampled, summaries, tests, undefined};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, summaries, tests};
 use super::options::Options;
 use crate::design::{Levels, StaircaseTrack, Track};
 use crate::{Record, Task};
 use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
-use selvedge_statistics::psychometric::{Fit, Model, blocks};
-use selvedge_statistics::{Computed, Outcome, Summary, Undefined, one_sample_t};
+use selvedge_statistics::psychometric::{Block, Fit, Model, blocks};
+use selvedge_statistics::{Computed, Summary, Undefined, mean, one_sample_t};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
@@ -51,8 +52,7 @@ pub(super) fn sections(
     levels: &Levels,
     options: &Options,
 ) -> Vec<Section> {
-    let title = format!("{}: psychometric functions", experiment.design.title);
-    let mut section = Section::new(experiment.key("thresholds"), title);
+    let mut section = experiment.section("thresholds", "psychometric functions");
     section.note(format!(
         "{} at {} Hz, {} intervals, chance 1/{}. The function is {} of {}; all trials of a subject \
          are fitted with lapses of 0 to 6 %. Its threshold is where half of what guesses \
@@ -69,20 +69,17 @@ pub(super) fn sections(
         },
     ));
     let (table, thresholds, fits) = fitted(experiment, levels);
-    section.tables.push(table);
-    let means = [(levels.quantity().to_owned(), thresholds.clone())];
-    section
-        .tables
-        .push(summaries("group", "Over subjects", &means));
-    section.tables.push(resampled(&means, options.resampling()));
+    section.table(table);
+    section.over_subjects(&[(levels.quantity(), thresholds.clone())], options);
     if levels.reference_db.is_some() {
         let t = Summary::of(&thresholds).and_then(|s| one_sample_t(&s, 0.0));
-        let named: [(String, Computed<Outcome>); 1] = [("difference against 0 dB".to_owned(), t)];
-        section.tables.push(tests("tests", "Over subjects", &named));
+        section.table(tests(
+            "tests",
+            "Over subjects",
+            &[("difference against 0 dB", t)],
+        ));
     }
-    if let Some(drawn) = curves(experiment, levels, &fits) {
-        section.figures.push(drawn);
-    }
+    section.figures.extend(curves(experiment, levels, &fits));
     let mut all = vec![section];
     if let Track::Staircase(track) = &levels.track {
         all.push(reversals(experiment, levels, track));
@@ -117,80 +114,76 @@ fn fitted<'a>(experiment: &Experiment<'a>, levels: &Levels) -> (Table, Vec<f64>,
         let trials = subject.trials().filter_map(answered);
         let of_levels = blocks(trials.map(|t| (levels.stimulus(t.level_db), t.is_right)));
         let n: u32 = of_levels.iter().map(|b| b.n).sum();
-        let mut row = vec![
-            Cell::from(subject.name),
-            Cell::from(f64::from(n)),
-            of_levels.len().into(),
-        ];
-        match model.fit(&of_levels) {
-            Ok(fit) => {
-                row.extend(fit_cells(&fit, of_levels.len()));
-                thresholds.push(fit.curve.threshold);
-                fits.push((subject.name, fit));
-            }
-            Err(why) => row.extend(undefined(&why, FITS.len() - 3)),
+        let n_levels = of_levels.len();
+        let fit = model.fit(&of_levels);
+        let found = fit.as_ref().map(|fit| fit_cells(fit, n_levels));
+        table.push(cells![
+            subject.name,
+            n,
+            n_levels,
+            or_undefined(found, FITS.len() - 3)
+        ]);
+        if let Ok(fit) = fit {
+            thresholds.push(fit.curve.threshold);
+            fits.push((subject.name, fit));
         }
-        table.push(row);
     }
     (table, thresholds, fits)
 }
 
 fn fit_cells(fit: &Fit, n_levels: usize) -> Vec<Cell> {
-    let interval = fit.posterior().interval(|curve| Ok(curve.threshold), 0.95);
-    let mut cells = vec![Cell::from(fit.curve.threshold)];
-    cells.extend(ends(&interval));
-    cells.push(Cell::of(&fit.curve.stimulus_at(0.75)));
-    cells.extend([fit.curve.width, fit.curve.lapse, fit.deviance].map(Cell::from));
-    cells.push(n_levels.saturating_sub(2).into());
-    cells.push(fit.notes.join("; ").into());
-    cells
+    cells![
+        fit.curve.threshold,
+        fit.posterior().interval(|curve| Ok(curve.threshold), 0.95),
+        fit.curve.stimulus_at(0.75),
+        [fit.curve.width, fit.curve.lapse, fit.deviance],
+        n_levels.saturating_sub(2),
+        fit.notes.join("; "),
+    ]
 }
 
-fn curves(
-    experiment: &Experiment<'_>,
-    levels: &Levels,
-    fits: &[(&str, Fit)],
-) -> Option<super::model::Drawn> {
+fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) -> Option<Drawn> {
     let x = fits
         .iter()
         .flat_map(|(_, fit)| fit.blocks.iter().map(|b| b.x));
-    let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-        (l.min(x), h.max(x))
-    });
+    let (low, high) = (
+        x.clone().fold(f64::INFINITY, f64::min),
+        x.fold(f64::NEG_INFINITY, f64::max),
+    );
     if low >= high || !low.is_finite() {
         return None;
     }
-    let mut series = Vec::new();
-    for (name, fit) in fits {
-        let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(N_DRAWN);
-        series.push(Series {
-            name: (*name).to_owned(),
-            points: (0..=N_DRAWN)
-                .map(|i| [at(i), fit.curve.at(at(i))])
-                .collect(),
-            style: Style::Line,
-            ..Series::default()
-        });
-    }
-    if let [(_, fit)] = fits {
-        let share = |b: &selvedge_statistics::psychometric::Block| {
-            [b.x, f64::from(b.n_right) / f64::from(b.n)]
-        };
-        series.push(Series {
-            name: "share right".to_owned(),
-            points: fit.blocks.iter().map(share).collect(),
-            ..Series::default()
-        });
-    }
-    let mut y = Axis::linear("share right");
-    y.range = Some([0.0, 1.0]);
-    let title = format!("{}: psychometric functions", experiment.design.title);
-    let label = if levels.reference_db.is_some() {
-        "difference, dB"
-    } else {
-        "level, dB re 1 µm"
+    let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(N_DRAWN);
+    let curve = |(name, fit): &(&str, Fit)| {
+        series(
+            *name,
+            Style::Line,
+            (0..=N_DRAWN).map(|i| [at(i), fit.curve.at(at(i))]),
+        )
     };
-    Some(scatter("curves", &title, [Axis::linear(label), y], series))
+    let mut all: Vec<Series> = fits.iter().map(curve).collect();
+    if let [(_, fit)] = fits {
+        let share = |b: &Block| [b.x, f64::from(b.n_right) / f64::from(b.n)];
+        all.push(series(
+            "share right",
+            Style::Dots,
+            fit.blocks.iter().map(share),
+        ));
+    }
+    let x = match levels.reference_db {
+        Some(_) => "difference, dB",
+        None => "level, dB re 1 µm",
+    };
+    let axes = [
+        Axis::linear(x),
+        Axis::linear("share right").within([0.0, 1.0]),
+    ];
+    Some(scatter(
+        "curves",
+        &experiment.titled("psychometric functions"),
+        axes,
+        all,
+    ))
 }
 
 /// A series run again on the answers of its log.
@@ -224,8 +217,7 @@ const REVERSALS: [(&str, &str); 9] = [
 ];
 
 fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrack) -> Section {
-    let title = format!("{}: staircases", experiment.design.title);
-    let mut section = Section::new(experiment.key("staircases"), title);
+    let mut section = experiment.section("staircases", "staircases");
     let target = track.rule().target(track.up_over_down, 1.0);
     section.note(format!(
         "{} up, {} down; the mean of the last {} reversals at the last step size aims at {} right.",
@@ -234,10 +226,7 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
         track.reversals_averaged,
         target.map_or_else(
             |why| why.reason,
-            |share| format!(
-                "{} %",
-                selvedge_foundation::quantity::fixed(100.0 * share, 1)
-            )
+            |share| format!("{} %", fixed(100.0 * share, 1))
         )
     ));
     let mut table = Table::new("reversals", "Means of the last reversals", &REVERSALS);
@@ -245,40 +234,28 @@ fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrac
     let mut series = Vec::new();
     for subject in &experiment.subjects {
         let own = of_subject(subject, (levels, track), (&mut table, &mut series));
-        let mean = selvedge_statistics::mean(&own);
+        let mean = mean(&own);
         if let Ok(mean) = mean {
             means.push(mean);
             let ends = Summary::of(&own).ok().map(|s| [mean - s.sd, mean + s.sd]);
-            shown.push(Bar {
-                name: subject.name.to_owned(),
-                group: String::new(),
-                value: mean,
-                interval: ends,
-            });
+            shown.push(Bar::of(subject.name, "", mean, ends));
         }
     }
-    section.tables.push(table);
+    section.table(table);
     let what = format!("{}, mean of reversals", levels.quantity());
-    section.tables.push(summaries(
-        "group",
-        "Over subjects, series averaged",
-        &[(what, means)],
-    ));
+    let title = "Over subjects, series averaged";
+    section.table(summaries("group", title, &[(what, means)]));
     if !series.is_empty() {
-        let title = format!("{}: levels from trial to trial", experiment.design.title);
+        let title = experiment.titled("levels from trial to trial");
         let axes = [
             Axis::linear("trial of the series"),
             Axis::linear("level, dB re 1 µm"),
         ];
-        section
-            .figures
-            .push(scatter("tracks", &title, axes, series));
+        section.figure(scatter("tracks", &title, axes, series));
     }
     if !shown.is_empty() {
-        let title = format!("{}: means of reversals", experiment.design.title);
-        section
-            .figures
-            .push(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
+        let title = experiment.titled("means of reversals");
+        section.figure(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
     }
     section
 }
@@ -296,29 +273,16 @@ fn of_subject(
         for nth in 0..track.starts_db.len() {
             let own: Vec<Answered> = all.iter().filter(|t| t.track == nth).copied().collect();
             let staircase = run_again(levels, track, nth, &own);
-            let mut row = vec![
-                Cell::from(subject.name),
-                f64::from(number).into(),
-                (nth + 1).into(),
-                own.len().into(),
-            ];
-            match &staircase {
-                Ok(staircase) => {
-                    row.extend(reversal_cells(staircase, track, levels, &mut thresholds));
-                }
-                Err(why) => row.extend(undefined(why, REVERSALS.len() - 4)),
-            }
-            table.push(row);
+            let found = staircase
+                .map(|staircase| reversal_cells(&staircase, track, levels, &mut thresholds));
+            let found = or_undefined(found, REVERSALS.len() - 4);
+            table.push(cells![subject.name, number, nth + 1, own.len(), found]);
+            let name = format!("{}, session {number}, series {}", subject.name, nth + 1);
             let at = own
                 .iter()
                 .zip(1_u32..)
                 .map(|(t, i)| [f64::from(i), t.level_db]);
-            series.push(Series {
-                name: format!("{}, session {number}, series {}", subject.name, nth + 1),
-                points: at.collect(),
-                style: Style::LineAndDots,
-                ..Series::default()
-            });
+            series.push(draw::series(name, Style::LineAndDots, at));
         }
     }
     thresholds
@@ -331,19 +295,15 @@ fn reversal_cells(
     thresholds: &mut Vec<f64>,
 ) -> Vec<Cell> {
     let found: Computed<ReversalMean> = staircase.reversal_mean(track.reversals_averaged);
-    let mut cells = vec![Cell::from(staircase.reversals().len())];
-    match &found {
-        Ok(mean) => {
-            let threshold = levels.stimulus(mean.threshold);
-            thresholds.push(threshold);
-            cells.extend([
-                mean.n_reversals.into(),
-                Cell::from(threshold),
-                mean.sd.into(),
-            ]);
-        }
-        Err(why) => cells.extend(undefined(why, 3)),
-    }
-    cells.push(staircase.warnings().join("; ").into());
-    cells
+    let found = found.map(|mean| {
+        let threshold = levels.stimulus(mean.threshold);
+        thresholds.push(threshold);
+        cells![mean.n_reversals, threshold, mean.sd]
+    });
+    let warnings = staircase.warnings().join("; ");
+    cells![
+        staircase.reversals().len(),
+        or_undefined(found, 3),
+        warnings
+    ]
 }

@@ -1,14 +1,14 @@
 //! Magnitude estimation: exponents of Stevens' law by condition and subject.
 
-use super::draw::{Bar, bars, scatter};
+use super::draw::{Bar, bars, scatter, series};
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, ends, summaries, tests, undefined};
+use super::model::{Cell, Section, Table, cells, summaries, tests};
 use crate::design::Source;
 use crate::{Answer, Task};
-use selvedge_chart::{Axis, Scale, Series, Style};
-use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_chart::{Axis, Style};
+use selvedge_foundation::quantity::{factor_of_gain, fixed};
+use selvedge_statistics::paired_t;
 use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
-use selvedge_statistics::{Summary, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
 fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
@@ -47,8 +47,7 @@ const EXPONENTS: [(&str, &str); 8] = [
 ];
 
 pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
-    let title = format!("{}: Stevens' exponents", experiment.design.title);
-    let mut section = Section::new(experiment.key("exponents"), title);
+    let mut section = experiment.section("exponents", "Stevens' exponents");
     section.note(
         "Number = constant · amplitude^exponent, a line between logarithms through \
          geometric means; every subject's modulus is made that of the group first, which \
@@ -71,34 +70,23 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
                 found.push((condition, law));
             }
             Err(why) => {
-                let mut row = vec![Cell::from(condition), "all".into()];
-                row.extend(undefined(&why, EXPONENTS.len() - 2));
-                table.push(row);
+                let blank = vec![Cell::none(&why.reason); EXPONENTS.len() - 2];
+                table.push(cells![condition, "all", blank]);
             }
         }
     }
-    section.tables.push(table);
-    let exponents = |law: &Stevens| {
-        law.subjects
-            .iter()
-            .map(|(_, l)| l.exponent)
-            .collect::<Vec<f64>>()
-    };
+    section.table(table);
     let means: Vec<(String, Vec<f64>)> = found
         .iter()
         .map(|(condition, law)| (format!("exponent, {condition}"), exponents(law)))
         .collect();
-    section
-        .tables
-        .push(summaries("group", "Exponents over subjects", &means));
+    section.table(summaries("group", "Exponents over subjects", &means));
     if let [(first, a), (second, b)] = found.as_slice()
         && a.subjects.len() == b.subjects.len()
     {
         let what = format!("exponent, {first} less {second}");
         let all = [(what, paired_t(&exponents(a), &exponents(b)))];
-        section
-            .tables
-            .push(tests("tests", "Conditions, subject by subject", &all));
+        section.table(tests("tests", "Conditions, subject by subject", &all));
     }
     draw(experiment, &found, &mut section);
     vec![section]
@@ -117,75 +105,53 @@ fn conditions<'a>(experiment: &Experiment<'a>) -> Vec<&'a str> {
 }
 
 fn row(condition: &str, subject: &str, n: usize, law: &PowerLaw) -> Vec<Cell> {
-    let mut row = vec![
-        Cell::from(condition),
-        subject.into(),
-        n.into(),
-        law.exponent.into(),
-    ];
-    row.extend(ends(&law.interval));
-    row.extend([law.constant.into(), Cell::of(&law.r_squared)]);
-    row
+    let (interval, r_squared) = (&law.interval, &law.r_squared);
+    cells![
+        condition,
+        subject,
+        n,
+        law.exponent,
+        interval,
+        law.constant,
+        r_squared
+    ]
 }
 
 fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Section) {
-    let mut series = Vec::new();
+    let mut all = Vec::new();
     let mut shown = Vec::new();
     for (condition, law) in found {
-        let line = |x: &f64| [*x, law.group.constant * x.powf(law.group.exponent)];
-        series.push(Series {
-            name: (*condition).to_owned(),
-            points: law
-                .stimuli
-                .iter()
-                .zip(&law.means)
-                .map(|(x, y)| [*x, *y])
-                .collect(),
-            ..Series::default()
-        });
-        series.push(Series {
-            name: format!(
-                "{condition}, exponent {}",
-                selvedge_foundation::quantity::fixed(law.group.exponent, 2)
-            ),
-            points: law.stimuli.iter().map(line).collect(),
-            style: Style::Line,
-            ..Series::default()
-        });
+        let PowerLaw {
+            constant, exponent, ..
+        } = law.group;
+        let means = law.stimuli.iter().zip(&law.means).map(|(x, y)| [*x, *y]);
+        all.push(series(*condition, Style::Dots, means));
+        let name = format!("{condition}, exponent {}", fixed(exponent, 2));
+        let line = law
+            .stimuli
+            .iter()
+            .map(|x| [*x, constant * x.powf(exponent)]);
+        all.push(series(name, Style::Line, line));
         for (name, own) in &law.subjects {
-            shown.push(Bar {
-                name: name.clone(),
-                group: (*condition).to_owned(),
-                value: own.exponent,
-                interval: own.interval.as_ref().ok().map(|i| [i.low, i.high]),
-            });
+            let interval = own.interval.as_ref().ok().map(|i| [i.low, i.high]);
+            shown.push(Bar::of(name, condition, own.exponent, interval));
         }
-        let values: Vec<f64> = law.subjects.iter().map(|(_, l)| l.exponent).collect();
-        if let Ok(s) = Summary::of(&values) {
-            shown.push(Bar {
-                name: "mean ± SE".to_owned(),
-                group: (*condition).to_owned(),
-                value: s.mean,
-                interval: Some([s.mean - s.se, s.mean + s.se]),
-            });
-        }
+        shown.extend(Bar::mean("mean ± SE", condition, &exponents(law)));
     }
-    if series.is_empty() {
+    if all.is_empty() {
         return;
     }
-    let axes = ["amplitude, µm", "geometric mean of numbers"].map(|label| {
-        let mut axis = Axis::linear(label);
-        axis.scale = Scale::Log;
-        axis
-    });
-    let title = format!("{}: numbers over amplitude", experiment.design.title);
-    section.figures.push(scatter("law", &title, axes, series));
-    let title = format!("{}: exponents", experiment.design.title);
-    section.figures.push(bars(
-        "bars",
-        &title,
-        "exponent (95 % interval)",
-        (&shown, None),
-        &[],
+    let axes = ["amplitude, µm", "geometric mean of numbers"].map(Axis::log);
+    section.figure(scatter(
+        "law",
+        &experiment.titled("numbers over amplitude"),
+        axes,
+        all,
     ));
+    let (title, label) = (experiment.titled("exponents"), "exponent (95 % interval)");
+    section.figure(bars("bars", &title, label, (&shown, None), &[]));
+}
+
+fn exponents(law: &Stevens) -> Vec<f64> {
+    law.subjects.iter().map(|(_, law)| law.exponent).collect()
 }

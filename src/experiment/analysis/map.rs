@@ -1,11 +1,11 @@
 //! Maps from dissimilarities: stress by dimensions, the elbow, Shepard's diagram, ellipses over
 //! subjects.
 
-use super::draw::scatter;
-use super::model::{Cell, Section, Table, matrix, tests};
+use super::draw::{scatter, series};
+use super::model::{Drawn, Section, Table, cells, known, matrix, tests};
 use super::options::Options;
 use super::properties::Measures;
-use selvedge_chart::{Axis, Series, Style};
+use selvedge_chart::{Axis, Style};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use selvedge_statistics::properties::{Ellipse, bootstrap_ellipses};
@@ -51,21 +51,14 @@ impl Mapping<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<Section, Cancelled> {
         let mut section = Section::new(self.key.clone(), self.title.clone());
-        let cells = self
-            .values
-            .iter()
-            .map(|value| value.map_or_else(|| Cell::none("itself, or never met"), Cell::from));
+        let cells = self.values.iter();
+        let cells = cells.map(|value| known(*value, "itself, or never met"));
         let title = "Dissimilarities, symmetric";
-        section.tables.push(matrix(
-            "dissimilarities",
-            title,
-            &self.names,
-            cells.collect(),
-        ));
-        section.tables.push(tests(
+        section.table(matrix("dissimilarities", title, &self.names, cells));
+        section.table(tests(
             "agreement",
             "Agreement of subjects on the order of pairs (Kendall's W)",
-            &[("dissimilarities of pairs".to_owned(), self.agreement())],
+            &[("dissimilarities of pairs", self.agreement())],
         ));
         let data = match Dissimilarities::new(self.names.clone(), &self.values) {
             Ok(data) => data,
@@ -85,9 +78,9 @@ impl Mapping<'_> {
             data.n_missing()
         ));
         self.stress(&maps, (&mds, &data, options), &mut section, progress)?;
-        section.tables.push(coordinates(&self.names, &maps));
+        section.table(coordinates(&self.names, &maps));
         if let Some(plane) = maps.iter().find(|map| map.dims == 2) {
-            section.figures.push(shepard(plane));
+            section.figure(shepard(plane));
             let ellipses = self.ellipses(plane, (&mds, options), &mut section, progress)?;
             self.turned((plane, &ellipses), options, &mut section, progress)?;
         }
@@ -113,9 +106,7 @@ impl Mapping<'_> {
         let losses: Vec<(usize, f64)> = maps.iter().map(|m| (m.dims, m.loss(self.loss))).collect();
         let five: Vec<f64> = chance.iter().map(Null::five_percent).collect();
         let elbow = Elbow::of(&losses, chance.first().map(Null::mean), &five);
-        section
-            .tables
-            .push(stress_table(maps, (&elbow, self.loss), &chance));
+        section.table(stress_table(maps, (&elbow, self.loss), &chance));
         section.note(match elbow.by_bend {
             Some(k) => {
                 format!("The elbow, the largest second difference of the stress, is at {k}.")
@@ -130,35 +121,23 @@ impl Mapping<'_> {
                 .note("A bend at one dimension shows only against random ranks (not asked for)."),
             None => section.note("**No map lies below the 5 % point of random ranks.**"),
         }
-        let line = |name: &str, of: &dyn Fn(&Map) -> f64| Series {
-            name: name.to_owned(),
-            points: maps.iter().map(|map| [map.dims as f64, of(map)]).collect(),
-            style: Style::LineAndDots,
-            ..Series::default()
+        let line = |name: &str, of: &dyn Fn(&Map) -> f64| {
+            let points = maps.iter().map(|map| [map.dims as f64, of(map)]);
+            series(name, Style::LineAndDots, points)
         };
-        let mut series = vec![
+        let mut all = vec![
             line("S-stress", &|m| m.sstress),
             line("stress-1", &|m| m.stress1),
         ];
         if !five.is_empty() {
-            series.push(Series {
-                name: "5 % of random ranks".to_owned(),
-                points: maps
-                    .iter()
-                    .zip(&five)
-                    .map(|(m, v)| [m.dims as f64, *v])
-                    .collect(),
-                style: Style::Dashed,
-                ..Series::default()
-            });
+            let points = maps.iter().zip(&five).map(|(m, v)| [m.dims as f64, *v]);
+            all.push(series("5 % of random ranks", Style::Dashed, points));
         }
         let most = losses.iter().fold(0.1, |m: f64, (_, l)| m.max(*l));
         let dims = Axis::whole("dimensions");
         let stress = Axis::linear("stress").within([0.0, 1.3 * most]);
         let title = format!("{}: stress by dimensions", self.title);
-        section
-            .figures
-            .push(scatter("elbow", &title, [dims, stress], series));
+        section.figure(scatter("elbow", &title, [dims, stress], all));
         Ok(())
     }
 
@@ -248,29 +227,26 @@ fn stress_table(maps: &[Map], (elbow, loss): (&Elbow, Loss), chance: &[Null]) ->
     ];
     let mut table = Table::new("stress", "Maps in one to five dimensions", &columns);
     for (i, map) in maps.iter().enumerate() {
-        let difference = |all: &[Option<f64>]| {
+        let differences = [&elbow.first_differences, &elbow.second_differences].map(|all| {
             let value = all.get(i).copied().flatten();
-            value.map_or_else(
-                || Cell::none("nothing on one side to compare with"),
-                Cell::from,
-            )
+            known(value, "nothing on one side to compare with")
+        });
+        let by_chance = |null: &Null| {
+            [
+                null.mean(),
+                null.five_percent(),
+                null.p_value(map.loss(loss)),
+            ]
+            .map(Some)
         };
-        let chance = chance.get(i);
-        let by_chance = |of: &dyn Fn(&Null) -> f64| {
-            chance.map_or_else(|| Cell::none("not asked for"), |null| of(null).into())
-        };
-        table.push([
-            map.dims.into(),
-            map.sstress.into(),
-            map.stress1.into(),
-            Cell::of(&map.spearman),
-            map.n_starts.into(),
-            map.n_reached.into(),
-            difference(&elbow.first_differences),
-            difference(&elbow.second_differences),
-            by_chance(&Null::mean),
-            by_chance(&Null::five_percent),
-            by_chance(&|null| null.p_value(map.loss(loss))),
+        let by_chance = chance.get(i).map_or([None; 3], by_chance);
+        table.push(cells![
+            map.dims,
+            [map.sstress, map.stress1],
+            &map.spearman,
+            [map.n_starts, map.n_reached],
+            differences,
+            by_chance.map(|value| known(value, "not asked for")),
         ]);
     }
     table
@@ -291,33 +267,22 @@ fn coordinates(names: &[String], maps: &[Map]) -> Table {
     let mut table = Table::new("coordinates", title, &columns);
     for map in maps {
         for (i, name) in names.iter().enumerate() {
-            let mut row = vec![Cell::from(map.dims), name.as_str().into()];
             let x = &map.points[i];
-            let coordinate = |axis: usize| {
-                x.get(axis)
-                    .map_or_else(|| Cell::none("a map of fewer dimensions"), |x| (*x).into())
-            };
-            row.extend((0..5).map(coordinate));
-            row.push(map.stress_per_point[i].into());
-            table.push(row);
+            let place = [0, 1, 2, 3, 4]
+                .map(|axis| known(x.get(axis).copied(), "a map of fewer dimensions"));
+            table.push(cells![map.dims, name, place, map.stress_per_point[i]]);
         }
     }
     table
 }
 
 /// Distances and disparities over dissimilarities.
-fn shepard(map: &Map) -> super::model::Drawn {
-    let series = |name: &str, style: Style, of: &dyn Fn(usize) -> f64| Series {
-        name: name.to_owned(),
-        points: (0..map.shepard.len())
-            .map(|i| [map.shepard[i].delta, of(i)])
-            .collect(),
-        style,
-        ..Series::default()
-    };
+fn shepard(map: &Map) -> Drawn {
+    let distances = map.shepard.iter().map(|pair| [pair.delta, pair.distance]);
+    let disparities = map.shepard.iter().map(|pair| [pair.delta, pair.disparity]);
     let all = vec![
-        series("distance", Style::Dots, &|i| map.shepard[i].distance),
-        series("disparity", Style::Line, &|i| map.shepard[i].disparity),
+        series("distance", Style::Dots, distances),
+        series("disparity", Style::Line, disparities),
     ];
     let axes = [Axis::linear("dissimilarity"), Axis::linear("distance")];
     scatter("shepard", "Shepard's diagram, two dimensions", axes, all)

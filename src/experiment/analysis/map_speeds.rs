@@ -1,7 +1,7 @@
 //! Whether the speeds of each subject matter to how a map lies to what was measured.
 
 use super::map::Mapping;
-use super::model::{Cell, Table};
+use super::model::{Cell, Table, cells};
 use super::properties::{Measure, Own};
 use selvedge_statistics::pearson_r;
 use selvedge_statistics::properties::BestTurn;
@@ -37,17 +37,13 @@ impl Mapping<'_> {
         };
         let reference = named("");
         let all = |told: &str, measures: [Option<&Measure>; 2]| {
-            let mut row = vec![Cell::from(told)];
-            row.extend((0..6).map(|_| Cell::none("of every subject below")));
-            row.extend(correlations(turn, measures, reference));
-            row
+            let blank = vec![Cell::none("of every subject below"); 6];
+            cells![told, blank, correlations(turn, measures, reference)]
         };
         table.push(all("all, at 100 mm/s", reference));
         table.push(all("all, mean of own", named("_own_speed")));
         for own in &self.measures.own {
-            let mut row = vec![Cell::from(own.subject.as_str())];
-            row.extend(of_subject(own, turn, reference));
-            table.push(row);
+            table.push(cells![&own.subject, of_subject(own, turn, reference)]);
         }
         Some(table)
     }
@@ -55,19 +51,17 @@ impl Mapping<'_> {
 
 fn of_subject(own: &Own, turn: Option<&BestTurn>, reference: [Option<&Measure>; 2]) -> Vec<Cell> {
     let Some((speeds, measures)) = &own.moved else {
-        let mut row = vec![Cell::from(0_usize), own.n_trials.into()];
-        row.extend((2..10).map(|_| Cell::none("no recorded path that moves")));
-        return row;
+        let blank = vec![Cell::none("no recorded path that moves"); 8];
+        return cells![0_usize, own.n_trials, blank];
     };
-    let mut row = vec![
-        speeds.n_paths.into(),
-        own.n_trials.into(),
-        speeds.moving_s.into(),
-    ];
-    row.extend(speeds.tenths_mm_per_s.map(Cell::from));
-    let own = BANDS.map(|name| measures.iter().find(|measure| measure.name == name));
-    row.extend(correlations(turn, own, reference));
-    row
+    let bands = BANDS.map(|name| measures.iter().find(|measure| measure.name == name));
+    cells![
+        speeds.n_paths,
+        own.n_trials,
+        speeds.moving_s,
+        speeds.tenths_mm_per_s,
+        correlations(turn, bands, reference),
+    ]
 }
 
 /// Of the axes with two measures, and of these with the same at the speed of reference.
@@ -77,19 +71,17 @@ fn correlations(
     reference: [Option<&Measure>; 2],
 ) -> Vec<Cell> {
     let silent = "a textile is silent at these speeds";
-    let axis = |at: usize| -> Cell {
-        match (turn, measures[at]) {
-            (None, _) => Cell::none("the map has no turn"),
-            (_, None) => Cell::none(silent),
-            (Some(turn), Some(measure)) => {
-                let along: Vec<f64> = turn.points.iter().map(|p| p[at]).collect();
-                Cell::of(&pearson_r(&along, &measure.values))
-            }
+    let axis = |at: usize| match (turn, measures[at]) {
+        (None, _) => Cell::none("the map has no turn"),
+        (_, None) => Cell::none(silent),
+        (Some(turn), Some(measure)) => {
+            let along: Vec<f64> = turn.points.iter().map(|p| p[at]).collect();
+            Cell::from(&pearson_r(&along, &measure.values))
         }
     };
     let with = |at: usize| match measures[at].zip(reference[at]) {
-        Some((own, other)) => Cell::of(&pearson_r(&own.values, &other.values)),
+        Some((own, other)) => Cell::from(&pearson_r(&own.values, &other.values)),
         None => Cell::none(silent),
     };
-    vec![axis(0), axis(1), with(0), with(1)]
+    cells![[0, 1].map(axis), [0, 1].map(with)]
 }

@@ -2,11 +2,12 @@
 
 use super::draw_map::MapDrawing;
 use super::map::{Mapping, loss_heading};
-use super::model::{Cell, Section, Table, ends, undefined};
+use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::properties::Measure;
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::{Cancelled, Progress};
+use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::mds::Map;
 use selvedge_statistics::properties::{BestTurn, Ellipse, PropertyVector};
 use selvedge_statistics::{Computed, f_upper, fisher_z};
@@ -69,39 +70,36 @@ impl Mapping<'_> {
                  second) is largest; p by permutation, the turn sought again each time; the \
                  interval is Fisher's z and knows nothing of the turn, so it is optimistic.",
             );
-            section.tables.push(turns);
+            section.table(turns);
         }
-        let (points, axes, angle) = match &best {
-            Some(turn) => (&turn.points, ["towards A40", "towards A320"], Some(turn)),
-            None => (&plane.points, ["dimension 1", "dimension 2"], None),
-        };
-        let turned_ellipses: Vec<Ellipse> = match angle {
-            Some(turn) => ellipses.iter().map(|e| turned_ellipse(e, turn)).collect(),
-            None => ellipses.to_vec(),
-        };
-        if let Some(speeds) = self.own_speeds(best.as_ref()) {
-            section.tables.push(speeds);
-        }
+        let turned = best.as_ref().map(|turn| {
+            let ellipses = ellipses.iter().map(|e| turned_ellipse(e, turn)).collect();
+            (&turn.points, ["towards A40", "towards A320"], ellipses)
+        });
+        let (points, axes, ellipses): (_, _, Vec<Ellipse>) = turned.unwrap_or_else(|| {
+            (
+                &plane.points,
+                ["dimension 1", "dimension 2"],
+                ellipses.to_vec(),
+            )
+        });
+        section.tables.extend(self.own_speeds(best.as_ref()));
         let directions = self.directions(points);
         let drawing = MapDrawing {
             names: &self.names,
             points,
             axes,
-            ellipses: &turned_ellipses,
+            ellipses: &ellipses,
             directions: &directions,
         };
         let note = format!(
             "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
             loss_heading(self.loss),
-            selvedge_foundation::quantity::fixed(plane.loss(self.loss), 4),
+            fixed(plane.loss(self.loss), 4),
             self.ties.name(),
-            selvedge_foundation::quantity::fixed(plane.stress1, 4)
+            fixed(plane.stress1, 4)
         );
-        section.figures.push(drawing.drawn(
-            "map",
-            &format!("{}, in the plane", self.title),
-            vec![note],
-        ));
+        section.figure(drawing.drawn("map", &format!("{}, in the plane", self.title), vec![note]));
         Ok(())
     }
 
@@ -116,8 +114,8 @@ impl Mapping<'_> {
             .iter()
             .map(|m| (m, PropertyVector::of(&plane.points, &m.values)))
             .collect();
-        section.tables.push(measures.table(&self.names));
-        section.tables.push(vectors(&fits, self.names.len()));
+        section.table(measures.table(&self.names));
+        section.table(vectors(&fits, self.names.len()));
     }
 
     /// Where the levels of both bands rise in a map.
@@ -145,34 +143,24 @@ impl Mapping<'_> {
             let mut random = Random::new(options.seed).branch("turns by chance");
             turn.p_values(&plane.points, values, options.n_permutations, &mut random)
         });
-        let part = |axis: usize| match (&turn, &p) {
-            (Ok(turn), Ok(p)) => {
-                let mut cells = vec![Cell::from(turn.r[axis])];
-                cells.extend(ends(&fisher_z(turn.r[axis], self.names.len(), 0.95)));
-                cells.push(p[axis + 1].into());
-                cells
-            }
-            (Err(why), _) | (_, Err(why)) => undefined(why, 4),
+        let n = self.names.len();
+        let part = |axis: usize| {
+            let found = turn
+                .as_ref()
+                .and_then(|turn| Ok((turn.r[axis], p.as_ref()?[axis + 1])));
+            or_undefined(found.map(|(r, p)| cells![r, fisher_z(r, n, 0.95), p]), 4)
         };
-        let mut row = vec![
-            Cell::from(pair[0].heading.as_str()),
-            pair[1].heading.as_str().into(),
-            self.names.len().into(),
-        ];
-        row.extend(part(0));
-        row.extend(part(1));
-        row.push(match &p {
-            Ok(p) => p[0].into(),
-            Err(why) => Cell::Undefined(why.reason.clone()),
-        });
-        row.extend(match &turn {
-            Ok(t) => [
-                t.angle_rad.to_degrees().into(),
-                if t.is_mirrored { "yes" } else { "no" }.into(),
-            ],
-            Err(why) => [(); 2].map(|()| Cell::Undefined(why.reason.clone())),
-        });
-        table.push(row);
+        let way = turn
+            .as_ref()
+            .map(|t| cells![t.angle_rad.to_degrees(), t.is_mirrored]);
+        table.push(cells![
+            pair.map(|measure| &measure.heading),
+            n,
+            part(0),
+            part(1),
+            p.as_ref().map(|p| p[0]),
+            or_undefined(way, 2),
+        ]);
         turn
     }
 }
@@ -203,22 +191,13 @@ fn vectors(fits: &[(&Measure, Computed<PropertyVector>)], n: usize) -> Table {
     let title = "Measures fitted into the plane map, whatever its turn";
     let mut table = Table::new("vectors", title, &columns);
     for (measure, fit) in fits {
-        let mut row = vec![Cell::from(measure.heading.as_str()), n.into()];
-        match fit {
-            Ok(fit) => {
-                let [df, df_error] = fit.df.map(|df| df as f64);
-                row.extend([
-                    Cell::from(fit.multiple_r),
-                    fit.f.into(),
-                    df.into(),
-                    df_error.into(),
-                ]);
-                row.push(Cell::of(&f_upper(fit.f, df, df_error)));
-                row.extend(fit.direction.iter().map(|x| Cell::from(*x)));
-            }
-            Err(why) => row.extend(undefined(why, 7)),
-        }
-        table.push(row);
+        let found = fit.as_ref().map(|fit| {
+            let [df, df_error] = fit.df.map(|df| df as f64);
+            let p = f_upper(fit.f, df, df_error);
+            let direction: Vec<Cell> = fit.direction.iter().map(|x| Cell::from(*x)).collect();
+            cells![fit.multiple_r, fit.f, df, df_error, p, direction]
+        });
+        table.push(cells![&measure.heading, n, or_undefined(found, 7)]);
     }
     table
 }

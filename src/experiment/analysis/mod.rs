@@ -46,9 +46,10 @@ mod write;
 
 use std::path::Path;
 
-pub(super) use draw::scatter;
+pub(super) use draw::{scatter, series};
 pub(super) use judgement_answers::judgements;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
+pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};
 pub(super) use odd_one_out_answers::{grade_weights, triad_answer};
 pub use options::Options;
 pub use random_data::RandomData;
@@ -121,9 +122,9 @@ fn left_out(unread: &[Unread]) -> Section {
     let mut table = Table::new("logs", "Logs left out", &columns);
     for one in unread {
         let name = one.log.file_name().unwrap_or_default().to_string_lossy();
-        table.push([name.into_owned().into(), one.error.to_string().into()]);
+        table.push(cells![name.into_owned(), one.error.to_string()]);
     }
-    section.tables.push(table);
+    section.table(table);
     section
 }
 

@@ -1,5 +1,10 @@
 //! What an analysis found, as plain data: sections of notes, tables and figures.
 
+use std::borrow::Borrow;
+
+use serde::Serialize;
+
+use super::options::Options;
 use selvedge_chart::Figure;
 use selvedge_statistics::{
     Computed, Freedom, Interval, Named, Outcome, Resampling, Sides, Summary, Undefined, bootstrap,
@@ -44,7 +49,7 @@ pub struct Table {
 }
 
 /// A column.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Column {
     /// Its name in files: letters, digits and `_`, its unit at the end.
     pub name: String,
@@ -82,6 +87,26 @@ impl Section {
             title: title.into(),
             ..Self::default()
         }
+    }
+
+    /// Adds a table.
+    pub(crate) fn table(&mut self, table: Table) {
+        self.tables.push(table);
+    }
+
+    /// Adds a figure.
+    pub(crate) fn figure(&mut self, figure: Drawn) {
+        self.figures.push(figure);
+    }
+
+    /// Adds means over subjects, and their intervals by drawing subjects again.
+    pub(super) fn over_subjects<S: AsRef<str>>(
+        &mut self,
+        means: &[(S, Vec<f64>)],
+        options: &Options,
+    ) {
+        self.table(summaries("group", "Over subjects", means));
+        self.table(resampled(means, options.resampling()));
     }
 
     /// Adds a note.
@@ -148,14 +173,6 @@ pub(super) fn file_name(text: &str, between: char) -> String {
 }
 
 impl Cell {
-    /// A number, or why there is none.
-    pub(super) fn of(computed: &Computed) -> Self {
-        match computed {
-            Ok(value) => Self::from(*value),
-            Err(why) => Self::Undefined(why.reason.clone()),
-        }
-    }
-
     /// No number, for this reason.
     pub fn none(reason: &str) -> Self {
         Self::Undefined(reason.to_owned())
@@ -171,6 +188,92 @@ impl Cell {
     }
 }
 
+/// What fills one cell of a row, or several.
+pub(crate) trait Cells {
+    /// Adds the cells.
+    fn add_to(self, row: &mut Vec<Cell>);
+}
+
+/// A row of cells, from what fills one or several of them.
+macro_rules! cells {
+    ($($filling:expr),* $(,)?) => {{
+        let mut row: Vec<$crate::analysis::Cell> = Vec::new();
+        $($crate::analysis::Cells::add_to($filling, &mut row);)*
+        row
+    }};
+}
+pub(crate) use cells;
+
+macro_rules! one_cell {
+    ($($kind:ty),+) => {$(
+        impl Cells for $kind {
+            fn add_to(self, row: &mut Vec<Cell>) {
+                row.push(self.into());
+            }
+        }
+    )+};
+}
+one_cell!(
+    Cell, f64, usize, u64, u32, bool, &str, String, &String, &Computed
+);
+
+impl<T: Cells, const N: usize> Cells for [T; N] {
+    fn add_to(self, row: &mut Vec<Cell>) {
+        for one in self {
+            one.add_to(row);
+        }
+    }
+}
+
+impl Cells for Vec<Cell> {
+    fn add_to(self, row: &mut Vec<Cell>) {
+        row.extend(self);
+    }
+}
+
+impl<E: Borrow<Undefined>> Cells for Result<f64, E> {
+    fn add_to(self, row: &mut Vec<Cell>) {
+        row.push(match self {
+            Ok(value) => value.into(),
+            Err(why) => Cell::none(&why.borrow().reason),
+        });
+    }
+}
+
+impl Cells for &Computed<Interval> {
+    fn add_to(self, row: &mut Vec<Cell>) {
+        row.extend(ends(self));
+    }
+}
+
+impl Cells for Computed<Interval> {
+    fn add_to(self, row: &mut Vec<Cell>) {
+        row.extend(ends(&self));
+    }
+}
+
+/// Cells, or as many without a number and why.
+pub(crate) fn or_undefined<E: Borrow<Undefined>>(
+    found: Result<Vec<Cell>, E>,
+    n: usize,
+) -> Vec<Cell> {
+    found.unwrap_or_else(|why| vec![Cell::none(&why.borrow().reason); n])
+}
+
+/// A share, %; none of none.
+pub(crate) fn percent_of(hits: u64, n: u64, why_none: &str) -> Cell {
+    if n > 0 {
+        (100.0 * hits as f64 / n as f64).into()
+    } else {
+        Cell::none(why_none)
+    }
+}
+
+/// A value that is known, or why it is not.
+pub(crate) fn known(value: Option<f64>, why_none: &str) -> Cell {
+    value.map_or_else(|| Cell::none(why_none), Cell::from)
+}
+
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
         if value.is_finite() {
@@ -181,15 +284,41 @@ impl From<f64> for Cell {
     }
 }
 
-impl From<usize> for Cell {
-    fn from(value: usize) -> Self {
-        Self::Number(value as f64)
+macro_rules! whole_number {
+    ($($kind:ty),+) => {$(
+        impl From<$kind> for Cell {
+            fn from(value: $kind) -> Self {
+                Self::Number(value as f64)
+            }
+        }
+    )+};
+}
+whole_number!(usize, u64);
+
+impl From<u32> for Cell {
+    fn from(value: u32) -> Self {
+        Self::Number(value.into())
     }
 }
 
-impl From<u64> for Cell {
-    fn from(value: u64) -> Self {
-        Self::Number(value as f64)
+impl From<bool> for Cell {
+    fn from(is_so: bool) -> Self {
+        if is_so { "yes" } else { "no" }.into()
+    }
+}
+
+impl From<&Computed> for Cell {
+    fn from(computed: &Computed) -> Self {
+        match computed {
+            Ok(value) => Self::from(*value),
+            Err(why) => Self::none(&why.reason),
+        }
+    }
+}
+
+impl From<&String> for Cell {
+    fn from(text: &String) -> Self {
+        Self::Text(text.clone())
     }
 }
 
@@ -209,15 +338,8 @@ impl From<String> for Cell {
 pub(super) fn ends(interval: &Computed<Interval>) -> [Cell; 2] {
     match interval {
         Ok(interval) => [interval.low.into(), interval.high.into()],
-        Err(why) => [(); 2].map(|()| Cell::Undefined(why.reason.clone())),
+        Err(why) => [(); 2].map(|()| Cell::none(&why.reason)),
     }
-}
-
-/// So many cells without a number, and why.
-pub(super) fn undefined(why: &Undefined, n: usize) -> Vec<Cell> {
-    (0..n)
-        .map(|_| Cell::Undefined(why.reason.clone()))
-        .collect()
 }
 
 /// Wilson's interval of a share, %.
@@ -251,25 +373,22 @@ const TESTS: [(&str, &str); 17] = [
 ];
 
 /// A table of tests, one a row: what was tested, and what came of it.
-pub(super) fn tests(key: &str, title: &str, all: &[(String, Computed<Outcome>)]) -> Table {
+pub(super) fn tests<S: AsRef<str>>(
+    key: &str,
+    title: &str,
+    all: &[(S, Computed<Outcome>)],
+) -> Table {
     let mut table = Table::new(key, title, &TESTS);
     for (what, outcome) in all {
-        let mut row = vec![Cell::from(what.as_str())];
-        match outcome {
-            Ok(outcome) => row.extend(cells_of(outcome)),
-            Err(why) => {
-                let blank = || Cell::Undefined(why.reason.clone());
-                row.extend((1..TESTS.len()).map(|_| blank()));
-            }
-        }
-        table.push(row);
+        let found = or_undefined(outcome.as_ref().map(cells_of), TESTS.len() - 1);
+        table.push(cells![what.as_ref(), found]);
     }
     table
 }
 
 fn cells_of(outcome: &Outcome) -> Vec<Cell> {
     let n: Vec<String> = outcome.n.iter().map(ToString::to_string).collect();
-    let [df, df_error] = match outcome.df {
+    let df = match outcome.df {
         Freedom::None => [(); 2].map(|()| Cell::none("the test has none")),
         Freedom::One(df) => [df.into(), Cell::none("the test has one number alone")],
         Freedom::Two(df, error) => [df.into(), error.into()],
@@ -279,32 +398,24 @@ fn cells_of(outcome: &Outcome) -> Vec<Cell> {
         Sides::Greater => "greater",
         Sides::Less => "less",
     };
-    let mut cells = vec![
-        outcome.test.into(),
-        n.join(" + ").into(),
-        outcome.statistic.symbol.into(),
-        outcome.statistic.value.into(),
+    let named = |value: &Computed<Named>| {
+        let cells = |named: &Named| cells![named.symbol, named.value];
+        or_undefined(value.as_ref().map(cells), 2)
+    };
+    cells![
+        outcome.test,
+        n.join(" + "),
+        outcome.statistic.symbol,
+        outcome.statistic.value,
         df,
-        df_error,
-        outcome.p.into(),
-        sides.into(),
-    ];
-    cells.extend(named(&outcome.effect));
-    cells.extend(named(&outcome.estimate));
-    cells.extend(ends(&outcome.interval));
-    cells.push(match &outcome.interval {
-        Ok(interval) => interval.level.into(),
-        Err(why) => Cell::Undefined(why.reason.clone()),
-    });
-    cells.push(outcome.notes.join("; ").into());
-    cells
-}
-
-fn named(value: &Computed<Named>) -> [Cell; 2] {
-    match value {
-        Ok(named) => [named.symbol.into(), named.value.into()],
-        Err(why) => [(); 2].map(|()| Cell::Undefined(why.reason.clone())),
-    }
+        outcome.p,
+        sides,
+        named(&outcome.effect),
+        named(&outcome.estimate),
+        &outcome.interval,
+        outcome.interval.as_ref().map(|interval| interval.level),
+        outcome.notes.join("; "),
+    ]
 }
 
 /// Columns of [`summary_cells`].
@@ -319,35 +430,26 @@ pub(super) const SUMMARY: [(&str, &str); 6] = [
 
 /// n, mean, sd, SE and the interval of the mean by Student's t.
 pub(super) fn summary_cells(values: &[f64]) -> Vec<Cell> {
-    let mut cells = vec![Cell::from(values.len())];
-    match Summary::of(values) {
-        Ok(summary) => {
-            cells.extend([summary.mean, summary.sd, summary.se].map(Cell::from));
-            cells.extend(ends(&summary.interval(0.95)));
-        }
-        Err(why) => {
-            cells.push(Cell::of(&mean(values)));
-            cells.extend((0..4).map(|_| Cell::Undefined(why.reason.clone())));
-        }
-    }
-    cells
+    let summary = Summary::of(values);
+    let mean = summary
+        .as_ref()
+        .map_or_else(|_| mean(values), |s| Ok(s.mean));
+    let spread = summary.map(|s| cells![s.sd, s.se, s.interval(0.95)]);
+    cells![values.len(), mean, or_undefined(spread, 4)]
 }
 
 /// A table of means, one quantity a row.
-pub(super) fn summaries(key: &str, title: &str, all: &[(String, Vec<f64>)]) -> Table {
-    let mut table = Table::new(key, title, &[("what", "of what")]);
-    let column = |(name, heading): &(&str, &str)| Column::new(name, heading);
-    table.columns.extend(SUMMARY.iter().map(column));
+pub(super) fn summaries<S: AsRef<str>>(key: &str, title: &str, all: &[(S, Vec<f64>)]) -> Table {
+    let columns: Vec<_> = [("what", "of what")].into_iter().chain(SUMMARY).collect();
+    let mut table = Table::new(key, title, &columns);
     for (what, values) in all {
-        let mut row = vec![Cell::from(what.as_str())];
-        row.extend(summary_cells(values));
-        table.push(row);
+        table.push(cells![what.as_ref(), summary_cells(values)]);
     }
     table
 }
 
 /// Intervals of means by drawing subjects again, one quantity a row.
-pub(super) fn resampled(all: &[(String, Vec<f64>)], how: Resampling) -> Table {
+fn resampled<S: AsRef<str>>(all: &[(S, Vec<f64>)], how: Resampling) -> Table {
     let columns = [
         ("what", "of what"),
         ("n", "n"),
@@ -363,30 +465,30 @@ pub(super) fn resampled(all: &[(String, Vec<f64>)], how: Resampling) -> Table {
     let mut table = Table::new("bootstrap", title, &columns);
     for (what, values) in all {
         let of = |drawn: &[usize]| mean(&drawn.iter().map(|i| values[*i]).collect::<Vec<f64>>());
-        let mut row = vec![Cell::from(what.as_str()), values.len().into()];
-        match bootstrap(values.len(), of, how) {
-            Ok(found) => {
-                row.extend([found.estimate, found.se].map(Cell::from));
-                row.extend(ends(&Ok(found.percentile)));
-                row.extend(ends(&found.bca));
-                row.push(found.n_used.into());
-            }
-            Err(why) => row.extend((2..columns.len()).map(|_| Cell::none(&why.reason))),
-        }
-        table.push(row);
+        let found = bootstrap(values.len(), of, how);
+        let found = found.map(|f| cells![f.estimate, f.se, Ok(f.percentile), f.bca, f.n_used]);
+        table.push(cells![
+            what.as_ref(),
+            values.len(),
+            or_undefined(found, columns.len() - 2)
+        ]);
     }
     table
 }
 
 /// A square table with names down and across.
-pub(super) fn matrix(key: &str, title: &str, names: &[String], cells: Vec<Cell>) -> Table {
+pub(super) fn matrix(
+    key: &str,
+    title: &str,
+    names: &[String],
+    cells: impl IntoIterator<Item = Cell>,
+) -> Table {
     let mut table =
         Table::new(key, title, &[("item", "")]).with_columns(names.iter().map(String::as_str));
     let mut cells = cells.into_iter();
     for name in names {
-        let mut row = vec![Cell::from(name.as_str())];
-        row.extend(cells.by_ref().take(names.len()));
-        table.push(row);
+        let row: Vec<Cell> = cells.by_ref().take(names.len()).collect();
+        table.push(cells![name, row]);
     }
     table
 }

@@ -2,10 +2,10 @@
 //! were mistaken, and the distances that follow.
 
 use super::draw::{Bar, bars};
-use super::included_trials::{Experiment, Subject};
+use super::included_trials::{Experiment, Session, Subject};
 use super::map::Mapping;
 use super::model::{
-    Cell, Drawn, Section, Table, ends, matrix, percent_interval, resampled, summaries, tests,
+    Cell, Section, Table, cells, known, matrix, percent_interval, percent_of, tests,
 };
 use super::odd_one_out_answers::{grade_weights, n_right, percent, triad_answer, triads};
 use super::odd_one_out_craven::Craven;
@@ -18,7 +18,7 @@ use selvedge_statistics::mds::{Loss, Ties};
 use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use selvedge_statistics::variance::friedman;
 use selvedge_statistics::{
-    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t,
+    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, mean, one_sample_t,
     wilcoxon_signed_rank,
 };
 
@@ -57,7 +57,7 @@ pub(super) fn sections(
     let is_balanced = found.is_balanced();
     let mapping = Mapping {
         key: experiment.key("map"),
-        title: format!("{}: map", experiment.design.title),
+        title: experiment.titled("map"),
         names,
         values: if is_balanced {
             found.distances()
@@ -101,26 +101,21 @@ const SHARES: [(&str, &str); 11] = [
 fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell> {
     let (right, n) = (n_right(answers), answers.len() as u64);
     let choice = triangle(right, n, Correction::LogLinear);
-    let mut row = vec![subject.into(), session, n.into(), right.into()];
-    row.push(if n > 0 {
-        percent(answers).into()
-    } else {
-        Cell::none("no triads")
-    });
-    row.extend(ends(&percent_interval(right, n)));
-    row.push(Cell::of(
-        &exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p),
-    ));
-    row.push(Cell::of(
-        &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
-    ));
-    row.extend(ends(&choice.and_then(|c| c.interval)));
-    row
+    cells![
+        subject,
+        session,
+        n,
+        right,
+        percent_of(right, n, "no triads"),
+        percent_interval(right, n),
+        exact_binomial(right, n, CHANCE, Sides::Greater).map(|o| o.p),
+        choice.as_ref().map(|c| c.d_prime),
+        choice.and_then(|c| c.interval),
+    ]
 }
 
 fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
-    let title = format!("{}: accuracy", experiment.design.title);
-    let mut section = Section::new(experiment.key("accuracy"), title);
+    let mut section = experiment.section("accuracy", "accuracy");
     section.note(
         "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. \
          Intervals of shares are Wilson's, p is exact (binomial).",
@@ -129,124 +124,71 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     let mut shown = Vec::new();
     for subject in &experiment.subjects {
         for session in &subject.sessions {
-            let own: Vec<TriadAnswer> = session
-                .trials
-                .iter()
-                .filter_map(|r| triad_answer(r))
-                .collect();
-            let number = Cell::from(f64::from(session.found.subject.session));
-            table.push(share_row(subject.name, number, &own));
+            let number = session.found.subject.session.into();
+            table.push(share_row(subject.name, number, &of_session(session)));
         }
         let all = triads(subject);
         if subject.sessions.len() > 1 {
             table.push(share_row(subject.name, "all".into(), &all));
         }
-        let ends = percent_interval(n_right(&all), all.len() as u64).ok();
-        shown.push(Bar {
-            name: subject.name.to_owned(),
-            group: String::new(),
-            value: percent(&all),
-            interval: ends.map(|i| [i.low, i.high]),
-        });
+        shown.push(Bar::share(subject.name, n_right(&all), all.len() as u64));
     }
-    section.tables.push(table);
+    section.table(table);
     let (percents, d_primes) = scores(experiment);
-    let means = [
-        ("right, %".to_owned(), percents.clone()),
-        ("d′".to_owned(), d_primes),
+    section.over_subjects(&[("right, %", percents.clone()), ("d′", d_primes)], options);
+    let against = "right, % against 33.3";
+    let t = Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT));
+    let found = [
+        (against, t),
+        (against, wilcoxon_signed_rank(&percents, CHANCE_PERCENT)),
+        ("sessions, right, %", over_sessions(experiment)),
     ];
-    section
-        .tables
-        .push(summaries("group", "Over subjects", &means));
-    section.tables.push(resampled(&means, options.resampling()));
-    let mut found = vec![
-        (
-            "right, % against 33.3".to_owned(),
-            Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT)),
-        ),
-        (
-            "right, % against 33.3".to_owned(),
-            wilcoxon_signed_rank(&percents, CHANCE_PERCENT),
-        ),
-    ];
-    found.push(("sessions, right, %".to_owned(), over_sessions(experiment)));
-    section.tables.push(tests(
-        "tests",
-        "Against chance, and session against session",
-        &found,
-    ));
-    section
-        .figures
-        .push(by_subject(experiment, shown, &percents));
-    section
-}
-
-fn by_subject(experiment: &Experiment<'_>, mut shown: Vec<Bar>, percents: &[f64]) -> Drawn {
-    if let Ok(s) = Summary::of(percents) {
-        shown.push(Bar {
-            name: "mean ± SE".to_owned(),
-            group: String::new(),
-            value: s.mean,
-            interval: Some([s.mean - s.se, s.mean + s.se]),
-        });
-    }
-    let title = format!("{}: right answers", experiment.design.title);
+    let title = "Against chance, and session against session";
+    section.table(tests("tests", title, &found));
+    shown.extend(Bar::mean("mean ± SE", "", &percents));
+    let title = experiment.titled("right answers");
+    let shown = (shown.as_slice(), Some([0.0, 100.0]));
     let label = "right, % (95 % interval)";
-    let range = Some([0.0, 100.0]);
-    bars(
+    section.figure(bars(
         "subjects-bars",
         &title,
         label,
-        (&shown, range),
+        shown,
         &[(CHANCE_PERCENT, "chance")],
-    )
+    ));
+    section
+}
+
+fn of_session(session: &Session<'_>) -> Vec<TriadAnswer> {
+    session
+        .trials
+        .iter()
+        .filter_map(|r| triad_answer(r))
+        .collect()
 }
 
 /// Every subject's right answers, %, and d′.
 fn scores(experiment: &Experiment<'_>) -> (Vec<f64>, Vec<f64>) {
-    let percents = experiment.subjects.iter().map(|s| percent(&triads(s)));
-    let d_primes: Vec<f64> = experiment
-        .subjects
-        .iter()
-        .filter_map(|s| {
-            let all = triads(s);
-            Some(
-                triangle(n_right(&all), all.len() as u64, Correction::LogLinear)
-                    .ok()?
-                    .d_prime,
-            )
-        })
-        .collect();
-    (percents.collect(), d_primes)
+    let all: Vec<_> = experiment.subjects.iter().map(triads).collect();
+    let d_prime = |own: &Vec<TriadAnswer>| {
+        let choice = triangle(n_right(own), own.len() as u64, Correction::LogLinear);
+        choice.ok().map(|choice| choice.d_prime)
+    };
+    let percents = all.iter().map(|own| percent(own)).collect();
+    (percents, all.iter().filter_map(d_prime).collect())
 }
 
 /// Whether sessions differ, over subjects who took part in as many.
 fn over_sessions(experiment: &Experiment<'_>) -> Computed<Outcome> {
-    let most = experiment
-        .subjects
-        .iter()
-        .map(|s| s.sessions.len())
-        .max()
-        .unwrap_or(0);
-    if most < 2 {
+    let subjects = &experiment.subjects;
+    let most = subjects.iter().map(|s| s.sessions.len()).max();
+    if most.is_none_or(|most| most < 2) {
         return Err(Undefined::because("one session each"));
     }
-    let with_all = experiment
-        .subjects
-        .iter()
-        .filter(|s| s.sessions.len() == most);
+    let of = |session: &Session<'_>| percent(&of_session(session));
+    let with_all = subjects.iter().filter(|s| Some(s.sessions.len()) == most);
     let rows: Vec<Vec<f64>> = with_all
-        .map(|subject| {
-            let of = |session: &super::included_trials::Session<'_>| {
-                let own: Vec<TriadAnswer> = session
-                    .trials
-                    .iter()
-                    .filter_map(|r| triad_answer(r))
-                    .collect();
-                percent(&own)
-            };
-            subject.sessions.iter().map(of).collect()
-        })
+        .map(|subject| subject.sessions.iter().map(of).collect())
         .collect();
     friedman(&rows)
 }
@@ -269,8 +211,7 @@ fn graded(experiment: &Experiment<'_>, is_correct: bool, grade: Grade) -> (usize
 
 /// Easy, normal and hard, of right and of wrong answers.
 fn grades(experiment: &Experiment<'_>) -> Section {
-    let title = format!("{}: easy, normal, hard", experiment.design.title);
-    let mut section = Section::new(experiment.key("grades"), title);
+    let mut section = experiment.section("grades", "easy, normal, hard");
     section.note(
         "Shares of a subject's right (or wrong) answers with each grade; mean ± SE over subjects.",
     );
@@ -288,36 +229,23 @@ fn grades(experiment: &Experiment<'_>) -> Section {
         for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
             let (count, shares) = graded(experiment, is_correct, grade);
             let told = crate::Grade::ALL[grade as usize].name();
-            let summary = Summary::of(&shares);
-            let mean = selvedge_statistics::mean(&shares);
-            table.push([
-                name.into(),
-                told.into(),
-                count.into(),
-                shares.len().into(),
-                Cell::of(&mean),
-                Cell::of(&summary.as_ref().map(|s| s.se).map_err(Clone::clone)),
-            ]);
+            let se = Summary::of(&shares).map(|s| s.se);
+            let mean = mean(&shares);
+            table.push(cells![name, told, count, shares.len(), &mean, &se]);
             if let Ok(mean) = mean {
-                shown.push(Bar {
-                    name: told.to_owned(),
-                    group: format!("{name} answers"),
-                    value: mean,
-                    interval: summary.ok().map(|s| [mean - s.se, mean + s.se]),
-                });
+                let interval = se.ok().map(|se| [mean - se, mean + se]);
+                shown.push(Bar::of(told, &format!("{name} answers"), mean, interval));
             }
         }
     }
-    section.tables.push(table);
-    let title = format!(
-        "{}: how hard right and wrong answers were",
-        experiment.design.title
-    );
-    section.figures.push(bars(
+    section.table(table);
+    let title = experiment.titled("how hard right and wrong answers were");
+    let shown = (shown.as_slice(), Some([0.0, 100.0]));
+    section.figure(bars(
         "bars",
         &title,
         "share of answers, % (± SE)",
-        (&shown, Some([0.0, 100.0])),
+        shown,
         &[],
     ));
     section
@@ -325,8 +253,7 @@ fn grades(experiment: &Experiment<'_>) -> Section {
 
 /// Sums of weights, and errors by fabric.
 fn distances(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -> Section {
-    let title = format!("{}: distances", experiment.design.title);
-    let mut section = Section::new(experiment.key("distances"), title);
+    let mut section = experiment.section("distances", "distances");
     let GradeWeights { easy, normal, hard } = found.weights;
     section.note(format!(
         "A right answer counts {easy}, {normal} or {hard} as it was easy, normal or hard, a \
@@ -335,14 +262,9 @@ fn distances(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -
         found.n_ceiling, found.n_floor, found.n_missing
     ));
     let cells = found.distances().into_iter();
-    let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
-    section.tables.push(matrix(
-        "distances",
-        "Sums of weights",
-        names,
-        cells.collect(),
-    ));
-    section.tables.push(errors_by_fabric(found, names));
+    let cells = cells.map(|d| known(d, "itself, or never asked"));
+    section.table(matrix("distances", "Sums of weights", names, cells));
+    section.table(errors_by_fabric(found, names));
     section
 }
 
@@ -359,14 +281,8 @@ fn errors_by_fabric(found: &OddOneOut, names: &[String]) -> Table {
     let mut table = Table::new("errors", title, &columns);
     for (name, errors) in names.iter().zip(&found.errors) {
         let (wrong, n) = (errors.n_wrong as u64, errors.n_triads as u64);
-        let mut row = vec![Cell::from(name.as_str()), n.into(), wrong.into()];
-        row.push(if n > 0 {
-            (100.0 * wrong as f64 / n as f64).into()
-        } else {
-            Cell::none("never asked")
-        });
-        row.extend(ends(&percent_interval(wrong, n)));
-        table.push(row);
+        let share = percent_of(wrong, n, "never asked");
+        table.push(cells![name, n, wrong, share, percent_interval(wrong, n)]);
     }
     table
 }

@@ -2,7 +2,7 @@
 //! Of three, that is the d′ of the triangle test.
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, ends, matrix, undefined};
+use super::model::{Cell, Section, Table, cells, known, matrix, or_undefined};
 use selvedge_statistics::Computed;
 use selvedge_statistics::detection::{Choice, Correction, triangle};
 use selvedge_statistics::ranking::{OddOneOut, PairTally};
@@ -65,8 +65,7 @@ pub(super) fn section(
     craven: &Craven,
     names: &[String],
 ) -> Section {
-    let title = format!("{}: Craven's distances", experiment.design.title);
-    let mut section = Section::new(experiment.key("craven"), title);
+    let mut section = experiment.section("craven", "Craven's distances");
     section.note(format!(
         "The distance of two fabrics is the d′ whose share of right odd-one-out choices is that of \
          their triads (Craven 1992; among three the triangle test), grades of difficulty left out. \
@@ -79,39 +78,30 @@ pub(super) fn section(
         craven.n_floor
     ));
     let cells = craven.distances.iter();
-    let cells = cells.map(|d| d.map_or_else(|| Cell::none("itself, or never asked"), Cell::from));
-    section.tables.push(matrix(
-        "distances",
-        "Craven's distances, d′",
-        names,
-        cells.collect(),
-    ));
+    let cells = cells.map(|d| known(*d, "itself, or never asked"));
+    section.table(matrix("distances", "Craven's distances, d′", names, cells));
     let mut table = Table::new("pairs", "Craven's distances, pair by pair", &PAIRS);
     for pair in &found.pairs {
         table.push(row(pair, names));
     }
-    section.tables.push(table);
+    section.table(table);
     section
 }
 
 fn row(pair: &PairTally, names: &[String]) -> Vec<Cell> {
-    let [i, j] = pair.items;
+    let [one, other] = pair.items.map(|item| &names[item]);
     let (right, n) = (pair.n_correct(), pair.n());
-    let mut row = vec![
-        Cell::from(names[i].as_str()),
-        names[j].as_str().into(),
-        n.into(),
-        right.into(),
-        (100.0 * right as f64 / n as f64).into(),
-    ];
-    match choice(pair) {
-        Ok(choice) => {
-            row.extend([choice.d_prime.into(), Cell::of(&choice.se)]);
-            row.extend(ends(&choice.interval));
-            row.push(choice.correction.map_or("none", Correction::name).into());
-            row.push(if choice.is_below_chance { "yes" } else { "no" }.into());
-        }
-        Err(why) => row.extend(undefined(&why, 6)),
-    }
-    row
+    let found = choice(pair).map(|choice| {
+        let correction = choice.correction.map_or("none", Correction::name);
+        let (d_prime, below_chance) = (choice.d_prime, choice.is_below_chance);
+        cells![
+            d_prime,
+            choice.se,
+            choice.interval,
+            correction,
+            below_chance
+        ]
+    });
+    let percent = 100.0 * right as f64 / n as f64;
+    cells![one, other, n, right, percent, or_undefined(found, 6)]
 }

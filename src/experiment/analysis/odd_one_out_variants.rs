@@ -3,7 +3,7 @@
 
 use super::included_trials::Experiment;
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, undefined};
+use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::odd_one_out_answers::grade_weights;
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
@@ -12,7 +12,7 @@ use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Map, Mds};
 use selvedge_statistics::procrustes::{Procrustes, protest};
 use selvedge_statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
-use selvedge_statistics::{Computed, Ranks, pearson_r};
+use selvedge_statistics::{Computed, Ranks, Undefined, pearson_r};
 
 /// Weights of easy, normal and hard that maps are tried with besides the design's.
 const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
@@ -80,8 +80,7 @@ pub(super) fn section(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Section, Cancelled> {
-    let title = format!("{}: maps by other distances", experiment.design.title);
-    let mut section = Section::new(experiment.key("variants"), title);
+    let mut section = experiment.section("variants", "maps by other distances");
     section.note(
         "What easy, normal and hard count is arbitrary; so each map is laid over the design's by \
          Procrustes (moved, turned, mirrored, scaled). m² is what is left over, 0 for maps alike \
@@ -110,9 +109,9 @@ pub(super) fn section(
         });
         enter(&mut places, &variant.told, names, &laid);
     }
-    section.tables.push(table);
+    section.table(table);
     if !places.rows.is_empty() {
-        section.tables.push(places);
+        section.table(places);
     }
     Ok(section)
 }
@@ -139,7 +138,7 @@ fn plane(maps: &Maps) -> Computed<Vec<Vec<f64>>> {
 fn of_dims(maps: &Maps, dims: usize) -> Computed<&Map> {
     let maps = maps.as_ref().map_err(Clone::clone)?;
     let found = maps.iter().find(|map| map.dims == dims);
-    found.ok_or_else(|| selvedge_statistics::Undefined::because("no map in so many dimensions"))
+    found.ok_or_else(|| Undefined::because("no map in so many dimensions"))
 }
 
 impl Variant {
@@ -154,46 +153,42 @@ impl Variant {
         let both: Vec<[f64; 2]> = both.filter_map(|(a, b)| Some([(*a)?, (*b)?])).collect();
         let rank = |at: usize| Ranks::of(&both.iter().map(|d| d[at]).collect::<Vec<f64>>()).ranks;
         let n_pairs = self.values.iter().flatten().count() / 2;
-        let mut row = vec![
-            Cell::from(self.told.as_str()),
-            self.n_ceiling.into(),
-            self.n_floor.into(),
-            n_pairs.into(),
-        ];
-        row.push(match own_maps {
-            None => Cell::none("the design's own"),
-            Some(_) => Cell::of(&pearson_r(&rank(0), &rank(1))),
-        });
-        for dims in [1, 2] {
-            row.push(Cell::of(&of_dims(maps, dims).map(|map| map.stress1)));
-            row.extend(match own_maps {
-                None => [(); 2].map(|()| Cell::none("the design's own")).into(),
-                Some(own_maps) => laid(of_dims(maps, dims), of_dims(own_maps, dims), options),
-            });
-        }
-        row.push(match maps {
-            Ok(_) => "".into(),
-            Err(why) => format!("no map: {}", why.reason).into(),
-        });
-        row
+        let itself = || Cell::none("the design's own");
+        let r = own_maps.map_or_else(itself, |_| (&pearson_r(&rank(0), &rank(1))).into());
+        let in_dims = |dims: usize| {
+            let against = own_maps.map_or_else(
+                || vec![itself(); 2],
+                |own| laid(of_dims(maps, dims), of_dims(own, dims), options),
+            );
+            cells![of_dims(maps, dims).map(|map| map.stress1), against]
+        };
+        let remark = match maps {
+            Ok(_) => String::new(),
+            Err(why) => format!("no map: {}", why.reason),
+        };
+        let (ceiling, floor) = (self.n_ceiling, self.n_floor);
+        cells![
+            &self.told,
+            ceiling,
+            floor,
+            n_pairs,
+            r,
+            in_dims(1),
+            in_dims(2),
+            remark
+        ]
     }
 }
 
 /// m² of a map against the design's, and its p.
 fn laid(map: Computed<&Map>, own: Computed<&Map>, options: &Options) -> Vec<Cell> {
-    let (map, own) = match (map, own) {
-        (Ok(map), Ok(own)) => (map, own),
-        (Err(why), _) | (_, Err(why)) => return undefined(&why, 2),
-    };
-    let mut random = Random::new(options.seed).branch("maps by chance");
-    let found = Procrustes::of(&map.points, &own.points);
-    let p = protest(
-        &map.points,
-        &own.points,
-        options.n_permutations,
-        &mut random,
-    );
-    vec![Cell::of(&found.map(|found| found.m2)), Cell::of(&p)]
+    let both = map.and_then(|map| Ok((&map.points, &own?.points)));
+    let found = both.map(|(map, own)| {
+        let mut random = Random::new(options.seed).branch("maps by chance");
+        let m2 = Procrustes::of(map, own).map(|found| found.m2);
+        cells![m2, protest(map, own, options.n_permutations, &mut random)]
+    });
+    or_undefined(found, 2)
 }
 
 const PLACES: [(&str, &str); 4] = [
@@ -204,12 +199,8 @@ const PLACES: [(&str, &str); 4] = [
 ];
 
 fn enter(table: &mut Table, told: &str, names: &[String], points: &Computed<Vec<Vec<f64>>>) {
-    let Ok(points) = points else {
-        return;
-    };
-    for (name, point) in names.iter().zip(points) {
-        let mut row = vec![Cell::from(told), name.as_str().into()];
-        row.extend(point.iter().map(|x| Cell::from(*x)));
-        table.push(row);
+    for (name, point) in names.iter().zip(points.iter().flatten()) {
+        let place: Vec<Cell> = point.iter().map(|x| Cell::from(*x)).collect();
+        table.push(cells![told, name, place]);
     }
 }

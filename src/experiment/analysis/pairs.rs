@@ -1,7 +1,7 @@
 //! Scales from comparisons of two, subject by subject: Bradley and Terry's, Thurstone's, and how
 //! consistent the comparisons are.
 
-use super::model::{Cell, Section, Table, ends, tests, undefined};
+use super::model::{Cell, Section, Table, cells, or_undefined, percent_of, tests};
 use super::options::Options;
 use selvedge_statistics::ranking::{
     BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
@@ -77,15 +77,11 @@ impl Pairs<'_> {
         if let Err(why) = &bt {
             section.note(format!("**No scale of {of}**: {}.", why.reason));
         }
-        section
-            .tables
-            .push(self.scales(key, of, (&all, &bt, &th), options));
+        section.table(self.scales(key, of, (&all, &bt, &th), options));
         let found = tested(of, &bt, &th, &all);
         let title = format!("Pairs of {of}: differences and fit");
-        section
-            .tables
-            .push(tests(&format!("{key}-tests"), &title, &found));
-        section.tables.push(self.consistency(key, of, &all));
+        section.table(tests(&format!("{key}-tests"), &title, &found));
+        section.table(self.consistency(key, of, &all));
     }
 
     /// What comparisons do not hang together is told by names.
@@ -139,14 +135,14 @@ impl Pairs<'_> {
                 |wins: &dyn Fn(usize) -> u64| -> u64 { (0..self.names.len()).map(wins).sum() };
             let won = count(&|other| all.wins(item, other));
             let lost = count(&|other| all.wins(other, item));
-            let mut row = vec![Cell::from(name.as_str()), won.into(), (won + lost).into()];
-            row.extend(of_scale(bt.as_ref().map(|m| &m.scale), &bt_errors, item));
-            row.extend(of_scale(th.as_ref().map(|m| &m.scale), &th_errors, item));
-            row.push(match &z {
-                Ok(found) => found.values[item].into(),
-                Err(why) => Cell::none(&why.reason),
-            });
-            table.push(row);
+            table.push(cells![
+                name,
+                won,
+                won + lost,
+                of_scale(bt.as_ref().map(|m| &m.scale), &bt_errors, item),
+                of_scale(th.as_ref().map(|m| &m.scale), &th_errors, item),
+                z.as_ref().map(|found| found.values[item]),
+            ]);
         }
         table
     }
@@ -165,32 +161,18 @@ impl Pairs<'_> {
         let title = format!("Pairs of {of}: circular triads, each pair by majority");
         let mut table = Table::new(&format!("{key}-consistency"), &title, &columns);
         let all = std::iter::once(("all together", all));
-        for (name, own) in self
-            .subjects
-            .iter()
-            .map(|(name, own)| (*name, own))
-            .chain(all)
-        {
+        let subjects = self.subjects.iter().map(|(name, own)| (*name, own));
+        for (name, own) in subjects.chain(all) {
             let found = Majority::of(own);
-            let share = if found.n_triads > 0 {
-                (100.0 * found.n_circular as f64 / found.n_triads as f64).into()
-            } else {
-                Cell::none("no triad is decided")
-            };
-            let mut row = vec![
-                Cell::from(name),
-                found.n_pairs.into(),
-                found.n_undecided.into(),
-                found.n_triads.into(),
-                found.n_circular.into(),
-                share,
-            ];
+            let (circular, triads) = (found.n_circular, found.n_triads);
+            let share = percent_of(circular, triads, "no triad is decided");
             let why = "asks for every pair, decided, of three items or more";
-            row.extend(match &found.consistency {
-                Ok(whole) => [whole.zeta, whole.p_of_chance].map(Cell::from),
-                Err(_) => [(); 2].map(|()| Cell::none(why)),
-            });
-            table.push(row);
+            let whole = found
+                .consistency
+                .map(|whole| cells![whole.zeta, whole.p_of_chance]);
+            let whole = whole.unwrap_or_else(|_| vec![Cell::none(why); 2]);
+            let pairs = [found.n_pairs, found.n_undecided];
+            table.push(cells![name, pairs, triads, circular, share, whole]);
         }
         table
     }
@@ -202,27 +184,20 @@ fn of_scale(
     errors: &Computed<Vec<f64>>,
     item: usize,
 ) -> Vec<Cell> {
-    let scale = match scale {
-        Ok(scale) => scale,
-        Err(why) => return undefined(why, 5),
-    };
-    let own = scale.centred()[item];
-    let mut cells = vec![own.value.into(), own.se.into()];
-    cells.extend(over_subjects(own.value, errors, item));
-    cells
+    let found = scale.map(|scale| {
+        let own = scale.centred()[item];
+        cells![own.value, own.se, over_subjects(own.value, errors, item)]
+    });
+    or_undefined(found, 5)
 }
 
 /// The error of a value over subjects and the interval by it.
 pub(super) fn over_subjects(value: f64, errors: &Computed<Vec<f64>>, at: usize) -> Vec<Cell> {
-    match errors {
-        Ok(errors) => {
-            let se = errors[at];
-            let mut cells = vec![Cell::from(se)];
-            cells.extend(ends(&Estimate { value, se }.interval(0.95)));
-            cells
-        }
-        Err(why) => undefined(why, 3),
-    }
+    let found = errors.as_ref().map(|errors| {
+        let se = errors[at];
+        cells![se, Estimate { value, se }.interval(0.95)]
+    });
+    or_undefined(found, 3)
 }
 
 fn tested(
@@ -233,33 +208,26 @@ fn tested(
 ) -> Vec<(String, Computed<Outcome>)> {
     let bt = bt
         .as_ref()
-        .map(|model| model.deviance)
-        .map_err(Clone::clone);
+        .map_err(Clone::clone)
+        .map(|model| model.deviance);
     let th = th
         .as_ref()
-        .map(|model| model.deviance)
-        .map_err(Clone::clone);
-    let independent = |outcome: Computed<Outcome>| {
-        outcome.map(|mut outcome| {
-            outcome
-                .notes
-                .push("takes comparisons for independent".to_owned());
-            outcome
-        })
-    };
+        .map_err(Clone::clone)
+        .map(|model| model.deviance);
+    let equal = bt.clone().and_then(|d| d.against_equal());
+    let z = mosteller(all).and_then(|found| found.fit);
     let all = [
-        (
-            "Bradley & Terry, do they differ",
-            bt.clone().and_then(|d| d.against_equal()),
-        ),
+        ("Bradley & Terry, do they differ", equal),
         ("Bradley & Terry, fit", bt.and_then(|d| d.goodness_of_fit())),
         ("Thurstone, fit", th.and_then(|d| d.goodness_of_fit())),
-        (
-            "row means of z, fit",
-            mosteller(all).and_then(|found| found.fit),
-        ),
+        ("row means of z, fit", z),
     ];
-    all.into_iter()
-        .map(|(what, outcome)| (format!("{of}: {what}"), independent(outcome)))
-        .collect()
+    let independent = |mut outcome: Outcome| {
+        outcome
+            .notes
+            .push("takes comparisons for independent".to_owned());
+        outcome
+    };
+    all.map(|(what, outcome)| (format!("{of}: {what}"), outcome.map(independent)))
+        .into()
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table};
+use super::model::{Cell, Section, Table, cells};
 use super::options::Options;
 use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
 use crate::design::Source;
@@ -178,9 +178,8 @@ impl Measures {
         );
         let mut table = Table::new("measures", "Physical measures", &columns);
         for (i, name) in names.iter().enumerate() {
-            let mut row = vec![Cell::from(name.as_str())];
-            row.extend(self.all.iter().map(|m| Cell::from(m.values[i])));
-            table.push(row);
+            let values: Vec<Cell> = self.all.iter().map(|m| m.values[i].into()).collect();
+            table.push(cells![name, values]);
         }
         table
     }
@@ -239,34 +238,24 @@ fn of_levels(levels: &[Levels]) -> Vec<Measure> {
         .map(|um| um.iter().map(|a| level_db(*a)).collect::<Vec<f64>>());
     let [z40, z320] = db.each_ref().map(|db| standardised(db));
     let both = |sign: f64| z40.iter().zip(&z320).map(|(a, b)| a + sign * b).collect();
-    let sum = "sum of standardised levels";
+    let of_both = of(&|l| l.level_db().unwrap_or(f64::NAN));
+    let [cv40, cv320] = [0, 1].map(|b| of(&|l| l.cv[b]));
+    let [anisotropy40, anisotropy320] = [0, 1].map(|b| of(&|l| l.anisotropy_db[b]));
     let difference = "difference of standardised levels (40 − 320 Hz)";
     let [db40, db320] = db;
     let [um40, um320] = um;
-    let all: [(&str, &str, Vec<f64>); 11] = [
+    let all = [
         ("a40_db", "A40, dB re 1 µm", db40),
         ("a320_db", "A320, dB re 1 µm", db320),
-        (
-            "level_db",
-            "level of both bands, dB re 1 µm",
-            of(&|l| l.level_db().unwrap_or(f64::NAN)),
-        ),
+        ("level_db", "level of both bands, dB re 1 µm", of_both),
         ("a40_um", "A40, µm", um40),
         ("a320_um", "A320, µm", um320),
-        ("sum", sum, both(1.0)),
+        ("sum", "sum of standardised levels", both(1.0)),
         ("difference", difference, both(-1.0)),
-        ("cv40", "spatial variation of A40", of(&|l| l.cv[0])),
-        ("cv320", "spatial variation of A320", of(&|l| l.cv[1])),
-        (
-            "anisotropy40_db",
-            "anisotropy of A40, dB",
-            of(&|l| l.anisotropy_db[0]),
-        ),
-        (
-            "anisotropy320_db",
-            "anisotropy of A320, dB",
-            of(&|l| l.anisotropy_db[1]),
-        ),
+        ("cv40", "spatial variation of A40", cv40),
+        ("cv320", "spatial variation of A320", cv320),
+        ("anisotropy40_db", "anisotropy of A40, dB", anisotropy40),
+        ("anisotropy320_db", "anisotropy of A320, dB", anisotropy320),
     ];
     let measure = |(name, heading, values): (&str, &str, Vec<f64>)| Measure {
         name: name.to_owned(),

@@ -4,7 +4,7 @@
 use super::draw::{Bar, bars};
 use super::included_trials::Experiment;
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, ends, percent_interval, resampled, summaries, tests};
+use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, tests};
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
@@ -49,7 +49,7 @@ pub(super) fn sections(
     };
     let mapping = Mapping {
         key: experiment.key("map"),
-        title: format!("{}: map", experiment.design.title),
+        title: experiment.titled("map"),
         values: ranks.dissimilarities(),
         subjects: all.iter().filter_map(of_subject).collect(),
         names,
@@ -88,145 +88,92 @@ const SUBJECTS: [(&str, &str); 15] = [
 ];
 
 fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
-    let title = format!("{}: identification", experiment.design.title);
-    let mut section = Section::new(experiment.key("identification"), title);
+    let mut section = experiment.section("identification", "identification");
     section.note(
         "Identified: the target was ranked first, chance 25 %. Intervals of shares are Wilson's, p \
          is exact (binomial); d′ of four alternatives without bias, its interval from Wilson's.",
     );
     let mut table = Table::new("subjects", "Identification by subject", &SUBJECTS);
     let mut d_primes = Vec::new();
+    let mut shown = Vec::new();
     for one in all {
         let (hits, n) = (one.n_first(), one.trials.len() as u64);
         let choice = forced_choice(hits, n, 4, Correction::LogLinear);
         table.push(subject_row(one, &choice));
         d_primes.extend(choice.ok().map(|c| c.d_prime));
+        shown.push(Bar::share(one.subject, hits, n));
     }
-    section.tables.push(table);
+    section.table(table);
     let percents: Vec<f64> = all.iter().map(Rankings::percent).collect();
     let ranks: Vec<f64> = all.iter().map(Rankings::mean_rank).collect();
     let means = [
-        ("targets identified, %".to_owned(), percents.clone()),
-        ("d′".to_owned(), d_primes.clone()),
-        ("mean rank of the target".to_owned(), ranks.clone()),
+        ("targets identified, %", percents.clone()),
+        ("d′", d_primes.clone()),
+        ("mean rank of the target", ranks.clone()),
     ];
-    section
-        .tables
-        .push(summaries("group", "Over subjects", &means));
-    section.tables.push(resampled(&means, options.resampling()));
-    section.tables.push(tests(
-        "tests",
-        "Against chance",
-        &against_chance(all, [&percents, &d_primes, &ranks]),
+    section.over_subjects(&means, options);
+    let found = against_chance(all, [&percents, &d_primes, &ranks]);
+    section.table(tests("tests", "Against chance", &found));
+    shown.extend(Bar::mean("mean ± SE", "", &percents));
+    let title = experiment.titled("targets identified");
+    let label = "targets identified, % (95 % interval)";
+    let shown = (shown.as_slice(), Some([0.0, 100.0]));
+    section.figure(bars(
+        "subjects-bars",
+        &title,
+        label,
+        shown,
+        &[(CHANCE_PERCENT, "chance")],
     ));
-    section.figures.push(by_subject(experiment, all, &percents));
     section
 }
 
 fn subject_row(one: &Rankings<'_>, choice: &Computed<Choice>) -> Vec<Cell> {
     let (hits, n) = (one.n_first(), one.trials.len() as u64);
-    let mut row = vec![
-        one.subject.into(),
-        n.into(),
-        hits.into(),
-        one.percent().into(),
-    ];
-    row.extend(ends(&percent_interval(hits, n)));
     let greater = exact_binomial(hits, n, 0.25, Sides::Greater);
-    row.push(Cell::of(
-        &greater.as_ref().map(|o| o.p).map_err(Clone::clone),
-    ));
-    row.push(Cell::of(
-        &exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
-    ));
-    row.push(Cell::of(
-        &greater.and_then(|o| o.effect).map(|effect| effect.value),
-    ));
-    row.push(Cell::of(
-        &choice.as_ref().map(|c| c.d_prime).map_err(Clone::clone),
-    ));
-    row.extend(ends(&choice.clone().and_then(|c| c.interval)));
-    row.push(match choice {
-        Ok(choice) => choice.correction.map_or("none", Correction::name).into(),
-        Err(why) => Cell::Undefined(why.reason.clone()),
-    });
-    row.push(one.mean_rank().into());
-    row.push(match choice {
-        Ok(choice) if choice.is_below_chance => "yes".into(),
-        Ok(_) => "no".into(),
-        Err(why) => Cell::Undefined(why.reason.clone()),
-    });
-    row
+    let choice = choice.as_ref();
+    let correction = choice.map(|c| cells![c.correction.map_or("none", Correction::name)]);
+    cells![
+        one.subject,
+        n,
+        hits,
+        one.percent(),
+        percent_interval(hits, n),
+        greater.as_ref().map(|o| o.p),
+        exact_binomial(hits, n, 0.25, Sides::Two).map(|o| o.p),
+        greater.and_then(|o| o.effect).map(|effect| effect.value),
+        choice.map(|c| c.d_prime),
+        or_undefined(choice.map(|c| cells![&c.interval]), 2),
+        or_undefined(correction, 1),
+        one.mean_rank(),
+        or_undefined(choice.map(|c| cells![c.is_below_chance]), 1),
+    ]
 }
 
 fn against_chance(
     all: &[Rankings<'_>],
     [percents, d_primes, ranks]: [&[f64]; 3],
-) -> Vec<(String, Computed<Outcome>)> {
+) -> [(&'static str, Computed<Outcome>); 6] {
     let t = |values: &[f64], chance| Summary::of(values).and_then(|s| one_sample_t(&s, chance));
     let hits: u64 = all.iter().map(Rankings::n_first).sum();
     let n: u64 = all.iter().map(|r| r.trials.len() as u64).sum();
     let pooled = exact_binomial(hits, n, 0.25, Sides::Greater).map(|mut outcome| {
-        outcome
-            .notes
-            .push("subjects pooled, as if trials were independent".to_owned());
+        let note = "subjects pooled, as if trials were independent";
+        outcome.notes.push(note.to_owned());
         outcome
     });
-    vec![
-        (
-            "targets identified, % against 25".to_owned(),
-            t(percents, CHANCE_PERCENT),
-        ),
-        (
-            "targets identified, % against 25".to_owned(),
-            wilcoxon_signed_rank(percents, CHANCE_PERCENT),
-        ),
-        ("d′ against 0".to_owned(), t(d_primes, 0.0)),
-        (
-            "mean rank of the target against 2.5".to_owned(),
-            t(ranks, CHANCE_RANK),
-        ),
-        (
-            "mean rank of the target against 2.5".to_owned(),
-            wilcoxon_signed_rank(ranks, CHANCE_RANK),
-        ),
-        ("targets identified, share against ¼".to_owned(), pooled),
+    let (share, rank) = (
+        "targets identified, % against 25",
+        "mean rank of the target against 2.5",
+    );
+    [
+        (share, t(percents, CHANCE_PERCENT)),
+        (share, wilcoxon_signed_rank(percents, CHANCE_PERCENT)),
+        ("d′ against 0", t(d_primes, 0.0)),
+        (rank, t(ranks, CHANCE_RANK)),
+        (rank, wilcoxon_signed_rank(ranks, CHANCE_RANK)),
+        ("targets identified, share against ¼", pooled),
     ]
-}
-
-fn by_subject(
-    experiment: &Experiment<'_>,
-    all: &[Rankings<'_>],
-    percents: &[f64],
-) -> super::model::Drawn {
-    let mut shown: Vec<Bar> = all
-        .iter()
-        .map(|r| Bar {
-            name: r.subject.to_owned(),
-            group: String::new(),
-            value: r.percent(),
-            interval: percent_interval(r.n_first(), r.trials.len() as u64)
-                .ok()
-                .map(|i| [i.low, i.high]),
-        })
-        .collect();
-    if let Ok(summary) = Summary::of(percents) {
-        shown.push(Bar {
-            name: "mean ± SE".to_owned(),
-            group: String::new(),
-            value: summary.mean,
-            interval: Some([summary.mean - summary.se, summary.mean + summary.se]),
-        });
-    }
-    let title = format!("{}: targets identified", experiment.design.title);
-    let label = "targets identified, % (95 % interval)";
-    bars(
-        "subjects-bars",
-        &title,
-        label,
-        (&shown, Some([0.0, 100.0])),
-        &[(CHANCE_PERCENT, "chance")],
-    )
 }
 
 /// The alternatives of a trial that are not its target, the nearest first.
@@ -238,11 +185,7 @@ fn others(trial: &RankTrial) -> Vec<usize> {
 
 /// Scales of all alternatives but the target, over all targets.
 fn pairs_section(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
-    let title = format!(
-        "{}: nearer to whatever the target was",
-        experiment.design.title
-    );
-    let mut section = Section::new(experiment.key("pairs"), title);
+    let mut section = experiment.section("pairs", "nearer to whatever the target was");
     section.note(
         "Every ranking is taken apart into its pairs of alternatives that were not the target, all \
          targets together: preferred is what was ranked nearer. Values that differ say that some \

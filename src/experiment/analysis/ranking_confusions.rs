@@ -3,9 +3,12 @@
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
 use super::included_trials::Experiment;
-use super::model::{Cell, Drawn, Section, Table, ends, matrix, percent_interval};
+use super::model::{
+    Cell, Drawn, Section, Table, cells, known, matrix, percent_interval, percent_of,
+};
 use super::ranking_answers::CHANCE_PERCENT;
 use crate::design::{Ranking, Standard};
+use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::ranking::MeanRanks;
 
 /// Matrices of targets and alternatives, all subjects together.
@@ -15,8 +18,7 @@ pub(super) fn section(
     names: &[String],
     how: Ranking,
 ) -> Section {
-    let title = format!("{}: what was taken for what", experiment.design.title);
-    let mut section = Section::new(experiment.key("confusions"), title);
+    let mut section = experiment.section("confusions", "what was taken for what");
     let kind = match how.target {
         Standard::RealCloth => "real cloth",
         Standard::Virtual | Standard::None => "virtual",
@@ -26,29 +28,21 @@ pub(super) fn section(
          diagonal is the target itself."
     ));
     let (counts, first) = (ranks.counts(), ranks.confusions());
-    section.tables.push(targets(counts, first, names));
+    section.table(targets(counts, first, names));
     let of = |values: &[usize]| values.iter().map(|v| Cell::from(*v)).collect::<Vec<Cell>>();
-    section
-        .tables
-        .push(matrix("first", "Ranked first, trials", names, of(first)));
-    section
-        .tables
-        .push(matrix("presented", "Presented, trials", names, of(counts)));
+    section.table(matrix("first", "Ranked first, trials", names, of(first)));
+    section.table(matrix("presented", "Presented, trials", names, of(counts)));
     let means = ranks.means();
-    let cells = means
-        .iter()
-        .map(|m| m.map_or_else(|| Cell::none("never met"), Cell::from));
-    section
-        .tables
-        .push(matrix("mean-ranks", "Mean rank", names, cells.collect()));
-    section.figures.push(heat(
+    let cells = means.iter().map(|mean| known(*mean, "never met"));
+    section.table(matrix("mean-ranks", "Mean rank", names, cells));
+    section.figure(heat(
         "mean-ranks-map",
-        &format!("{}: mean ranks, rows are targets", experiment.design.title),
+        &experiment.titled("mean ranks, rows are targets"),
         "mean rank",
         names,
         &means,
     ));
-    section.figures.push(by_target(experiment, ranks, names));
+    section.figure(by_target(experiment, ranks, names));
     asymmetry(ranks, names, &mut section);
     section
 }
@@ -56,30 +50,20 @@ pub(super) fn section(
 /// Targets identified, subjects pooled.
 fn by_target(experiment: &Experiment<'_>, ranks: &MeanRanks, names: &[String]) -> Drawn {
     let (n, counts, first) = (names.len(), ranks.counts(), ranks.confusions());
-    let mut shown = Vec::new();
-    for (target, name) in names.iter().enumerate() {
+    let bar = |(target, name): (usize, &String)| {
         let cell = target * n + target;
-        let interval = percent_interval(first[cell] as u64, counts[cell] as u64).ok();
-        if let Some(interval) = interval {
-            shown.push(Bar {
-                name: name.clone(),
-                group: String::new(),
-                value: 100.0 * first[cell] as f64 / counts[cell] as f64,
-                interval: Some([interval.low, interval.high]),
-            });
-        }
-    }
-    let title = format!(
-        "{}: identified by target, subjects pooled",
-        experiment.design.title
-    );
+        Bar::share(name, first[cell] as u64, counts[cell] as u64)
+    };
+    let shown = names.iter().enumerate().map(bar);
+    let shown: Vec<Bar> = shown.filter(|bar| bar.interval.is_some()).collect();
+    let title = experiment.titled("identified by target, subjects pooled");
     let label = "identified, % (95 % interval)";
-    let range = Some([0.0, 100.0]);
+    let shown = (shown.as_slice(), Some([0.0, 100.0]));
     bars(
         "targets-bars",
         &title,
         label,
-        (&shown, range),
+        shown,
         &[(CHANCE_PERCENT, "chance")],
     )
 }
@@ -109,19 +93,14 @@ fn targets(counts: &[usize], first: &[usize], names: &[String]) -> Table {
             .filter(|(_, v)| **v == most && most > 0)
             .map(|(a, _)| names[a].as_str())
             .collect();
-        let mut cells = vec![Cell::from(name.as_str()), of.into(), n_first.into()];
-        cells.push(if of > 0 {
-            (100.0 * n_first as f64 / of as f64).into()
-        } else {
-            Cell::none("never a target")
-        });
-        cells.extend(ends(&percent_interval(n_first, of)));
-        cells.push(if most > 0 {
+        let share = percent_of(n_first, of, "never a target");
+        let taken_for = if most > 0 {
             format!("{} ({most})", taken.join(", ")).into()
         } else {
             Cell::none("never mistaken")
-        });
-        table.push(cells);
+        };
+        let interval = percent_interval(n_first, of);
+        table.push(cells![name, of, n_first, share, interval, taken_for]);
     }
     table
 }
@@ -133,8 +112,8 @@ fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
     };
     section.note(format!(
         "Asymmetry of mean ranks, |M − Mᵀ|: mean {}, largest {} over {} pairs.",
-        selvedge_foundation::quantity::fixed(found.mean, 3),
-        selvedge_foundation::quantity::fixed(found.largest, 3),
+        fixed(found.mean, 3),
+        fixed(found.largest, 3),
         found.pairs.len()
     ));
     let columns = [
@@ -150,11 +129,7 @@ fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
     let mut pairs = found.pairs;
     pairs.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     for ([i, j], difference) in pairs {
-        table.push([
-            names[i].as_str().into(),
-            names[j].as_str().into(),
-            difference.into(),
-        ]);
+        table.push(cells![&names[i], &names[j], difference]);
     }
-    section.tables.push(table);
+    section.table(table);
 }

@@ -3,7 +3,7 @@
 //! would look.
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, ends, tests, undefined};
+use super::model::{Cell, Section, Table, cells, or_undefined, tests};
 use super::pairs::over_subjects;
 use super::ranking_answers::Rankings;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
@@ -40,8 +40,7 @@ pub(super) fn section(
     all: &[Rankings<'_>],
     progress: &mut Progress<'_>,
 ) -> Result<Section, Cancelled> {
-    let title = format!("{}: likeness by Plackett and Luce", experiment.design.title);
-    let mut section = Section::new(experiment.key("scale"), title);
+    let mut section = experiment.section("scale", "likeness by Plackett and Luce");
     section.note(format!(
         "Log-worth of each alternative for each target, counted from the target: 0 is taken \
          for the target as often as itself. Gamma prior of strength {STRENGTH}, as if every \
@@ -59,22 +58,19 @@ pub(super) fn section(
     let mut against: Vec<(String, Computed<Outcome>)> = Vec::new();
     for (target, (name, found)) in names.iter().zip(targets).enumerate() {
         for (alternative, other) in names.iter().enumerate().filter(|(a, _)| *a != target) {
-            let mut row = vec![
-                Cell::from(name.as_str()),
-                other.as_str().into(),
-                found.n_rankings.into(),
-            ];
-            row.extend(found.plackett_luce.cells(alternative, target, true));
-            row.extend(found.bradley_terry.cells(alternative, target, false));
-            table.push(row);
+            table.push(cells![
+                name,
+                other,
+                found.n_rankings,
+                found.plackett_luce.cells(alternative, target, true),
+                found.bradley_terry.cells(alternative, target, false),
+            ]);
         }
         against.push((format!("target {name}"), found.against_chance));
     }
-    section.tables.push(table);
+    section.table(table);
     let title = "Worths against rankings by chance, without a prior";
-    section
-        .tables
-        .push(tests("against-chance", title, &against));
+    section.table(tests("against-chance", title, &against));
     Ok(section)
 }
 
@@ -118,21 +114,17 @@ impl Model {
     }
 
     fn cells(&self, alternative: usize, target: usize, with_ends: bool) -> Vec<Cell> {
-        let n = if with_ends { 7 } else { 3 };
         let scale = self.scale.as_ref().map_err(Clone::clone);
-        let lead = match scale.and_then(|scale| scale.difference(alternative, target)) {
-            Ok(lead) => lead,
-            Err(why) => return undefined(&why, n),
-        };
-        let mut cells = vec![Cell::from(lead.value), lead.se.into()];
-        let over = over_subjects(lead.value, &self.errors, alternative);
-        if with_ends {
-            cells.extend(ends(&lead.interval(0.95)));
-            cells.extend(over);
-        } else {
-            cells.extend(over.into_iter().take(1));
-        }
-        cells
+        let lead = scale.and_then(|scale| scale.difference(alternative, target));
+        let found = lead.map(|lead| {
+            let mut over = over_subjects(lead.value, &self.errors, alternative);
+            if with_ends {
+                return cells![lead.value, lead.se, lead.interval(0.95), over];
+            }
+            over.truncate(1);
+            cells![lead.value, lead.se, over]
+        });
+        or_undefined(found, if with_ends { 7 } else { 3 })
     }
 }
 

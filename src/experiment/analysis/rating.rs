@@ -1,23 +1,23 @@
 //! Rating scales: means by stimulus, how scales go together, and with what was measured.
 
 use super::draw::{Bar, bars};
-use super::included_trials::Experiment;
-use super::model::{Cell, Drawn, SUMMARY, Section, Table, file_name, summary_cells, tests};
+use super::included_trials::{Experiment, Subject};
+use super::model::{Drawn, SUMMARY, Section, Table, cells, file_name, summary_cells, tests};
 use super::options::Options;
 use super::properties::Measures;
-use super::variance::effects;
+use super::variance::{complete_rows, effects};
 use crate::design::{Rating, Scale};
 use crate::{Answer, Task};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
-use selvedge_statistics::{Computed, Outcome, Summary, pearson, spearman};
+use selvedge_statistics::{Computed, Outcome, Summary, mean, pearson, spearman};
 
 /// A subject's mean rating of every stimulus on one scale; `None` where it was not rated.
 type Subjects = Vec<Vec<Option<f64>>>;
 
 fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
     let n = experiment.design.stimuli.len();
-    let of = |subject: &super::included_trials::Subject<'_>| {
+    let of = |subject: &Subject<'_>| {
         let mut sums = vec![[0.0; 2]; n];
         for record in subject.trials() {
             if let (Task::Rate { item }, Some(Answer::Ratings(values))) =
@@ -38,7 +38,7 @@ fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
 fn means(subjects: &Subjects, n_items: usize) -> Vec<Option<f64>> {
     let of = |item: usize| {
         let values: Vec<f64> = subjects.iter().filter_map(|s| s[item]).collect();
-        selvedge_statistics::mean(&values).ok()
+        mean(&values).ok()
     };
     (0..n_items).map(of).collect()
 }
@@ -51,8 +51,7 @@ pub(super) fn sections(
 ) -> Result<Vec<Section>, Cancelled> {
     let names = experiment.ids();
     let measures = Measures::of(experiment, options, progress)?;
-    let title = format!("{}: ratings", experiment.design.title);
-    let mut section = Section::new(experiment.key("ratings"), title);
+    let mut section = experiment.section("ratings", "ratings");
     section.note(
         "Means over subjects of each subject's mean over repeats. Correlations are between these \
          means, n the stimuli.",
@@ -67,45 +66,32 @@ pub(super) fn sections(
         let mut shown = Vec::new();
         for (item, name) in names.iter().enumerate() {
             let values: Vec<f64> = all.iter().filter_map(|s| s[item]).collect();
-            let mut row = vec![Cell::from(scale.key.as_str()), name.as_str().into()];
-            row.extend(summary_cells(&values));
-            table.push(row);
+            table.push(cells![&scale.key, name, summary_cells(&values)]);
             shown.extend(bar(name, &values));
         }
-        section.figures.push(picture(experiment, scale, &shown));
+        section.figure(picture(experiment, scale, &shown));
         let key = file_name(&scale.key, '-');
         let crossed = crossed(experiment, &names, &all);
-        let rows = crossed.clone().and_then(|table| {
-            let values = table.complete()?;
-            let n_cells = table.n_cells().max(1);
-            Ok(values
-                .chunks(n_cells)
-                .map(<[f64]>::to_vec)
-                .collect::<Vec<_>>())
-        });
+        let rows = complete_rows(&crossed);
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
         let variance = crossed.and_then(|table| repeated_one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);
-        section
-            .tables
-            .push(effects(&format!("anova-{key}"), &title, &variance));
+        section.table(effects(&format!("anova-{key}"), &title, &variance));
         by_scale.push((scale.key.clone(), means(&all, names.len())));
     }
     section.tables.insert(0, table);
     let title = "Do subjects agree? (Friedman; W is their concordance)";
-    section.tables.push(tests("agreement", title, &found));
-    section.tables.push(tests(
+    section.table(tests("agreement", title, &found));
+    section.table(tests(
         "scales",
         "Scales with each other",
         &between(&by_scale),
     ));
     measures.describe(&mut section);
     if !measures.all.is_empty() {
-        section.tables.push(measures.table(&names));
+        section.table(measures.table(&names));
         let with = with_measures(&by_scale, &measures);
-        section
-            .tables
-            .push(tests("physical", "Scales with what was measured", &with));
+        section.table(tests("physical", "Scales with what was measured", &with));
     }
     Ok(vec![section])
 }
@@ -118,15 +104,14 @@ fn picture(experiment: &Experiment<'_>, scale: &Scale, shown: &[Bar]) -> Drawn {
 }
 
 fn bar(name: &str, values: &[f64]) -> Option<Bar> {
-    let mean = selvedge_statistics::mean(values).ok()?;
-    Some(Bar {
-        name: name.to_owned(),
-        group: String::new(),
-        value: mean,
-        interval: Summary::of(values)
-            .ok()
-            .map(|s| [s.mean - s.se, s.mean + s.se]),
-    })
+    let mean = mean(values).ok()?;
+    let summary = Summary::of(values).ok();
+    Some(Bar::of(
+        name,
+        "",
+        mean,
+        summary.map(|s| [s.mean - s.se, s.mean + s.se]),
+    ))
 }
 
 fn crossed(experiment: &Experiment<'_>, names: &[String], all: &Subjects) -> Computed<Crossed> {

@@ -1,8 +1,8 @@
 //! Tables of analyses of variance.
 
-use super::model::{Cell, Table, undefined};
+use super::model::{Cell, Table, cells};
 use selvedge_statistics::Computed;
-use selvedge_statistics::variance::{Effect, Repeated};
+use selvedge_statistics::variance::{Crossed, Effect, Repeated};
 
 const EFFECTS: [(&str, &str); 17] = [
     ("effect", "effect"),
@@ -24,6 +24,16 @@ const EFFECTS: [(&str, &str); 17] = [
     ("remarks", "remarks"),
 ];
 
+/// The cells of every subject, where nobody lacks one.
+pub(super) fn complete_rows(crossed: &Computed<Crossed>) -> Computed<Vec<Vec<f64>>> {
+    let table = crossed.as_ref().map_err(Clone::clone)?;
+    let rows = table.complete()?;
+    Ok(rows
+        .chunks(table.n_cells().max(1))
+        .map(<[f64]>::to_vec)
+        .collect())
+}
+
 /// Every effect of an analysis, a row each, or one row that says why there is none.
 pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Table {
     let mut table = Table::new(key, title, &EFFECTS);
@@ -34,49 +44,38 @@ pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Tab
             }
         }
         Err(why) => {
-            let mut row = vec![Cell::from("all")];
-            row.extend(undefined(why, EFFECTS.len() - 2));
-            row.push(format!("refused: {}", why.reason).into());
-            table.push(row);
+            let blank = vec![Cell::none(&why.reason); EFFECTS.len() - 2];
+            table.push(cells!["all", blank, format!("refused: {}", why.reason)]);
         }
     }
     table
 }
 
 fn row(effect: &Effect, n: usize) -> Vec<Cell> {
-    let mut row = vec![
-        Cell::from(effect.name.as_str()),
-        n.into(),
-        effect.ss.into(),
-        effect.df.into(),
-        effect.ss_error.into(),
-        effect.df_error.into(),
-        Cell::of(&effect.f),
-        Cell::of(&effect.p),
-        Cell::of(&effect.partial_eta_squared),
-        Cell::of(&effect.generalised_eta_squared),
-    ];
-    if let Some(s) = &effect.sphericity {
-        row.extend([
-            Cell::of(&s.mauchly_w),
-            Cell::of(&s.mauchly_p),
-            s.greenhouse_geisser.into(),
-            Cell::of(&s.p_greenhouse_geisser),
-            Cell::of(&s.huynh_feldt),
-            Cell::of(&s.p_huynh_feldt),
-        ]);
+    let sphericity = if let Some(s) = &effect.sphericity {
+        cells![
+            &s.mauchly_w,
+            &s.mauchly_p,
+            s.greenhouse_geisser,
+            &s.p_greenhouse_geisser,
+            &s.huynh_feldt,
+            &s.p_huynh_feldt,
+        ]
+    } else if effect.df < 2.0 {
+        vec![Cell::none("two levels are always spherical"); 6]
     } else {
-        let why = if effect.df < 2.0 {
-            "two levels are always spherical"
-        } else {
-            "the error term does not vary"
-        };
-        row.extend((0..6).map(|_| Cell::none(why)));
-    }
-    let told = match &effect.f {
+        vec![Cell::none("the error term does not vary"); 6]
+    };
+    let remark = match &effect.f {
         Ok(_) => String::new(),
         Err(why) => format!("not computable: {}", why.reason),
     };
-    row.push(told.into());
-    row
+    let sums = [effect.ss, effect.df, effect.ss_error, effect.df_error];
+    let tested = [
+        &effect.f,
+        &effect.p,
+        &effect.partial_eta_squared,
+        &effect.generalised_eta_squared,
+    ];
+    cells![&effect.name, n, sums, tested, sphericity, remark]
 }

@@ -1,17 +1,15 @@
 //! The files of an analysis: a page to read, every table as CSV and JSON, every figure as SVG, PNG
 //! and the CSV of its points. The same analysis gives the same bytes.
 
-use std::fs;
 use std::path::Path;
 
 use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
-use super::model::{Analysis, Cell, Drawn, Table};
+use super::model::{Analysis, Cell, Column, Drawn, Table};
 use crate::ExperimentError;
-use selvedge_foundation::files::{
-    FileError, TableWriter, encode_png_rgba, to_json_string, write_atomic,
-};
+use crate::session::make_folder;
+use selvedge_foundation::files::{TableWriter, encode_png_rgba, to_json_string, write_atomic};
 use selvedge_foundation::quantity::fixed;
 
 /// Pixels across a PNG.
@@ -29,10 +27,7 @@ impl Analysis {
     /// # Errors
     /// A file cannot be written or a figure not be drawn.
     pub fn write(&self, out: &Path) -> Result<(), ExperimentError> {
-        fs::create_dir_all(out).map_err(|source| FileError::Write {
-            path: out.to_owned(),
-            source,
-        })?;
+        make_folder(out)?;
         for section in &self.sections {
             for table in &section.tables {
                 let stem = format!("{}-{}", section.key, table.key);
@@ -163,10 +158,12 @@ fn write_table(
     write_atomic(&path, &csv_of(table, &path)?)?;
     if as_json {
         let path = out.join(format!("{stem}.json"));
-        write_atomic(
-            &path,
-            to_json_string(&Document::of(table), &path)?.as_bytes(),
-        )?;
+        let document = Document {
+            title: &table.title,
+            columns: &table.columns,
+            rows: table.rows.iter().map(|row| Row(table, row)).collect(),
+        };
+        write_atomic(&path, to_json_string(&document, &path)?.as_bytes())?;
     }
     Ok(())
 }
@@ -213,32 +210,12 @@ fn reasons_of(table: &Table, row: &[Cell]) -> Vec<String> {
 #[derive(Serialize)]
 struct Document<'a> {
     title: &'a str,
-    columns: Vec<Heading<'a>>,
+    columns: &'a [Column],
     rows: Vec<Row<'a>>,
-}
-
-#[derive(Serialize)]
-struct Heading<'a> {
-    name: &'a str,
-    heading: &'a str,
 }
 
 /// A row as an object; what is not computable is null, its reason under `NAME_reason`.
 struct Row<'a>(&'a Table, &'a [Cell]);
-
-impl<'a> Document<'a> {
-    fn of(table: &'a Table) -> Self {
-        let heading = |column: &'a super::model::Column| Heading {
-            name: &column.name,
-            heading: &column.heading,
-        };
-        Self {
-            title: &table.title,
-            columns: table.columns.iter().map(heading).collect(),
-            rows: table.rows.iter().map(|row| Row(table, row)).collect(),
-        }
-    }
-}
 
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::check::{MOST_REPEATS, MOST_STIMULI};
+use super::check::{MOST_STIMULI, check_repeats, need, need_within};
 use super::{Levels, QuestPlusTrack, StaircaseTrack, Stopping, Track};
 use selvedge_foundation::files::{Flaw, Place};
 
@@ -11,153 +11,168 @@ const MOST_TRIALS: usize = 10_000;
 /// Levels that make sense, dB re 1 µm.
 const LEVELS_DB: RangeInclusive<f64> = -120.0..=60.0;
 
-pub(super) fn levels_flaw(levels: &Levels) -> Option<Flaw> {
+type Checked = Result<(), Flaw>;
+
+pub(super) fn check_levels(levels: &Levels) -> Checked {
     let place = |key| ("levels", 0, key);
     let [low, high] = levels.range_db;
-    if !(2..=8).contains(&levels.intervals) {
-        let what = format!("intervals is {}", levels.intervals);
-        return Some(Flaw::new(place("intervals"), what, "give 2 to 8"));
-    }
-    if !(50..=5000).contains(&levels.interval_ms) {
-        let what = format!("interval_ms is {}", levels.interval_ms);
-        return Some(Flaw::new(place("interval_ms"), what, "give 50 to 5000"));
-    }
-    if !(LEVELS_DB.contains(&low) && LEVELS_DB.contains(&high) && low < high) {
-        let what = format!("range_db is {low} to {high}");
-        let mend = "give a lower and a higher level between -120 and 60 dB re 1 µm";
-        return Some(Flaw::new(place("range_db"), what, mend));
-    }
-    if let Some(reference) = levels
-        .reference_db
-        .filter(|db| !(db.is_finite() && *db <= low))
-    {
-        let what = format!("reference_db is {reference}, not below the lowest level, {low}");
-        let mend = "levels are what is compared with it: raise range_db or lower it";
-        return Some(Flaw::new(place("reference_db"), what, mend));
-    }
-    track_flaw(levels).or_else(|| stopping_flaw(&levels.stopping, &levels.track))
+    need_within(place("intervals"), &levels.intervals, 2..=8, "")?;
+    need_within(place("interval_ms"), &levels.interval_ms, 50..=5000, "")?;
+    let is_range = LEVELS_DB.contains(&low) && LEVELS_DB.contains(&high) && low < high;
+    let mend = "give a lower and a higher level between -120 and 60 dB re 1 µm";
+    need(
+        is_range,
+        place("range_db"),
+        format!("range_db is {low} to {high}"),
+        mend,
+    )?;
+    let reference = levels.reference_db.unwrap_or(low);
+    let is_below = reference.is_finite() && reference <= low;
+    let what = format!("reference_db is {reference}, not below the lowest level, {low}");
+    let mend = "levels are what is compared with it: raise range_db or lower it";
+    need(is_below, place("reference_db"), what, mend)?;
+    check_track(levels)?;
+    check_stopping(&levels.stopping, &levels.track)
 }
 
-fn track_flaw(levels: &Levels) -> Option<Flaw> {
+fn check_track(levels: &Levels) -> Checked {
     let [low, high] = levels.range_db;
     let outside = |values: &[f64]| values.iter().copied().find(|db| !(low..=high).contains(db));
     match &levels.track {
-        Track::Staircase(staircase) => staircase_flaw(staircase).or_else(|| {
-            let db = outside(&staircase.starts_db)?;
+        Track::Staircase(staircase) => {
+            check_staircase(staircase)?;
+            let Some(db) = outside(&staircase.starts_db) else {
+                return Ok(());
+            };
             let what = format!("a series begins at {db} dB, outside range_db");
             let mend = format!("begin between {low} and {high} dB");
-            Some(Flaw::new(("levels.staircase", 0, "starts_db"), what, mend))
-        }),
-        Track::QuestPlus(track) => quest_plus_flaw(track, high - low),
+            Err(Flaw::new(("levels.staircase", 0, "starts_db"), what, mend))
+        }
+        Track::QuestPlus(track) => check_quest_plus(track, high - low),
         Track::Constant { levels_db, repeats } => {
-            let place = |key| ("levels.constant", 0, key);
-            if levels_db.is_empty() || levels_db.len() > MOST_STIMULI {
-                let what = format!("there are {} levels", levels_db.len());
-                let mend = format!("give 1 to {MOST_STIMULI}");
-                return Some(Flaw::new(place("levels_db"), what, mend));
-            }
+            let place = ("levels.constant", 0, "levels_db");
+            let n = levels_db.len();
+            let what = format!("there are {n} levels");
+            let mend = format!("give 1 to {MOST_STIMULI}");
+            need((1..=MOST_STIMULI).contains(&n), place, what, mend)?;
             if let Some(db) = outside(levels_db) {
-                let what = format!("{db} dB lies outside range_db");
                 let mend = format!("stay between {low} and {high} dB");
-                return Some(Flaw::new(place("levels_db"), what, mend));
+                return Err(Flaw::new(
+                    place,
+                    format!("{db} dB lies outside range_db"),
+                    mend,
+                ));
             }
-            let is_right = (1..=MOST_REPEATS).contains(repeats);
-            let what = format!("repeats is {repeats}");
-            let mend = format!("give 1 to {MOST_REPEATS}");
-            (!is_right).then(|| Flaw::new(place("repeats"), what, mend))
+            check_repeats("levels.constant", *repeats)
         }
     }
 }
 
-fn quest_plus_flaw(track: &QuestPlusTrack, span_db: f64) -> Option<Flaw> {
+fn check_quest_plus(track: &QuestPlusTrack, span_db: f64) -> Checked {
     let place = |key| ("levels.quest_plus", 0, key);
-    let grid_db = track.grid_db;
-    if !(grid_db > 0.0 && (1.0..=500.0).contains(&(span_db / grid_db))) {
-        let what = format!("grid_db is {grid_db}");
-        let mend = "give a step that divides range_db into 1 to 500";
-        return Some(Flaw::new(place("grid_db"), what, mend));
-    }
-    let widths = &track.widths;
-    let is_width = |&width: &f64| width > 0.0 && width.is_finite();
-    if widths.is_empty() || widths.len() > 100 || !widths.iter().all(is_width) {
-        let what = format!("the widths are {widths:?}");
-        let mend = "give 1 to 100 numbers above 0";
-        return Some(Flaw::new(place("widths_db"), what, mend));
-    }
-    let lapses = &track.lapses;
+    let QuestPlusTrack {
+        grid_db,
+        widths,
+        lapses,
+    } = track;
+    let is_step = *grid_db > 0.0 && (1.0..=500.0).contains(&(span_db / grid_db));
+    let mend = "give a step that divides range_db into 1 to 500";
+    need(
+        is_step,
+        place("grid_db"),
+        format!("grid_db is {grid_db}"),
+        mend,
+    )?;
+    let are_widths =
+        (1..=100).contains(&widths.len()) && widths.iter().all(|&value| is_above_0(value));
+    let what = format!("the widths are {widths:?}");
+    need(
+        are_widths,
+        place("widths_db"),
+        what,
+        "give 1 to 100 numbers above 0",
+    )?;
     let is_lapse = |lapse: &f64| (0.0..=0.5).contains(lapse);
-    let is_right = !lapses.is_empty() && lapses.len() <= 20 && lapses.iter().all(is_lapse);
+    let are_lapses = (1..=20).contains(&lapses.len()) && lapses.iter().all(is_lapse);
     let what = format!("lapses is {lapses:?}");
-    let mend = "give 1 to 20 shares from 0 to 0.5";
-    (!is_right).then(|| Flaw::new(place("lapses"), what, mend))
+    need(
+        are_lapses,
+        place("lapses"),
+        what,
+        "give 1 to 20 shares from 0 to 0.5",
+    )
 }
 
-fn staircase_flaw(staircase: &StaircaseTrack) -> Option<Flaw> {
+fn is_above_0(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+fn check_staircase(staircase: &StaircaseTrack) -> Checked {
     let place = |key| ("levels.staircase", 0, key);
-    if !(1..=10).contains(&staircase.up) || !(1..=10).contains(&staircase.down) {
-        let what = format!("{} up, {} down", staircase.up, staircase.down);
-        return Some(Flaw::new(place("up"), what, "give 1 to 10 for each"));
-    }
-    let is_step = |&step: &f64| step > 0.0 && step.is_finite();
-    if staircase.steps_db.is_empty() || !staircase.steps_db.iter().all(is_step) {
-        let what = format!("steps_db is {:?}", staircase.steps_db);
-        return Some(Flaw::new(
-            place("steps_db"),
-            what,
-            "give one or more numbers above 0",
-        ));
-    }
-    if !is_step(&staircase.up_over_down) {
-        let what = format!("up_over_down is {}", staircase.up_over_down);
-        return Some(Flaw::new(
-            place("up_over_down"),
-            what,
-            "give a finite number above 0",
-        ));
-    }
-    if staircase.starts_db.is_empty() || staircase.starts_db.len() > 16 {
-        let what = format!("{} series are interleaved", staircase.starts_db.len());
-        return Some(Flaw::new(
-            place("starts_db"),
-            what,
-            "give where 1 to 16 series begin",
-        ));
-    }
+    let (up, down) = (staircase.up, staircase.down);
+    let is_rule = (1..=10).contains(&up) && (1..=10).contains(&down);
+    need(
+        is_rule,
+        place("up"),
+        format!("{up} up, {down} down"),
+        "give 1 to 10 for each",
+    )?;
+    let steps_db = &staircase.steps_db;
+    let are_steps = !steps_db.is_empty() && steps_db.iter().all(|&value| is_above_0(value));
+    let what = format!("steps_db is {steps_db:?}");
+    need(
+        are_steps,
+        place("steps_db"),
+        what,
+        "give one or more numbers above 0",
+    )?;
+    let ratio = staircase.up_over_down;
+    let what = format!("up_over_down is {ratio}");
+    let mend = "give a finite number above 0";
+    need(is_above_0(ratio), place("up_over_down"), what, mend)?;
+    let n = staircase.starts_db.len();
+    let what = format!("{n} series are interleaved");
+    let mend = "give where 1 to 16 series begin";
+    need((1..=16).contains(&n), place("starts_db"), what, mend)?;
     let n = staircase.reversals_averaged;
     let is_even = n > 0 && n.is_multiple_of(2);
-    let what = || format!("reversals_averaged is {n}");
+    let what = format!("reversals_averaged is {n}");
     let mend = "give an even number above 0: as many peaks as valleys";
-    (!is_even).then(|| Flaw::new(place("reversals_averaged"), what(), mend))
+    need(is_even, place("reversals_averaged"), what, mend)
 }
 
-fn stopping_flaw(stopping: &Stopping, track: &Track) -> Option<Flaw> {
-    let place = |key| ("levels.stop", 0, key);
-    let Track::Constant { .. } = track else {
-        let most = stopping.trials;
-        if most > MOST_TRIALS {
-            let mend = format!("give {MOST_TRIALS} at most");
-            return Some(Flaw::new(
-                place("trials"),
-                format!("trials is {most}"),
-                mend,
-            ));
-        }
-        let ends = match track {
-            Track::Staircase(_) => most > 0 || stopping.reversals > 0,
-            _ => most > 0 || stopping.posterior_sd_db > 0.0,
-        };
-        let mend = match track {
-            Track::Staircase(_) => "state trials or reversals in [levels.stop]",
-            _ => "state trials or posterior_sd_db in [levels.stop]",
-        };
-        return (!ends).then(|| Flaw::new(place("trials"), "nothing ends a series", mend));
+fn check_stopping(stopping: &Stopping, track: &Track) -> Checked {
+    let place = ("levels.stop", 0, "trials");
+    let most = stopping.trials;
+    let (is_otherwise_ended, mend) = match track {
+        Track::Constant { .. } => return Ok(()),
+        Track::Staircase(_) => (
+            stopping.reversals > 0,
+            "state trials or reversals in [levels.stop]",
+        ),
+        Track::QuestPlus(_) => (
+            stopping.posterior_sd_db > 0.0,
+            "state trials or posterior_sd_db in [levels.stop]",
+        ),
     };
-    None
+    let at_most = format!("give {MOST_TRIALS} at most");
+    need(
+        most <= MOST_TRIALS,
+        place,
+        format!("trials is {most}"),
+        at_most,
+    )?;
+    need(
+        most > 0 || is_otherwise_ended,
+        place,
+        "nothing ends a series",
+        mend,
+    )
 }
 
-/// A level that no array has.
-pub(super) fn level_flaw(place: Place, level_db: f64) -> Option<Flaw> {
-    let what = || format!("{} holds {level_db} dB", place.2);
+/// Refuses a level that no array has.
+pub(super) fn check_level(place: Place, level_db: f64) -> Checked {
+    let what = format!("{} holds {level_db} dB", place.2);
     let mend = "give levels from -120 to 60 dB re 1 µm";
-    (!LEVELS_DB.contains(&level_db)).then(|| Flaw::new(place, what(), mend))
+    need(LEVELS_DB.contains(&level_db), place, what, mend)
 }

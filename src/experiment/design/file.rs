@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::check::flaw;
-use super::tables::{
-    AdjustingKeys, ChoosingKeys, JudgingKeys, LevelsKeys, MagnitudeKeys, RankingKeys, RatingKeys,
-};
+use super::check::check;
+use super::method::{two, unity};
 use super::{
-    CourseSettings, Design, Familiarisation, Medium, Method, Movement, Rules, Source, Standard,
-    Stimulus,
+    Adjusting, Choosing, CourseSettings, Design, Judging, Levels, Medium, Method, QuestPlusTrack,
+    Ranking, Rating, Rules, Source, StaircaseTrack, Stimulus, Stopping, Track,
 };
 use crate::ExperimentError;
 use selvedge_foundation::files::{self, Flaw, Place};
@@ -35,24 +33,24 @@ struct DesignKeys {
     experiment: String,
     #[serde(default)]
     title: String,
-    medium: String,
+    medium: Medium,
     seed: u64,
     library: Option<PathBuf>,
     #[serde(default)]
     textiles: Vec<String>,
     #[serde(default, rename = "stimulus")]
     stimuli: Vec<StimulusKeys>,
-    ranking: Option<RankingKeys>,
-    odd_one_out: Option<ChoosingKeys>,
-    adjustment: Option<AdjustingKeys>,
-    judgement: Option<JudgingKeys>,
+    ranking: Option<Ranking>,
+    odd_one_out: Option<Choosing>,
+    adjustment: Option<Adjusting>,
+    judgement: Option<Judging>,
     levels: Option<LevelsKeys>,
     magnitude: Option<MagnitudeKeys>,
-    rating: Option<RatingKeys>,
+    rating: Option<Rating>,
     #[serde(default)]
-    course: CourseKeys,
+    course: CourseSettings,
     #[serde(default)]
-    rules: RulesKeys,
+    rules: Rules,
     tuning: Option<Tuning>,
 }
 
@@ -69,39 +67,6 @@ struct StimulusKeys {
     gain_db: f64,
     band_hz: Option<f64>,
     level_db: Option<f64>,
-}
-
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields, default)]
-struct CourseKeys {
-    instructions: String,
-    practice_trials: usize,
-    break_after_blocks: usize,
-    break_s: f64,
-    masking_noise: bool,
-    familiarisation: Vec<FamiliarisationKeys>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FamiliarisationKeys {
-    movement: String,
-    for_s: f64,
-    #[serde(default = "speed")]
-    speed_mm_per_s: f64,
-}
-
-fn speed() -> f64 {
-    100.0
-}
-
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields, default)]
-struct RulesKeys {
-    subjects: usize,
-    least_trials: usize,
-    least_response_s: f64,
-    least_share_correct: f64,
 }
 
 impl Design {
@@ -122,14 +87,14 @@ impl Design {
         let in_file = |flaw: Flaw| flaw.in_file(text, path);
         let n_named = keys.textiles.len();
         let mut design = Self::from_keys(keys).map_err(in_file)?;
-        flaw(&design, n_named).map_or(Ok(()), |flaw| Err(in_file(flaw)))?;
+        check(&design, n_named).map_err(in_file)?;
         design.hash = files::sha256_hex([text.as_bytes()]);
         text.clone_into(&mut design.text);
         Ok(design)
     }
 
     fn from_keys(mut keys: DesignKeys) -> Result<Self, Flaw> {
-        let medium = named("", 0, "medium", &keys.medium, &Medium::ALL, Medium::name)?;
+        let medium = keys.medium;
         let method = keys.take_method()?;
         let named = keys.textiles.iter().map(|id| Stimulus {
             id: id.clone(),
@@ -156,8 +121,8 @@ impl Design {
             library: keys.library,
             stimuli,
             method,
-            course: keys.course.settings()?,
-            rules: keys.rules.rules(),
+            course: keys.course,
+            rules: keys.rules,
             tuning: keys.tuning,
             hash: String::new(),
             text: String::new(),
@@ -167,17 +132,24 @@ impl Design {
 
 impl DesignKeys {
     fn take_method(&mut self) -> Result<Method, Flaw> {
-        let mut found: Vec<Result<Method, Flaw>> = Vec::new();
-        found.extend(self.ranking.take().map(RankingKeys::method));
-        found.extend(self.odd_one_out.take().map(|keys| Ok(keys.method())));
-        found.extend(self.adjustment.take().map(AdjustingKeys::method));
-        found.extend(self.judgement.take().map(JudgingKeys::method));
-        found.extend(self.levels.take().map(LevelsKeys::method));
-        found.extend(self.magnitude.take().map(|keys| Ok(keys.method())));
-        found.extend(self.rating.take().map(|keys| Ok(keys.method())));
+        let levels = self.levels.take().map(LevelsKeys::levels);
+        let magnitude = self.magnitude.take().map(|keys| Method::Magnitude {
+            repeats: keys.repeats,
+            modulus: keys.modulus,
+        });
+        let found = [
+            self.ranking.take().map(Method::Ranking),
+            self.odd_one_out.take().map(Method::OddOneOut),
+            self.adjustment.take().map(Method::Adjustment),
+            self.judgement.take().map(Method::Judgement),
+            levels.transpose()?.map(Method::Levels),
+            magnitude,
+            self.rating.take().map(Method::Rating),
+        ];
+        let mut found: Vec<Method> = found.into_iter().flatten().collect();
         let n = found.len();
         match found.pop() {
-            Some(method) if n == 1 => method,
+            Some(method) if n == 1 => Ok(method),
             _ => {
                 let what = match n {
                     0 => "nothing is asked".to_owned(),
@@ -232,75 +204,114 @@ impl StimulusKeys {
     }
 }
 
-impl CourseKeys {
-    fn settings(self) -> Result<CourseSettings, Flaw> {
-        let movements = [Movement::Circular, Movement::Linear];
-        let name = |movement| match movement {
-            Movement::Circular => "circular",
-            Movement::Linear => "linear",
-        };
-        let familiarisation = self.familiarisation.iter().enumerate().map(|(nth, keys)| {
-            let table = "course.familiarisation";
-            Ok(Familiarisation {
-                movement: named(table, nth, "movement", &keys.movement, &movements, name)?,
-                for_s: keys.for_s,
-                speed_mm_per_s: keys.speed_mm_per_s,
-            })
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LevelsKeys {
+    band_hz: f64,
+    #[serde(default = "two")]
+    intervals: usize,
+    reference_db: Option<f64>,
+    #[serde(default = "interval_ms")]
+    interval_ms: u32,
+    range_db: [f64; 2],
+    staircase: Option<StaircaseTrack>,
+    quest_plus: Option<QuestPlusKeys>,
+    constant: Option<ConstantKeys>,
+    #[serde(default)]
+    stop: Stopping,
+}
+
+fn interval_ms() -> u32 {
+    500
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct QuestPlusKeys {
+    #[serde(default = "unity")]
+    grid_db: f64,
+    widths_db: Option<Vec<f64>>,
+    widths_ln: Option<Vec<f64>>,
+    #[serde(default = "lapses")]
+    lapses: Vec<f64>,
+}
+
+fn lapses() -> Vec<f64> {
+    vec![0.0, 0.02, 0.04]
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConstantKeys {
+    levels_db: Vec<f64>,
+    repeats: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MagnitudeKeys {
+    #[serde(default = "two")]
+    repeats: usize,
+    modulus: Option<f64>,
+}
+
+impl LevelsKeys {
+    fn levels(self) -> Result<Levels, Flaw> {
+        let is_difference = self.reference_db.is_some();
+        let quest_plus = self.quest_plus.map(|keys| keys.track(is_difference));
+        let constant = self.constant.map(|keys| Track::Constant {
+            levels_db: keys.levels_db,
+            repeats: keys.repeats,
         });
-        let familiarisation: Result<Vec<_>, Flaw> = familiarisation.collect();
-        Ok(CourseSettings {
-            familiarisation: familiarisation?,
-            practice_trials: self.practice_trials,
-            break_after_blocks: self.break_after_blocks,
-            break_s: self.break_s,
-            masking_noise: self.masking_noise,
-            instructions: self.instructions,
+        let staircase = self.staircase.map(Track::Staircase);
+        let tracks = [staircase, quest_plus.transpose()?, constant];
+        let mut tracks: Vec<Track> = tracks.into_iter().flatten().collect();
+        let n = tracks.len();
+        let track = tracks.pop().filter(|_| n == 1).ok_or_else(|| {
+            let what = format!("{n} tables say how the next level is found");
+            let mend = "keep one of [levels.staircase], [levels.quest_plus], [levels.constant]";
+            Flaw::new(("levels", 0, "band_hz"), what, mend)
+        })?;
+        Ok(Levels {
+            band: band(("levels", 0, "band_hz"), self.band_hz)?,
+            intervals: self.intervals,
+            reference_db: self.reference_db,
+            interval_ms: self.interval_ms,
+            range_db: self.range_db,
+            track,
+            stopping: self.stop,
         })
     }
 }
 
-impl RulesKeys {
-    fn rules(self) -> Rules {
-        Rules {
-            subjects: self.subjects,
-            least_trials: self.least_trials,
-            least_response_s: self.least_response_s,
-            least_share_correct: self.least_share_correct,
+impl QuestPlusKeys {
+    fn track(self, is_difference: bool) -> Result<Track, Flaw> {
+        let (stated, other, usual) = if is_difference {
+            (self.widths_ln, self.widths_db, vec![1.5, 2.0, 3.0, 4.0])
+        } else {
+            (self.widths_db, self.widths_ln, vec![2.0, 4.0, 8.0, 16.0])
+        };
+        if other.is_some() {
+            let (key, mend) = if is_difference {
+                (
+                    "widths_db",
+                    "with reference_db give widths_ln: logarithms of dB",
+                )
+            } else {
+                ("widths_ln", "without reference_db give widths_db")
+            };
+            let place = ("levels.quest_plus", 0, key);
+            return Err(Flaw::new(place, format!("{key} has no meaning here"), mend));
         }
+        Ok(Track::QuestPlus(QuestPlusTrack {
+            grid_db: self.grid_db,
+            widths: stated.unwrap_or(usual),
+            lapses: self.lapses,
+        }))
     }
 }
 
-/// The one of `all` that goes by a name.
-pub(super) fn named<T: Copy>(
-    table: &'static str,
-    nth: usize,
-    key: &'static str,
-    text: &str,
-    all: &[T],
-    name: impl Fn(T) -> &'static str,
-) -> Result<T, Flaw> {
-    let found = all.iter().copied().find(|&one| name(one) == text);
-    found.ok_or_else(|| {
-        let names: Vec<String> = all.iter().map(|&one| format!("{:?}", name(one))).collect();
-        let what = format!("{key} is {text:?}, which is not known");
-        Flaw::new(
-            (table, nth, key),
-            what,
-            format!("give {}", names.join(" or ")),
-        )
-    })
-}
-
-pub(super) fn standard((table, nth, key): Place, text: &str) -> Result<Standard, Flaw> {
-    let all = [Standard::RealCloth, Standard::Virtual, Standard::None];
-    named(table, nth, key, text, &all, |standard| match standard {
-        Standard::RealCloth => "real-cloth",
-        Standard::Virtual => "virtual",
-        Standard::None => "none",
-    })
-}
-
-pub(super) fn band(place: Place, hz: f64) -> Result<Band, Flaw> {
+fn band(place: Place, hz: f64) -> Result<Band, Flaw> {
     let found = Band::ALL
         .into_iter()
         .find(|band| (band.carrier_hz() - hz).abs() < 1e-9);

@@ -1,5 +1,8 @@
 //! What is asked, and how the next question is found.
 
+use serde::{Deserialize, Deserializer};
+
+use crate::named::{named, read_name};
 use selvedge_statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
 use selvedge_statistics::psychometric::Family;
 use selvedge_textile::tactile::{Band, Tuning};
@@ -44,45 +47,59 @@ impl Method {
 }
 
 /// Ranking against a target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Ranking {
     /// Where the target lies.
+    #[serde(deserialize_with = "target")]
     pub target: Standard,
 }
 
-/// What a trial is compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standard {
-    /// The real cloth on the table.
-    RealCloth,
-    /// A virtual one in the middle of the others.
-    Virtual,
-    /// Nothing: what is asked is the participant's own.
-    None,
+named! { "standard",
+    /// What a trial is compared with.
+    pub enum Standard {
+        /// The real cloth on the table.
+        RealCloth = "real-cloth",
+        /// A virtual one in the middle of the others.
+        Virtual = "virtual",
+        /// Nothing: what is asked is the participant's own.
+        None = "none",
+    }
+}
+
+fn target<'de, D: Deserializer<'de>>(from: D) -> Result<Standard, D::Error> {
+    read_name("target", from)
 }
 
 /// The odd one out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Choosing {
     /// What a right answer is worth by grade, from easy to hard; a wrong one is worth 0.
+    #[serde(default = "grade_weights")]
     pub weights: [f64; 3],
 }
 
 /// Adjustment of parameters.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Adjusting {
-    /// What is turned, one or two at once.
-    pub parameters: Vec<TunedParameter>,
     /// What it is compared with.
     pub standard: Standard,
     /// How often every stimulus comes, half of them begun high, half low.
+    #[serde(default = "two")]
     pub repeats: usize,
+    /// What is turned, one or two at once.
+    #[serde(rename = "parameter")]
+    pub parameters: Vec<TunedParameter>,
 }
 
 /// A parameter that participants turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TunedParameter {
     /// Which.
+    #[serde(rename = "key")]
     pub(crate) what: Tunable,
     /// The lowest value.
     pub from: f64,
@@ -92,33 +109,21 @@ pub struct TunedParameter {
     pub step: f64,
 }
 
-/// What can be turned: parts of a [`Tuning`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Tunable {
-    /// The gain of everything, dB.
-    Gain,
-    /// The gain of the 40 Hz band, dB.
-    Gain40,
-    /// The gain of the 320 Hz band, dB.
-    Gain320,
-    /// Compression, 0 to 1.
-    Compression,
+named! { "key",
+    /// What can be turned: parts of a [`Tuning`].
+    pub(crate) enum Tunable {
+        /// The gain of everything, dB.
+        Gain = "gain_db",
+        /// The gain of the 40 Hz band, dB.
+        Gain40 = "gain_40_db",
+        /// The gain of the 320 Hz band, dB.
+        Gain320 = "gain_320_db",
+        /// Compression, 0 to 1.
+        Compression = "compression",
+    }
 }
 
 impl Tunable {
-    /// All of them.
-    pub(crate) const ALL: [Self; 4] = [Self::Gain, Self::Gain40, Self::Gain320, Self::Compression];
-
-    /// As files and logs spell it, with its unit.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Gain => "gain_db",
-            Self::Gain40 => "gain_40_db",
-            Self::Gain320 => "gain_320_db",
-            Self::Compression => "compression",
-        }
-    }
-
     /// Sets it in a tuning.
     pub(crate) fn set(self, tuning: &mut Tuning, value: f64) {
         match self {
@@ -131,25 +136,29 @@ impl Tunable {
 }
 
 /// Real or generated.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Judging {
     /// The condition of stimuli that count as real.
     pub real: String,
     /// One at a time, or two side by side.
     pub protocol: JudgingProtocol,
     /// How often every stimulus comes.
+    #[serde(default = "one")]
     pub repeats: usize,
     /// Grades of confidence that are asked for; 0 asks for none.
+    #[serde(default)]
     pub confidence_grades: u8,
 }
 
-/// How stimuli are judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum JudgingProtocol {
-    /// One at a time: real or generated?
-    Single,
-    /// The real and a generated one of a material: which is real?
-    Pair,
+named! { "protocol",
+    /// How stimuli are judged.
+    pub enum JudgingProtocol {
+        /// One at a time: real or generated?
+        Single = "single",
+        /// The real and a generated one of a material: which is real?
+        Pair = "pair",
+    }
 }
 
 /// Thresholds and just noticeable differences at one carrier.
@@ -222,7 +231,8 @@ pub struct QuestPlusTrack {
 }
 
 /// Interleaved staircases.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct StaircaseTrack {
     /// Wrong answers before it goes up.
     pub up: u32,
@@ -231,10 +241,12 @@ pub struct StaircaseTrack {
     /// Steps downwards, dB: the first until the first reversal, then the next; the last stays.
     pub(crate) steps_db: Vec<f64>,
     /// Steps upwards over steps downwards.
+    #[serde(default = "unity")]
     pub(crate) up_over_down: f64,
     /// Where each of the interleaved series begins, dB re 1 µm.
     pub(crate) starts_db: Vec<f64>,
     /// The last reversals that the threshold is the mean of; an even number.
+    #[serde(default = "six")]
     pub(crate) reversals_averaged: usize,
 }
 
@@ -266,7 +278,8 @@ impl StaircaseTrack {
 }
 
 /// When a series ends; what is 0 does not end it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Stopping {
     /// After so many trials.
     pub trials: usize,
@@ -274,21 +287,37 @@ pub struct Stopping {
     pub reversals: usize,
     /// Once the threshold's posterior standard deviation is below this, dB.
     pub(crate) posterior_sd_db: f64,
-    /// Only once all that are stated hold, instead of any.
-    pub(crate) needs_all: bool,
+    /// Which of those that are stated have to hold.
+    pub(crate) needs: Needs,
+}
+
+named! { "needs",
+    /// Which of several conditions have to hold.
+    #[derive(Default)]
+    pub(crate) enum Needs {
+        /// One of them.
+        #[default]
+        Any = "any",
+        /// All of them.
+        All = "all",
+    }
 }
 
 /// Rating scales.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Rating {
-    /// The scales, asked together.
-    pub scales: Vec<Scale>,
     /// How often every stimulus comes.
+    #[serde(default = "one")]
     pub repeats: usize,
+    /// The scales, asked together.
+    #[serde(rename = "scale")]
+    pub scales: Vec<Scale>,
 }
 
 /// One scale.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scale {
     /// Its name in logs: letters, digits and `_`.
     pub key: String,
@@ -297,6 +326,7 @@ pub struct Scale {
     /// What stands at its high end.
     pub high: String,
     /// Its points from 1; 0 is a line from 0 to 100 without points.
+    #[serde(default)]
     pub points: u8,
 }
 
@@ -308,4 +338,24 @@ impl Scale {
             points => [1.0, f64::from(points)],
         }
     }
+}
+
+fn one() -> usize {
+    1
+}
+
+pub(super) fn two() -> usize {
+    2
+}
+
+fn six() -> usize {
+    6
+}
+
+pub(super) fn unity() -> f64 {
+    1.0
+}
+
+fn grade_weights() -> [f64; 3] {
+    [1.0, 0.5, 0.1]
 }

@@ -7,16 +7,18 @@ mod check;
 mod check_levels;
 mod file;
 mod method;
-mod tables;
 
 use std::path::{Path, PathBuf};
 
-pub(crate) use method::Tunable;
+use serde::Deserialize;
+
 pub use method::{
     Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
     Scale, StaircaseTrack, Standard, Stopping, Track, TunedParameter,
 };
+pub(crate) use method::{Needs, Tunable};
 
+use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};
 use selvedge_textile::{BuildCache, Library, TextileError, is_of_the_program};
 
@@ -114,25 +116,13 @@ impl Design {
     }
 }
 
-/// What the finger lies on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Medium {
-    /// A tactile array, real or emulated.
-    Array,
-    /// Cloth on the table.
-    RealCloth,
-}
-
-impl Medium {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Array, Self::RealCloth];
-
-    /// As files spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Array => "array",
-            Self::RealCloth => "real-cloth",
-        }
+named! { "medium",
+    /// What the finger lies on.
+    pub enum Medium {
+        /// A tactile array, real or emulated.
+        Array = "array",
+        /// Cloth on the table.
+        RealCloth = "real-cloth",
     }
 }
 
@@ -171,10 +161,11 @@ pub enum Source {
 }
 
 /// What surrounds the trials.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct CourseSettings {
-    /// Movements that are practised first.
-    pub familiarisation: Vec<Familiarisation>,
+    /// What the participant reads first.
+    pub instructions: String,
     /// Trials of practice, which do not count.
     pub practice_trials: usize,
     /// A break after every so many blocks; 0 for none.
@@ -183,32 +174,36 @@ pub struct CourseSettings {
     pub(crate) break_s: f64,
     /// Whether a noise covers what the device can be heard by.
     pub masking_noise: bool,
-    /// What the participant reads first.
-    pub instructions: String,
+    /// Movements that are practised first.
+    pub familiarisation: Vec<Familiarisation>,
 }
 
 /// A movement to practise.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Familiarisation {
     /// Along which course.
     pub movement: Movement,
     /// For how long, s.
     pub for_s: f64,
     /// How fast the guide moves, mm/s.
+    #[serde(default = "speed")]
     pub speed_mm_per_s: f64,
 }
 
-/// A guided movement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Movement {
-    /// On a circle.
-    Circular,
-    /// To and fro on a line.
-    Linear,
+named! { "movement",
+    /// A guided movement.
+    pub enum Movement {
+        /// On a circle.
+        Circular = "circular",
+        /// To and fro on a line.
+        Linear = "linear",
+    }
 }
 
 /// What was settled before the first subject came, and is copied into every report.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Rules {
     /// How many subjects are planned; 0 where it was left open.
     pub subjects: usize,
@@ -218,6 +213,10 @@ pub struct Rules {
     pub(crate) least_response_s: f64,
     /// A subject whose share of right answers is below this is left out, 0 to 1.
     pub(crate) least_share_correct: f64,
+}
+
+fn speed() -> f64 {
+    100.0
 }
 
 /// Who takes part, as schedules need to know it.

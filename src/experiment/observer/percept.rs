@@ -2,59 +2,40 @@
 //! coordinate, and what a look at it makes of that.
 
 use super::scale::{Jnd, NOISE_JND};
+use crate::named::named;
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::level_db;
 use selvedge_statistics::Summary;
 use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::{Band, Levels};
 
-/// What an observer goes by. Each cue has a noise of its own, as if it were looked at by itself.
-///
-/// The array has two bands, so there are no others to go by. A coordinate that compares two levels
-/// is divided by √2, since the noise of a difference is √2 that of a level: all coordinates have
-/// the same noise. That cues beyond the levels are told apart by the same just noticeable
-/// difference is assumed: nothing is published for them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Strategy {
-    /// Nothing: guesses.
-    None,
-    /// The mean levels of both bands.
-    #[default]
-    LevelOnly,
-    /// Levels, and the balance of the bands: one level over the other.
-    Spectrum,
-    /// Levels, and how they vary from place to place: the level a standard deviation above the
-    /// mean amplitude over that of the mean, by band.
-    Space,
-    /// Levels, and how they differ from direction to direction: warp over weft, by band.
-    Direction,
-    /// All of these.
-    All,
+named! { "strategy",
+    /// What an observer goes by. Each cue has a noise of its own, as if it were looked at by itself.
+    ///
+    /// The array has two bands, so there are no others to go by. A coordinate that compares two levels
+    /// is divided by √2, since the noise of a difference is √2 that of a level: all coordinates have
+    /// the same noise. That cues beyond the levels are told apart by the same just noticeable
+    /// difference is assumed: nothing is published for them.
+    #[derive(Default)]
+    pub enum Strategy {
+        /// Nothing: guesses.
+        None = "none",
+        /// The mean levels of both bands.
+        #[default]
+        LevelOnly = "level",
+        /// Levels, and the balance of the bands: one level over the other.
+        Spectrum = "spectrum",
+        /// Levels, and how they vary from place to place: the level a standard deviation above
+        /// the mean amplitude over that of the mean, by band.
+        Space = "space",
+        /// Levels, and how they differ from direction to direction: warp over weft, by band.
+        Direction = "direction",
+        /// All of these.
+        All = "all",
+    }
 }
 
 impl Strategy {
-    /// All of them, from least to most.
-    pub const ALL: [Self; 6] = [
-        Self::None,
-        Self::LevelOnly,
-        Self::Spectrum,
-        Self::Space,
-        Self::Direction,
-        Self::All,
-    ];
-
-    /// As the command line spells it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::LevelOnly => "level",
-            Self::Spectrum => "spectrum",
-            Self::Space => "space",
-            Self::Direction => "direction",
-            Self::All => "all",
-        }
-    }
-
     /// The place of a stimulus of these levels with so much added to both bands, dB: one number a
     /// coordinate, in just noticeable differences; none for [`Strategy::None`].
     pub fn place(self, jnd: Jnd, levels: &Levels, gains_db: [f64; 2]) -> Vec<f64> {
@@ -112,27 +93,22 @@ pub(super) fn distance(one: &[f64], other: &[f64], weights: &[f64]) -> f64 {
     weighted.sum::<f64>().sqrt()
 }
 
-/// What each coordinate counts in a distance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Weighting {
-    /// As much as any other.
-    #[default]
-    Equal,
-    /// As much as it tells, which who knows the stimuli has learnt: the variance of the stimuli
-    /// along it over that of noisy looks at them. It is what the ratio of likelihoods of "the
-    /// same" and "another of these" weighs squares with, were the stimuli spread normally.
-    Learnt,
+named! { "weighting",
+    /// What each coordinate counts in a distance.
+    #[derive(Default)]
+    pub enum Weighting {
+        /// As much as any other.
+        #[default]
+        Equal = "equal",
+        /// As much as it tells, which who knows the stimuli has learnt: the variance of the
+        /// stimuli along it over that of noisy looks at them. It is what the ratio of likelihoods
+        /// of "the same" and "another of these" weighs squares with, were the stimuli spread
+        /// normally.
+        Learnt = "learnt",
+    }
 }
 
 impl Weighting {
-    /// As the command line spells it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equal => "equal",
-            Self::Learnt => "learnt",
-        }
-    }
-
     /// By coordinate, for stimuli at these places and looks with `times` the noise of one.
     pub(super) fn weights(self, places: &[Vec<f64>], times: f64) -> Vec<f64> {
         let n = places.first().map_or(0, Vec::len);

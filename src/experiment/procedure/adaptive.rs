@@ -1,7 +1,7 @@
 //! Trials whose level depends on the answers before: staircases in turn, or QUEST+.
 
 use crate::ExperimentError;
-use crate::design::{Levels, QuestPlusTrack, StaircaseTrack, Stopping, Track};
+use crate::design::{Levels, Needs, QuestPlusTrack, StaircaseTrack, Stopping, Track};
 use crate::trial::{Answer, AnswerError, Task, Trial};
 use selvedge_foundation::numerics::Random;
 use selvedge_statistics::Computed;
@@ -95,7 +95,7 @@ impl Adaptive {
     pub(super) fn n_trials(&self) -> usize {
         let stated = match self.levels.stopping.trials {
             0 => MOST_TRIALS as usize,
-            n if self.levels.stopping.needs_all => n.max(MOST_TRIALS as usize),
+            n if self.levels.stopping.needs == Needs::All => n.max(MOST_TRIALS as usize),
             n => n,
         };
         let n_series = match &self.series {
@@ -209,7 +209,7 @@ fn stop(stopping: &Stopping, of: fn(u32) -> Stop, n: usize) -> Stop {
 fn ended(stopping: &Stopping, mut conditions: Vec<Stop>) -> Stop {
     let trials = u32::try_from(stopping.trials).unwrap_or(u32::MAX);
     conditions.extend((trials > 0).then_some(Stop::Trials(trials)));
-    let stated = if stopping.needs_all {
+    let stated = if stopping.needs == Needs::All {
         Stop::All(conditions)
     } else {
         Stop::Any(conditions)

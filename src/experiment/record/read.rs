@@ -180,7 +180,8 @@ impl Row<'_> {
             ]),
             Task::OddOne { .. } => {
                 let name = self.cell("grade")?;
-                let grade = Grade::of_name(name).ok_or_else(|| {
+                let mut grades = Grade::ALL.into_iter();
+                let grade = grades.find(|grade| grade.name() == name).ok_or_else(|| {
                     let what = format!("grade is {name:?}");
                     self.wrong(what, "give easy, normal or hard")
                 })?;

@@ -2,7 +2,7 @@
 //! what is obtained.
 
 use crate::ExperimentError;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, series};
 use crate::design::Design;
 use crate::observer::{Observer, Stimuli, Strategy, Weighting};
 use selvedge_chart::{Chart, Series, Style};
@@ -164,13 +164,8 @@ impl DesignWithStimuli {
 }
 
 /// A printed number as a line across a plot.
-pub(super) fn printed_line(name: &str, value: f64, [from, to]: [f64; 2]) -> Series {
-    Series {
-        name: name.to_owned(),
-        points: vec![[from, value], [to, value]],
-        style: Style::Dashed,
-        ..Series::default()
-    }
+pub(super) fn printed_line(name: &str, value: f64, ends: [f64; 2]) -> Series {
+    series(name, Style::Dashed, ends.map(|at| [at, value]))
 }
 
 /// How a number is spread over studies.

@@ -4,7 +4,7 @@ use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels
 use super::printed;
 use super::studies::{Studies, Subjects, percent_right};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, judgements};
+use crate::analysis::{Cell, Section, Table, cells, judgements};
 use crate::design::Design;
 use selvedge_foundation::progress::Progress;
 use selvedge_statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
@@ -61,17 +61,14 @@ pub(super) fn section(
             .filter_map(|one| one.signal.as_ref().ok().map(|[_, p]| *p))
             .collect();
         let n_found = p.iter().filter(|p| **p < ALPHA).count();
-        table.push([
-            kind.description.into(),
-            if p.is_empty() {
-                Cell::none("no study had an F")
-            } else {
-                (100.0 * n_found as f64 / p.len() as f64).into()
-            },
-            p.len().into(),
-        ]);
+        let share = if p.is_empty() {
+            Cell::none("no study had an F")
+        } else {
+            (100.0 * n_found as f64 / p.len() as f64).into()
+        };
+        table.push(cells![kind.description, share, p.len()]);
     }
-    section.tables.push(table);
+    section.table(table);
     Ok(section)
 }
 
@@ -112,28 +109,18 @@ fn compare(found: &[Found], kind: &Kind, all: &mut Replication) {
     let [real, generated] = printed::CALLED_REAL;
     let of = |of: &dyn Fn(&Found) -> Option<f64>| found.iter().filter_map(of).collect();
     let f = || of(&|one| one.signal.as_ref().ok().map(|[f, _]| *f));
-    let mut rows: Vec<(String, Option<f64>, Vec<f64>)> = vec![
-        (
-            "measured called real, %".to_owned(),
-            Some(real),
-            of(&|one| Some(one.called_real[0])),
-        ),
-        (
-            "generated called real, %".to_owned(),
-            Some(generated),
-            of(&|one| Some(one.called_real[1])),
-        ),
-        (
-            "right answers, %".to_owned(),
-            None,
-            of(&|one| Some(one.right_percent)),
-        ),
-    ];
+    let mut add = |quantity: &str, printed: Option<f64>, values: Vec<f64>| {
+        all.add((PAPER, kind), (quantity, printed), &values);
+    };
+    let [of_real, of_generated] = [0, 1].map(|which| of(&|one| Some(one.called_real[which])));
+    add("measured called real, %", Some(real), of_real);
+    add("generated called real, %", Some(generated), of_generated);
+    add("right answers, %", None, of(&|one| Some(one.right_percent)));
     for (materials, value, ..) in printed::SIGNALS {
-        let quantity = format!("F(1, 11) of the signal, {materials}");
-        rows.push((quantity, Some(value), f()));
-    }
-    for (quantity, printed, values) in rows {
-        all.add((PAPER, kind), (&quantity, printed), &values);
+        add(
+            &format!("F(1, 11) of the signal, {materials}"),
+            Some(value),
+            f(),
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Number by number: printed beside obtained.
 
 use super::comparison::Comparison;
-use crate::analysis::{Cell, Section, Table};
+use crate::analysis::{Cell, Section, Table, cells, known};
 
 const COLUMNS: [(&str, &str); 12] = [
     ("paper", "paper"),
@@ -36,28 +36,22 @@ pub(super) fn section(comparisons: &[Comparison]) -> Section {
     ));
     let mut table = Table::new("numbers", "Printed and obtained", &COLUMNS);
     for one in comparisons {
-        let missing = || Cell::none("nothing printed to compare with");
+        let why = "nothing printed to compare with";
         let spread = one.obtained;
-        table.push([
-            one.paper.into(),
-            one.quantity.as_str().into(),
-            one.printed.map_or_else(missing, Cell::from),
-            spread.mean.into(),
-            spread.low.into(),
-            spread.high.into(),
-            match one.is_within() {
-                Some(true) => "yes".into(),
-                Some(false) => "no".into(),
-                None => missing(),
-            },
-            spread.se.into(),
-            spread.n.into(),
-            one.observer.into(),
-            one.assumed.into(),
-            one.printed
-                .map_or_else(missing, |printed| (spread.mean - printed).into()),
+        let within = one.is_within().map_or_else(|| Cell::none(why), Cell::from);
+        table.push(cells![
+            one.paper,
+            &one.quantity,
+            known(one.printed, why),
+            [spread.mean, spread.low, spread.high],
+            within,
+            spread.se,
+            spread.n,
+            one.observer,
+            one.assumed,
+            known(one.printed.map(|printed| spread.mean - printed), why),
         ]);
     }
-    section.tables.push(table);
+    section.table(table);
     section
 }

@@ -5,7 +5,7 @@ use super::printed;
 use super::ranking::VIRTUAL;
 use super::studies::{Studies, Subjects};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, rank_trial};
+use crate::analysis::{Section, Table, cells, or_undefined, rank_trial};
 use crate::observer::Jnd;
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_foundation::quantity::level_db;
@@ -70,7 +70,7 @@ pub(super) fn section(
     let studies = Studies::of(laid, by_levels().observer, 1, options);
     let one = unheard(|progress| studies.each((1, ""), progress, rank_trials))?;
     let trials: Vec<RankTrial> = one.into_iter().flatten().collect();
-    section.tables.push(by_loss(&trials, laid));
+    section.table(by_loss(&trials, laid));
     section.note(
         "Who goes by the levels of both bands has a map of both bands, so that both correlations \
          come out high. A second dimension of people that follows A320 less than that says that \
@@ -150,17 +150,9 @@ fn by_loss(trials: &[RankTrial], laid: &DesignWithStimuli) -> Table {
     let mut table = Table::new("ties", title, &columns);
     for loss in [Loss::SStress, Loss::Stress1] {
         for ties in [Ties::Secondary, Ties::Primary] {
-            let mut row = vec![Cell::from(loss.name()), ties.name().into()];
-            match mapped(trials, laid, &mds(loss, ties, N_STARTS_OF_ONE)) {
-                Ok(one) => {
-                    let [r1, r2] = one.turn.r;
-                    row.extend([one.map.sstress, one.map.stress1, r1, r2].map(Cell::from));
-                }
-                Err(why) => {
-                    row.extend([(); 4].map(|()| Cell::Undefined(why.reason.clone())));
-                }
-            }
-            table.push(row);
+            let one = mapped(trials, laid, &mds(loss, ties, N_STARTS_OF_ONE));
+            let one = one.map(|one| cells![one.map.sstress, one.map.stress1, one.turn.r]);
+            table.push(cells![loss.name(), ties.name(), or_undefined(one, 4)]);
         }
     }
     table

@@ -3,7 +3,7 @@
 use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, guessing};
 use super::studies::{Studies, Subjects, percent_right, planned};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, grade_weights, triad_answer};
+use crate::analysis::{Cell, Section, Table, cells, grade_weights, percent_of, triad_answer};
 use crate::design::{Design, Method};
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
@@ -86,7 +86,7 @@ pub(super) fn section(
         compare(&found, &elbows, &kind, all);
         chosen.push(shares(&kind, &elbows));
     }
-    section.tables.push(chosen);
+    section.table(chosen);
     Ok(section)
 }
 
@@ -183,23 +183,15 @@ fn compare(found: &[Found], elbows: &[Elbow], kind: &Kind, all: &mut Replication
 
 fn shares(kind: &Kind, elbows: &[Elbow]) -> Vec<Cell> {
     let n = elbows.len();
-    if n == 0 {
-        let none = || Cell::none("no study had a map");
-        let mut row = vec![Cell::from(kind.description)];
-        row.extend((0..4).map(|_| none()));
-        row.push(n.into());
-        return row;
-    }
     let percent = |is_it: &dyn Fn(&Elbow) -> bool| {
         let n_such = elbows.iter().filter(|elbow| is_it(elbow)).count();
-        Cell::from(100.0 * n_such as f64 / n as f64)
+        percent_of(n_such as u64, n as u64, "no study had a map")
     };
-    vec![
-        kind.description.into(),
+    let found = [
         percent(&|elbow| elbow.by_bend == Some(1)),
         percent(&|elbow| elbow.by_bend == Some(2)),
         percent(&|elbow| elbow.by_bend > Some(2)),
         percent(&|elbow| elbow.below_chance.is_some()),
-        n.into(),
-    ]
+    ];
+    cells![kind.description, found, n]
 }

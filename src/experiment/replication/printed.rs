@@ -4,10 +4,12 @@
 //! at both ends of what they stand for; another printed number follows if it can be reached within
 //! its own rounding.
 
-use crate::analysis::{Cell, Section, Table};
+use crate::analysis::{Cell, Section, Table, cells, or_undefined};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::variance::partial_eta_squared;
-use selvedge_statistics::{Computed, Outcome, Summary, f_upper, one_sample_t, two_sample_t};
+use selvedge_statistics::{
+    Computed, Outcome, Summary, TwoSamples, f_upper, one_sample_t, two_sample_t,
+};
 
 /// A printed share, %.
 #[derive(Debug, Clone, Copy)]
@@ -18,36 +20,29 @@ pub(super) struct Share {
     pub(super) se: Option<f64>,
 }
 
+impl Share {
+    const fn of(quantity: &'static str, percent: f64, se: Option<f64>) -> Self {
+        Self {
+            quantity,
+            percent,
+            se,
+        }
+    }
+}
+
+const FIRST: &str = "target ranked first, %";
+const PRACTISED: &str = "target ranked first, practised users, %";
+
 /// Experiment 1 of Philpott & Summers 2012: virtual alternatives, a real target.
-pub(super) const REAL: Share = Share {
-    quantity: "target ranked first, %",
-    percent: 41.3,
-    se: Some(1.6),
-};
+pub(super) const REAL: Share = Share::of(FIRST, 41.3, Some(1.6));
 /// Experiment 2: virtual alternatives, a virtual target.
-pub(super) const VIRTUAL: Share = Share {
-    quantity: "target ranked first, %",
-    percent: 64.1,
-    se: Some(5.5),
-};
+pub(super) const VIRTUAL: Share = Share::of(FIRST, 64.1, Some(5.5));
 /// Practised users in experiment 1.
-pub(super) const REAL_PRACTISED: Share = Share {
-    quantity: "target ranked first, practised users, %",
-    percent: 50.0,
-    se: None,
-};
+pub(super) const REAL_PRACTISED: Share = Share::of(PRACTISED, 50.0, None);
 /// Practised users in experiment 2.
-pub(super) const VIRTUAL_PRACTISED: Share = Share {
-    quantity: "target ranked first, practised users, %",
-    percent: 91.0,
-    se: None,
-};
+pub(super) const VIRTUAL_PRACTISED: Share = Share::of(PRACTISED, 91.0, None);
 /// One of four.
-pub(super) const CHANCE: Share = Share {
-    quantity: "target ranked first by chance, %",
-    percent: 25.0,
-    se: None,
-};
+pub(super) const CHANCE: Share = Share::of("target ranked first by chance, %", 25.0, None);
 /// Correlations of dimension 1 with A40 and of dimension 2 with A320 in experiment 2.
 pub(super) const CORRELATIONS: [f64; 2] = [0.93, 0.55];
 /// Subjects, and trials of each.
@@ -77,6 +72,26 @@ struct Follows {
     decimals: usize,
 }
 
+impl Follows {
+    fn of(
+        paper: &'static str,
+        from: &str,
+        what: &'static str,
+        computed: Computed<[f64; 2]>,
+        printed: Option<(f64, f64)>,
+        decimals: usize,
+    ) -> Self {
+        Self {
+            paper,
+            from: from.to_owned(),
+            what,
+            computed,
+            printed,
+            decimals,
+        }
+    }
+}
+
 /// Printed numbers checked against each other.
 pub(super) fn section() -> Section {
     let title = "Printed values, and whether they follow from each other";
@@ -98,7 +113,7 @@ pub(super) fn section() -> Section {
     for one in all() {
         table.push(row(&one));
     }
-    section.tables.push(table);
+    section.table(table);
     section.note(
         "47.92 % and 52.08 % of 12 × 16 trials are 92 and 100 of 192, together exactly all: as if \
          one of two had to be called real, though single trials are described too. Coded so, the \
@@ -109,21 +124,19 @@ pub(super) fn section() -> Section {
 }
 
 fn row(one: &Follows) -> Vec<Cell> {
-    let mut cells = vec![
-        Cell::from(one.paper),
-        one.from.as_str().into(),
-        one.what.into(),
-    ];
-    match &one.computed {
-        Ok(ends) => cells.extend(ends.map(Cell::from)),
-        Err(why) => cells.extend([(); 2].map(|()| Cell::Undefined(why.reason.clone()))),
-    }
-    cells.push(one.printed.map_or_else(
+    let computed = one.computed.as_ref().map(|ends| cells![*ends]);
+    let printed = one.printed.map_or_else(
         || Cell::none("not printed"),
         |(value, _)| fixed(value, one.decimals).into(),
-    ));
-    cells.push(verdict(one).into());
-    cells
+    );
+    cells![
+        one.paper,
+        &one.from,
+        one.what,
+        or_undefined(computed, 2),
+        printed,
+        verdict(one)
+    ]
 }
 
 fn verdict(one: &Follows) -> &'static str {
@@ -157,52 +170,37 @@ fn ranking() -> Vec<Follows> {
         let se = share.se.unwrap_or(0.0);
         format!("{} ± {} %, n = 8", fixed(share.percent, 1), fixed(se, 1))
     };
-    let one = |from: String, what, computed, printed, decimals| Follows {
-        paper: RANKING_PAPER,
-        from,
-        what,
-        computed,
-        printed,
-        decimals,
+    let one = |from: &str, what, computed, decimals| {
+        Follows::of(RANKING_PAPER, from, what, computed, None, decimals)
     };
     let mut all = Vec::new();
     for share in [REAL, VIRTUAL] {
+        let from = told(share);
         let value = |o: &Outcome| o.statistic.value;
-        all.push(one(
-            told(share),
-            "t(7) against 25 %",
-            t(share, value),
-            None,
-            2,
-        ));
-        all.push(one(told(share), "its p", t(share, |o| o.p), None, 6));
-        all.push(one(
-            told(share),
-            "correct trials of 640",
-            Ok(counts(share)),
-            None,
-            0,
-        ));
+        all.push(one(&from, "t(7) against 25 %", t(share, value), 2));
+        all.push(one(&from, "its p", t(share, |o| o.p), 6));
+        all.push(one(&from, "correct trials of 640", Ok(counts(share)), 0));
     }
     let both = format!("{}; {}", told(VIRTUAL), told(REAL));
-    let student = between(|o| o.student.p);
-    let welch = between(|o| o.welch.p);
     let p = Some((0.0012, 0.000_05));
-    let what = "p of experiment 2 against 1, Student's t(14)";
-    all.push(one(both.clone(), what, student, p, 4));
-    let what = "the same, Welch's t(8.2)";
-    all.push(one(both, what, welch, p, 4));
+    let student = "p of experiment 2 against 1, Student's t(14)";
+    let found = between(|o| o.student.p);
+    all.push(Follows::of(RANKING_PAPER, &both, student, found, p, 4));
+    let found = between(|o| o.welch.p);
+    all.push(Follows::of(
+        RANKING_PAPER,
+        &both,
+        "the same, Welch's t(8.2)",
+        found,
+        p,
+        4,
+    ));
     all
 }
 
 fn judging() -> Vec<Follows> {
-    let one = |from: String, what, computed, printed, decimals| Follows {
-        paper: JUDGING_PAPER,
-        from,
-        what,
-        computed,
-        printed,
-        decimals,
+    let one = |from: &str, what, computed, printed, decimals| {
+        Follows::of(JUDGING_PAPER, from, what, computed, printed, decimals)
     };
     let f_ends = |f: f64, of: &dyn Fn(f64) -> Computed| {
         let [a, b] = [of(f - 0.0005)?, of(f + 0.0005)?];
@@ -212,20 +210,25 @@ fn judging() -> Vec<Follows> {
     for (materials, f, eta_squared, p) in SIGNALS {
         let from = format!("F(1, 11) = {}, {materials}", fixed(f, 3));
         let eta = f_ends(f, &|f| partial_eta_squared(f, 1.0, 11.0));
-        let printed = Some((eta_squared, 0.0005));
-        all.push(one(from.clone(), "partial η²", eta, printed, 3));
+        all.push(one(
+            &from,
+            "partial η²",
+            eta,
+            Some((eta_squared, 0.0005)),
+            3,
+        ));
         let tail = f_ends(f, &|f| f_upper(f, 1.0, 11.0));
-        all.push(one(from, "its p", tail, Some((p, 0.0005)), 3));
+        all.push(one(&from, "its p", tail, Some((p, 0.0005)), 3));
     }
     let from = format!("F(7, 77) = {}", fixed(MATERIAL_F, 3));
     let eta = f_ends(MATERIAL_F, &|f| partial_eta_squared(f, 7.0, 77.0));
-    all.push(one(from, "partial η²", eta, Some((0.050, 0.0005)), 3));
+    all.push(one(&from, "partial η²", eta, Some((0.050, 0.0005)), 3));
     let (subjects, trials) = JUDGING;
     for percent in CALLED_REAL {
         let from = format!("{} % of 12 × 16", fixed(percent, 2));
         let n = (subjects * trials) as f64;
         let ends = [percent - 0.005, percent + 0.005].map(|percent| percent / 100.0 * n);
-        all.push(one(from, "trials called real", Ok(ends), None, 0));
+        all.push(one(&from, "trials called real", Ok(ends), None, 0));
     }
     all
 }
@@ -251,7 +254,7 @@ fn at_ends(share: Share, of: impl Fn(&Summary) -> Computed) -> Computed<[f64; 2]
     Ok(ends_of(&values?))
 }
 
-fn between(of: impl Fn(&selvedge_statistics::TwoSamples) -> f64) -> Computed<[f64; 2]> {
+fn between(of: impl Fn(&TwoSamples) -> f64) -> Computed<[f64; 2]> {
     let mut values = Vec::new();
     for a in corners(VIRTUAL) {
         for b in corners(REAL) {
@@ -262,10 +265,10 @@ fn between(of: impl Fn(&selvedge_statistics::TwoSamples) -> f64) -> Computed<[f6
 }
 
 fn ends_of(values: &[f64]) -> [f64; 2] {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let values = values.iter().copied();
     [
-        low,
-        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        values.clone().fold(f64::INFINITY, f64::min),
+        values.fold(f64::NEG_INFINITY, f64::max),
     ]
 }
 

@@ -8,12 +8,12 @@ use super::comparison::{
 use super::printed;
 use super::studies::{Studies, Subjects, percent_right};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, scatter};
+use crate::analysis::{Section, Table, cells, scatter, series};
 use crate::observer::{Observer, Strategy, Weighting};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_foundation::quantity::fixed;
-use selvedge_statistics::{Computed, Summary};
+use selvedge_statistics::{Computed, Summary, Undefined};
 
 /// Looks that exploring is taken to be worth, from one to more than anybody would assume.
 const LOOKS: [u32; 7] = [1, 2, 3, 4, 6, 8, 12];
@@ -76,17 +76,18 @@ impl Rankings<'_> {
         let mut section = Section::new("ranking", title);
         self.compare(all, progress)?;
         let looks = self.over_looks(progress)?;
-        section.tables.push(table("looks", "looks", &looks));
+        let title = "A virtual target, over looks";
+        section.table(table("looks", ("looks", "looks"), title, &looks));
         let nearest = nearest_looks(&looks);
         let errors = self.over_errors(nearest, progress)?;
-        section
-            .tables
-            .push(table("model-error", "error_db", &errors));
+        let title = "A real target, over the error of the model";
+        let at = ("error_db", "real against virtual, sd in dB");
+        section.table(table("model-error", at, title, &errors));
         let drawn = [looks_plot(&looks), errors_plot(&errors)];
         for (name, plot) in drawn {
-            section
-                .figures
-                .push(drawn_of(&format!("{name}-curves"), &plot));
+            let axes = [plot.x.clone(), plot.y.clone()];
+            let key = format!("{name}-curves");
+            section.figure(scatter(&key, &plot.title, axes, plot.series.clone()));
             all.sweeps.push((format!("replication-{name}"), plot));
         }
         section.note(
@@ -100,37 +101,27 @@ impl Rankings<'_> {
 
     /// What is compared with what was printed.
     fn cases(&self) -> [(&'static str, &DesignWithStimuli, Kind, printed::Share); 5] {
-        let with_error = |kind: Kind, assumed: &'static str| Kind {
-            assumed,
-            observer: Observer {
-                real_error_db: MODEL_ERROR_DB,
-                ..kind.observer
-            },
-            ..kind
+        let with_error = |mut kind: Kind, assumed: &'static str| {
+            kind.assumed = assumed;
+            kind.observer.real_error_db = MODEL_ERROR_DB;
+            kind
         };
         let differs = "real and virtual cloth differ by 3 dB in each band (sd)";
         let both = "cues beyond levels have the noise of levels; real and virtual differ by 3 dB";
+        let (by_levels, practised) = (by_levels(), practised());
+        let real = with_error(by_levels, differs);
+        let real_practised = with_error(practised, both);
         [
-            (VIRTUAL, self.virtually, by_levels(), printed::VIRTUAL),
+            (VIRTUAL, self.virtually, by_levels, printed::VIRTUAL),
             (
                 VIRTUAL,
                 self.virtually,
-                practised(),
+                practised,
                 printed::VIRTUAL_PRACTISED,
             ),
             (VIRTUAL, self.virtually, guessing(), printed::CHANCE),
-            (
-                REAL,
-                self.real,
-                with_error(by_levels(), differs),
-                printed::REAL,
-            ),
-            (
-                REAL,
-                self.real,
-                with_error(practised(), both),
-                printed::REAL_PRACTISED,
-            ),
+            (REAL, self.real, real, printed::REAL),
+            (REAL, self.real, real_practised, printed::REAL_PRACTISED),
         ]
     }
 
@@ -271,19 +262,15 @@ fn what_it_takes(nearest: u32, errors: &[Swept]) -> String {
 /// Where a falling curve first crosses a value, between its points in a straight line.
 pub(super) fn crossing(points: &[[f64; 2]], value: f64) -> Computed {
     let crosses = |pair: &&[[f64; 2]]| pair[0][1] >= value && pair[1][1] < value;
-    let pair = points.windows(2).find(crosses).ok_or_else(|| {
-        selvedge_statistics::Undefined::because("the curve does not cross the value")
-    })?;
+    let pair = points
+        .windows(2)
+        .find(crosses)
+        .ok_or_else(|| Undefined::because("the curve does not cross the value"))?;
     let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
     Ok(x0 + (x1 - x0) * (y0 - value) / (y0 - y1))
 }
 
-fn table(key: &str, at: &str, swept: &[Swept]) -> Table {
-    let heading = if at == "looks" {
-        "looks"
-    } else {
-        "real against virtual, sd in dB"
-    };
+fn table(key: &str, (at, heading): (&str, &str), title: &str, swept: &[Swept]) -> Table {
     let columns = [
         ("observer", "observer"),
         (at, heading),
@@ -293,46 +280,32 @@ fn table(key: &str, at: &str, swept: &[Swept]) -> Table {
         ("high", "to"),
         ("studies", "studies"),
     ];
-    let title = if at == "looks" {
-        "A virtual target, over looks"
-    } else {
-        "A real target, over the error of the model"
-    };
     let mut table = Table::new(key, title, &columns);
     for one in swept {
-        let spread = one.spread;
-        table.push([
-            Cell::from(one.observer),
-            one.at.into(),
-            spread.mean.into(),
-            spread.se.into(),
-            spread.low.into(),
-            spread.high.into(),
-            spread.n.into(),
-        ]);
+        let Spread {
+            n,
+            mean,
+            se,
+            low,
+            high,
+        } = one.spread;
+        table.push(cells![one.observer, one.at, mean, se, low, high, n]);
     }
     table
 }
 
 fn looks_plot(swept: &[Swept]) -> (String, Chart) {
     let ends = [1.0, f64::from(LOOKS[LOOKS.len() - 1])];
+    let practised = printed::VIRTUAL_PRACTISED.percent;
     let mut series = lines(swept);
     series.extend([
         printed_line("printed: 64.1 %", printed::VIRTUAL.percent, ends),
-        printed_line(
-            "printed, practised: 91 %",
-            printed::VIRTUAL_PRACTISED.percent,
-            ends,
-        ),
+        printed_line("printed, practised: 91 %", practised, ends),
         printed_line("chance", printed::CHANCE.percent, ends),
     ]);
     let title = "A virtual target: identification over looks";
-    let label = "looks that exploring is worth";
-    let plot = Chart {
-        x: Axis::log(label),
-        ..plot(title, label, series)
-    };
-    ("looks".to_owned(), plot)
+    let x = Axis::log("looks that exploring is worth");
+    ("looks".to_owned(), plot(title, x, series))
 }
 
 fn errors_plot(swept: &[Swept]) -> (String, Chart) {
@@ -343,14 +316,14 @@ fn errors_plot(swept: &[Swept]) -> (String, Chart) {
         printed_line("chance", printed::CHANCE.percent, ends),
     ]);
     let title = "A real target: identification over the error of the model";
-    let label = "real against virtual cloth, sd in dB";
-    ("model-error".to_owned(), plot(title, label, series))
+    let x = Axis::linear("real against virtual cloth, sd in dB");
+    ("model-error".to_owned(), plot(title, x, series))
 }
 
-fn plot(title: &str, label: &str, series: Vec<Series>) -> Chart {
+fn plot(title: &str, x: Axis, series: Vec<Series>) -> Chart {
     Chart {
         title: title.to_owned(),
-        x: Axis::linear(label),
+        x,
         y: Axis::linear("target ranked first, %").within([0.0, 100.0]),
         series,
         ..Chart::default()
@@ -360,20 +333,10 @@ fn plot(title: &str, label: &str, series: Vec<Series>) -> Chart {
 fn lines(swept: &[Swept]) -> Vec<Series> {
     let mut names: Vec<&str> = swept.iter().map(|one| one.observer).collect();
     names.dedup();
-    let line = |name: &str| Series {
-        name: name.to_owned(),
-        points: swept
-            .iter()
-            .filter(|one| one.observer == name)
-            .map(|one| [one.at, one.spread.mean])
-            .collect(),
-        style: Style::LineAndDots,
-        ..Series::default()
+    let line = |name: &str| {
+        let own = swept.iter().filter(|one| one.observer == name);
+        let points = own.map(|one| [one.at, one.spread.mean]);
+        series(name, Style::LineAndDots, points)
     };
     names.into_iter().map(line).collect()
-}
-
-fn drawn_of(key: &str, plot: &Chart) -> crate::analysis::Drawn {
-    let axes = [plot.x.clone(), plot.y.clone()];
-    scatter(key, &plot.title, axes, plot.series.clone())
 }

@@ -6,6 +6,7 @@ use crate::Grade;
 use crate::Trial;
 use selvedge_foundation::numerics::Random;
 use selvedge_render::scene::PathRow;
+use std::fs;
 use std::path::PathBuf;
 
 /// Twenty-one triads of cloth on the table.

@@ -14,10 +14,7 @@ const HEADER: &str = "t_s,x_mm,y_mm\n";
 /// the path at 40 Hz that is replayed) into a file whose folder may be missing.
 pub(super) fn write_samples(samples: &[RecordedSample], file: &Path) -> Result<(), FileError> {
     if let Some(folder) = file.parent() {
-        std::fs::create_dir_all(folder).map_err(|source| FileError::Write {
-            path: folder.to_owned(),
-            source,
-        })?;
+        make_folder(folder)?;
     }
     let mut text = HEADER.to_owned();
     for sample in samples {
@@ -31,6 +28,14 @@ pub(super) fn write_samples(samples: &[RecordedSample], file: &Path) -> Result<(
         text.push('\n');
     }
     write_atomic(file, text.as_bytes())
+}
+
+/// Makes a folder where it is missing.
+pub(crate) fn make_folder(folder: &Path) -> Result<(), FileError> {
+    std::fs::create_dir_all(folder).map_err(|source| FileError::Write {
+        path: folder.to_owned(),
+        source,
+    })
 }
 
 /// The file of how a trial was explored.

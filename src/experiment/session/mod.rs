@@ -16,10 +16,10 @@ mod origin;
 mod sidecar;
 mod whole;
 
-use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
+pub(crate) use files::make_folder;
 pub use files::{log_path, path_file, samples_file};
 pub use found::{Found, Unread, find_sessions};
 pub use origin::Origin;
@@ -75,10 +75,7 @@ impl Session {
     ) -> Result<Self, ExperimentError> {
         let origin = origin.into();
         check_pseudonym(&subject.pseudonym)?;
-        fs::create_dir_all(folder).map_err(|source| FileError::Write {
-            path: folder.to_owned(),
-            source,
-        })?;
+        make_folder(folder)?;
         let course = Course::begin(&design, &subject)?;
         let path = log_path(folder, &design, &subject);
         let names = column_names(&design);
@@ -243,10 +240,7 @@ impl Session {
     fn write_path(&self, path: &ExplorationPath, record: &Record) -> Result<(), ExperimentError> {
         let file = path_file(self.log(), &record.trial, record.attempt);
         let folder = file.parent().unwrap_or_else(|| Path::new("."));
-        fs::create_dir_all(folder).map_err(|source| FileError::Write {
-            path: folder.to_owned(),
-            source,
-        })?;
+        make_folder(folder)?;
         path.write(&file)
             .map_err(|error| ExperimentError::value(error.to_string(), "answer again"))
     }

@@ -1,5 +1,6 @@
 //! Sessions: what is answered is on disk, and what is on disk can be continued.
 
+use std::fs;
 use std::time::UNIX_EPOCH;
 
 use super::*;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{Opening, Sidecar, check_pseudonym, log_path};
+use super::{Opening, Sidecar, check_pseudonym, log_path, make_folder};
 use crate::ExperimentError;
 use crate::course::Course;
 use crate::design::{Design, Subject};
@@ -22,10 +22,7 @@ pub(crate) fn write_whole(
     records: &[Record],
 ) -> Result<PathBuf, ExperimentError> {
     let log = unwritten(folder, design, subject)?;
-    fs::create_dir_all(folder).map_err(|source| FileError::Write {
-        path: folder.to_owned(),
-        source,
-    })?;
+    make_folder(folder)?;
     let names = column_names(design);
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut table = TableWriter::new(Vec::new(), &log, &names)?;

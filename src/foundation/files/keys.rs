@@ -9,12 +9,16 @@ use toml::{Table, Value};
 
 use super::{FileError, line_at};
 
-/// Reads a TOML text into a value. `path` only names the file in errors.
+/// Reads a TOML text into a value. `path` only names the file in errors. The error of a type that
+/// says itself how to mend it reads `what; mend`.
 pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     toml::from_str(text).map_err(|error| {
         let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
         let what = error.message().replace('\n', ", ");
+        if let Some((what, mend)) = what.split_once("; ") {
+            return FileError::content(path, line, what, mend);
+        }
         let mend = if what.contains("unknown field") {
             "remove the key or correct its name"
         } else if what.contains("missing field") {

@@ -38,6 +38,25 @@ pub(super) enum Ended {
     Silent,
 }
 
+/// Why it does not go on.
+enum Stopped {
+    Ended(Ended),
+    /// The lines cannot be read or written.
+    Lines(io::Error),
+}
+
+impl From<io::Error> for Stopped {
+    fn from(error: io::Error) -> Self {
+        Self::Lines(error)
+    }
+}
+
+impl From<Ended> for Stopped {
+    fn from(ended: Ended) -> Self {
+        Self::Ended(ended)
+    }
+}
+
 /// A session, somebody who types, and what they noted of the trial that waits.
 pub(super) struct Desk<'a, R, W, B> {
     pub(super) session: &'a mut Session,
@@ -75,21 +94,25 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
                 }
                 Step::Instructions(text) => {
                     let told = format!("read out:\n  {text}\nEnter goes on");
-                    self.asked(&told)?
+                    self.asked(&told)
                 }
-                Step::Familiarisation(movement) => self.practise(movement)?,
+                Step::Familiarisation(movement) => self.practise(movement),
                 Step::Break {
                     after_block,
                     least_s,
-                } => self.rest(after_block, least_s)?,
+                } => self.rest(after_block, least_s),
                 Step::Trial(trial) => {
                     let trial = trial.clone();
-                    self.trial(&trial)?
+                    self.trial(&trial)
                 }
             };
-            if let Err(ended) = went_on {
-                self.keep_notes()?;
-                return Ok(ended);
+            match went_on {
+                Ok(()) => {}
+                Err(Stopped::Lines(error)) => return Err(error),
+                Err(Stopped::Ended(ended)) => {
+                    self.keep_notes()?;
+                    return Ok(ended);
+                }
             }
             if !matches!(self.session.step(), Step::Trial(_) | Step::Finished) {
                 self.session.pass();
@@ -103,44 +126,43 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
     }
 
     /// The next line that is no note, or how the session ends.
-    fn line(&mut self) -> io::Result<Result<Line, Ended>> {
+    fn line(&mut self) -> Result<Line, Stopped> {
         loop {
             let mut line = Vec::new();
             self.typed.read_until(b'\n', &mut line)?;
             if line.last() != Some(&b'\n') {
                 // A line that was cut off is nobody's answer.
-                return Ok(Err(Ended::Silent));
+                return Err(Ended::Silent.into());
             }
             let line = String::from_utf8_lossy(&line);
             let (first, rest) = split(&line);
             match first {
-                "" => return Ok(Ok(Line::Empty)),
-                "quit" => return Ok(Err(Ended::Quit)),
-                "abort" => return Ok(Ok(Line::Abort)),
-                "break" => return Ok(Ok(Line::Break)),
+                "" => return Ok(Line::Empty),
+                "quit" => return Err(Ended::Quit.into()),
+                "abort" => return Ok(Line::Abort),
+                "break" => return Ok(Line::Break),
                 "note" if rest.is_empty() => self.say("type note and what is to be noted")?,
                 "note" => {
                     self.notes.push(rest.to_owned());
                     self.say("noted with the trial that waits")?;
                 }
-                _ => return Ok(Ok(Line::Text(line.trim().to_owned()))),
+                _ => return Ok(Line::Text(line.trim().to_owned())),
             }
         }
     }
 
     /// Says something and waits for Enter.
-    fn asked(&mut self, what: &str) -> io::Result<Result<(), Ended>> {
+    fn asked(&mut self, what: &str) -> Result<(), Stopped> {
         self.say(what)?;
         loop {
             match self.line()? {
-                Err(ended) => return Ok(Err(ended)),
-                Ok(Line::Empty) => return Ok(Ok(())),
-                Ok(_) => self.say("press Enter to go on; note TEXT and quit work here too")?,
+                Line::Empty => return Ok(()),
+                _ => self.say("press Enter to go on; note TEXT and quit work here too")?,
             }
         }
     }
 
-    fn practise(&mut self, movement: Familiarisation) -> io::Result<Result<(), Ended>> {
+    fn practise(&mut self, movement: Familiarisation) -> Result<(), Stopped> {
         let course = match movement.movement {
             Movement::Circular => "in circles",
             Movement::Linear => "to and fro on a line",
@@ -154,14 +176,11 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             "the participant practises moving {course} at {speed_mm_per_s} mm/s for {for_s} s: \
              Enter begins"
         );
-        if let Err(ended) = self.asked(&told)? {
-            return Ok(Err(ended));
-        }
-        self.bench.count_down(for_s)?;
-        Ok(Ok(()))
+        self.asked(&told)?;
+        Ok(self.bench.count_down(for_s)?)
     }
 
-    fn rest(&mut self, after_block: usize, least_s: f64) -> io::Result<Result<(), Ended>> {
+    fn rest(&mut self, after_block: usize, least_s: f64) -> Result<(), Stopped> {
         let block = after_block + 1;
         if least_s > 0.0 {
             self.say(&format!(
@@ -174,27 +193,22 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
     }
 
     /// A trial until it is answered or given up.
-    fn trial(&mut self, trial: &Trial) -> io::Result<Result<(), Ended>> {
+    fn trial(&mut self, trial: &Trial) -> Result<(), Stopped> {
         loop {
-            let start = match self.begun(trial)? {
-                Ok(Some(start)) => start,
-                Ok(None) => return Ok(Ok(())),
-                Err(ended) => return Ok(Err(ended)),
+            let Some(start) = self.begun(trial)? else {
+                return Ok(());
             };
             let ask = form(self.session.design(), &trial.task);
             self.say(&ask)?;
             loop {
                 match self.line()? {
-                    Err(ended) => return Ok(Err(ended)),
-                    Ok(Line::Abort) => return self.give_up(start),
-                    Ok(Line::Break) => {
-                        if let Err(ended) = self.pause()? {
-                            return Ok(Err(ended));
-                        }
+                    Line::Abort => return self.give_up(start),
+                    Line::Break => {
+                        self.pause()?;
                         break;
                     }
-                    Ok(Line::Empty) => self.say(&ask)?,
-                    Ok(Line::Text(text)) => {
+                    Line::Empty => self.say(&ask)?,
+                    Line::Text(text) => {
                         let design = self.session.design();
                         match typed_answer(design, &trial.task, &text) {
                             Ok(answer) => return self.write(Some(&answer), start),
@@ -208,23 +222,20 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
 
     /// Says what to lay; the moment at which the participant begins, or none for a trial that was
     /// given up before.
-    fn begun(&mut self, trial: &Trial) -> io::Result<Result<Option<Moment>, Ended>> {
+    fn begun(&mut self, trial: &Trial) -> Result<Option<Moment>, Stopped> {
         let told = self.told(trial);
         loop {
             self.say(&told)?;
             match self.line()? {
-                Err(ended) => return Ok(Err(ended)),
-                Ok(Line::Empty) => return Ok(Ok(Some(self.bench.now()))),
-                Ok(Line::Abort) => {
+                Line::Empty => return Ok(Some(self.bench.now())),
+                Line::Abort => {
                     let now = self.bench.now();
-                    return Ok(self.give_up(now)?.map(|()| None));
+                    return self.give_up(now).map(|()| None);
                 }
-                Ok(Line::Break) => {
-                    if let Err(ended) = self.pause()? {
-                        return Ok(Err(ended));
-                    }
+                Line::Break => {
+                    self.pause()?;
                 }
-                Ok(Line::Text(_)) => {
+                Line::Text(_) => {
                     self.say(&format!("the trial has not begun: Enter, {COMMANDS}"))?;
                 }
             }
@@ -253,38 +264,31 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
     }
 
     /// A break that the experimenter asked for; the trial begins anew after it.
-    fn pause(&mut self) -> io::Result<Result<(), Ended>> {
+    fn pause(&mut self) -> Result<(), Stopped> {
         let began = self.bench.now();
-        if let Err(ended) = self.asked("a break: Enter ends it, and the trial begins anew")? {
-            return Ok(Err(ended));
-        }
+        self.asked("a break: Enter ends it, and the trial begins anew")?;
         let spent_ns = self.bench.now().since_ns.saturating_sub(began.since_ns);
         let seconds = spent_ns / 1_000_000_000;
         self.notes.push(format!("break of {seconds} s before this"));
-        Ok(Ok(()))
+        Ok(())
     }
 
-    fn give_up(&mut self, start: Moment) -> io::Result<Result<(), Ended>> {
-        let written = self.write(None, start)?;
-        if written.is_ok() {
-            self.say("given up; it comes again")?;
-        }
-        Ok(written)
+    fn give_up(&mut self, start: Moment) -> Result<(), Stopped> {
+        self.write(None, start)?;
+        Ok(self.say("given up; it comes again")?)
     }
 
     /// Puts an answer on disk, or that the trial was given up; asks again while the disk refuses.
-    fn write(&mut self, answer: Option<&Answer>, start: Moment) -> io::Result<Result<(), Ended>> {
+    fn write(&mut self, answer: Option<&Answer>, start: Moment) -> Result<(), Stopped> {
         let end = self.bench.now();
         let timing = Timing::between([start.utc, end.utc], [start.since_ns, end.since_ns]);
         loop {
             let Err(error) = self.put(answer, &timing) else {
                 self.notes.clear();
-                return Ok(Ok(()));
+                return Ok(());
             };
             let told = format!("{error}; nothing is lost: Enter writes the same answer again");
-            if let Err(ended) = self.asked(&told)? {
-                return Ok(Err(ended));
-            }
+            self.asked(&told)?;
         }
     }
 
