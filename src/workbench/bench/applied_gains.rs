@@ -85,9 +85,9 @@ impl AppliedGains {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::command::Part;
     use crate::bench::command::edit::Edit;
     use crate::bench::editing;
+    use crate::bench::part::Part;
     use selvedge_foundation::geometry::Point;
     use selvedge_textile::tactile::Band;
 

@@ -12,7 +12,7 @@ impl Bench {
             DeviceCommand::Arm => self.send(selvedge_engine::Command::Arm),
             DeviceCommand::GoOn => {
                 // The engine goes on and refuses to arm what is not there: no news to anybody.
-                self.transient.n_expected_refusals += 1;
+                self.device.n_expected_refusals += 1;
                 self.send(selvedge_engine::Command::Arm);
             }
             DeviceCommand::Disarm => self.send(selvedge_engine::Command::Disarm),
@@ -20,8 +20,8 @@ impl Bench {
             DeviceCommand::StartFaults(words) => self.start_faults(words),
             DeviceCommand::ConnectPort(path) => self.connect(Target::Port(path)),
             DeviceCommand::Disconnect => {
-                self.transient.target = None;
-                self.transient.faults = None;
+                self.device.target = None;
+                self.device.faults = None;
                 self.send(selvedge_engine::Command::Disconnect);
             }
             DeviceCommand::Array(command) => self.dispatch_array(command),
@@ -34,7 +34,7 @@ impl Bench {
             DeviceCommand::OpenLogFolder => {
                 let log = self.engine.session_log();
                 if let Some(folder) = log.and_then(|log| log.path().parent()) {
-                    self.transient.folders.open(&self.executor, folder);
+                    self.files.folders.open(&self.executor, folder);
                 }
             }
             DeviceCommand::StopOnFocusLoss(is_wanted) => {
@@ -65,19 +65,19 @@ impl Bench {
         match self.emulator_with(&words) {
             Ok(target) => {
                 self.connect(target);
-                self.transient.faults = Some(words);
+                self.device.faults = Some(words);
             }
-            Err(why) => self.transient.notices.give(why),
+            Err(why) => self.notices.give(why),
         }
     }
 
     fn connect(&mut self, target: Target) {
-        self.transient.faults = target.is_emulator().then(FaultWords::default);
+        self.device.faults = target.is_emulator().then(FaultWords::default);
         // What was said of the last device is no news of this one.
-        if let Some(last) = &self.transient.target {
-            self.transient.notices.forget_about(last);
+        if let Some(last) = &self.device.target {
+            self.notices.forget_about(last);
         }
-        self.transient.target = Some(query::device_name(&target));
+        self.device.target = Some(query::device_name(&target));
         self.send(selvedge_engine::Command::Connect(target));
     }
 }
@@ -94,16 +94,16 @@ mod tests {
     fn faults_last_until_something_else_is_connected() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        assert_eq!(bench.transient.faults, None);
+        assert_eq!(bench.device.faults, None);
         let words = FaultWords::of(&[("seed", "7"), ("drop", "0.1%")]);
         bench.dispatch(DeviceCommand::StartFaults(words.clone()).into());
-        assert_eq!(bench.transient.faults.as_ref(), Some(&words));
-        let name = bench.transient.target.as_deref();
+        assert_eq!(bench.device.faults.as_ref(), Some(&words));
+        let name = bench.device.target.as_deref();
         assert_eq!(name, Some("Emulator with faults"));
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        assert_eq!(bench.transient.faults, Some(FaultWords::default()));
+        assert_eq!(bench.device.faults, Some(FaultWords::default()));
         bench.dispatch(DeviceCommand::Disconnect.into());
-        assert_eq!(bench.transient.faults, None);
+        assert_eq!(bench.device.faults, None);
     }
 
     #[test]
@@ -116,10 +116,10 @@ mod tests {
         ] {
             let words = FaultWords::of(&[(option, text)]);
             bench.dispatch(DeviceCommand::StartFaults(words).into());
-            let shown = bench.transient.notices.shown();
+            let shown = bench.notices.shown();
             let last = &shown.last().unwrap().text;
             assert!(last.starts_with(told), "{last}");
-            assert_eq!(bench.transient.faults, None);
+            assert_eq!(bench.device.faults, None);
         }
     }
 }

@@ -11,14 +11,14 @@ use selvedge_render::scene::Scene;
 impl Bench {
     pub(crate) fn edit(&mut self, edit: &Edit) {
         let before = self.document.scene().clone();
-        if let Err(error) = self.document.edit(edit, self.transient.moment) {
-            self.transient.notices.give(error.to_string());
+        if let Err(error) = self.document.edit(edit, self.pointer.moment) {
+            self.notices.give(error.to_string());
         }
         if matches!(edit, Edit::AddCloth(..) | Edit::AddCloths(_))
             && self.document.scene() != &before
         {
             let n_cloths = self.document.scene().textiles.len();
-            self.workspace.cloth = n_cloths.checked_sub(1);
+            self.selection.cloth = n_cloths.checked_sub(1);
         }
         self.follow(&before);
     }
@@ -32,14 +32,16 @@ impl Bench {
     /// Lets everything follow that depends on the document, which was `before`.
     fn follow(&mut self, before: &Scene) {
         let after = self.document.scene().clone();
-        self.transient.mute_solo.follow(before, &after);
-        let selected = self.workspace.cloth;
+        self.selection.mute_solo.follow(before, &after);
+        let selected = self.selection.cloth;
         let is_new = before.textiles.len() < after.textiles.len();
-        self.workspace.cloth = selected.and_then(|index| {
+        self.selection.cloth = selected.and_then(|index| {
             let moved = editing::place_after(before, &after, index);
             moved.or_else(|| (is_new && index + 1 == after.textiles.len()).then_some(index))
         });
-        if preparing::differs(self.loaded.scene(), &after) || self.preparing.is_busy() {
+        if preparing::differs(self.engine_scene.loaded.scene(), &after)
+            || self.engine_scene.preparing.is_busy()
+        {
             self.prepare(&after);
         } else {
             self.tell_gains();
@@ -49,7 +51,10 @@ impl Bench {
     fn prepare(&mut self, scene: &Scene) {
         let scene = self.felt_now(scene).in_scene(scene);
         let what = (scene, self.settings.preferences.rendering);
-        let asked = self.preparing.ask(&self.loaded, what, &self.executor);
+        let asked =
+            self.engine_scene
+                .preparing
+                .ask(&self.engine_scene.loaded, what, &self.executor);
         match asked {
             Some(outcome) => self.take_prepared(outcome),
             None => self.poll_prepared(),
@@ -64,7 +69,9 @@ impl Bench {
 
     /// Lets the engine render as the user chose, if it does not yet.
     pub(crate) fn render_as_chosen(&mut self) {
-        if self.rendering != self.settings.preferences.rendering || self.preparing.is_busy() {
+        if self.engine_scene.rendering != self.settings.preferences.rendering
+            || self.engine_scene.preparing.is_busy()
+        {
             let scene = self.document.scene().clone();
             self.prepare(&scene);
         }
@@ -72,7 +79,7 @@ impl Bench {
 
     /// Takes what a thread prepared, if it is done.
     pub(crate) fn poll_prepared(&mut self) {
-        let Some((outcome, next)) = self.preparing.poll() else {
+        let Some((outcome, next)) = self.engine_scene.preparing.poll() else {
             return;
         };
         self.take_prepared(outcome);
@@ -86,25 +93,30 @@ impl Bench {
         match outcome {
             Ok(mut ready) => {
                 // The library may have changed meanwhile.
-                ready.loaded.use_library(self.loaded.library());
-                self.scene_serial = ready.prepared.serial();
+                ready.loaded.use_library(self.engine_scene.loaded.library());
+                self.engine_scene.serial = ready.prepared.serial();
                 self.send(selvedge_engine::Command::UpdateScene(ready.prepared));
-                self.loaded = ready.loaded;
-                self.rendering = ready.rendering;
-                self.felt = self.felt.after_scene(self.loaded.scene());
+                self.engine_scene.loaded = ready.loaded;
+                self.engine_scene.rendering = ready.rendering;
+                self.engine_scene.applied_gains = self
+                    .engine_scene
+                    .applied_gains
+                    .after_scene(self.engine_scene.loaded.scene());
                 self.scene_has_changed();
                 // Gains may have moved on while a thread was at work.
                 self.tell_gains();
             }
             Err(line) => {
                 // The last good scene stays, in the engine and in the document.
-                self.transient.notices.give(line);
+                self.notices.give(line);
                 let before = self.document.scene().clone();
-                let tried =
-                    std::mem::replace(&mut self.settings.preferences.rendering, self.rendering);
-                if tried != self.rendering {
+                let tried = std::mem::replace(
+                    &mut self.settings.preferences.rendering,
+                    self.engine_scene.rendering,
+                );
+                if tried != self.engine_scene.rendering {
                     // It was not the scene: what is left of the edit is tried as before.
-                    if preparing::differs(self.loaded.scene(), &before) {
+                    if preparing::differs(self.engine_scene.loaded.scene(), &before) {
                         self.prepare(&before);
                     }
                     return;
@@ -125,7 +137,7 @@ impl Bench {
         AppliedGains::of(
             scene,
             tuning,
-            &self.transient.mute_solo,
+            &self.selection.mute_solo,
             self.n_contactors(),
         )
     }
@@ -133,7 +145,7 @@ impl Bench {
     /// Tells the engine which gains changed, if any.
     pub(crate) fn tell_gains(&mut self) {
         let new = self.felt_now(self.document.scene());
-        let changes = self.felt.changes(&new);
+        let changes = self.engine_scene.applied_gains.changes(&new);
         if !changes.is_empty() {
             new.put_into(&mut self.inspection.scene);
             self.inspection.inspector.set_gains(&self.inspection.scene);
@@ -141,6 +153,6 @@ impl Bench {
         for command in changes {
             self.send(command);
         }
-        self.felt = new;
+        self.engine_scene.applied_gains = new;
     }
 }

@@ -1,24 +1,27 @@
 //! Scenes and recordings that are opened and saved.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bench::Bench;
-use crate::bench::background::finished;
+use crate::bench::background::{Task, finished};
+use crate::bench::clips::{ClipsView, ending, said};
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::recording::Take;
+use selvedge_engine::{ClipKind, ClipWriter, write_clip};
 use selvedge_render::scene::ExplorationPath;
+use selvedge_render::{RenderScene, Replay};
 
 impl Bench {
     /// Takes scenes and recordings that other threads bring.
     pub(crate) fn take_files(&mut self) {
-        if let Some(outcome) = finished(&mut self.transient.opening) {
+        if let Some(outcome) = finished(&mut self.files.opening) {
             self.take_opened(outcome);
         }
-        if let Some(outcome) = finished(&mut self.transient.reading) {
+        if let Some(outcome) = finished(&mut self.files.reading) {
             self.take_take(outcome);
         }
-        if let Some(outcome) = finished(&mut self.transient.saving) {
+        if let Some(outcome) = finished(&mut self.files.saving) {
             self.take_saved(outcome);
         }
     }
@@ -30,7 +33,7 @@ impl Bench {
             let opened = open(origin, rendering).map(Box::new);
             opened.map_err(|error| error.to_string())
         });
-        self.transient.opening = Some(task);
+        self.files.opening = Some(task);
         self.take_files();
     }
 
@@ -43,7 +46,7 @@ impl Bench {
                 }
                 self.show_scene(*opened);
             }
-            Err(line) => self.transient.notices.give(line),
+            Err(line) => self.notices.give(line),
         }
     }
 
@@ -54,7 +57,7 @@ impl Bench {
             let take = found.map(|found| Take::from_path(path, found));
             take.map_err(|error| error.to_string())
         });
-        self.transient.reading = Some(task);
+        self.files.reading = Some(task);
         self.take_files();
     }
 
@@ -62,25 +65,25 @@ impl Bench {
     pub(crate) fn take_take(&mut self, outcome: Result<Take, String>) {
         match outcome {
             Ok(take) => {
-                self.take = Some(take);
+                self.exploration.at_hand = Some(take);
                 self.replay();
             }
-            Err(line) => self.transient.notices.give(line),
+            Err(line) => self.notices.give(line),
         }
     }
 
     /// Saves the recording at hand.
     pub(crate) fn save_recording(&mut self, path: PathBuf) {
-        let Some(take) = self.take.clone() else {
+        let Some(take) = self.exploration.at_hand.clone() else {
             let words = "There is no recording to save; record one first";
-            return self.transient.notices.give(words);
+            return self.notices.give(words);
         };
         let task = self.executor.start("selvedge-save", move |_| {
             let written = take.path().write(&path);
             let saved = written.map(|()| take.saved_as(path));
             saved.map_err(|error| error.to_string())
         });
-        self.transient.saving = Some(task);
+        self.files.saving = Some(task);
         self.take_files();
     }
 
@@ -90,22 +93,165 @@ impl Bench {
             Ok(saved) => {
                 // Another exploration may have been recorded meanwhile.
                 let is_same = |take: &Take| Arc::ptr_eq(take.path(), saved.path());
-                if self.take.as_ref().is_some_and(is_same) {
-                    self.take = Some(saved);
+                if self.exploration.at_hand.as_ref().is_some_and(is_same) {
+                    self.exploration.at_hand = Some(saved);
                 }
             }
-            Err(line) => self.transient.notices.give(line),
+            Err(line) => self.notices.give(line),
         }
     }
 
     /// Lets the recording at hand move the display; it waits at its first tick.
     pub(crate) fn replay(&mut self) {
-        let Some(take) = self.take.clone() else {
+        let Some(take) = self.exploration.at_hand.clone() else {
             return;
         };
         let source = selvedge_engine::InputSource::Replay(Arc::clone(take.path()));
         self.send(selvedge_engine::Command::SetSource(source));
-        self.send(selvedge_engine::Command::SetLoop(self.transient.does_loop));
+        self.send(selvedge_engine::Command::SetLoop(
+            self.exploration.does_loop,
+        ));
         self.send(selvedge_engine::Command::Seek(0));
+    }
+}
+
+impl Bench {
+    /// How it stands with files for other programs.
+    pub(crate) fn clips_view(&self) -> ClipsView {
+        let task = self.files.clips.task.as_ref();
+        ClipsView {
+            has_take: self.exploration.at_hand.is_some(),
+            share: task.map(Task::share),
+        }
+    }
+
+    /// Where a file is expected to go: where the last one did, else beside the recording or scene.
+    pub(crate) fn clip_path(&self, kind: ClipKind) -> PathBuf {
+        let name = self
+            .exploration
+            .at_hand
+            .as_ref()
+            .map_or("recording", |take| take.name());
+        let beside = self
+            .exploration
+            .at_hand
+            .as_ref()
+            .and_then(|take| take.file());
+        let beside = beside.or_else(|| self.document.path().map(PathBuf::as_path));
+        let last = self.files.clips.last.as_deref();
+        let folder = last.or_else(|| beside.and_then(Path::parent));
+        let stem = match kind {
+            ClipKind::Frames => format!("{name} frames"),
+            _ => name.to_owned(),
+        };
+        let file = format!("{}.{}", stem.to_lowercase().replace(' ', "-"), ending(kind));
+        folder.map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file))
+    }
+
+    /// Renders the recording into a file; one at a time.
+    pub(crate) fn write_clip_to(&mut self, kind: ClipKind, path: &Path) {
+        let Some(take) = self.exploration.at_hand.clone() else {
+            let words = "There is no recording to export; record one first";
+            return self.notices.give(words);
+        };
+        if self.files.clips.task.is_some() {
+            let words = "Another file is being written; wait for it, or stop it in the menu";
+            return self.notices.give(words);
+        }
+        let scene = RenderScene::of(&self.engine_scene.loaded);
+        let n_contactors = scene
+            .displays
+            .iter()
+            .map(|display| display.offsets.len())
+            .sum();
+        let profile = self.engine.profile().clone();
+        let (rendering, title) = (
+            self.engine_scene.rendering,
+            self.document.scene().name.clone(),
+        );
+        let (exploration, place) = (Arc::clone(take.path()), path.to_owned());
+        let applied = Arc::clone(take.apply_ticks());
+        self.files.clips.last = path.parent().map(Path::to_owned);
+        let work = move |progress: &mut selvedge_foundation::progress::Progress<'_>| {
+            let what = Replay {
+                scene: &scene,
+                method: rendering.method,
+                accuracy: rendering.accuracy(),
+                measures_error: false,
+            };
+            let array = (&profile, n_contactors);
+            let clip = ClipWriter::of_played(&place, kind, array, &title, applied);
+            clip.and_then(|clip| write_clip(clip, &what, &exploration, progress))
+                .map_err(|error| error.to_string())
+        };
+        let task = self.executor.start("selvedge-clip", work);
+        self.files.clips.task = Some(task);
+    }
+
+    /// Stops the file that is written; nothing of it is left.
+    pub(crate) fn stop_clip(&self) {
+        if let Some(task) = &self.files.clips.task {
+            task.stop();
+        }
+    }
+
+    /// Takes the news of a file. To be called every frame.
+    pub(crate) fn poll_clips(&mut self) {
+        let task = &mut self.files.clips.task;
+        let was_stopped = task.as_ref().is_some_and(Task::is_stopped);
+        let Some(outcome) = finished(task) else {
+            return;
+        };
+        match outcome {
+            Ok(written) => self.notices.give(said(&written)),
+            Err(_) if was_stopped => {}
+            Err(words) => self.notices.give(words),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::Drive;
+    use crate::bench::clips::CLIPS;
+    use crate::bench::recording::Take;
+    use selvedge_foundation::geometry::Point;
+    use selvedge_render::scene::{ExplorationPath, PathRow};
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn the_recording_at_hand_is_written_as_every_kind() {
+        let ctx = eframe::egui::Context::default();
+        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
+        let folder = ScratchFolder::made("clips");
+        let write = |bench: &mut Bench, kind| {
+            let path = folder.join(format!("a.{}", ending(kind)));
+            bench.write_clip_to(kind, &path);
+            bench.poll_clips();
+            path
+        };
+        let none = write(&mut bench, ClipKind::Hjif);
+        assert!(!none.exists() && !bench.clips_view().has_take);
+        let row = |t_s, x_mm| PathRow {
+            t_s,
+            position: Point::new(x_mm, 60.0),
+            ..PathRow::default()
+        };
+        let path = ExplorationPath::new(vec![row(0.0, 40.0), row(1.0, 120.0)]).unwrap();
+        // Tables would take longer than the file.
+        bench.engine_scene.rendering.method = selvedge_render::array::Method::Banded;
+        bench.exploration.at_hand = Some(Take::from_path(folder.join("slow stroke.csv"), path));
+        for (kind, _) in CLIPS {
+            let path = write(&mut bench, kind);
+            assert!(path.metadata().unwrap().len() > 2000, "{kind:?}");
+            let last = bench.notices.shown().last().unwrap();
+            assert!(last.text.ends_with("is written"), "{}", last.text);
+            std::fs::remove_file(path).unwrap();
+        }
+        assert_eq!(
+            bench.clip_path(ClipKind::Hjif),
+            folder.join("slow-stroke.hjif")
+        );
     }
 }

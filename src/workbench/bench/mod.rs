@@ -24,6 +24,7 @@ pub(crate) mod job;
 pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod latest;
+pub(crate) mod library_change;
 pub(crate) mod library_selection;
 pub(crate) mod library_view;
 pub(crate) mod mute_solo;
@@ -32,6 +33,7 @@ pub(crate) mod notices;
 pub(crate) mod opening;
 pub(crate) mod overlays;
 pub(crate) mod pane;
+pub(crate) mod part;
 pub(crate) mod perceptual_level;
 pub(crate) mod perspective;
 pub(crate) mod play;
@@ -44,12 +46,13 @@ pub(crate) mod selection;
 pub(crate) mod session;
 pub(crate) mod settings;
 pub(crate) mod signals;
+pub(crate) mod source_change;
 pub(crate) mod source_file;
 pub(crate) mod sources;
+pub(crate) mod state;
 pub(crate) mod task;
 pub(crate) mod tool;
 pub(crate) mod trail;
-pub(crate) mod transient;
 pub(crate) mod view;
 
 use crate::bench::applied_gains::AppliedGains;
@@ -58,24 +61,27 @@ use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
+use crate::bench::export::origin::Origin as ExportOrigin;
+use crate::bench::keep::Keeping;
+use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
+use crate::bench::mute_solo::MuteSolo;
+use crate::bench::notices::Notices;
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
-use crate::bench::recording::Take;
-use crate::bench::rendering::Rendering;
 use crate::bench::selection::Selection;
-use crate::bench::session::SessionInSight;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
+use crate::bench::state::{
+    DeviceState, EngineScene, Exploration, Files, InspectionCache, LibraryState, Past,
+    PointerState, SessionState,
+};
 use crate::bench::trail::Trail;
-use crate::bench::transient::Transient;
-use crate::bench::view::{LibraryDot, Marks, SceneView};
+use crate::bench::view::{Live, Marks, SceneView};
 use crate::kit::theme;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
-use selvedge_engine::{Command, Engine, EngineConfig, Recording, StopSwitch, TICK};
-use selvedge_render::RenderScene;
-use selvedge_render::array::ContactInspector;
+use selvedge_engine::{Command, Engine, EngineConfig, TICK};
 use selvedge_render::scene::LoadedScene;
 use std::path::Path;
 use std::sync::Arc;
@@ -105,65 +111,31 @@ pub(crate) struct Bench {
     pub(crate) document: Document,
     /// What is kept per user.
     pub(crate) settings: Settings,
-    /// What devices are taken to drive.
-    pub(crate) arrays: Arrays,
     /// What tools want of each other, of the document and of the device: done by the shell.
     pub(crate) commands: Commands,
+    /// Sentences for the user.
+    pub(crate) notices: Notices,
     /// The panes in sight.
     pub(crate) in_sight: Vec<Pane>,
-    /// What all views share.
-    pub(crate) workspace: Selection,
-    pub(crate) transient: Transient,
+    /// What is chosen in all views.
+    pub(crate) selection: Selection,
+    pub(crate) session: SessionState,
+    pub(crate) pointer: PointerState,
     pub(crate) engine: Engine,
-    pub(crate) switch: StopSwitch,
-    pub(crate) is_stepped: bool,
+    /// The engine as it was seen last.
+    pub(crate) live: Live,
+    pub(crate) past: Past,
+    pub(crate) engine_scene: EngineScene,
+    pub(crate) inspection: InspectionCache,
+    pub(crate) library: LibraryState,
+    pub(crate) exploration: Exploration,
+    pub(crate) files: Files,
+    pub(crate) device: DeviceState,
     /// Where long work is done.
     pub(crate) executor: Executor,
-    /// The exploration that can be replayed.
-    pub(crate) take: Option<Take>,
-    /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
-    pub(crate) ended_recording: Option<Recording>,
-    /// The session of an experiment that is active.
-    pub(crate) session: Option<SessionInSight>,
-    /// Whether a participant's view has a window of its own.
-    pub(crate) has_participants_window: bool,
-    /// The scene as the engine has it: with its textiles, and gains as they are felt.
-    pub(crate) loaded: LoadedScene,
-    /// The serial number of that scene.
-    pub(crate) scene_serial: u64,
-    /// How that scene is rendered; what the user chose may still be on its way.
-    pub(crate) rendering: Rendering,
-    pub(crate) preparing: Preparing,
-    pub(crate) felt: AppliedGains,
-    pub(crate) library_view: LibraryView,
-    pub(crate) library: Vec<LibraryDot>,
-    pub(crate) inspection: InspectionCache,
     pub(crate) ctx: egui::Context,
-    pub(crate) now: Instant,
-}
-
-/// What plots look at a contactor with.
-pub(crate) struct InspectionCache {
-    /// The scene as rendering sees it.
-    pub(crate) scene: RenderScene,
-    /// What a contactor feels of it.
-    pub(crate) inspector: ContactInspector,
-    /// Scenes that were opened.
-    pub(crate) n_scenes: u64,
-    /// Changes of any scene that need another inspector.
-    pub(crate) n_edits: u64,
-}
-
-impl InspectionCache {
-    fn on(loaded: &LoadedScene, n_scenes: u64, n_edits: u64) -> Self {
-        let scene = RenderScene::of(loaded);
-        Self {
-            inspector: ContactInspector::new(&scene),
-            scene,
-            n_scenes,
-            n_edits,
-        }
-    }
+    /// The time, where the toolkit's clock drives the engine.
+    pub(crate) stepped_at: Option<Instant>,
 }
 
 impl Bench {
@@ -198,36 +170,43 @@ impl Bench {
             Engine::start(config)?
         };
         let loaded = opened.loaded;
+        let library = Arc::clone(loaded.library());
         let mut bench = Self {
             document: document_of(&loaded, opened.path.as_deref()),
+            settings,
             commands: Commands::new(),
+            notices: Notices::default(),
             in_sight: Vec::new(),
-            arrays: Arrays::default(),
-            workspace: Selection::default(),
-            transient: Transient::default(),
-            switch: engine.stop_switch(),
-            is_stepped,
+            selection: Selection::default(),
+            session: SessionState::default(),
+            pointer: PointerState::default(),
+            engine,
+            live: Live::default(),
+            past: Past::default(),
+            inspection: InspectionCache::on(&loaded, 0, 0),
+            engine_scene: EngineScene {
+                loaded,
+                serial: scene_serial,
+                rendering: opened.rendering,
+                preparing: Preparing::new(opened.cache, opened.rendering),
+                applied_gains: AppliedGains::default(),
+            },
+            library: LibraryState {
+                view: LibraryView::new(library, opened.library_view),
+                dots: Vec::new(),
+                selection: LibrarySelection::default(),
+                keeping: Keeping::default(),
+            },
+            exploration: Exploration::default(),
+            files: Files::default(),
+            device: DeviceState::default(),
             executor: if is_stepped {
                 Executor::InLine
             } else {
                 Executor::Threads(ctx.clone())
             },
-            engine,
-            take: None,
-            ended_recording: None,
-            session: None,
-            has_participants_window: false,
-            scene_serial,
-            rendering: opened.rendering,
-            preparing: Preparing::new(opened.cache, opened.rendering),
-            felt: AppliedGains::default(),
-            library_view: LibraryView::new(Arc::clone(loaded.library()), opened.library_view),
-            library: Vec::new(),
-            inspection: InspectionCache::on(&loaded, 0, 0),
-            settings,
             ctx: ctx.clone(),
-            now,
-            loaded,
+            stepped_at: is_stepped.then_some(now),
         };
         bench.begin(complaint);
         Ok(bench)
@@ -235,23 +214,23 @@ impl Bench {
 
     /// Takes up the settings and whatever else a new window begins with.
     fn begin(&mut self, complaint: Option<String>) {
-        if !self.is_stepped {
-            self.transient.keeping.own_folder = own_libraries();
+        if !self.is_stepped() {
+            self.library.keeping.own_folder = own_libraries();
             self.log_links();
             self.read_arrays();
         }
         if let Some(complaint) = complaint {
-            self.transient.notices.give(complaint);
+            self.notices.give(complaint);
         }
         let kept = &self.settings.preferences;
         self.ctx.set_zoom_factor(kept.zoom);
-        if !self.is_stepped {
+        if !self.is_stepped() {
             self.ctx.set_theme(kept.theme);
         }
-        self.workspace.scale = kept.amplitude;
-        self.workspace.dot_style = kept.dots;
-        self.workspace.greys_below = kept.greys_below;
-        self.workspace.contactor = Some(FIRST_CONTACTOR);
+        self.selection.scale = kept.amplitude;
+        self.selection.dot_style = kept.dots;
+        self.selection.greys_below = kept.greys_below;
+        self.selection.contactor = Some(FIRST_CONTACTOR);
         self.send(Command::Watch(FIRST_CONTACTOR));
         self.send(Command::SampleTicks(true));
         self.show_document();
@@ -262,34 +241,34 @@ impl Bench {
         let Some(path) = session_log() else { return };
         match SessionLog::append(&path, Some(LOG_BOUND)) {
             Ok(log) => self.engine.log_links_to(log),
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Err(error) => self.notices.give(error.to_string()),
         }
     }
 
     fn read_arrays(&mut self) {
         let Some(folder) = own_arrays() else { return };
         let (arrays, flaws) = Arrays::in_folder(&folder);
-        self.arrays = arrays;
+        self.device.arrays = arrays;
         for flaw in flaws {
-            self.transient.notices.give(flaw);
+            self.notices.give(flaw);
         }
     }
 
     /// Shows another scene, and lets it be felt.
     pub(crate) fn show_scene(&mut self, opened: Opened) {
-        self.scene_serial = opened.prepared.serial();
-        self.rendering = opened.rendering;
+        self.engine_scene.serial = opened.prepared.serial();
+        self.engine_scene.rendering = opened.rendering;
         self.send(Command::SetScene(Box::new(opened.prepared)));
         self.document = document_of(&opened.loaded, opened.path.as_deref());
-        self.library_view =
+        self.library.view =
             LibraryView::new(Arc::clone(opened.loaded.library()), opened.library_view);
-        self.preparing = Preparing::new(opened.cache, opened.rendering);
-        self.loaded = opened.loaded;
-        self.transient.mute_solo = mute_solo::MuteSolo::default();
-        self.transient.trail = Trail::default();
-        self.transient.history.clear();
-        self.transient.library_selection = library_selection::LibrarySelection::default();
-        self.workspace.cloth = None;
+        self.engine_scene.preparing = Preparing::new(opened.cache, opened.rendering);
+        self.engine_scene.loaded = opened.loaded;
+        self.selection.mute_solo = MuteSolo::default();
+        self.past.trail = Trail::default();
+        self.past.history.clear();
+        self.library.selection = LibrarySelection::default();
+        self.selection.cloth = None;
         self.inspection.n_scenes += 1;
         self.show_document();
         self.render_as_chosen();
@@ -302,7 +281,7 @@ impl Bench {
             .send_viewport_cmd(egui::ViewportCommand::Title(title));
         // A contactor mask outlasts a scene.
         let mask_alone = AppliedGains::default();
-        self.felt = mask_alone.after_scene(self.loaded.scene());
+        self.engine_scene.applied_gains = mask_alone.after_scene(self.engine_scene.loaded.scene());
         self.send(Command::SetContactorMask(Vec::new()));
         self.scene_has_changed();
         self.tell_gains();
@@ -310,9 +289,59 @@ impl Bench {
 
     /// What depends on the textiles and where they lie is made anew.
     pub(crate) fn scene_has_changed(&mut self) {
-        self.library = query::library_dots(&self.loaded, &self.library_view);
+        self.library.dots = query::library_dots(&self.engine_scene.loaded, &self.library.view);
         let (n_scenes, n_edits) = (self.inspection.n_scenes, self.inspection.n_edits);
-        self.inspection = InspectionCache::on(&self.loaded, n_scenes, n_edits + 1);
+        self.inspection = InspectionCache::on(&self.engine_scene.loaded, n_scenes, n_edits + 1);
+    }
+
+    /// Whether the toolkit's clock drives the engine.
+    pub(crate) fn is_stepped(&self) -> bool {
+        self.stepped_at.is_some()
+    }
+
+    /// Whether a session of an experiment is under way.
+    pub(crate) fn has_session(&self) -> bool {
+        self.session.active.is_some()
+    }
+
+    /// Whether a pane would tell what a session must not.
+    pub(crate) fn is_veiled(&self, pane: Pane) -> bool {
+        // The analysis has a cover of its own.
+        let is_open = matches!(
+            pane,
+            Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
+        );
+        self.has_session() && !is_open
+    }
+
+    /// Where numbers of the scene come from.
+    pub(crate) fn origin(&self) -> ExportOrigin {
+        let reference_db = self.live.reference_db;
+        let scene = self.document.scene();
+        let origin = ExportOrigin::of(scene, &self.document.tuning(), reference_db);
+        if self.selection.mute_solo.is_any() {
+            let words = "parts are muted or felt alone";
+            origin.and("audition", words, words)
+        } else {
+            origin
+        }
+    }
+
+    /// The same for amplitudes that the engine rendered.
+    pub(crate) fn rendered_origin(&self) -> ExportOrigin {
+        let status = &self.live.status;
+        self.origin().by_method(status.method, status.bound_db)
+    }
+
+    /// The scene as panes draw it, without a look at pictures.
+    pub(crate) fn plain_scene_view(&self) -> SceneView {
+        query::scene_view(
+            &self.document,
+            &self.library.view,
+            &self.library.dots,
+            &self.selection.mute_solo,
+            self.live.reference_db,
+        )
     }
 
     /// Whether a pane is in sight.
@@ -328,10 +357,9 @@ impl Bench {
 
     /// The stamp of an event that arrives now.
     pub(crate) fn stamp(&self) -> Instant {
-        if self.is_stepped {
-            self.now + TICK / 2
-        } else {
-            Instant::now()
+        match self.stepped_at {
+            Some(now) => now + TICK / 2,
+            None => Instant::now(),
         }
     }
 
@@ -339,22 +367,22 @@ impl Bench {
     pub(crate) fn scene_view(&mut self) -> SceneView {
         let placed = &self.document.scene().textiles;
         for cloth in placed {
-            self.library_view.want(&cloth.id);
+            self.library.view.want(&cloth.id);
         }
-        for flaw in self.library_view.work(&self.ctx, self.is_stepped) {
-            self.transient.notices.give(flaw);
+        for flaw in self.library.view.work(&self.ctx, self.is_stepped()) {
+            self.notices.give(flaw);
         }
         let mut view = query::scene_view(
             &self.document,
-            &self.library_view,
-            &self.library,
-            &self.transient.mute_solo,
-            self.transient.reference_db,
+            &self.library.view,
+            &self.library.dots,
+            &self.selection.mute_solo,
+            self.live.reference_db,
         );
-        view.picked = Arc::clone(&self.transient.library_selection.0);
+        view.picked = Arc::clone(&self.library.selection.0);
         view.marks = Marks {
-            cloth: self.workspace.cloth,
-            hovered: self.transient.hovered,
+            cloth: self.selection.cloth,
+            hovered: self.selection.hovered,
         };
         view
     }

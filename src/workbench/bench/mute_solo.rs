@@ -3,8 +3,8 @@
 //! Bands, textiles and contactors are three families; solo within one leaves the others alone. It
 //! is neither saved nor undone, and no file ever holds it.
 
-use crate::bench::command::Part;
 use crate::bench::editing;
+use crate::bench::part::Part;
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::{Band, Tuning};
 

@@ -95,3 +95,31 @@ impl Pane {
         all.position(|pane| pane == self).unwrap_or_default()
     }
 }
+
+/// Something that can be exported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Exportable {
+    /// What a pane shows.
+    Pane(Pane),
+    /// The strips at the bottom.
+    Timeline,
+}
+
+impl Exportable {
+    /// What people call it.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::Pane(Pane::Tuning) => "Compression curve",
+            Self::Pane(Pane::Workspace) => "Map over the cloth",
+            Self::Pane(Pane::Bridge) => "Times on the link",
+            Self::Pane(pane) => pane.title(),
+            Self::Timeline => "Timeline",
+        }
+    }
+
+    /// What its file is called, with this ending: `contact-spectrum.png`.
+    pub(crate) fn file_name(self, ending: &str) -> String {
+        let stem = self.title().to_lowercase().replace(' ', "-");
+        format!("{stem}.{ending}")
+    }
+}

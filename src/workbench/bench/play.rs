@@ -27,13 +27,13 @@ impl Bench {
             PlayCommand::Seek(tick) => self.send(selvedge_engine::Command::Seek(tick)),
             PlayCommand::ReplayAt(tick) => self.seek_in_take(tick),
             PlayCommand::Loop(does_loop) => {
-                self.transient.does_loop = does_loop;
+                self.exploration.does_loop = does_loop;
                 self.send(selvedge_engine::Command::SetLoop(does_loop));
             }
             PlayCommand::ToggleLoop => {
-                self.dispatch_play(PlayCommand::Loop(!self.transient.does_loop));
+                self.dispatch_play(PlayCommand::Loop(!self.exploration.does_loop));
             }
-            PlayCommand::ToggleRecording => self.send(if self.transient.live.play.is_recording {
+            PlayCommand::ToggleRecording => self.send(if self.live.play.is_recording {
                 selvedge_engine::Command::StopRecording
             } else {
                 selvedge_engine::Command::StartRecording
@@ -45,10 +45,9 @@ impl Bench {
 
     /// Takes positions from the tablet or program that was chosen last.
     pub(crate) fn choose_input(&mut self) {
-        match self.transient.sources.chosen().cloned() {
+        match self.exploration.sources.chosen().cloned() {
             Some(chosen) => self.dispatch_source(chosen),
             None => self
-                .transient
                 .notices
                 .give("Choose a tablet in the Bridge pane first"),
         }
@@ -56,10 +55,10 @@ impl Bench {
 
     /// What can be played plays or is held; the pointer gives way to a stroke.
     fn toggle_play(&mut self) {
-        match self.transient.live.play.source {
+        match self.live.play.source {
             Source::Pointer | Source::Lines | Source::Device => self.explore_alone(),
             Source::Stroke | Source::Recording => {
-                let play = if self.transient.live.play.is_playing {
+                let play = if self.live.play.is_playing {
                     selvedge_engine::Command::Pause
                 } else {
                     selvedge_engine::Command::Play
@@ -71,10 +70,10 @@ impl Bench {
 
     /// Shows a tick of the recording at hand, whatever moved the display before.
     fn seek_in_take(&mut self, tick: u64) {
-        if self.take.is_none() {
+        if self.exploration.at_hand.is_none() {
             return;
         }
-        if self.transient.live.play.source != Source::Recording {
+        if self.live.play.source != Source::Recording {
             self.replay();
         }
         self.send(selvedge_engine::Command::Seek(tick));
@@ -90,12 +89,12 @@ impl Bench {
 
     /// Takes a recording that has ended and that no tool has taken: it can be replayed and saved.
     pub(crate) fn take_recording(&mut self) {
-        let Some(recording) = self.ended_recording.take() else {
+        let Some(recording) = self.exploration.ended.take() else {
             return;
         };
         // A recording that ended before its first tick is none.
         if let Ok(take) = Take::from_recording(&recording) {
-            self.take = Some(take);
+            self.exploration.at_hand = Some(take);
         }
     }
 }

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use crate::bench::command::Part;
 use crate::bench::document::Document;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
+use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
     BridgePhase, BridgeView, Cloth, Dot, InputView, LibraryDot, LinkTiming, Live, Marks, PlayView,
@@ -143,6 +143,7 @@ pub(crate) fn live_view(
             late: snapshot.clock.late,
             felt_age_s: snapshot.pointer.felt_age.map(|age| age.as_secs_f64()),
         },
+        reference_db: snapshot.rendering.compression_reference_db,
         input: input_view(&snapshot.pointer),
         vibration: snapshot.vibration,
         bridge: snapshot

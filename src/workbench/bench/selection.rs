@@ -1,11 +1,14 @@
 //! What is chosen in all views, and how amplitudes are drawn in all of them. Never undoable.
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::{DotStyle, ShowCommand};
+use crate::bench::command::ShowCommand;
+use crate::bench::mute_solo::MuteSolo;
+use crate::bench::part::DotStyle;
 use crate::bench::probe::Probe;
+use crate::bench::view::Hovered;
 
 /// What all views share.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Selection {
     /// The chosen textile: its place in the scene's list.
     pub cloth: Option<usize>,
@@ -19,6 +22,10 @@ pub(crate) struct Selection {
     pub(crate) greys_below: bool,
     /// The velocity at which textiles are asked what they would give.
     pub probe: Probe,
+    /// What the pointer rests on.
+    pub(crate) hovered: Hovered,
+    /// What is muted and what is felt alone.
+    pub(crate) mute_solo: MuteSolo,
 }
 
 impl Selection {

@@ -3,8 +3,6 @@
 
 use std::path::PathBuf;
 
-use crate::bench::Bench;
-use crate::bench::pane::Pane;
 use selvedge_experiment::design::Design;
 
 /// An active session as far as others need to know of it.
@@ -14,23 +12,6 @@ pub(crate) struct SessionInSight {
     pub(crate) pseudonym: String,
     /// The log.
     pub(crate) log: PathBuf,
-}
-
-impl Bench {
-    /// Whether a session of an experiment is under way.
-    pub(crate) fn has_session(&self) -> bool {
-        self.session.is_some()
-    }
-
-    /// Whether a pane would tell what a session must not.
-    pub(crate) fn is_veiled(&self, pane: Pane) -> bool {
-        // The analysis has a cover of its own.
-        let is_open = matches!(
-            pane,
-            Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
-        );
-        self.has_session() && !is_open
-    }
 }
 
 /// What people call a design.

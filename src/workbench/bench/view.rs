@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::bench::command::Part;
+use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 pub(crate) use crate::kit::swatch::ClothPicture;
 use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
@@ -199,6 +199,8 @@ pub(crate) struct Live {
     pub turn_deg: f64,
     /// Rendering: method and cost.
     pub status: Status,
+    /// The level that compression leaves alone, dB re 1 µm.
+    pub reference_db: Option<f64>,
     /// How steadily positions come.
     pub input: InputView,
     /// The step of a sequence of vibrations that is played.

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::bench::background::Task;
 use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
@@ -11,17 +10,6 @@ use crate::shell::window::Workbench;
 
 /// What it ends with: a table to be copied, or nothing where a file was written.
 type Outcome = Result<Option<String>, ExportError>;
-
-/// What is being exported.
-#[derive(Debug, Default)]
-pub(crate) struct Exports {
-    /// What was seen when it was asked for, while its path is.
-    pub seen: Option<(Exportable, Exported)>,
-    /// Where the last export went, and as what.
-    pub last: Option<(PathBuf, Kind)>,
-    /// Files on their way, and tables to be copied.
-    pub(crate) tasks: Vec<Task<Option<String>>>,
-}
 
 impl Workbench {
     /// What a pane shows now.
@@ -49,7 +37,7 @@ impl Workbench {
                     .dialogs
                     .ask(purpose, Some(&known), &self.bench.ctx);
             }
-            Err(words) => self.bench.transient.notices.give(words),
+            Err(words) => self.bench.notices.give(words),
         }
     }
 
@@ -74,7 +62,7 @@ impl Workbench {
         };
         match own {
             Some(name) => folder.join(format!("{name}.{}", kind.ending())),
-            None => folder.join(what.file_name(kind)),
+            None => folder.join(what.file_name(kind.ending())),
         }
     }
 
@@ -83,7 +71,7 @@ impl Workbench {
         let kind = match Kind::of(&path) {
             Ok(kind) => kind,
             // The field stays, so that the name can be mended.
-            Err(error) => return self.bench.transient.notices.give(error.to_string()),
+            Err(error) => return self.bench.notices.give(error.to_string()),
         };
         self.shell.ask = None;
         let Some(exported) = self.take_seen(what) else {
@@ -98,7 +86,7 @@ impl Workbench {
     pub(crate) fn copy_table(&mut self, what: Exportable) {
         match self.exported(what) {
             Ok(exported) => self.begin_export(move || exported.to_csv().map(Some)),
-            Err(words) => self.bench.transient.notices.give(words),
+            Err(words) => self.bench.notices.give(words),
         }
     }
 
@@ -109,7 +97,7 @@ impl Workbench {
             _ => match self.exported(what) {
                 Ok(exported) => Some(exported),
                 Err(words) => {
-                    self.bench.transient.notices.give(words);
+                    self.bench.notices.give(words);
                     None
                 }
             },
@@ -132,7 +120,7 @@ impl Workbench {
                 None => self.shell.exports.tasks.push(task),
                 Some(Ok(Some(table))) => self.bench.ctx.copy_text(table),
                 Some(Ok(None)) => {}
-                Some(Err(line)) => self.bench.transient.notices.give(line),
+                Some(Err(line)) => self.bench.notices.give(line),
             }
         }
     }

@@ -42,10 +42,10 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     let apart = show_windows(window, ui, &scene, &mut commands);
     let over = ground.map_or(rect, |ground| ground.rect);
     show_overlays(window, ui, over, &mut commands);
-    window.bench.transient.ground = ground.map(|ground| ground.rect);
+    window.bench.pointer.ground = ground.map(|ground| ground.rect);
     feel(window, ui.ctx(), apart.or(ground));
     mark_hovered(&mut window.bench, ui.ctx(), &mut commands);
-    if window.bench.transient.live.is_armed() {
+    if window.bench.live.is_armed() {
         frame_as_armed(ui.ctx());
     }
     commands
@@ -82,8 +82,8 @@ fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, commands: &mut Commands)
         }
         true
     });
-    if bench.transient.hovered != hovered {
-        bench.transient.hovered = hovered;
+    if bench.selection.hovered != hovered {
+        bench.selection.hovered = hovered;
         ctx.request_repaint();
     }
 }
@@ -91,7 +91,7 @@ fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, commands: &mut Commands)
 fn show_header(window: &Workbench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
-        let live = &window.bench.transient.live;
+        let live = &window.bench.live;
         crate::shell::header::show(ui, scene, live, &window.appearance(), commands);
     });
 }
@@ -144,7 +144,7 @@ fn show_panes(
 fn show_overlays(window: &mut Workbench, ui: &Ui, over: Rect, commands: &mut Commands) {
     let whole = ui.ctx().content_rect();
     let (bench, shell) = (&window.bench, &mut window.shell);
-    crate::bench::notices::show(ui, over, &bench.transient.notices, commands);
+    crate::bench::notices::show(ui, over, &bench.notices, commands);
     let recent = &bench.settings.preferences.recent_scenes;
     if let Some(ask) = &mut shell.ask {
         crate::shell::ask::show(ui, whole, ask, recent, commands);
@@ -175,8 +175,8 @@ impl Workbench {
             map: kept.colour_map,
             zoom: kept.zoom,
             perspective: kept.perspective,
-            dots: self.bench.workspace.dot_style,
-            greys_below: self.bench.workspace.greys_below,
+            dots: self.bench.selection.dot_style,
+            greys_below: self.bench.selection.greys_below,
             overlays: kept.overlays,
             panes: shown.to_vec(),
             recent: kept.recent_scenes.clone(),
@@ -209,7 +209,7 @@ impl Workbench {
         let tree = kept.map(|text| arrangement::from_text(text, perspective));
         if tree.as_ref().is_some_and(Option::is_none) {
             let words = "The arrangement that was kept could not be used: the default one is shown";
-            self.bench.transient.notices.give(words);
+            self.bench.notices.give(words);
         }
         let size = self.shell.size;
         tree.flatten()
@@ -240,7 +240,7 @@ fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<PointerGround>) 
     });
     let mut tap = (window.shell.tap.lock()).unwrap_or_else(PoisonError::into_inner);
     tap.set_ground(ground);
-    if window.bench.is_stepped {
+    if window.bench.is_stepped() {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));
             let has_moved = input.events.iter().any(is_move);

@@ -39,14 +39,14 @@ impl Workbench {
             ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
         }
         if let Some(complaint) = self.bench.settings.take_failure() {
-            self.bench.transient.notices.give(complaint);
+            self.bench.notices.give(complaint);
         }
     }
 
     /// Whether the keyboard went to another program.
     fn is_keyboard_lost(&mut self, ctx: &egui::Context) -> bool {
         let since_s = &mut self.shell.left_since_s;
-        if !self.bench.has_participants_window {
+        if !self.bench.session.has_window {
             *since_s = None;
             let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
             return ctx.input(|input| input.events.iter().any(is_left));
@@ -67,14 +67,14 @@ impl Workbench {
 
     /// What was pressed on the keyboard.
     pub(crate) fn take_keys(&mut self, ctx: &egui::Context) {
-        let moment = &mut self.bench.transient.moment;
+        let moment = &mut self.bench.pointer.moment;
         ctx.input(|input| {
             moment.press += u64::from(input.pointer.any_pressed());
             moment.is_down = input.pointer.any_down();
             moment.t_s = input.time;
         });
-        let is_watched = self.bench.settings.preferences.stops_on_focus_loss
-            && self.bench.transient.live.is_armed();
+        let is_watched =
+            self.bench.settings.preferences.stops_on_focus_loss && self.bench.live.is_armed();
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(Command::AllOff);
         }

@@ -25,7 +25,6 @@ impl Workbench {
     /// Peak amplitudes [A40, A320] of every contactor after gains, before output limits, µm.
     pub fn amplitudes_um(&self) -> Vec<[f64; 2]> {
         self.bench
-            .transient
             .live
             .dots
             .iter()
@@ -45,22 +44,26 @@ impl Workbench {
 
     /// The display's turn on top of the scene's, degrees counter-clockwise.
     pub fn turn_deg(&self) -> f64 {
-        self.bench.transient.live.turn_deg
+        self.bench.live.turn_deg
     }
 
     /// Whether the exploration is being recorded.
     pub fn is_recording(&self) -> bool {
-        self.bench.transient.live.play.is_recording
+        self.bench.live.play.is_recording
     }
 
     /// Ticks of the recording that can be replayed; `None` without one.
     pub fn n_recorded_ticks(&self) -> Option<u64> {
-        self.bench.take.as_ref().map(|take| take.path().n_ticks())
+        self.bench
+            .exploration
+            .at_hand
+            .as_ref()
+            .map(|take| take.path().n_ticks())
     }
 
     /// The tick of the recording that is replayed; `None` while something else moves the display.
     pub fn replayed_tick(&self) -> Option<u64> {
-        let play = self.bench.transient.live.play;
+        let play = self.bench.live.play;
         (play.source == Source::Recording).then_some(play.tick)
     }
 
@@ -101,7 +104,7 @@ impl Workbench {
 
     /// The name of the rendering method that runs.
     pub fn rendered_by(&self) -> &'static str {
-        self.bench.transient.live.status.method
+        self.bench.live.status.method
     }
 
     /// The level error that rendering may make, dB.
@@ -118,13 +121,13 @@ impl Workbench {
 
     /// The textile and the contactor that the pointer rests on, in whichever view.
     pub fn hovered(&self) -> [Option<usize>; 2] {
-        let hovered = self.bench.transient.hovered;
+        let hovered = self.bench.selection.hovered;
         [hovered.cloth, hovered.contactor]
     }
 
     /// The textile and the contactor that are chosen in all views.
     pub fn chosen(&self) -> [Option<usize>; 2] {
-        [self.bench.workspace.cloth, self.bench.workspace.contactor]
+        [self.bench.selection.cloth, self.bench.selection.contactor]
     }
 
     /// Maps over the cloth and curves over direction and speed computed so far.
@@ -143,13 +146,7 @@ impl Workbench {
 
     /// The textiles of the library that are selected, by their ids in order.
     pub fn selected_textiles(&self) -> Vec<String> {
-        self.bench
-            .transient
-            .library_selection
-            .0
-            .iter()
-            .cloned()
-            .collect()
+        self.bench.library.selection.0.iter().cloned().collect()
     }
 
     /// Textiles of the library measured so far, at whichever speed.
@@ -170,23 +167,23 @@ impl Workbench {
 
     /// Whether high voltage is on, or about to be.
     pub fn is_armed(&self) -> bool {
-        self.bench.transient.live.is_armed()
+        self.bench.live.is_armed()
     }
 
     /// Whether the device is ready to be armed.
     pub fn is_ready(&self) -> bool {
-        let bridge = self.bench.transient.live.bridge.as_ref();
+        let bridge = self.bench.live.bridge.as_ref();
         bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Ready)
     }
 
     /// Whether a device would play silence: everything is off, or a replay or stroke is held.
     pub fn is_silent(&self) -> bool {
-        self.bench.transient.live.is_silent
+        self.bench.live.is_silent
     }
 
     /// Whether everything was switched off and nothing was armed since.
     pub fn is_stopped(&self) -> bool {
-        self.bench.transient.live.is_stopped
+        self.bench.live.is_stopped
     }
 
     /// Readings of measurements that were begun.
@@ -226,7 +223,6 @@ impl Workbench {
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
         self.bench
-            .transient
             .notices
             .shown()
             .iter()

@@ -111,7 +111,7 @@ pub fn run(
         options,
         Box::new(move |cc| match workbench(cc, scene.as_deref()) {
             Ok(workbench) => {
-                let stop = workbench.bench.switch.clone();
+                let stop = workbench.bench.engine.stop_switch().clone();
                 *for_app.borrow_mut() = Some(Ears {
                     tap: Arc::clone(&workbench.shell.tap),
                     stop: stop.clone(),
@@ -163,7 +163,7 @@ fn workbench(
     scene: Option<&Path>,
 ) -> Result<Workbench, AppError> {
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
-    workbench.bench.switch.press_on_panic();
+    workbench.bench.engine.stop_switch().press_on_panic();
     workbench.dispatch(DeviceCommand::ConnectEmulator.into());
     Ok(workbench)
 }

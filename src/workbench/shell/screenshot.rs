@@ -83,13 +83,13 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     window.ctx.set_theme(theme);
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
     let bench = &mut window.workbench.bench;
-    bench.transient.pictured_bridge = greeted_emulator(bench.engine.profile());
-    bench.transient.target = bench
-        .transient
-        .pictured_bridge
+    bench.device.pictured = greeted_emulator(bench.engine.profile());
+    bench.device.target = bench
+        .device
+        .pictured
         .as_ref()
         .map(|_| query::device_name(&Target::Emulator));
-    bench.transient.faults = bench.transient.target.is_some().then(Default::default);
+    bench.device.faults = bench.device.target.is_some().then(Default::default);
     let mut rasteriser = Rasteriser::default();
     for _ in 1..N_FRAMES {
         rasteriser.apply(&mut window.run().textures_delta);

@@ -1,10 +1,14 @@
 //! What the window around the tools knows for the moment: which pane stands where, what is asked.
 
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use eframe::egui::Vec2;
 use egui_tiles::Tree;
 
+use crate::bench::background::Task;
+use crate::bench::export::write::Kind;
+use crate::bench::export::{Exportable, Exported};
 use crate::bench::opening::Origin;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
@@ -12,7 +16,6 @@ use crate::bench::tool::Bar;
 use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
-use crate::shell::export::Exports;
 use crate::shell::pointer::PointerTap;
 
 /// The window around the tools.
@@ -77,6 +80,17 @@ impl Shell {
     pub(crate) fn is_covered(&self) -> bool {
         self.ask.is_some() || self.question.is_some() || self.is_help_shown
     }
+}
+
+/// What is being exported.
+#[derive(Debug, Default)]
+pub(crate) struct Exports {
+    /// What was seen when it was asked for, while its path is.
+    pub seen: Option<(Exportable, Exported)>,
+    /// Where the last export went, and as what.
+    pub last: Option<(PathBuf, Kind)>,
+    /// Files on their way, and tables to be copied.
+    pub(crate) tasks: Vec<Task<Option<String>>>,
 }
 
 /// What was asked for when there was something to save first.

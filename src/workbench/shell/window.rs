@@ -65,11 +65,11 @@ impl eframe::App for Workbench {
     }
 
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
-        self.bench.switch.press();
+        self.bench.engine.stop_switch().press();
         self.keep_settings();
         // The window is gone and nobody is left to tell; the file that was there is still whole.
         drop(self.bench.settings.save_now());
-        drop(self.bench.arrays.save_now());
+        drop(self.bench.device.arrays.save_now());
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -76,7 +76,7 @@ fn show(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
 /// The library, as much of it as matches the search.
 fn show_shelf(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
     show_search(ui, search);
-    let items = context.bench.library_view.shared_items();
+    let items = context.bench.library.view.shared_items();
     let matching: Vec<&ShelfItem> = items.iter().filter(|item| item.matches(search)).collect();
     if matching.is_empty() {
         let words = if items.is_empty() {
@@ -93,7 +93,7 @@ fn show_shelf(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
         matching.len(),
         |ui, range| {
             for item in &matching[range] {
-                let library_view = &mut context.bench.library_view;
+                let library_view = &mut context.bench.library.view;
                 library_view.want(&item.id);
                 let picture = library_view.picture(&item.id);
                 show_item(ui, item, picture, context);
@@ -178,7 +178,7 @@ fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut Pane
         } else {
             Joining::Alone
         };
-        let selection = &mut context.bench.transient.library_selection;
+        let selection = &mut context.bench.library.selection;
         selection.select(vec![item.id.clone()], joining);
         ui.ctx().request_repaint();
     }
@@ -240,8 +240,8 @@ fn paint_focus(ui: &Ui, response: &Response) {
 /// The textiles of the scene, topmost first as they lie.
 fn show_placed(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let (scene, commands) = (context.scene, &mut *context.commands);
-    let mute_solo = &context.bench.transient.mute_solo;
-    let selected = context.bench.workspace.cloth;
+    let mute_solo = &context.bench.selection.mute_solo;
+    let selected = context.bench.selection.cloth;
     row(ui, "In the scene", |ui| {
         if mute_solo.is_any() && toggle(ui, "feel all", false, "End every mute and solo (H)") {
             commands.push(ShowCommand::HearAll.into());

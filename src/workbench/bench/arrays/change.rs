@@ -13,7 +13,7 @@ impl Bench {
             ArrayCommand::Choose(name) => self.settings.preferences.array = name,
             ArrayCommand::Forget => {
                 let name = self.array().name;
-                self.arrays.forget(&name);
+                self.device.arrays.forget(&name);
             }
             ArrayCommand::Copy(name) => self.copy_array(&name),
             ArrayCommand::Identify(command) => self.identify(command),
@@ -29,16 +29,16 @@ impl Bench {
     fn change_array(&mut self, profile: ArrayProfile) {
         match profile.check() {
             Ok(()) if profile == self.array() => {}
-            Ok(()) => self.arrays.keep(profile),
-            Err(error) => self.transient.notices.give(error.to_string()),
+            Ok(()) => self.device.arrays.keep(profile),
+            Err(error) => self.notices.give(error.to_string()),
         }
     }
 
     fn copy_array(&mut self, name: &str) {
         let name = name.trim();
-        if !self.arrays.is_free(name) {
+        if !self.device.arrays.is_free(name) {
             let words = format!("\"{name}\" is the name of an array already; type another");
-            self.transient.notices.give(words);
+            self.notices.give(words);
             return;
         }
         let mut profile = self.array();
@@ -51,25 +51,25 @@ impl Bench {
         match command {
             WizardCommand::Begin => self.begin_to_identify(),
             WizardCommand::Drive(channel) => {
-                if let (Some(wizard), Some(channel)) = (&mut self.arrays.wizard, channel) {
+                if let (Some(wizard), Some(channel)) = (&mut self.device.arrays.wizard, channel) {
                     wizard.walk.ask(channel);
                 }
                 self.drive_channel();
             }
             WizardCommand::Answer(answer) => {
-                let wizard = self.arrays.wizard.as_mut();
+                let wizard = self.device.arrays.wizard.as_mut();
                 if wizard.is_some_and(|wizard| wizard.walk.answer(answer)) {
                     self.drive_channel();
                 }
             }
             WizardCommand::Back => {
-                if let Some(wizard) = &mut self.arrays.wizard {
+                if let Some(wizard) = &mut self.device.arrays.wizard {
                     wizard.walk.back();
                 }
                 self.drive_channel();
             }
             WizardCommand::Keep => {
-                let wizard = self.arrays.wizard.as_ref();
+                let wizard = self.device.arrays.wizard.as_ref();
                 let found = wizard.and_then(|wizard| Some((wizard.walk.found()?, wizard.uid)));
                 if let Some((found, uid)) = found {
                     let profile = found.in_profile(&self.array(), uid);
@@ -82,26 +82,27 @@ impl Bench {
     }
 
     fn begin_to_identify(&mut self) {
-        let bridge = self.transient.live.bridge.as_ref();
+        let bridge = self.live.bridge.as_ref();
         let ready = bridge.filter(|bridge| bridge.phase == BridgePhase::Ready);
         let Some(uid) = ready.and_then(|bridge| bridge.uid) else {
             let words = "Channels are identified on a device that is ready and not armed";
-            self.transient.notices.give(words);
+            self.notices.give(words);
             return;
         };
-        self.arrays.wizard = Some(Wizard::new(self.array().n_contactors(), uid));
+        self.device.arrays.wizard = Some(Wizard::new(self.array().n_contactors(), uid));
         self.send(Command::Identify(true));
     }
 
     /// Drives the channel that is asked for, if the device is armed.
     fn drive_channel(&mut self) {
         let channel = self
+            .device
             .arrays
             .wizard
             .as_ref()
             .and_then(|wizard| wizard.walk.channel());
         let channel = channel.and_then(|channel| u16::try_from(channel).ok());
-        if let Some(channel) = channel.filter(|_| self.transient.live.takes_ident()) {
+        if let Some(channel) = channel.filter(|_| self.live.takes_ident()) {
             self.send(Command::IdentifyChannel {
                 channel,
                 amplitude_um: Wizard::amplitude_um(self.array().limit_um[1]),
@@ -111,7 +112,7 @@ impl Bench {
     }
 
     fn end_to_identify(&mut self) {
-        self.arrays.wizard = None;
+        self.device.arrays.wizard = None;
         self.send(Command::Identify(false));
     }
 }

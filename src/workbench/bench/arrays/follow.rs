@@ -16,7 +16,7 @@ impl Bench {
         let chosen = self.settings.preferences.array.as_deref();
         let display = self.document.scene().displays.first();
         display.map_or_else(ArrayProfile::default, |display| {
-            self.arrays.in_force(chosen, display)
+            self.device.arrays.in_force(chosen, display)
         })
     }
 
@@ -26,30 +26,25 @@ impl Bench {
         let held = self.engine.profile();
         // A scene with another display is still on its way to the engine.
         let fits = wanted.n_contactors() == held.n_contactors();
-        let is_due = fits && (wanted != *held || self.arrays.is_refused);
-        let phase = self
-            .transient
-            .live
-            .bridge
-            .as_ref()
-            .map(|bridge| bridge.phase);
+        let is_due = fits && (wanted != *held || self.device.arrays.is_refused);
+        let phase = self.live.bridge.as_ref().map(|bridge| bridge.phase);
         let is_live = phase == Some(BridgePhase::Armed);
-        let may = !is_live || (wanted.only_lowers(held) && !self.arrays.is_refused);
-        self.arrays.waits = is_due && !may;
+        let may = !is_live || (wanted.only_lowers(held) && !self.device.arrays.is_refused);
+        self.device.arrays.waits = is_due && !may;
         // A device at rest is configured once a drag is over, not at each of its steps.
         let is_dragged = ctx.input(|input| input.pointer.any_down());
         if is_due && may && (is_live || !is_dragged) {
-            self.arrays.is_refused = false;
+            self.device.arrays.is_refused = false;
             self.send(Command::SetArray(Some(Box::new(wanted))));
         }
-        if self.arrays.wizard.is_some()
+        if self.device.arrays.wizard.is_some()
             && !matches!(phase, Some(BridgePhase::Ready | BridgePhase::Armed))
         {
-            self.arrays.wizard = None;
+            self.device.arrays.wizard = None;
             self.send(Command::Identify(false));
             let words = "The device is gone: what was identified of it is lost; connect and begin \
                          again";
-            self.transient.notices.give(words);
+            self.notices.give(words);
         }
         self.save_arrays(ctx);
     }
@@ -57,9 +52,9 @@ impl Bench {
     /// Takes in what the engine says that concerns the array.
     pub(crate) fn hear_of_array(&mut self, notice: &Notice) {
         match notice {
-            Notice::ArrayWaits => self.arrays.is_refused = true,
+            Notice::ArrayWaits => self.device.arrays.is_refused = true,
             Notice::Bridge(event) => {
-                if let Some(wizard) = &mut self.arrays.wizard {
+                if let Some(wizard) = &mut self.device.arrays.wizard {
                     wizard.hear(event);
                 }
                 if let BridgeEvent::Connected(caps) = event {
@@ -74,20 +69,20 @@ impl Bench {
     fn doubt_wiring(&mut self, uid: DeviceUid) {
         let doubt = self.array().wiring_doubt(uid);
         if let Some(words) = doubt
-            && self.arrays.doubted.replace(uid) != Some(uid)
+            && self.device.arrays.doubted.replace(uid) != Some(uid)
         {
-            self.transient.notices.give(query::capitalised(&words));
+            self.notices.give(query::capitalised(&words));
         }
     }
 
     fn save_arrays(&mut self, ctx: &egui::Context) {
         let now_s = ctx.input(|input| input.time);
-        let (failure, wait_s) = self.arrays.save_if_changed(ctx, now_s);
+        let (failure, wait_s) = self.device.arrays.save_if_changed(ctx, now_s);
         if let Some(wait_s) = wait_s {
             ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
         }
         if let Some(failure) = failure {
-            self.transient.notices.give(failure);
+            self.notices.give(failure);
         }
     }
 }
@@ -119,7 +114,7 @@ mod tests {
             window.workbench.bench.engine.profile().limit_um,
             [50.0, 12.5]
         );
-        assert!(window.workbench.bench.arrays.is_own("exeter-24"));
+        assert!(window.workbench.bench.device.arrays.is_own("exeter-24"));
         window.dispatch(ArrayCommand::Copy("rig 2".to_owned()));
         window.dispatch(ArrayCommand::Limit(Band::Low, 1.0));
         window.pass(2);
@@ -172,7 +167,7 @@ mod tests {
         for _ in 0..12 {
             rasteriser.apply(&mut window.run_after(4).textures_delta);
         }
-        let dots = &window.workbench.bench.transient.live.dots;
+        let dots = &window.workbench.bench.live.dots;
         let off: Vec<usize> = (0..24).filter(|index| dots[*index].limiter.off).collect();
         assert_eq!(off, [6, 13]);
         for dot in dots.iter().filter(|dot| !dot.limiter.off) {

@@ -24,13 +24,13 @@ fn wait(window: &mut Headless, what: &str, is_there: impl Fn(&Headless) -> bool)
     }
     panic!(
         "{what} did not come: {:?}",
-        window.workbench.bench.transient.live.bridge
+        window.workbench.bench.live.bridge
     );
 }
 
 fn wait_for(window: &mut Headless, phase: BridgePhase) {
     wait(window, &format!("{phase:?}"), |window| {
-        let bridge = window.workbench.bench.transient.live.bridge.as_ref();
+        let bridge = window.workbench.bench.live.bridge.as_ref();
         bridge.is_some_and(|bridge| bridge.phase == phase)
     });
 }
@@ -44,7 +44,10 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
     let mut window = Headless::new(None, vec2(960.0, 600.0), 1.0).unwrap();
     window.pass(1);
     do_array(&mut window, WizardCommand::Begin);
-    assert!(window.workbench.bench.arrays.wizard.is_none(), "no device");
+    assert!(
+        window.workbench.bench.device.arrays.wizard.is_none(),
+        "no device"
+    );
     assert!(window.workbench.notices()[0].contains("ready and not armed"));
     window.dispatch(DeviceCommand::ConnectEmulator);
     wait_for(&mut window, BridgePhase::Ready);
@@ -52,12 +55,12 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
     window.dispatch(DeviceCommand::Arm);
     // From here on the device takes IDENT; while it is being armed it would be refused.
     wait(&mut window, "arming", |window| {
-        window.workbench.bench.transient.live.takes_ident()
+        window.workbench.bench.live.takes_ident()
     });
     do_array(&mut window, WizardCommand::Drive(None));
     while let Some(channel) = walked(&window) {
         wait(&mut window, "the channel", |window| {
-            let wizard = window.workbench.bench.arrays.wizard.as_ref();
+            let wizard = window.workbench.bench.device.arrays.wizard.as_ref();
             wizard.is_some_and(|wizard| wizard.driven == Some(channel))
         });
         let answer = match channel {
@@ -68,14 +71,7 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
         };
         do_array(&mut window, WizardCommand::Answer(answer));
     }
-    let bridge = window
-        .workbench
-        .bench
-        .transient
-        .live
-        .bridge
-        .as_ref()
-        .unwrap();
+    let bridge = window.workbench.bench.live.bridge.as_ref().unwrap();
     assert_eq!(bridge.frames_sent, 0, "nothing else was played");
     // A limit that rises waits for the end of the walk, which disarms.
     window.dispatch(ArrayCommand::Limit(Band::Low, 20.0));
@@ -83,7 +79,7 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
     window.pass(1);
     window.dispatch(ArrayCommand::Limit(Band::Low, 30.0));
     window.pass(2);
-    assert!(window.workbench.bench.arrays.waits);
+    assert!(window.workbench.bench.device.arrays.waits);
     assert_eq!(window.workbench.bench.engine.profile().limit_um[0], 10.0);
     do_array(&mut window, WizardCommand::Keep);
     wait_for(&mut window, BridgePhase::Ready);
@@ -94,13 +90,17 @@ fn the_walk_over_a_connected_device_ends_in_a_profile() {
     assert_eq!(wiring.channels[2..6], [2, 4, 3, 5]);
     assert!(profile.calibration_of(17).is_off);
     assert_eq!(profile.limit_um[0], 30.0, "what waited");
-    assert!(window.workbench.bench.arrays.wizard.is_none() && !window.workbench.bench.arrays.waits);
+    assert!(
+        window.workbench.bench.device.arrays.wizard.is_none()
+            && !window.workbench.bench.device.arrays.waits
+    );
 }
 
 fn walked(window: &Headless) -> Option<usize> {
     window
         .workbench
         .bench
+        .device
         .arrays
         .wizard
         .as_ref()?

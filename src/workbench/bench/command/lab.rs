@@ -1,7 +1,5 @@
 //! What other tools want of the textile lab.
 
-use crate::bench::command::Command;
-
 /// What a recipe begins with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Beginning {
@@ -11,10 +9,4 @@ pub(crate) enum Beginning {
     Copy(String),
     /// What repeats in the profiles of a textile of the library.
     Restore(String),
-}
-
-impl From<Beginning> for Command {
-    fn from(beginning: Beginning) -> Self {
-        Self::Lab(beginning)
-    }
 }

@@ -11,15 +11,15 @@ pub(crate) mod lab;
 pub(crate) use crate::bench::command::array::ArrayCommand;
 pub(crate) use crate::bench::command::device::DeviceCommand;
 pub(crate) use crate::bench::command::edit::Edit;
+pub(crate) use crate::bench::part::{DotStyle, Part};
 
 use std::path::PathBuf;
 
 use eframe::egui;
 
-use crate::bench::export::Exportable;
 use crate::bench::keep::Keep;
 use crate::bench::overlays::Overlay;
-use crate::bench::pane::Pane;
+use crate::bench::pane::{Exportable, Pane};
 use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
 use crate::bench::rendering::Rendering;
@@ -27,7 +27,6 @@ use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::ClipKind;
 use selvedge_foundation::geometry::Point;
-use selvedge_textile::tactile::Band;
 
 /// What the user wants, in the order in which it was said.
 pub(crate) type Commands = Vec<Command>;
@@ -106,6 +105,12 @@ impl From<SourceCommand> for Command {
 impl From<ShowCommand> for Command {
     fn from(command: ShowCommand) -> Self {
         Self::Show(command)
+    }
+}
+
+impl From<lab::Beginning> for Command {
+    fn from(beginning: lab::Beginning) -> Self {
+        Self::Lab(beginning)
     }
 }
 
@@ -291,29 +296,4 @@ pub(crate) enum Look {
     ZoomBy(f64),
     /// This place in the middle.
     Centre(Point),
-}
-
-/// How a contactor's two amplitudes are drawn as a dot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum DotStyle {
-    /// A40 is its size, A320 its glow.
-    #[default]
-    #[serde(rename = "size and glow")]
-    SizeAndGlow,
-    /// Both by size: A40 the disc, A320 a ring around it.
-    Size,
-    /// Both by brightness: the larger of the two.
-    Brightness,
-}
-
-/// Something that can be muted or felt alone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// A band.
-    Band(Band),
-    /// The textile at this place in the scene's list.
-    Cloth(usize),
-    /// A contactor.
-    Contactor(usize),
 }

@@ -30,10 +30,11 @@ mod tests;
 pub(crate) mod write;
 
 pub(crate) use crate::bench::export::origin::Origin;
+#[cfg(test)]
 pub(crate) use crate::bench::export::write::Kind;
+pub(crate) use crate::bench::pane::Exportable;
 pub(crate) use selvedge_chart::Columns as Sheet;
 
-use crate::bench::pane::Pane;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_chart::{Axis, Chart, ColourBar, Figure, Ink, Row};
 use selvedge_textile::tactile::Band;
@@ -53,34 +54,6 @@ pub(crate) fn ink(band: Band) -> Ink {
     match band {
         Band::Low => Ink::Amber,
         Band::High => Ink::Cyan,
-    }
-}
-
-/// Something that can be exported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Exportable {
-    /// What a pane shows.
-    Pane(Pane),
-    /// The strips at the bottom.
-    Timeline,
-}
-
-impl Exportable {
-    /// What people call it.
-    pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::Pane(Pane::Tuning) => "Compression curve",
-            Self::Pane(Pane::Workspace) => "Map over the cloth",
-            Self::Pane(Pane::Bridge) => "Times on the link",
-            Self::Pane(pane) => pane.title(),
-            Self::Timeline => "Timeline",
-        }
-    }
-
-    /// What its file is called: `contact-spectrum.png`.
-    pub(crate) fn file_name(self, kind: Kind) -> String {
-        let stem = self.title().to_lowercase().replace(' ', "-");
-        format!("{stem}.{}", kind.ending())
     }
 }
 

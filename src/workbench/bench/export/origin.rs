@@ -2,7 +2,6 @@
 //!
 //! Free of paths, clocks and names of machines, so that the same work gives the same bytes.
 
-use crate::bench::{Bench, query};
 use selvedge_foundation::{files, quantity};
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::{Filters, Tuning};
@@ -172,38 +171,6 @@ fn identity(scene: &Scene) -> String {
 
 fn optional(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
-}
-
-impl Bench {
-    /// Where numbers of the scene come from.
-    pub(crate) fn origin(&self) -> Origin {
-        let reference_db = self.transient.reference_db;
-        let scene = self.document.scene();
-        let origin = Origin::of(scene, &self.document.tuning(), reference_db);
-        if self.transient.mute_solo.is_any() {
-            let words = "parts are muted or felt alone";
-            origin.and("audition", words, words)
-        } else {
-            origin
-        }
-    }
-
-    /// The same for amplitudes that the engine rendered.
-    pub(crate) fn rendered_origin(&self) -> Origin {
-        let status = &self.transient.live.status;
-        self.origin().by_method(status.method, status.bound_db)
-    }
-
-    /// The scene as panes draw it, without a look at pictures.
-    pub(crate) fn plain_scene_view(&self) -> crate::bench::view::SceneView {
-        query::scene_view(
-            &self.document,
-            &self.library_view,
-            &self.library,
-            &self.transient.mute_solo,
-            self.transient.reference_db,
-        )
-    }
 }
 
 #[cfg(test)]

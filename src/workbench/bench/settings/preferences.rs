@@ -7,8 +7,8 @@ use eframe::egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
 use crate::bench::amplitude::AmplitudeScale;
-use crate::bench::command::DotStyle;
 use crate::bench::overlays::Overlays;
+use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::kit::theme::colour_map::ColourMap;

@@ -30,8 +30,8 @@ mod tests {
 
     use super::*;
     use crate::bench::amplitude::AmplitudeScale;
-    use crate::bench::command::DotStyle;
     use crate::bench::overlays::{Overlay, Overlays};
+    use crate::bench::part::DotStyle;
     use crate::bench::perspective::Perspective;
     use crate::bench::rendering::Rendering;
     use crate::kit::theme::colour_map::ColourMap;

@@ -75,7 +75,7 @@ impl Workbench {
             Purpose::Export(what) => Some(self.export_path(what)),
             Purpose::Clip(kind) => Some(bench.clip_path(kind)),
             Purpose::OpenRecording | Purpose::SaveRecording => {
-                let take = bench.take.as_ref()?;
+                let take = bench.exploration.at_hand.as_ref()?;
                 take.file().map(Path::to_owned)
             }
             _ => None,
@@ -115,7 +115,7 @@ impl Workbench {
                     self.go_on(after);
                 }
             }
-            Err(error) => self.bench.transient.notices.give(error.to_string()),
+            Err(error) => self.bench.notices.give(error.to_string()),
         }
     }
 }

@@ -40,7 +40,7 @@ impl Workbench {
     fn act(&mut self, command: Command) {
         if self.bench.has_session() && !leaves_session(&command) {
             let words = "A session is held: end it first, in the Experimenter pane";
-            return self.bench.transient.notices.give(words);
+            return self.bench.notices.give(words);
         }
         for tool in self.tools.iter_mut() {
             tool.command(&command, &mut self.bench);
@@ -48,7 +48,7 @@ impl Workbench {
         match command {
             Command::AllOff => {
                 // The switch works at once, whatever waits in the engine's queue.
-                self.bench.switch.press();
+                self.bench.engine.stop_switch().press();
                 self.dismiss();
             }
             Command::Dismiss => self.dismiss(),
@@ -107,7 +107,7 @@ impl Bench {
             }
             Command::Keep(keep) => self.keep(keep),
             Command::Chosen(act) => self.act_on_chosen(act),
-            Command::DismissNotice(number) => self.transient.notices.dismiss(number),
+            Command::DismissNotice(number) => self.notices.dismiss(number),
             // Windows and tools have done these.
             Command::AllOff
             | Command::Dismiss
@@ -133,7 +133,7 @@ impl Bench {
     }
 
     fn act_on_chosen(&mut self, act: Chosen) {
-        let Some(index) = self.workspace.cloth else {
+        let Some(index) = self.selection.cloth else {
             return;
         };
         let part = Part::Cloth(index);
@@ -148,7 +148,7 @@ impl Bench {
     /// Tells the engine what is wanted of it.
     pub(crate) fn send(&mut self, command: selvedge_engine::Command) {
         if let Err(error) = self.engine.send(command) {
-            self.transient.notices.give(error.to_string());
+            self.notices.give(error.to_string());
         }
     }
 }

@@ -43,7 +43,7 @@ impl Workbench {
 impl Bench {
     pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
         let ctx = self.ctx.clone();
-        self.workspace.take(command);
+        self.selection.take(command);
         match *command {
             ShowCommand::Theme(preference) => {
                 ctx.set_theme(preference);
@@ -58,9 +58,9 @@ impl Bench {
             ShowCommand::SelectContactor(contactor) => {
                 self.send(selvedge_engine::Command::Watch(contactor));
             }
-            ShowCommand::Mute(part) => self.transient.mute_solo.toggle_mute(part),
-            ShowCommand::Solo(part) => self.transient.mute_solo.toggle_solo(part),
-            ShowCommand::HearAll => self.transient.mute_solo = MuteSolo::default(),
+            ShowCommand::Mute(part) => self.selection.mute_solo.toggle_mute(part),
+            ShowCommand::Solo(part) => self.selection.mute_solo.toggle_solo(part),
+            ShowCommand::HearAll => self.selection.mute_solo = MuteSolo::default(),
             _ => {}
         }
     }

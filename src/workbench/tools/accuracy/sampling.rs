@@ -128,7 +128,7 @@ impl Accuracy {
     /// pane is drawn.
     pub(crate) fn watch(&mut self, bench: &mut Bench) {
         let n_sent = bench.engine.commands_sent();
-        let mute_solo = &bench.transient.mute_solo;
+        let mute_solo = &bench.selection.mute_solo;
         let is_felt = mute_solo.contactor_mask(bench.n_contactors());
         let snapshot = bench.engine.snapshot();
         self.follow(snapshot, bench.inspection.n_scenes);
@@ -137,7 +137,7 @@ impl Accuracy {
         }
         let scene = &bench.inspection.scene;
         let is_settled = snapshot.counters.commands_obeyed == n_sent
-            && snapshot.scene_serial == bench.scene_serial
+            && snapshot.scene_serial == bench.engine_scene.serial
             && snapshot.rendering.tuning == scene.tuning;
         if !is_settled {
             self.tally.changed += 1;
@@ -162,7 +162,7 @@ impl Accuracy {
             displays_um: snapshot.displays.iter().map(amplitudes).collect(),
         };
         if self.checking.is_none() {
-            self.checking = if bench.is_stepped {
+            self.checking = if bench.is_stepped() {
                 Some(Checking::AtOnce(Box::<Checker>::default()))
             } else {
                 Checking::start(&bench.ctx).ok()
@@ -181,11 +181,15 @@ impl Accuracy {
         let wanted = Wanted {
             name: bench.document.scene().name.clone(),
             scene: bench.inspection.scene.clone(),
-            path: bench.take.as_ref().map(|take| Arc::clone(take.path())),
-            rendering: bench.rendering,
+            path: bench
+                .exploration
+                .at_hand
+                .as_ref()
+                .map(|take| Arc::clone(take.path())),
+            rendering: bench.engine_scene.rendering,
             n_edits: bench.inspection.n_edits,
         };
-        let effort = if bench.is_stepped {
+        let effort = if bench.is_stepped() {
             Effort::Quick
         } else {
             Effort::Full
@@ -194,7 +198,7 @@ impl Accuracy {
             Ok(measuring) => self.measuring = Some(measuring),
             Err(error) => {
                 let words = format!("The scene was not measured: {error}; try again");
-                bench.transient.notices.give(words);
+                bench.notices.give(words);
             }
         }
     }
@@ -210,11 +214,11 @@ impl Accuracy {
             Some(Polled::Done(Err(ReportError::Cancelled))) => {}
             Some(Polled::Done(Err(error))) => {
                 let words = format!("The scene was not measured: {error}");
-                bench.transient.notices.give(words);
+                bench.notices.give(words);
             }
             Some(Polled::BrokeOff) => {
                 let words = "Measuring the scene broke off; please report the scene";
-                bench.transient.notices.give(words);
+                bench.notices.give(words);
             }
         }
         self.measuring = None;

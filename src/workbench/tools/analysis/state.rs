@@ -91,8 +91,12 @@ impl Analysis {
 
     /// Begins the analysis that is asked for, unless one is under way.
     pub(crate) fn begin(&mut self, bench: &Bench) {
-        let active = bench.session.as_ref().map(|session| session.log.clone());
-        self.begin_with(&bench.ctx, bench.is_stepped, active);
+        let active = bench
+            .session
+            .active
+            .as_ref()
+            .map(|session| session.log.clone());
+        self.begin_with(&bench.ctx, bench.is_stepped(), active);
     }
 
     /// The same; `active` is the log of the session that is active in this window.
@@ -134,14 +138,14 @@ impl Analysis {
         self.written = None;
         let work = move |_: &mut Progress<'_>| found.write(folder);
         let name = ("selvedge-report", &bench.ctx);
-        self.writing = Some(Task::start(name, bench.is_stepped, work));
+        self.writing = Some(Task::start(name, bench.is_stepped(), work));
         bench.ctx.request_repaint();
     }
 
     /// Shows the folder of the report in the desktop's file manager.
     pub(super) fn show_report(&self, bench: &mut Bench) {
         if let Some(Ok(folder)) = &self.written {
-            bench.transient.folders.open(&bench.executor, folder);
+            bench.files.folders.open(&bench.executor, folder);
         }
     }
 
@@ -195,7 +199,7 @@ impl Analysis {
     /// Follows the session that is active in this window: results are covered anew with the next
     /// one, and its folder is offered.
     pub(super) fn follow_session(&mut self, bench: &Bench) {
-        if let Some(session) = &bench.session {
+        if let Some(session) = &bench.session.active {
             self.offer(session.log.parent());
             return;
         }
@@ -207,8 +211,8 @@ impl Analysis {
     /// Has figures drawn as they are wanted.
     pub(super) fn draw(&mut self, bench: &Bench, wanted: Wanted) {
         let before = self.pictures.n_begun();
-        self.pictures.follow(&bench.ctx, bench.is_stepped, wanted);
-        if bench.is_stepped && self.pictures.n_begun() > before {
+        self.pictures.follow(&bench.ctx, bench.is_stepped(), wanted);
+        if bench.is_stepped() && self.pictures.n_begun() > before {
             bench.ctx.request_repaint();
         }
     }

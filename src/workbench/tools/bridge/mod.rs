@@ -67,7 +67,7 @@ impl Tool for Bridge {
         let is_lost = link.is_some_and(|link| link.state == BridgeState::Lost);
         let uid = link.and_then(|link| link.caps).map(|caps| caps.uid);
         if let Some(found) = self.ports.follow(&bench.ctx, is_lost, uid) {
-            bench.transient.notices.give(port::back_notice(&found));
+            bench.notices.give(port::back_notice(&found));
         }
         let is_in_sight = bench.shows(Pane::Bridge);
         self.plant.rest(&mut bench.engine, is_in_sight);
@@ -81,25 +81,25 @@ impl Tool for Bridge {
             // What no frame can carry is no array that a device drives.
             let is_drivable = profile.n_contactors() <= LARGEST_CHANNELS;
             let view = BridgePane {
-                live: &bench.transient.live,
-                target: bench.transient.target.as_deref(),
+                live: &bench.live,
+                target: bench.device.target.as_deref(),
                 array: ArrayView {
                     places_mm: if is_drivable {
                         profile.places_mm()
                     } else {
                         Vec::new()
                     },
-                    is_own: bench.arrays.is_own(&profile.name),
-                    choices: bench.arrays.choices(profile.n_contactors()),
-                    waits: bench.arrays.waits,
-                    contactor: bench.workspace.contactor,
-                    wizard: bench.arrays.wizard.as_ref(),
-                    folder: bench.arrays.folder(),
+                    is_own: bench.device.arrays.is_own(&profile.name),
+                    choices: bench.device.arrays.choices(profile.n_contactors()),
+                    waits: bench.device.arrays.waits,
+                    contactor: bench.selection.contactor,
+                    wizard: bench.device.arrays.wizard.as_ref(),
+                    folder: bench.device.arrays.folder(),
                     profile: &profile,
                 },
                 sources: &bench.sources_view(),
                 has_plant,
-                faults: bench.transient.faults.as_ref(),
+                faults: bench.device.faults.as_ref(),
                 stops_on_focus_loss: bench.settings.preferences.stops_on_focus_loss,
             };
             self.show(ui, &view, context.commands);
@@ -119,7 +119,7 @@ impl Tool for Bridge {
             DeviceCommand::ConnectPort(path) => Some(Target::Port(path.clone())),
             DeviceCommand::Disconnect => None,
             DeviceCommand::Array(ArrayCommand::Copy(name)) => {
-                if bench.arrays.is_free(name.trim()) {
+                if bench.device.arrays.is_free(name.trim()) {
                     self.copy_name.clear();
                 }
                 return;
@@ -127,13 +127,13 @@ impl Tool for Bridge {
             _ => return,
         };
         if target.is_some() {
-            bench.transient.notices.forget_about(port::BACK);
+            bench.notices.forget_about(port::BACK);
         }
         self.ports.hold(target.as_ref());
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let bridge = bench.transient.live.bridge.as_ref();
+        let bridge = bench.live.bridge.as_ref();
         let exported =
             bridge.and_then(|bridge| export::distributions(&bridge.timing, bench.origin()));
         exported.ok_or("There is nothing to export yet: connect a device")

@@ -37,19 +37,19 @@ impl Collection {
             speed_mm_per_s: self.choice.speed_mm_per_s,
             filters: bench.document.scene().filters,
         };
-        let items = bench.library_view.items().iter();
+        let items = bench.library.view.items().iter();
         let usable = items.filter(|item| item.flaw.is_none());
         let ids = usable.map(|item| item.id.clone());
-        let library = bench.library_view.library();
+        let library = bench.library.view.library();
         self.measurements.catch_up(&bench.ctx, library, asked, ids);
         for flaw in self.measurements.take_flaws() {
-            bench.transient.notices.give(flaw);
+            bench.notices.give(flaw);
         }
     }
 
     /// Shows the pane and takes what is chosen in it.
     fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        let items = context.bench.library_view.shared_items();
+        let items = context.bench.library.view.shared_items();
         let mut hand = Hand {
             choice: self.choice.clone(),
             search: self.search.clone(),
@@ -58,11 +58,7 @@ impl Collection {
             bench: &mut *context.bench,
             commands: &mut *context.commands,
         };
-        let view = self.view(
-            &items,
-            context.scene,
-            &hand.bench.transient.library_selection,
-        );
+        let view = self.view(&items, context.scene, &hand.bench.library.selection);
         view::show(ui, &view, &mut hand);
         let Hand {
             choice,
@@ -104,8 +100,8 @@ impl Tool for Collection {
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
         let (scene, origin) = (bench.plain_scene_view(), bench.origin());
-        let items = bench.library_view.shared_items();
-        let view = self.view(&items, &scene, &bench.transient.library_selection);
+        let items = bench.library.view.shared_items();
+        let view = self.view(&items, &scene, &bench.library.selection);
         if view.entries.iter().all(|one| one.figures.is_none()) {
             return Err(
                 "There is nothing to export yet: the library is measured while the Collection \

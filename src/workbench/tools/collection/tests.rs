@@ -45,8 +45,8 @@ fn measure(window: &mut Headless, n_measured: u64) {
 /// What the pane shows, by a function of its entries in order.
 fn shown<T>(window: &mut Headless, of: impl Fn(&Entry<'_>) -> T) -> Vec<T> {
     let scene = window.workbench.bench.scene_view();
-    let items = window.workbench.bench.library_view.shared_items();
-    let selection = &window.workbench.bench.transient.library_selection;
+    let items = window.workbench.bench.library.view.shared_items();
+    let selection = &window.workbench.bench.library.selection;
     let collection: &Collection = window.workbench.tools.get().unwrap();
     let view = collection.view(&items, &scene, selection);
     view.entries.iter().map(of).collect()
@@ -66,7 +66,7 @@ fn raw_figures_are_the_levels_of_the_surface_at_the_chosen_speed() {
     measure(&mut window, 16);
     choose(&mut window, |choice| choice.speed_mm_per_s = 20.0);
     measure(&mut window, 32);
-    let library = Arc::clone(window.workbench.bench.library_view.library());
+    let library = Arc::clone(window.workbench.bench.library.view.library());
     for speed_mm_per_s in [20.0, 100.0] {
         choose(&mut window, |choice| choice.speed_mm_per_s = speed_mm_per_s);
         window.pass(2);
@@ -94,7 +94,7 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
     window.dispatch(Edit::MasterGain(-6.0));
     window.pass(2);
     let n_measured = window.workbench.n_textiles_measured();
-    let reference_db = window.workbench.bench.transient.reference_db.unwrap();
+    let reference_db = window.workbench.bench.live.reference_db.unwrap();
     let levels = shown(&mut window, |one| one.value(&Measure::Level, true).unwrap());
     let manifests = shown(&mut window, |one| one.item.gain_db);
     for (level_db, manifest_db) in levels.iter().zip(manifests) {
@@ -228,7 +228,7 @@ fn what_is_selected_joins_toggles_and_is_marked_in_the_library() {
         ),
         (ids(&["denim"]), Joining::Alone, ids(&["denim"])),
     ] {
-        let selection = &mut window.workbench.bench.transient.library_selection;
+        let selection = &mut window.workbench.bench.library.selection;
         selection.select(chosen, joining);
         assert_eq!(
             window.workbench.selected_textiles(),

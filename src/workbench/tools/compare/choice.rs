@@ -119,7 +119,7 @@ impl PartialEq for Route {
 impl Route {
     /// The recording at hand; without one, once along the stroke that the display explores with.
     pub(crate) fn at_hand(bench: &Bench) -> Self {
-        if let Some(take) = &bench.take {
+        if let Some(take) = &bench.exploration.at_hand {
             return Self::Take(Arc::clone(take.path()));
         }
         let stroke = resting_stroke(bench.document.scene());

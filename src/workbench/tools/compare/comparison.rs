@@ -240,9 +240,14 @@ impl Compare {
         } else if let Ok(inputs) = &asked
             && is_due
             && inputs.route.n_ticks() <= MOST_AT_ONCE
-            && !bench.transient.moment.is_down
+            && !bench.pointer.moment.is_down
         {
-            self.begin(inputs.clone(), &bench.loaded, &bench.ctx, bench.is_stepped);
+            self.begin(
+                inputs.clone(),
+                &bench.engine_scene.loaded,
+                &bench.ctx,
+                bench.is_stepped(),
+            );
             return self.standing(&asked);
         }
         standing
@@ -251,7 +256,12 @@ impl Compare {
     /// Compares what is asked for now, whether it was compared before or not.
     pub(crate) fn run(&mut self, bench: &Bench) {
         if let Ok(inputs) = self.inputs(bench) {
-            self.begin(inputs, &bench.loaded, &bench.ctx, bench.is_stepped);
+            self.begin(
+                inputs,
+                &bench.engine_scene.loaded,
+                &bench.ctx,
+                bench.is_stepped(),
+            );
         }
     }
 }

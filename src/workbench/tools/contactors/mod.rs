@@ -45,10 +45,10 @@ impl HeatmapStyle {
     fn of(bench: &Bench) -> Self {
         Self {
             map: bench.settings.preferences.colour_map,
-            scale: bench.workspace.scale,
+            scale: bench.selection.scale,
             has_numbers: bench.settings.preferences.has_numbers,
-            greys_below: bench.workspace.greys_below,
-            selected: bench.workspace.contactor.unwrap_or(usize::MAX),
+            greys_below: bench.selection.greys_below,
+            selected: bench.selection.contactor.unwrap_or(usize::MAX),
         }
     }
 }
@@ -78,7 +78,7 @@ impl Tool for Contactors {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let live = &bench.transient.live;
+        let live = &bench.live;
         if live.dots.iter().all(|dot| dot.cloth.is_none()) {
             return Err(NOTHING_FELT);
         }
@@ -94,7 +94,7 @@ impl Tool for Contactors {
 /// Shows both heatmaps and the colour bar.
 fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let palette = Palette::in_ui(ui);
-    let (scene, live) = (context.scene, &context.bench.transient.live);
+    let (scene, live) = (context.scene, &context.bench.live);
     let style = HeatmapStyle::of(context.bench);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
@@ -176,11 +176,11 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     if style != before {
         bench.settings.preferences.has_numbers = style.has_numbers;
-        bench.workspace.greys_below = style.greys_below;
-        bench.workspace.scale = style.scale;
+        bench.selection.greys_below = style.greys_below;
+        bench.selection.scale = style.scale;
         ui.ctx().request_repaint();
     }
-    if bench.transient.mute_solo.is_any()
+    if bench.selection.mute_solo.is_any()
         && toggle(
             ui,
             "all",

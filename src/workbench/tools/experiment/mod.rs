@@ -60,7 +60,7 @@ impl Experiment {
         }
         let now_s = ui.input(|input| input.time);
         let mut acts = Vec::new();
-        let view = self.participant(&context.bench.transient.live, now_s);
+        let view = self.participant(&context.bench.live, now_s);
         let shown = participant::show(ui, &view, &mut acts);
         if shown.is_some() {
             *context.ground = shown;
@@ -76,7 +76,7 @@ impl Experiment {
         context: &mut PaneContext<'_>,
     ) -> Option<PointerGround> {
         let (mut window, mut acts) = (self.window, Vec::new());
-        let live = &context.bench.transient.live;
+        let live = &context.bench.live;
         let view = self.participant(live, ctx.input(|input| input.time));
         let builder = ViewportBuilder::default()
             .with_title("Selvedge – participant")
@@ -140,7 +140,7 @@ impl Tool for Experiment {
         if self.window.is_open {
             *context.ground = self.show_window(ctx, context);
         }
-        context.bench.has_participants_window = self.window.is_open;
+        context.bench.session.has_window = self.window.is_open;
     }
 
     fn command(&mut self, command: &Command, _bench: &mut Bench) {

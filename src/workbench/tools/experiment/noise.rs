@@ -51,14 +51,14 @@ impl Experiment {
         let folder = self.form.folder();
         let work = move |progress: &mut Progress<'_>| write_noise(&folder, progress);
         let name = ("selvedge-noise", &bench.ctx);
-        self.noise = Some(Task::start(name, bench.is_stepped, work));
+        self.noise = Some(Task::start(name, bench.is_stepped(), work));
     }
 
     /// Takes what came of it.
     pub(crate) fn poll_noise(&mut self, bench: &mut Bench) {
         match taken(&mut self.noise) {
             Some((Ok(()), _)) => self.form.has_noise = true,
-            Some((Err(line), _)) => bench.transient.notices.give(line),
+            Some((Err(line), _)) => bench.notices.give(line),
             None => {}
         }
     }

@@ -145,12 +145,12 @@ impl Experiment {
     fn activate(&mut self, begun: Begun, bench: &mut Bench) {
         let device = device_name(bench);
         let session = ActiveSession::new(begun.session, begun.materials, device, began(bench));
-        bench.session = Some(SessionInSight {
+        bench.session.active = Some(SessionInSight {
             pseudonym: session.subject.pseudonym.clone(),
             log: session.log.clone(),
         });
         self.session = Some(Box::new(session));
-        let play = bench.transient.live.play;
+        let play = bench.live.play;
         if matches!(play.source, Source::Stroke | Source::Recording) {
             bench.send(Command::SetSource(InputSource::Pointer));
         }
@@ -189,46 +189,46 @@ impl Experiment {
                     bench.send(Command::StartRecording);
                 }
             }
-            Err(error) => bench.transient.notices.give(error.to_string()),
+            Err(error) => bench.notices.give(error.to_string()),
         }
         bench.ctx.request_repaint();
     }
 
     fn leave_session(&mut self, bench: &mut Bench) {
-        bench.session = None;
+        bench.session.active = None;
         bench.send(Command::Vibrate(Vec::new()));
         let n_contactors = bench.n_contactors();
-        let mask = bench.transient.mute_solo.contactor_mask(n_contactors);
+        let mask = bench.selection.mute_solo.contactor_mask(n_contactors);
         bench.send(Command::SetContactorMask(mask));
-        bench.transient.history.clear();
-        drop(std::mem::take(&mut bench.transient.trail));
+        bench.past.history.clear();
+        drop(std::mem::take(&mut bench.past.trail));
         bench.feel_document();
         self.list_sessions(bench, false);
     }
 
     /// Takes a recording that has ended, if a session or what is left of one wants it.
     fn take_recording(&mut self, bench: &mut Bench) {
-        let Some(recording) = bench.ended_recording.take() else {
+        let Some(recording) = bench.exploration.ended.take() else {
             return;
         };
         let recorded = self.session.as_mut().filter(|one| one.is_recording());
         if let Some(session) = recorded {
             session.take_recording(recording);
         } else if !std::mem::take(&mut self.lets_recording_go) && self.session.is_none() {
-            bench.ended_recording = Some(recording);
+            bench.exploration.ended = Some(recording);
         }
     }
 
     fn write_row(&mut self, bench: &Bench) {
         if let Some(session) = &mut self.session {
-            session.write((&bench.ctx, bench.is_stepped), bench.engine.is_running());
+            session.write((&bench.ctx, bench.is_stepped()), bench.engine.is_running());
         }
     }
 
     /// Takes what threads and the engine have for a session. Once a frame.
     pub(crate) fn poll(&mut self, bench: &mut Bench) {
         if let Some(session) = &mut self.session {
-            session.vibration = bench.transient.live.vibration;
+            session.vibration = bench.live.vibration;
         }
         self.take_recording(bench);
         match taken(&mut self.form.listing) {
@@ -253,19 +253,19 @@ impl Experiment {
             return;
         };
         let library_view = &mut session.materials.library_view;
-        let flaws = library_view.work(&bench.ctx, bench.is_stepped);
+        let flaws = library_view.work(&bench.ctx, bench.is_stepped());
         match session.poll(began(bench)) {
             Ok(true) => self.present(bench),
             Ok(false) => {}
             Err(line) => {
                 self.session = None;
                 let line = format!("The session broke off ({line}): resume it by its log");
-                bench.transient.notices.give(line);
+                bench.notices.give(line);
                 self.leave_session(bench);
             }
         }
         for flaw in flaws {
-            bench.transient.notices.give(flaw);
+            bench.notices.give(flaw);
         }
     }
 

@@ -18,7 +18,7 @@ impl Experiment {
         let folder = self.form.folder();
         let work = move |_: &mut Progress<'_>| list(&folder, is_asked);
         let name = ("selvedge-sessions", &bench.ctx);
-        self.form.lists(Task::start(name, bench.is_stepped, work));
+        self.form.lists(Task::start(name, bench.is_stepped(), work));
     }
 
     /// Lists a folder once it was typed, while somebody looks.
@@ -71,7 +71,7 @@ impl Experiment {
         if self.session.is_some() || self.beginning.is_some() {
             return;
         }
-        if bench.preparing.is_busy() || bench.transient.opening.is_some() {
+        if bench.engine_scene.preparing.is_busy() || bench.files.opening.is_some() {
             let line = "The scene is still being prepared: begin once it is there";
             self.form.failure = Some(line.to_owned());
             return;
@@ -92,13 +92,13 @@ impl Experiment {
             Ok(Begun { session, materials })
         };
         let name = ("selvedge-session", &bench.ctx);
-        self.beginning = Some(Task::start(name, bench.is_stepped, work));
+        self.beginning = Some(Task::start(name, bench.is_stepped(), work));
         bench.ctx.request_repaint();
     }
 }
 
 /// The device, as logs call it.
 pub(crate) fn device_name(bench: &Bench) -> String {
-    let target = bench.transient.target.as_deref();
+    let target = bench.device.target.as_deref();
     target.unwrap_or("none").to_owned()
 }

@@ -171,8 +171,8 @@ pub(crate) struct Link {
 impl Link {
     /// The device that is connected, if one is.
     pub(crate) fn of(bench: &Bench) -> Self {
-        let live = &bench.transient.live;
-        let (bridge, name) = (live.bridge.as_ref(), bench.transient.target.as_deref());
+        let live = &bench.live;
+        let (bridge, name) = (live.bridge.as_ref(), bench.device.target.as_deref());
         Self {
             name: name.unwrap_or("No device").to_owned(),
             state: bridge.map_or("not connected", |bridge| bridge.state),

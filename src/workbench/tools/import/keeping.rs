@@ -107,7 +107,7 @@ impl Import {
         self.kept = None;
         let said = self.draft.words.clone();
         let make = move || textiles(&found, &said);
-        if bench.is_stepped {
+        if bench.is_stepped() {
             return self.take_textiles(bench, make(), is_felt);
         }
         match Job::start("selvedge-import-keep", &bench.ctx, make) {

@@ -142,7 +142,7 @@ impl Import {
     /// Takes files that were chosen or dropped, and shows them.
     fn take_files(&mut self, paths: Vec<PathBuf>, bench: &mut Bench) {
         if let Err(line) = self.add(paths) {
-            bench.transient.notices.give(line);
+            bench.notices.give(line);
         }
         bench
             .commands
@@ -222,7 +222,7 @@ impl Tool for Import {
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        self.follow(ui.ctx(), context.bench.is_stepped);
+        self.follow(ui.ctx(), context.bench.is_stepped());
         framed(ui, 10, |ui| view::show(ui, self, context));
     }
 

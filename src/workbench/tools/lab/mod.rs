@@ -62,7 +62,7 @@ impl Tool for Lab {
         )?;
         let scene = bench.document.scene();
         let origin = Origin::of(scene, &bench.document.tuning(), None);
-        let scale = bench.workspace.scale;
+        let scale = bench.selection.scale;
         Ok(export::curves(self, preview, scale, origin))
     }
 }

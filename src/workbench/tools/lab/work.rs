@@ -24,7 +24,7 @@ fn start<T: Send + 'static>(
     bench: &Bench,
     work: impl FnOnce(&mut Progress<'_>) -> Result<T, String> + Send + 'static,
 ) -> Task<T> {
-    Task::start((name, &bench.ctx), bench.is_stepped, work)
+    Task::start((name, &bench.ctx), bench.is_stepped(), work)
 }
 
 impl Lab {
@@ -49,7 +49,7 @@ impl Lab {
 
     /// Begins with this recipe.
     pub(crate) fn begin_with(&mut self, bench: &Bench, beginning: Beginning) {
-        let library = Arc::clone(bench.loaded.library());
+        let library = Arc::clone(bench.engine_scene.loaded.library());
         let filters = bench.document.scene().filters;
         let work =
             move |progress: &mut Progress<'_>| begin(&beginning, &library, &filters, progress);
@@ -59,7 +59,7 @@ impl Lab {
 
     /// Compares with this textile of the library.
     pub(crate) fn compare_with(&mut self, bench: &Bench, id: String) {
-        let library = Arc::clone(bench.loaded.library());
+        let library = Arc::clone(bench.engine_scene.loaded.library());
         let filters = bench.document.scene().filters;
         let work = move |progress: &mut Progress<'_>| {
             progress.step(0.1, &id).map_err(|stop| stop.to_string())?;
@@ -94,13 +94,13 @@ impl Lab {
 
     /// Keeps the recipe as a textile, and lays it under the display if it is to be felt.
     pub(crate) fn keep(&mut self, bench: &mut Bench, feels: bool) {
-        let recipe = self.to_keep(bench.loaded.library());
+        let recipe = self.to_keep(bench.engine_scene.loaded.library());
         self.keep_recipes(bench, recipe.map(|one| vec![one]), feels);
     }
 
     /// Keeps every textile of the family that was tried.
     pub(crate) fn keep_family(&mut self, bench: &mut Bench) {
-        let recipes = self.family_to_keep(bench.loaded.library());
+        let recipes = self.family_to_keep(bench.engine_scene.loaded.library());
         self.keep_recipes(bench, recipes, false);
     }
 

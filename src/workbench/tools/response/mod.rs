@@ -49,15 +49,15 @@ impl Response {
     /// Has the curves of the textile that is chosen, or else of the one under the chosen contactor,
     /// or which was there last; `None` without any.
     fn view(&mut self, bench: &mut Bench, scene: &SceneView) -> Option<ResponseView<'_>> {
-        let (live, inspector) = (&bench.transient.live, &mut bench.inspection.inspector);
+        let (live, inspector) = (&bench.live, &mut bench.inspection.inspector);
         self.readings.clear();
         if live.centre.is_some() {
             inspector.readings_into(0, &live.pose, &mut self.readings);
         }
-        let contactor = bench.workspace.contactor;
+        let contactor = bench.selection.contactor;
         let read = contactor.and_then(|index| self.readings.get(index));
         let under = read.and_then(|moving| moving.reading);
-        let chosen = bench.workspace.cloth;
+        let chosen = bench.selection.cloth;
         let textile = chosen.or_else(|| under.map(|reading| reading.textile));
         let textile = textile.or(self.textile)?;
         self.textile = Some(textile);
@@ -66,13 +66,13 @@ impl Response {
         let on_it = under.filter(|reading| reading.textile == textile);
         let place = contactor.zip(on_it.map(|reading| reading.points));
         let moving = read.map(|moving| moving.velocity);
-        let probe = bench.workspace.probe;
+        let probe = bench.selection.probe;
         let wanted = Wanted {
             response,
             points: place.map(|(_, points)| points),
             probe,
         };
-        (self.curves).catch_up(&bench.ctx, wanted, bench.is_stepped);
+        (self.curves).catch_up(&bench.ctx, wanted, bench.is_stepped());
         let cloth = scene.cloths.get(textile)?;
         Some(ResponseView {
             textile: format!("{} {}", cloth.label, cloth.name).trim().to_owned(),
@@ -82,7 +82,7 @@ impl Response {
             curves: &self.curves,
             probe,
             moving,
-            scale: bench.workspace.scale,
+            scale: bench.selection.scale,
         })
     }
 }
@@ -99,7 +99,7 @@ impl Tool for Response {
 
     /// Whether the plots follow the display.
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        let probe = context.bench.workspace.probe;
+        let probe = context.bench.selection.probe;
         let tip = "Ask at the display's own velocity, to two digits and 5°";
         if toggle(ui, "follow", probe.follows, tip) {
             let probe = probe.with_follow(!probe.follows);

@@ -60,7 +60,7 @@ impl ContactSpectrum {
     /// Computes what is new, as much as one frame may; says whether more is due.
     fn catch_up(&mut self, bench: &mut Bench) -> bool {
         let (contactor, map) = (contactor(bench), bench.settings.preferences.colour_map);
-        let (history, inspection) = (&bench.transient.history, &mut bench.inspection);
+        let (history, inspection) = (&bench.past.history, &mut bench.inspection);
         let key = (history.n_clears(), inspection.n_scenes, contactor, map);
         let colour = |level_db: f32| map.colour(share_of(level_db));
         let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
@@ -92,7 +92,7 @@ impl ContactSpectrum {
         let painter = ui.painter();
         let scale = scale(bench.settings.preferences.colour_map);
         spectrogram::paint(painter, &layout, (ring, image), &scale);
-        if bench.transient.history.newest().is_none() {
+        if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what arrives at the contactor is drawn here";
             spectrogram::paint_sentence(painter, layout.picture, words);
         }
@@ -121,9 +121,9 @@ impl Tool for ContactSpectrum {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
         while self.catch_up(bench) {}
-        let columns = self.waterfall.shown(&bench.transient.history);
+        let columns = self.waterfall.shown(&bench.past.history);
         let mut levels_db = columns.iter().flat_map(|column| column.rows);
         if !levels_db.any(f32::is_finite) {
             return Err(NOTHING_FELT);

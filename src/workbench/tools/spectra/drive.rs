@@ -45,7 +45,7 @@ impl DriveSpectrum {
 
     /// Computes what is new, as much as one frame may; says whether more is due.
     fn catch_up(&mut self, bench: &Bench) -> bool {
-        let (history, scale) = (&bench.transient.history, bench.workspace.scale);
+        let (history, scale) = (&bench.past.history, bench.selection.scale);
         let map = bench.settings.preferences.colour_map;
         let watched = history.newest().map(|entry| entry.glimpse.watched);
         let key = (history.n_clears(), watched, scale.most_um().to_bits(), map);
@@ -73,10 +73,10 @@ impl DriveSpectrum {
         self.catch_up(bench);
         let Waterfall { ring, image, .. } = &self.waterfall;
         let painter = ui.painter();
-        let colours = colours(bench.workspace.scale, bench.settings.preferences.colour_map);
+        let colours = colours(bench.selection.scale, bench.settings.preferences.colour_map);
         spectrogram::paint(painter, &layout, (ring, image), &colours);
         spectrogram::paint_carriers(painter, layout.picture);
-        if bench.transient.history.newest().is_none() {
+        if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what drives the contactor is drawn here";
             spectrogram::paint_sentence(painter, layout.picture, words);
         }
@@ -101,14 +101,14 @@ impl Tool for DriveSpectrum {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
         while self.catch_up(bench) {}
-        let columns = self.waterfall.shown(&bench.transient.history);
+        let columns = self.waterfall.shown(&bench.past.history);
         let mut amplitudes_um = columns.iter().flat_map(|column| column.rows);
         if !amplitudes_um.any(|um| um > 0.0) {
             return Err(NOTHING_FELT);
         }
-        let (scale, map) = (bench.workspace.scale, bench.settings.preferences.colour_map);
+        let (scale, map) = (bench.selection.scale, bench.settings.preferences.colour_map);
         let carrier = |band: Band| Rule {
             at: At::Y(band.carrier_hz()),
             ink: ink(band),

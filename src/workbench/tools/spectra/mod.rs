@@ -26,12 +26,12 @@ const HEIGHT_PX: f64 = 300.0;
 
 /// The contactor that is looked at closer; without one, a number that no contactor has.
 fn contactor(bench: &Bench) -> usize {
-    bench.workspace.contactor.unwrap_or(usize::MAX)
+    bench.selection.contactor.unwrap_or(usize::MAX)
 }
 
 /// What stands over each of the panes: whose signals these are.
 fn show_contactor(ui: &mut Ui, bench: &Bench) {
-    let words = bench.workspace.contactor.map_or_else(
+    let words = bench.selection.contactor.map_or_else(
         || "no contactor chosen".to_owned(),
         |contactor| format!("contactor {contactor}"),
     );

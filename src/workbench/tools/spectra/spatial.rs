@@ -43,7 +43,7 @@ impl SpatialSpectra {
     }
 
     fn catch_up(&mut self, bench: &mut Bench) {
-        let (contactor, pose) = (contactor(bench), &bench.transient.live.pose);
+        let (contactor, pose) = (contactor(bench), &bench.live.pose);
         let motion = [
             pose.position.x_mm,
             pose.position.y_mm,
@@ -113,7 +113,7 @@ impl Tool for SpatialSpectra {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
+        let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
         self.catch_up(bench);
         let view = self.view.as_ref().ok_or(
             "There is nothing to export: the chosen contactor is off every textile; move over one",
@@ -148,7 +148,7 @@ fn exported(view: &SpatialView, contactor: usize, bench: &Bench) -> Exported {
     let mut origin = bench
         .origin()
         .of_contactor(contactor)
-        .in_ticks(std::iter::once(bench.transient.live.tick));
+        .in_ticks(std::iter::once(bench.live.tick));
     for felt in view.felt.iter().flatten() {
         let key = if felt.direction.index() >= 2 {
             "speed_weft_mm_per_s"

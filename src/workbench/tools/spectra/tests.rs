@@ -53,7 +53,7 @@ impl Plots {
 
     /// Explores along an eight over all four textiles, faster and slower.
     fn explore(&mut self, ticks: std::ops::Range<u64>) {
-        let contactor = self.bench.workspace.contactor.unwrap();
+        let contactor = self.bench.selection.contactor.unwrap();
         for tick in ticks {
             let pose = pose_at(tick);
             #[expect(
@@ -74,9 +74,9 @@ impl Plots {
     }
 
     fn take(&mut self, sample: TickSample) {
-        let transient = &mut self.bench.transient;
-        (transient.live.tick, transient.live.pose) = (sample.tick, sample.pose);
-        transient.history.take(sample);
+        let live = &mut self.bench.live;
+        (live.tick, live.pose) = (sample.tick, sample.pose);
+        self.bench.past.history.take(sample);
     }
 
     fn all(&mut self, ui: &mut Ui) {
@@ -198,12 +198,12 @@ fn other_colours_and_another_contactor_begin_anew() {
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Viridis));
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
     assert_eq!(plots.contact().n_columns_computed(), 100);
-    plots.bench.workspace.contactor = Some(3);
+    plots.bench.selection.contactor = Some(3);
     plots.explore(50..51);
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
     assert_eq!(plots.contact().n_columns_computed(), 151);
     plots.frame(SIZE, |plots, ui| plots.show(ui, Pane::DriveSpectrum));
-    plots.bench.transient.history.clear();
+    plots.bench.past.history.clear();
     plots.frame(SIZE, Plots::all);
     assert_eq!(
         plots.contact().n_columns_computed(),
@@ -221,7 +221,7 @@ fn nothing_odd_harms_the_plots() {
     };
     for mut plots in [Plots::shipped(), Plots::empty()] {
         for contactor in [9, 24, 4_000_000] {
-            plots.bench.workspace.contactor = Some(contactor);
+            plots.bench.selection.contactor = Some(contactor);
             for size in [vec2(0.0, 0.0), vec2(1.0, 900.0), vec2(900.0, 1.0), SIZE] {
                 plots.frame(size, Plots::all);
             }

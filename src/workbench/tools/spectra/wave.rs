@@ -43,9 +43,9 @@ pub(crate) struct TwoTicks {
 impl TwoTicks {
     /// Those of the chosen contactor.
     pub(crate) fn of_chosen(bench: &Bench) -> Self {
-        let (history, tick) = (&bench.transient.history, bench.transient.live.tick);
+        let (history, tick) = (&bench.past.history, bench.live.tick);
         let watched = u32::try_from(contactor(bench)).unwrap_or(u32::MAX);
-        let bridge = bench.transient.live.bridge.as_ref();
+        let bridge = bench.live.bridge.as_ref();
         let mut coder = Coder::of_contactor(bench.engine.profile(), contactor(bench));
         coder.set_link_limit(bridge.and_then(|bridge| bridge.comp_limit));
         Self {
@@ -229,14 +229,14 @@ impl Tool for DriveWave {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let contactor = bench.workspace.contactor.ok_or(NO_CONTACTOR)?;
-        let glimpses = bench.transient.history.glimpses();
+        let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
+        let glimpses = bench.past.history.glimpses();
         let mut felt_um = glimpses.flat_map(|one| one.watched_um);
         if !felt_um.any(|um| um > 0.0) {
             return Err(NOTHING_FELT);
         }
         let shown = TwoTicks::of_chosen(bench);
-        let tick = bench.transient.live.tick;
+        let tick = bench.live.tick;
         let most_um = self.scale.most_um().max(shown.reach_um());
         let [low, high] = shown.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
         let note = format!(

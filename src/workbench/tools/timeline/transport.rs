@@ -37,8 +37,7 @@ pub(crate) struct TransportView<'a> {
 impl<'a> TransportView<'a> {
     /// What it shows now.
     pub(crate) fn of(bench: &'a Bench) -> Self {
-        let transient = &bench.transient;
-        let live = &transient.live;
+        let live = &bench.live;
         Self {
             source: match live.play.source {
                 Source::Pointer => PlaySource::Pointer,
@@ -46,15 +45,15 @@ impl<'a> TransportView<'a> {
                 Source::Stroke => PlaySource::Stroke,
                 Source::Recording => PlaySource::Recording,
             },
-            input: transient.sources.chosen_name(),
+            input: bench.exploration.sources.chosen_name(),
             is_playing: live.play.is_playing,
-            does_loop: transient.does_loop,
+            does_loop: bench.exploration.does_loop,
             is_stopped: live.is_stopped,
             recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
             tick: live.play.tick,
             speed_mm_per_s: live.speed_mm_per_s,
-            take: bench.take.as_ref(),
-            live: &transient.history,
+            take: bench.exploration.at_hand.as_ref(),
+            live: &bench.past.history,
         }
     }
 }

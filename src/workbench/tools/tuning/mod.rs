@@ -58,10 +58,7 @@ impl Tool for Tuning {
 impl Tuning {
     fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let (scene, commands) = (context.scene, &mut *context.commands);
-        let (live, mute_solo) = (
-            &context.bench.transient.live,
-            &context.bench.transient.mute_solo,
-        );
+        let (live, mute_solo) = (&context.bench.live, &context.bench.selection.mute_solo);
         let palette = Palette::in_ui(ui);
         let (now, rest) = (scene.tuning, scene.default_tuning);
         let under = live.cloth_under_display();

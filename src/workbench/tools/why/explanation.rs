@@ -91,8 +91,8 @@ impl Output {
 impl Explanation {
     /// The chosen contactor as it is now; `None` if none is chosen.
     pub(crate) fn of_chosen(bench: &mut Bench) -> Option<Self> {
-        let contactor = bench.workspace.contactor?;
-        let live = &bench.transient.live;
+        let contactor = bench.selection.contactor?;
+        let live = &bench.live;
         let trace = bench.inspection.inspector.trace(0, contactor, &live.pose)?;
         let cloths = &bench.document.scene().textiles;
         let cloth = trace
@@ -100,7 +100,7 @@ impl Explanation {
             .as_ref()
             .and_then(|touch| cloths.get(touch.textile));
         let textile = cloth.map(|cloth| {
-            let item = bench.library_view.item(&cloth.id);
+            let item = bench.library.view.item(&cloth.id);
             let name = item.map_or(&cloth.id, |item| &item.name);
             format!("{} {name}", cloth.label)
         });
@@ -109,7 +109,7 @@ impl Explanation {
             let n_columns = n_columns.max(1);
             (contactor / n_columns, contactor % n_columns)
         });
-        let mute_solo = &bench.transient.mute_solo;
+        let mute_solo = &bench.selection.mute_solo;
         let is_muted = !mute_solo.is_felt(Part::Contactor(contactor));
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);

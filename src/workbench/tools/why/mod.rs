@@ -63,8 +63,8 @@ impl Tool for Why {
             self.is_frozen = !self.is_frozen;
             ui.ctx().request_repaint();
         }
-        let n_contactors = context.bench.transient.live.dots.len();
-        let chosen = context.bench.workspace.contactor;
+        let n_contactors = context.bench.live.dots.len();
+        let chosen = context.bench.selection.contactor;
         let Some(contactor) = chosen.filter(|contactor| *contactor < n_contactors) else {
             return;
         };

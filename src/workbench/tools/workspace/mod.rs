@@ -79,9 +79,9 @@ impl tool::Tool for Workspace {
         let next = Cell::new(self.view);
         let sight = Sight {
             scene: context.scene,
-            live: &bench.transient.live,
-            trail: &bench.transient.trail,
-            selection: &bench.workspace,
+            live: &bench.live,
+            trail: &bench.past.trail,
+            selection: &bench.selection,
             layers: Layers {
                 readings: &self.readings,
                 maps: &self.maps,
@@ -95,7 +95,7 @@ impl tool::Tool for Workspace {
     }
 
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        if let Some(pane) = context.bench.transient.ground {
+        if let Some(pane) = context.bench.pointer.ground {
             let mut next = self.view;
             tools::show(ui, &mut next, pane, context.scene.size_mm);
             if next != self.view {
@@ -109,7 +109,7 @@ impl tool::Tool for Workspace {
             Command::Show(ShowCommand::Tool(tool)) => self.view.tool = *tool,
             Command::Show(ShowCommand::Look(look)) => {
                 let place = Place {
-                    pane: bench.transient.ground.unwrap_or(Rect::ZERO),
+                    pane: bench.pointer.ground.unwrap_or(Rect::ZERO),
                     size_mm: bench.document.scene().size_mm,
                     pixels_per_point: bench.ctx.pixels_per_point(),
                 };
@@ -137,7 +137,7 @@ impl tool::Tool for Workspace {
         let cloths = scene.cloths.iter().enumerate();
         let shown =
             cloths.filter_map(|(index, cloth)| Some((index, cloth, self.maps.shown(index)?)));
-        export::maps(shown.collect(), bench.workspace.probe, origin).ok_or(
+        export::maps(shown.collect(), bench.selection.probe, origin).ok_or(
             "There is nothing to export yet: the maps are being computed, or no textile is felt",
         )
     }
@@ -163,13 +163,13 @@ impl Workspace {
 
     /// Has what the overlays show that are switched on.
     fn prepare_overlays(&mut self, ctx: &egui::Context, bench: &mut Bench) {
-        let overlays = self.view.overlays;
+        let (overlays, is_at_once) = (self.view.overlays, bench.is_stepped());
         if overlays.shows(Overlay::Points) {
             self.lattice.prepare(ctx);
         }
         self.readings.clear();
         let inspector = &mut bench.inspection.inspector;
-        let live = &bench.transient.live;
+        let live = &bench.live;
         if overlays.need_readings() && live.centre.is_some() {
             inspector.readings_into(0, &live.pose, &mut self.readings);
         }
@@ -178,12 +178,12 @@ impl Workspace {
             return;
         };
         let wanted = maps::Wanted {
-            velocity: bench.workspace.probe.velocity(),
+            velocity: bench.selection.probe.velocity(),
             band,
-            scale: bench.workspace.scale,
+            scale: bench.selection.scale,
             colours: bench.settings.preferences.colour_map,
         };
-        self.maps.catch_up(ctx, inspector, wanted, bench.is_stepped);
+        self.maps.catch_up(ctx, inspector, wanted, is_at_once);
     }
 }
 

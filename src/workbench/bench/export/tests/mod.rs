@@ -15,6 +15,7 @@ use super::*;
 use crate::bench::command::lab::Beginning;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, Purpose, ShowCommand};
 use crate::bench::overlays::Overlay;
+use crate::bench::pane::Pane;
 use crate::shell::headless::Headless;
 use crate::tools::accuracy::Accuracy;
 use crate::tools::compare::comparison::{Compare, Standing};
@@ -78,7 +79,7 @@ impl Headless {
         let mut desk = Self::explored(n_ticks);
         desk.dispatch(ShowCommand::Pane(Pane::Collection));
         desk.pass_ticks(2);
-        let n_textiles = desk.workbench.bench.library_view.items().len() as u64;
+        let n_textiles = desk.workbench.bench.library.view.items().len() as u64;
         while desk.workbench.n_textiles_measured() < n_textiles {
             thread::sleep(Duration::from_millis(5));
             // However long it takes, the display stays where it is.
@@ -143,7 +144,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
         assert_eq!(table_of(&exported).n_rows(), exported.sheet.n_rows());
         let again = desk.exported(what);
         for kind in Kind::ALL {
-            let name = what.file_name(kind);
+            let name = what.file_name(kind.ending());
             let path = Path::new(&name);
             let bytes = exported.bytes(kind, path).unwrap();
             assert_eq!(bytes, again.bytes(kind, path).unwrap(), "{name}");
@@ -185,7 +186,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
 fn heatmaps_hold_the_amplitudes_of_every_contactor() {
     let mut desk = Headless::explored(60);
     let exported = desk.exported(Exportable::Pane(Pane::Heatmaps));
-    let dots = &desk.workbench.bench.transient.live.dots;
+    let dots = &desk.workbench.bench.live.dots;
     for (band, name) in ["a40_um", "a320_um"].into_iter().enumerate() {
         let shown: Vec<f64> = dots.iter().map(|dot| dot.amplitude_um[band]).collect();
         assert_eq!(column(&exported, name), shown);
@@ -215,8 +216,8 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
         column(&exported, "level_in_db"),
         column(&exported, "level_out_db"),
     );
-    assert_eq!(before.len(), desk.workbench.bench.library.len());
-    let reference = desk.workbench.bench.transient.reference_db.unwrap();
+    assert_eq!(before.len(), desk.workbench.bench.library.dots.len());
+    let reference = desk.workbench.bench.live.reference_db.unwrap();
     for (before, after) in before.iter().zip(after) {
         assert!(
             (after - 0.5 * (before + reference)).abs() < 1e-9,
@@ -232,7 +233,7 @@ fn the_timeline_holds_speed_and_means_of_every_tick() {
     let glimpses: Vec<_> = desk
         .workbench
         .bench
-        .transient
+        .past
         .history
         .glimpses()
         .copied()
@@ -253,7 +254,7 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
     let folder = ScratchFolder::made("seen");
     let mut desk = Headless::collected(60);
     for what in ALL {
-        let path = folder.join(what.file_name(Kind::Csv));
+        let path = folder.join(what.file_name("csv"));
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
         desk.pass_ticks(7);
@@ -261,7 +262,10 @@ fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
         let suggested = ask.map(|ask| ask.path.clone()).unwrap_or_default();
         let last = desk.workbench.shell.exports.last.clone();
         let kind = last.map_or(Kind::Png, |(_, kind)| kind);
-        assert!(suggested.ends_with(&what.file_name(kind)), "{suggested}");
+        assert!(
+            suggested.ends_with(&what.file_name(kind.ending())),
+            "{suggested}"
+        );
         desk.file(FileCommand::Use(Purpose::Export(what), path.clone()));
         assert_eq!(fs::read(&path).unwrap(), seen, "{what:?}");
         assert!(desk.workbench.shell.ask.is_none(), "answered");
@@ -308,7 +312,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
     let has_levels = |what: &Exportable| *what == Exportable::Pane(Pane::Tuning);
     for what in ALL.into_iter().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
-        desk.workbench.bench.workspace.contactor = is_chosen.then_some(9);
+        desk.workbench.bench.selection.contactor = is_chosen.then_some(9);
         let words = desk
             .workbench
             .exported(what)
@@ -328,7 +332,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
 
 #[test]
 fn every_export_has_a_name_of_its_own() {
-    let mut names: Vec<String> = ALL.map(|what| what.file_name(Kind::Png)).to_vec();
+    let mut names: Vec<String> = ALL.map(|what| what.file_name("png")).to_vec();
     assert_eq!(names[1], "contact-spectrum.png");
     names.sort();
     names.dedup();

@@ -52,12 +52,12 @@ fn without_a_map_the_entry_says_how_to_show_one() {
 fn the_collection_holds_the_levels_of_every_textile() {
     let mut desk = Headless::collected(4);
     let chosen = vec!["silk-crepe".to_owned()];
-    let selection = &mut desk.workbench.bench.transient.library_selection;
+    let selection = &mut desk.workbench.bench.library.selection;
     selection.select(chosen, Joining::Alone);
     let exported = desk.exported(Exportable::Pane(Pane::Collection));
     let table = table_of(&exported);
     let ids = table.text("textile").unwrap();
-    let library = std::sync::Arc::clone(desk.workbench.bench.library_view.library());
+    let library = std::sync::Arc::clone(desk.workbench.bench.library.view.library());
     assert_eq!(ids, library.ids());
     for (band, name) in Band::ALL.into_iter().zip(["raw_a40_um", "raw_a320_um"]) {
         for (id, um) in ids.iter().zip(column(&exported, name)) {

@@ -15,14 +15,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
         let exported = desk.exported(Exportable::Pane(what));
         let (values, ticks) = (column(&exported, name), column(&exported, "tick"));
         assert_eq!(values.len(), 320 * N_ROWS, "8 s, whether drawn or not");
-        let newest = desk
-            .workbench
-            .bench
-            .transient
-            .history
-            .newest()
-            .unwrap()
-            .glimpse;
+        let newest = desk.workbench.bench.past.history.newest().unwrap().glimpse;
         assert_eq!(ticks.last().copied(), Some(newest.tick as f64));
         let times = column(&exported, "t_s");
         assert_eq!(
@@ -39,7 +32,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
                 "{largest} of {most}"
             );
         } else {
-            let contactor = desk.workbench.bench.workspace.contactor.unwrap();
+            let contactor = desk.workbench.bench.selection.contactor.unwrap();
             let mut expected = [0.0; N_ROWS];
             crate::bench::signals::contact::ContactColumns::default().levels_db(
                 &mut desk.workbench.bench.inspection.inspector,

@@ -201,7 +201,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .send(selvedge_engine::Command::StopRecording)
         .unwrap();
     bench.engine.advance_ticks(1).unwrap();
-    bench.ended_recording = bench.engine.take_recording();
+    bench.exploration.ended = bench.engine.take_recording();
     bench.take_recording();
     accuracy.measure(&mut bench);
     while accuracy.measuring.is_some() {
@@ -232,5 +232,5 @@ fn a_measurement_that_is_stopped_leaves_the_last_one() {
         accuracy.poll_measuring(&mut bench);
         std::thread::yield_now();
     }
-    assert!(bench.transient.notices.shown().is_empty(), "no word of it");
+    assert!(bench.notices.shown().is_empty(), "no word of it");
 }

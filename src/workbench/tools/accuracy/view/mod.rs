@@ -146,7 +146,7 @@ fn show_controls(ui: &mut Ui, accuracy: &Accuracy, context: &mut PaneContext<'_>
     }
     if rendering.has_budget() {
         // Beside the whole pane: what the slider does to the plots stays in sight.
-        let is_preparing = context.bench.preparing.is_busy();
+        let is_preparing = context.bench.engine_scene.preparing.is_busy();
         tip_beside(ui, &row.inner, budget_words(accuracy, is_preparing));
     } else {
         let words = "Only auto and table keep to a budget; this method has its own error";

@@ -303,7 +303,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     };
     let design = Design::shipped("threshold-40").unwrap();
     let active = Session::create(&folder.0, design, subject, "none").unwrap();
-    window.workbench.bench.session = Some(SessionInSight {
+    window.workbench.bench.session.active = Some(SessionInSight {
         pseudonym: "p07".to_owned(),
         log: active.log().to_owned(),
     });
@@ -320,7 +320,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
         (found.n_sessions, &found.left_out[..]),
         (2, &["p07".to_owned()][..])
     );
-    window.workbench.bench.session = None;
+    window.workbench.bench.session.active = None;
     window.pass(3);
     assert!(!analysis(&window).is_uncovered, "the next one is covered");
 }

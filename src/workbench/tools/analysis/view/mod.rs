@@ -92,7 +92,7 @@ fn show_found(
             note(ui, warning, Tone::Wrong);
             ui.add_space(STEP);
         }
-        if let Some(session) = &context.bench.session {
+        if let Some(session) = &context.bench.session.active {
             show_session(ui, &session.pseudonym, &mut analysis.is_uncovered);
         }
         if analysis.is_covered(context.bench) {
@@ -159,7 +159,7 @@ fn show_empty(ui: &mut Ui, analysis: &mut Analysis, context: &mut PaneContext<'_
         let words = "Choose the folder that the sessions were kept in.";
         ui.label(RichText::new(words).color(palette.text));
         ui.add_space(STEP);
-        if let Some(session) = &context.bench.session {
+        if let Some(session) = &context.bench.session.active {
             let who = &session.pseudonym;
             let words = format!(
                 "A session of {who} is being held. Who takes part is left out unless you ask for \

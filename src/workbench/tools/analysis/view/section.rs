@@ -50,7 +50,7 @@ pub(crate) fn show(
         let is_copied = table::show(ui, (nth, one), &mut analysis.looks.tables);
         match is_copied.then(|| one.to_csv()) {
             Some(Ok(text)) => ui.ctx().copy_text(text),
-            Some(Err(error)) => context.bench.transient.notices.give(error.to_string()),
+            Some(Err(error)) => context.bench.notices.give(error.to_string()),
             None => {}
         }
         ui.add_space(5.0 * STEP);

@@ -36,7 +36,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
         for row in &rows[range] {
             ui.horizontal(|ui| {
                 for entry in *row {
-                    let library_view = &mut hand.bench.library_view;
+                    let library_view = &mut hand.bench.library.view;
                     library_view.want(&entry.item.id);
                     let picture = library_view.picture(&entry.item.id);
                     show_piece(ui, entry, picture, hand);

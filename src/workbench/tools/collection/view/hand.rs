@@ -30,7 +30,7 @@ pub(crate) struct Hand<'a> {
 impl Hand<'_> {
     /// Selects textiles.
     pub(crate) fn select(&mut self, ids: Vec<String>, joining: Joining) {
-        self.bench.transient.library_selection.select(ids, joining);
+        self.bench.library.selection.select(ids, joining);
     }
 }
 

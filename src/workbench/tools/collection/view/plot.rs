@@ -63,7 +63,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
     let inks = [palette.dim, palette.text];
     paint_names(ui.painter(), area, (&placed, side), inks);
     for one in in_order(&placed) {
-        let library_view = &mut hand.bench.library_view;
+        let library_view = &mut hand.bench.library.view;
         library_view.want(&one.entry.item.id);
         let picture = library_view.picture(&one.entry.item.id);
         let square = Rect::from_center_size(one.at, vec2(side, side));

@@ -83,7 +83,7 @@ pub(crate) fn show(
             }
         }
         ui.add_space(STEP);
-        let take = context.bench.take.as_ref().map(Take::name);
+        let take = context.bench.exploration.at_hand.as_ref().map(Take::name);
         show_status(ui, standing, route, take);
     });
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
@@ -181,7 +181,7 @@ fn show_methods(ui: &mut Ui, choice: &mut Choice) {
 fn show_textiles(ui: &mut Ui, choice: &mut Choice, place: usize, context: &PaneContext<'_>) {
     let width = widths(ui, 3, 3);
     let cloths = &context.scene.cloths;
-    let items = context.bench.library_view.items();
+    let items = context.bench.library.view.items();
     let place_name = |index: usize| {
         cloths.get(index).map_or_else(
             || "nothing".to_owned(),

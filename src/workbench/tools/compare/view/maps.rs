@@ -56,7 +56,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, found: &LevelDifference, context: &mut P
         &painter,
         &places,
         cells.len(),
-        context.bench.workspace.contactor,
+        context.bench.selection.contactor,
     );
     let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
     let height = grid.0 as f32 * places.cell.y - GAP;

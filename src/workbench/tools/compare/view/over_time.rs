@@ -60,7 +60,7 @@ pub(crate) fn show(
     });
     plot.paint(&ui.painter_at(rect), &columns);
     let is_recorded = is_at_hand && matches!(route, Route::Take(_));
-    let play = context.bench.transient.live.play;
+    let play = context.bench.live.play;
     if is_recorded && play.source == Source::Recording {
         let x = ui.painter().round_to_pixel_center(plot.x_of(play.tick));
         let stroke = Stroke::new(1.0, Palette::in_ui(ui).selection);

@@ -13,11 +13,11 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     let folder = Folder::new("apart");
     let mut window = begun(&folder, "odd-one-out", "p01");
     to_trial(&mut window);
-    let before = window.workbench.bench.transient.ground;
+    let before = window.workbench.bench.pointer.ground;
     assert!(before.is_some());
     open(&mut window, true);
     assert_eq!(
-        window.workbench.bench.transient.ground, None,
+        window.workbench.bench.pointer.ground, None,
         "the workbench shows one line in its place"
     );
     // Without a display a second window is one within the first.
@@ -45,7 +45,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     assert!(amplitudes_um.iter().flatten().any(|um| *um > 0.0));
     mark(&mut window, Mark::Place(1));
     open(&mut window, false);
-    assert_eq!(window.workbench.bench.transient.ground, before);
+    assert_eq!(window.workbench.bench.pointer.ground, before);
     assert!(session(&window).trial().is_some(), "the session goes on");
     assert!(matches!(
         session(&window).draft,
@@ -69,7 +69,7 @@ fn a_session_that_begins_while_the_window_is_open_brings_no_second_view() {
     begin(&mut window);
     window.pass(3);
     assert!(experiment(&window).session.is_some());
-    assert_eq!(window.workbench.bench.transient.ground, None);
+    assert_eq!(window.workbench.bench.pointer.ground, None);
     end(&mut window);
     window.pass(3);
     assert!(experiment(&window).window.is_open);
@@ -92,7 +92,7 @@ fn a_movement_over_the_other_window_is_not_felt() {
         tap.moved_to_pixel(stamp, over, pixel);
         drop(tap);
         window.pass(2);
-        window.workbench.bench.transient.live.centre
+        window.workbench.bench.live.centre
     };
     let before = moved_to(Pointed::Workbench, [320.0, 300.0]);
     assert!(before.is_some());

@@ -128,7 +128,7 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
         let folder = Folder::new(&format!("drawn-{name}"));
         let mut drawn = Drawn::trial(&folder, "ranking-virtual-target", name, Theme::Dark);
         let picture = drawn.picture();
-        let pane = drawn.window.workbench.bench.transient.ground.unwrap();
+        let pane = drawn.window.workbench.bench.pointer.ground.unwrap();
         let size_mm = session(&drawn.window).layout.size_mm;
         (
             target(&drawn),
@@ -296,10 +296,10 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
 fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_types() {
     let folder = Folder::new("drawn-blank");
     let mut drawn = Drawn::trial(&folder, "odd-one-out", "p01", Theme::Dark);
-    assert!(drawn.window.workbench.bench.transient.ground.is_some());
+    assert!(drawn.window.workbench.bench.pointer.ground.is_some());
     experiment_mut(&mut drawn.window).is_blank = true;
     drawn.pass(2);
-    let ground = drawn.window.workbench.bench.transient.ground;
+    let ground = drawn.window.workbench.bench.pointer.ground;
     assert!(ground.is_some(), "what lies there is still felt");
     let picture = drawn.picture();
     let colour = |x: usize, y: usize| picture.rgba[4 * (y * SIZE[0] + x)..][..4].to_vec();

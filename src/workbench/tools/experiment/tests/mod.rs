@@ -172,7 +172,13 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     window.pass(3);
     assert!(experiment(&window).session.is_none());
     assert_eq!(
-        window.workbench.bench.take.as_ref().map(|_| ()),
+        window
+            .workbench
+            .bench
+            .exploration
+            .at_hand
+            .as_ref()
+            .map(|_| ()),
         None,
         "no recording of the user's"
     );
@@ -224,7 +230,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     end(&mut window);
     window.pass(3);
     assert_eq!(window.workbench.bench.document.scene(), &before);
-    let serial = window.workbench.bench.scene_serial;
+    let serial = window.workbench.bench.engine_scene.serial;
     let snapshot = window.workbench.bench.engine.snapshot();
     assert_eq!(snapshot.scene_serial, serial);
     assert!((snapshot.rendering.tuning.gain_db + 7.5).abs() < 1e-9);

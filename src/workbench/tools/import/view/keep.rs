@@ -53,7 +53,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, bench: &mut Bench) {
             importing.keep(bench, true);
         }
     });
-    let items = bench.library_view.items();
+    let items = bench.library.view.items();
     show_outcome(ui, importing, items, refusal.as_deref());
     let suggested = found.as_deref().map(Found::own_name).unwrap_or_default();
     let usual = match found.as_deref().map(|found| found.kind) {

@@ -20,7 +20,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     let line = Layout::left_to_right(Align::Center);
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, line, |ui| {
-        if let Some(beginning) = show_beginnings(ui, bench.library_view.items()) {
+        if let Some(beginning) = show_beginnings(ui, bench.library.view.items()) {
             lab.begin_with(bench, beginning);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -173,7 +173,7 @@ pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
         .selected_text(RichText::new(name).font(theme::small()))
         .show_ui(ui, |ui| {
             is_none_wanted = ui.selectable_label(compared.is_none(), "nothing").clicked();
-            let items = bench.library_view.items().iter();
+            let items = bench.library.view.items().iter();
             for item in items.filter(|item| item.flaw.is_none()) {
                 let is_chosen = compared.is_some_and(|compared| compared.id == item.id);
                 if ui.selectable_label(is_chosen, &item.name).clicked() {

@@ -61,7 +61,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         id: format!("{}-1", keep.id.trim()),
         ..keep.clone()
     };
-    let wrong = numbered.refusal(bench.loaded.library().ids());
+    let wrong = numbered.refusal(bench.engine_scene.loaded.library().ids());
     if let Some(words) = &wrong {
         complaint(ui, words);
     }

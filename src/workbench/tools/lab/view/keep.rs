@@ -29,7 +29,9 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     ui.label(parts::small(&from, palette.dim))
         .on_hover_text(tip);
     ui.add_space(2.0 * STEP);
-    let wrong = lab.fields.refusal(bench.loaded.library().ids());
+    let wrong = lab
+        .fields
+        .refusal(bench.engine_scene.loaded.library().ids());
     if let Some(words) = &wrong {
         complaint(ui, words);
     }

@@ -174,6 +174,6 @@ fn show_parts(
     profile::show(ui, profile, lab, preview);
     pictures::show_relief(ui, relief, lab, preview);
     pictures::show_spectra(ui, spectra, (lab, preview), map);
-    curves::show(ui, curves, (lab, preview), bench.workspace.scale);
+    curves::show(ui, curves, (lab, preview), bench.selection.scale);
     within(ui, figures, |ui| figures::show(ui, lab, preview));
 }

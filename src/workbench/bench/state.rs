@@ -1,0 +1,151 @@
+//! What the bench holds, by subject. Neither saved nor undoable, but for the arrays of devices.
+
+use eframe::egui::Rect;
+
+use crate::bench::applied_gains::AppliedGains;
+use crate::bench::arrays::Arrays;
+use crate::bench::background::Task;
+use crate::bench::clips::Clips;
+use crate::bench::folders::Folders;
+use crate::bench::history::Moment;
+use crate::bench::keep::Keeping;
+use crate::bench::library_selection::LibrarySelection;
+use crate::bench::library_view::LibraryView;
+use crate::bench::opening::Opened;
+use crate::bench::preparing::Preparing;
+use crate::bench::query::IntervalMeter;
+use crate::bench::recording::Take;
+use crate::bench::rendering::Rendering;
+use crate::bench::session::SessionInSight;
+use crate::bench::signals::history::History;
+use crate::bench::sources::Sources;
+use crate::bench::trail::Trail;
+use crate::bench::view::{BridgeView, LibraryDot};
+use selvedge_device::FaultWords;
+use selvedge_engine::Recording;
+use selvedge_render::RenderScene;
+use selvedge_render::array::ContactInspector;
+use selvedge_render::scene::LoadedScene;
+
+/// The scene as the engine has it.
+pub(crate) struct EngineScene {
+    /// With its textiles, and gains as they are felt.
+    pub(crate) loaded: LoadedScene,
+    /// Its serial number.
+    pub(crate) serial: u64,
+    /// How it is rendered; what the user chose may still be on its way.
+    pub(crate) rendering: Rendering,
+    /// An edited scene on its way.
+    pub(crate) preparing: Preparing,
+    /// The gains that the engine has.
+    pub(crate) applied_gains: AppliedGains,
+}
+
+/// What plots look at a contactor with.
+pub(crate) struct InspectionCache {
+    /// The scene as rendering sees it.
+    pub(crate) scene: RenderScene,
+    /// What a contactor feels of it.
+    pub(crate) inspector: ContactInspector,
+    /// Scenes that were opened.
+    pub(crate) n_scenes: u64,
+    /// Changes of any scene that need another inspector.
+    pub(crate) n_edits: u64,
+}
+
+impl InspectionCache {
+    /// For a scene, the so manieth opened, after so many changes.
+    pub(crate) fn on(loaded: &LoadedScene, n_scenes: u64, n_edits: u64) -> Self {
+        let scene = RenderScene::of(loaded);
+        Self {
+            inspector: ContactInspector::new(&scene),
+            scene,
+            n_scenes,
+            n_edits,
+        }
+    }
+}
+
+/// The scene's library.
+pub(crate) struct LibraryState {
+    /// Its textiles, and their pictures as far as they were wanted.
+    pub(crate) view: LibraryView,
+    /// Those with a level.
+    pub(crate) dots: Vec<LibraryDot>,
+    /// Those that are selected.
+    pub(crate) selection: LibrarySelection,
+    /// New ones on their way.
+    pub(crate) keeping: Keeping,
+}
+
+/// Explorations: where positions come from, and the one that can be replayed.
+#[derive(Debug, Default)]
+pub(crate) struct Exploration {
+    /// Tablets, and other programs that joined.
+    pub(crate) sources: Sources,
+    /// The exploration that can be replayed.
+    pub(crate) at_hand: Option<Take>,
+    /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
+    pub(crate) ended: Option<Recording>,
+    /// Whether it is replayed again and again.
+    pub(crate) does_loop: bool,
+}
+
+/// Files under way.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    /// A scene on its way.
+    pub(crate) opening: Option<Task<Box<Opened>>>,
+    /// A recorded exploration on its way.
+    pub(crate) reading: Option<Task<Take>>,
+    /// A recorded exploration on its way into a file.
+    pub(crate) saving: Option<Task<Take>>,
+    /// A file for other programs on its way.
+    pub(crate) clips: Clips,
+    /// Folders that the desktop is asked to show.
+    pub(crate) folders: Folders,
+}
+
+/// The device, as far as the engine does not know it.
+#[derive(Debug, Default)]
+pub(crate) struct DeviceState {
+    /// What the link was last opened to.
+    pub(crate) target: Option<String>,
+    /// What devices are taken to drive.
+    pub(crate) arrays: Arrays,
+    /// What goes wrong with the emulator that is connected; `None` for other devices.
+    pub(crate) faults: Option<FaultWords>,
+    /// A device that is shown though the engine has none: in pictures.
+    pub(crate) pictured: Option<BridgeView>,
+    /// Refusals to arm that are expected, since there is no device.
+    pub(crate) n_expected_refusals: u32,
+    /// The device's measured interval between frames.
+    pub(crate) interval: IntervalMeter,
+}
+
+/// What was felt lately.
+#[derive(Debug, Default)]
+pub(crate) struct Past {
+    /// Where the display was.
+    pub(crate) trail: Trail,
+    /// The last seconds.
+    pub(crate) history: History,
+}
+
+/// What the pointer does.
+#[derive(Debug, Default)]
+pub(crate) struct PointerState {
+    /// The gesture that edits belong to.
+    pub(crate) moment: Moment,
+    /// The part of the screen where it felt last, points.
+    pub(crate) ground: Option<Rect>,
+}
+
+/// The session of an experiment, as far as others need to know of it.
+#[derive(Debug, Default)]
+pub(crate) struct SessionState {
+    /// The one that is active.
+    pub(crate) active: Option<SessionInSight>,
+    /// Whether a participant's view has a window of its own.
+    pub(crate) has_window: bool,
+}
