@@ -1,5 +1,5 @@
-//! The level error of a run against the reference, perhaps of one that goes on: nobody knows yet how
-//! strong it will become.
+//! The level error of a run against the reference, perhaps of one that goes on: nobody knows yet
+//! how strong it will become.
 //!
 //! An error is a matter of level where the reference reaches a thousandth of its band's largest
 //! amplitude in the run. As the run goes on that largest amplitude grows, and what counted before

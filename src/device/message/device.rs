@@ -22,8 +22,8 @@ message! {
 }
 
 message! {
-    /// The device at the start of a tick, the frame of that tick applied. Counters run from boot and
-    /// wrap at 65536.
+    /// The device at the start of a tick, the frame of that tick applied. Counters run from boot
+    /// and wrap at 65536.
     ///
     /// ```text
     /// 0 tick u32 | 4 dev_us u32 | 8 last_seq u16 | 10 state u8 | 11 queued u8

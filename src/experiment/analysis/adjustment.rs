@@ -3,9 +3,10 @@
 
 use super::draw::{Bar, bars, scatter, series};
 use super::included_trials::{Experiment, Subject};
-use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, tests};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::properties::Measures;
+use super::tables::tests;
 use super::variance::{complete_rows, effects};
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::{Answer, Task};

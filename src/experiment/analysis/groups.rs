@@ -1,8 +1,9 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
 use super::included_trials::{Experiment, Subject};
-use super::model::{Section, summaries, tests};
+use super::model::Section;
 use super::ranking_answers::{Rankings, rankings};
+use super::tables::{summaries, tests};
 use crate::design::Method;
 use selvedge_statistics::{
     Computed, Outcome, Summary, TwoSamples, Undefined, paired_t, two_sample_t,

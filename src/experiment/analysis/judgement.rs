@@ -3,8 +3,9 @@
 
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::judgements;
-use super::model::{Section, Table, cells, or_undefined, tests};
+use super::model::{Section, Table, cells, or_undefined};
 use super::options::Options;
+use super::tables::tests;
 use super::{judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::{Judging, JudgingProtocol};
 use selvedge_statistics::detection::{Answers, Correction, forced_choice, yes_no};

@@ -3,7 +3,8 @@
 use super::draw::{Bar, bars};
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::judgements;
-use super::model::{Section, summaries, tests};
+use super::model::Section;
+use super::tables::{summaries, tests};
 use super::variance::effects;
 use crate::design::Stimulus;
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};

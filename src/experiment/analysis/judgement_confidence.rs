@@ -3,7 +3,8 @@
 use super::draw::{scatter, series};
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::{Judgement, judgements};
-use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, tests};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
+use super::tables::tests;
 use crate::design::Judging;
 use selvedge_chart::{Axis, Style};
 use selvedge_statistics::detection::{Roc, roc};

@@ -3,8 +3,9 @@
 
 use super::draw::{self, Bar, bars, scatter, series};
 use super::included_trials::{Experiment, Subject};
-use super::model::{Cell, Drawn, Section, Table, cells, or_undefined, summaries, tests};
+use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
+use super::tables::{summaries, tests};
 use crate::design::{Levels, StaircaseTrack, Track};
 use crate::{Record, Task};
 use selvedge_chart::{Axis, Series, Style};

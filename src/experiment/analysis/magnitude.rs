@@ -2,7 +2,8 @@
 
 use super::draw::{Bar, bars, scatter, series};
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, cells, summaries, tests};
+use super::model::{Cell, Section, Table, cells};
+use super::tables::{summaries, tests};
 use crate::design::Source;
 use crate::{Answer, Task};
 use selvedge_chart::{Axis, Style};

@@ -2,9 +2,10 @@
 //! subjects.
 
 use super::draw::{scatter, series};
-use super::model::{Drawn, Section, Table, cells, known, matrix, tests};
+use super::model::{Drawn, Section, Table, cells, known};
 use super::options::Options;
 use super::properties::Measures;
+use super::tables::{matrix, tests};
 use selvedge_chart::{Axis, Style};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};

@@ -41,6 +41,7 @@ mod ranking_answers;
 mod ranking_confusions;
 mod ranking_scale;
 mod rating;
+mod tables;
 mod variance;
 mod write;
 

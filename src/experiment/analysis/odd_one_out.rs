@@ -4,13 +4,12 @@
 use super::draw::{Bar, bars};
 use super::included_trials::{Experiment, Session, Subject};
 use super::map::Mapping;
-use super::model::{
-    Cell, Section, Table, cells, known, matrix, percent_interval, percent_of, tests,
-};
+use super::model::{Cell, Section, Table, cells, known, percent_interval, percent_of};
 use super::odd_one_out_answers::{grade_weights, n_right, percent, triad_answer, triads};
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
 use super::properties::Measures;
+use super::tables::{matrix, tests};
 use super::{odd_one_out_craven, odd_one_out_variants};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Correction, triangle};

@@ -2,7 +2,8 @@
 //! Of three, that is the d′ of the triangle test.
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, cells, known, matrix, or_undefined};
+use super::model::{Cell, Section, Table, cells, known, or_undefined};
+use super::tables::matrix;
 use selvedge_statistics::Computed;
 use selvedge_statistics::detection::{Choice, Correction, triangle};
 use selvedge_statistics::ranking::{OddOneOut, PairTally};

@@ -1,8 +1,9 @@
 //! Scales from comparisons of two, subject by subject: Bradley and Terry's, Thurstone's, and how
 //! consistent the comparisons are.
 
-use super::model::{Cell, Section, Table, cells, or_undefined, percent_of, tests};
+use super::model::{Cell, Section, Table, cells, or_undefined, percent_of};
 use super::options::Options;
+use super::tables::tests;
 use selvedge_statistics::ranking::{
     BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
     mosteller, thurstone,

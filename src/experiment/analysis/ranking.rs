@@ -4,11 +4,12 @@
 use super::draw::{Bar, bars};
 use super::included_trials::Experiment;
 use super::map::Mapping;
-use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, tests};
+use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval};
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
 use super::ranking_answers::{CHANCE_PERCENT, Rankings, rankings};
+use super::tables::tests;
 use super::{ranking_confusions, ranking_scale};
 use crate::design::{Ranking, Standard};
 use selvedge_foundation::progress::{Cancelled, Progress};

@@ -3,10 +3,9 @@
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
 use super::included_trials::Experiment;
-use super::model::{
-    Cell, Drawn, Section, Table, cells, known, matrix, percent_interval, percent_of,
-};
+use super::model::{Cell, Drawn, Section, Table, cells, known, percent_interval, percent_of};
 use super::ranking_answers::CHANCE_PERCENT;
+use super::tables::matrix;
 use crate::design::{Ranking, Standard};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::ranking::MeanRanks;

@@ -3,9 +3,10 @@
 //! would look.
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, cells, or_undefined, tests};
+use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::pairs::over_subjects;
 use super::ranking_answers::Rankings;
+use super::tables::tests;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};

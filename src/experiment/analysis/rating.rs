@@ -2,9 +2,10 @@
 
 use super::draw::{Bar, bars};
 use super::included_trials::{Experiment, Subject};
-use super::model::{Drawn, SUMMARY, Section, Table, cells, file_name, summary_cells, tests};
+use super::model::{Drawn, Section, Table, cells, file_name};
 use super::options::Options;
 use super::properties::Measures;
+use super::tables::{SUMMARY, summary_cells, tests};
 use super::variance::{complete_rows, effects};
 use crate::design::{Rating, Scale};
 use crate::{Answer, Task};

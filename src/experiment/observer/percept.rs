@@ -10,12 +10,13 @@ use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::{Band, Levels};
 
 named! { "strategy",
-    /// What an observer goes by. Each cue has a noise of its own, as if it were looked at by itself.
+    /// What an observer goes by. Each cue has a noise of its own, as if it were looked at by
+    /// itself.
     ///
-    /// The array has two bands, so there are no others to go by. A coordinate that compares two levels
-    /// is divided by √2, since the noise of a difference is √2 that of a level: all coordinates have
-    /// the same noise. That cues beyond the levels are told apart by the same just noticeable
-    /// difference is assumed: nothing is published for them.
+    /// The array has two bands, so there are no others to go by. A coordinate that compares two
+    /// levels is divided by √2, since the noise of a difference is √2 that of a level: all
+    /// coordinates have the same noise. That cues beyond the levels are told apart by the same just
+    /// noticeable difference is assumed: nothing is published for them.
     #[derive(Default)]
     pub enum Strategy {
         /// Nothing: guesses.

@@ -89,9 +89,9 @@ impl Relief {
         high - low
     }
 
-    /// What files say of it: angles in degrees, the light on the picture from +x with y up, the rows
-    /// clockwise from +x; heights in widths of a sample and, if `relief_um`, from lowest to highest,
-    /// is known, in µm. Residuals are means of |E/a − R|.
+    /// What files say of it: angles in degrees, the light on the picture from +x with y up, the
+    /// rows clockwise from +x; heights in widths of a sample and, if `relief_um`, from lowest to
+    /// highest, is known, in µm. Residuals are means of |E/a − R|.
     pub(crate) fn report(&self, relief_um: Option<f64>) -> impl Serialize {
         let shape = &self.shape;
         let heights = &shape.height_px;

@@ -66,7 +66,9 @@ pub(crate) trait KeyType {
 
 /// Says of types what parameter they are, and the numbers in them.
 macro_rules! key_types {
-    ($($type:ty, |$bounds:pat_param, $unit:pat_param| $kind:expr, |$value:ident| $numbers:expr;)+) => {
+    ($(
+        $type:ty, |$bounds:pat_param, $unit:pat_param| $kind:expr, |$value:ident| $numbers:expr;
+    )+) => {
         $(impl KeyType for $type {
             fn kind($bounds: [f64; 2], $unit: &'static str) -> ParameterKind {
                 $kind
@@ -96,7 +98,8 @@ key_types! {
     Option<f64>, |[min, max], unit| ParameterKind::Optional { min, max, unit, instead_of: "" },
         |number| number.iter().copied().collect();
     Vec<f64>, |_, unit| ParameterKind::Numbers(unit), |numbers| numbers.clone();
-    Vec<u32>, |_, _| ParameterKind::Counts, |counts| counts.iter().copied().map(f64::from).collect();
+    Vec<u32>, |_, _| ParameterKind::Counts,
+        |counts| counts.iter().copied().map(f64::from).collect();
     bool, |_, _| ParameterKind::Flag, |_flag| Vec::new();
     String, |_, _| ParameterKind::Colour, |_colour| Vec::new();
 }

@@ -115,6 +115,13 @@ mod tests {
             .changes(&after)
             .iter()
             .map(|command| format!("{command:?}"))
+            .map(|words| {
+                words
+                    .split(['(', ' '])
+                    .next()
+                    .unwrap_or_default()
+                    .to_owned()
+            })
             .collect();
         assert_eq!(words, ["SetTuning", "SetTextileGain", "SetContactorMask"]);
         let prepared = after.in_scene(&scene);

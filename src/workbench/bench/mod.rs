@@ -3,7 +3,6 @@
 //!
 //! Knows neither the tools nor the window around them.
 
-pub(crate) mod amplitude;
 pub(crate) mod applied_gains;
 pub(crate) mod arrays;
 pub(crate) mod background;
@@ -42,6 +41,7 @@ pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
 pub(crate) mod rendering;
+pub(crate) mod scene_views;
 pub(crate) mod selection;
 pub(crate) mod session;
 pub(crate) mod settings;
@@ -61,7 +61,6 @@ use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
-use crate::bench::export::origin::Origin as ExportOrigin;
 use crate::bench::keep::Keeping;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
@@ -77,7 +76,7 @@ use crate::bench::state::{
     PointerState, SessionState,
 };
 use crate::bench::trail::Trail;
-use crate::bench::view::{Live, Marks, SceneView};
+use crate::bench::view::Live;
 use crate::kit::theme;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
@@ -314,36 +313,6 @@ impl Bench {
         self.has_session() && !is_open
     }
 
-    /// Where numbers of the scene come from.
-    pub(crate) fn origin(&self) -> ExportOrigin {
-        let reference_db = self.live.reference_db;
-        let scene = self.document.scene();
-        let origin = ExportOrigin::of(scene, &self.document.tuning(), reference_db);
-        if self.selection.mute_solo.is_any() {
-            let words = "parts are muted or felt alone";
-            origin.and("audition", words, words)
-        } else {
-            origin
-        }
-    }
-
-    /// The same for amplitudes that the engine rendered.
-    pub(crate) fn rendered_origin(&self) -> ExportOrigin {
-        let status = &self.live.status;
-        self.origin().by_method(status.method, status.bound_db)
-    }
-
-    /// The scene as panes draw it, without a look at pictures.
-    pub(crate) fn plain_scene_view(&self) -> SceneView {
-        query::scene_view(
-            &self.document,
-            &self.library.view,
-            &self.library.dots,
-            &self.selection.mute_solo,
-            self.live.reference_db,
-        )
-    }
-
     /// Whether a pane is in sight.
     pub(crate) fn shows(&self, pane: Pane) -> bool {
         self.in_sight.contains(&pane)
@@ -361,30 +330,6 @@ impl Bench {
             Some(now) => now + TICK / 2,
             None => Instant::now(),
         }
-    }
-
-    /// The scene as panes draw it; textiles in it want their pictures.
-    pub(crate) fn scene_view(&mut self) -> SceneView {
-        let placed = &self.document.scene().textiles;
-        for cloth in placed {
-            self.library.view.want(&cloth.id);
-        }
-        for flaw in self.library.view.work(&self.ctx, self.is_stepped()) {
-            self.notices.give(flaw);
-        }
-        let mut view = query::scene_view(
-            &self.document,
-            &self.library.view,
-            &self.library.dots,
-            &self.selection.mute_solo,
-            self.live.reference_db,
-        );
-        view.picked = Arc::clone(&self.library.selection.0);
-        view.marks = Marks {
-            cloth: self.selection.cloth,
-            hovered: self.selection.hovered,
-        };
-        view
     }
 }
 

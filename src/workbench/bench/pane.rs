@@ -3,9 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 /// Declares every pane once: its name in files, its title, its title where there is little room,
-/// the width of what its tool adds to the row of tabs, points, and whether it has numbers to export.
+/// the width of what its tool adds to the row of tabs, points, and whether it has numbers to
+/// export.
 macro_rules! panes {
-    ($($(#[$doc:meta])* $name:ident: $title:literal, $short:literal, $corner:literal, $exports:literal;)*) => {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident: $title:literal, $short:literal, $corner:literal, $exports:literal;
+    )*) => {
         /// A part of the window that can be moved, stacked and hidden.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
         pub(crate) enum Pane {

@@ -1,11 +1,11 @@
 //! What is chosen in all views, and how amplitudes are drawn in all of them. Never undoable.
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::DotStyle;
 use crate::bench::probe::Probe;
 use crate::bench::view::Hovered;
+use crate::kit::amplitude::AmplitudeScale;
 
 /// What all views share.
 #[derive(Debug, Clone, PartialEq, Default)]

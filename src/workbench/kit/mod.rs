@@ -2,10 +2,10 @@
 //!
 //! Knows nothing of scenes, engines or tools.
 
+pub(crate) mod amplitude;
 pub(crate) mod drop;
 pub(crate) mod pane;
 pub(crate) mod plot;
-pub(crate) mod spectrogram;
 pub(crate) mod swatch;
 pub(crate) mod theme;
 pub(crate) mod view_transform;

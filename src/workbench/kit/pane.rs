@@ -1,9 +1,11 @@
 //! The space around what a pane shows, its parts, and the frame around a whole window.
 
 use eframe::egui::{
-    Context, Frame, Id, LayerId, Margin, Order, Rect, ScrollArea, Stroke, StrokeKind, Ui, UiBuilder,
+    Context, Frame, Id, LayerId, Margin, Order, Painter, Rect, ScrollArea, Stroke, StrokeKind, Ui,
+    UiBuilder,
 };
 
+use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 
 /// Width of the frame around the window of an armed device, points.
@@ -56,4 +58,13 @@ pub(crate) fn frame_as_armed(ctx: &Context) {
     let stroke = Stroke::new(ARMED_FRAME, palette.danger);
     let painter = ctx.layer_painter(layer);
     painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
+}
+
+/// Writes one dim sentence into the middle of an empty picture.
+pub(crate) fn paint_sentence(painter: &Painter, area: Rect, sentence: &str) {
+    let palette = Palette::of(painter.ctx().theme());
+    let width = (area.width() - 16.0).max(40.0);
+    let galley = painter.layout(sentence.to_owned(), theme::small(), palette.dim, width);
+    let corner = area.center() - 0.5 * galley.size();
+    painter.galley(corner, galley, palette.dim);
 }

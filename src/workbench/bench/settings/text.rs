@@ -29,11 +29,11 @@ mod tests {
     use eframe::egui::ThemePreference;
 
     use super::*;
-    use crate::bench::amplitude::AmplitudeScale;
     use crate::bench::overlays::{Overlay, Overlays};
     use crate::bench::part::DotStyle;
     use crate::bench::perspective::Perspective;
     use crate::bench::rendering::Rendering;
+    use crate::kit::amplitude::AmplitudeScale;
     use crate::kit::theme::colour_map::ColourMap;
     use selvedge_engine::Area;
     use selvedge_render::array::Method;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, Painter, Rect, Stroke, pos2, vec2};
 
-use crate::bench::amplitude::AmplitudeScale;
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;

@@ -8,7 +8,7 @@ use eframe::egui::{self, Label, Rect, RichText, Sense, Ui, WidgetInfo, pos2, vec
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgeView, LinkTiming};
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};

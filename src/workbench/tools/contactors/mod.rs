@@ -7,7 +7,6 @@ use eframe::egui::{
 };
 
 use crate::bench::Bench;
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::NOTHING_FELT;
@@ -15,6 +14,7 @@ use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::{Dot, Live, SceneView};
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::pane::framed;
 use crate::kit::theme;
 use crate::kit::theme::Palette;

@@ -1,8 +1,8 @@
 //! The textile lab: the profile that is looked at and the amplitudes over speed along it.
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
+use crate::kit::amplitude::AmplitudeScale;
 use crate::tools::lab::preview::{Felt, Preview, speeds_mm_per_s};
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::curves::chart as lab_chart;

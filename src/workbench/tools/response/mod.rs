@@ -22,7 +22,7 @@ use crate::bench::probe::Probe;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::SceneView;
 use crate::kit::pane::framed;
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::toggle;

@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, Color32, Painter, Rect, Ui, vec2};
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::probe::Probe;
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::Palette;
 use crate::tools::response::curves::Curves;
 use selvedge_foundation::geometry::Velocity;

@@ -6,9 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::*;
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::Command;
 use crate::bench::probe::Probe;
+use crate::kit::amplitude::AmplitudeScale;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{ContactInspector, TextileResponse};

@@ -14,11 +14,12 @@ use crate::bench::signals::contact::ContactColumns;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ};
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
-use crate::kit::spectrogram;
-use crate::kit::spectrogram::{ColourScale, Layout, Under, Waterfall};
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::tools::spectra::waterfall;
+use crate::tools::spectra::waterfall::{ColourScale, Layout, Under, Waterfall};
 use crate::tools::spectra::{HEIGHT_PX, contactor, frequencies, picture, sheet, show_contactor};
 use selvedge_chart as chart;
 use selvedge_chart::{Chart, Row, Series, Style, Upright};
@@ -91,10 +92,10 @@ impl ContactSpectrum {
         let Waterfall { ring, image, .. } = &self.waterfall;
         let painter = ui.painter();
         let scale = scale(bench.settings.preferences.colour_map);
-        spectrogram::paint(painter, &layout, (ring, image), &scale);
+        waterfall::paint(painter, &layout, (ring, image), &scale);
         if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what arrives at the contactor is drawn here";
-            spectrogram::paint_sentence(painter, layout.picture, words);
+            paint_sentence(painter, layout.picture, words);
         }
         let filters = &bench.document.scene().filters;
         paint_filters(painter, layout.strip, filters);
@@ -102,7 +103,7 @@ impl ContactSpectrum {
         if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
             response.on_hover_text_at_pointer(filter_words(layout.strip, at, filters));
         } else if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
-            spectrogram::tell(ui, response, &layout, || words_of(&under));
+            waterfall::tell(ui, response, &layout, || words_of(&under));
         }
     }
 }
@@ -179,12 +180,12 @@ fn words_of(under: &Under) -> String {
         "{}\n{level}\nPeak amplitude of a row 4.9 % of the frequency wide, at the surface: before \
          filters and gains. The power of each bin of the spatial spectrum is spread evenly over \
          its width, Δf = speed × 0.23 cycles/mm.",
-        spectrogram::place_words(under)
+        waterfall::place_words(under)
     )
 }
 
 fn filter_words(strip: Rect, at: Pos2, filters: &Filters) -> String {
-    let frequency_hz = spectrogram::frequency_axis().value_at_y(strip.y_range(), at.y);
+    let frequency_hz = waterfall::frequency_axis().value_at_y(strip.y_range(), at.y);
     let gain = |band| quantity::fixed(filters.gain(band, frequency_hz), 2);
     format!(
         "Filters at {}\n40 Hz  {}\n320 Hz  {}\namplitude gain",
@@ -198,7 +199,7 @@ fn filter_words(strip: Rect, at: Pos2, filters: &Filters) -> String {
 fn paint_filters(painter: &Painter, strip: Rect, filters: &Filters) {
     let palette = Palette::of(painter.ctx().theme());
     painter.rect_filled(strip, 0, palette.floor);
-    let frequencies = spectrogram::frequency_axis();
+    let frequencies = waterfall::frequency_axis();
     let gains = Axis::linear(0.0, 1.0);
     let clip = painter.with_clip_rect(strip.expand(1.0));
     for band in Band::ALL {

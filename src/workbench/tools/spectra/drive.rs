@@ -5,16 +5,17 @@
 use eframe::egui::{self, Sense, Ui, WidgetInfo};
 
 use crate::bench::Bench;
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT, bar, ink, rgb};
 use crate::bench::pane::Pane;
 use crate::bench::signals::drive::DriveSpectrum as Spectrum;
 use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::pane::framed;
-use crate::kit::spectrogram;
-use crate::kit::spectrogram::{ColourScale, Layout, Under, Waterfall};
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::Tick;
+use crate::tools::spectra::waterfall;
+use crate::tools::spectra::waterfall::{ColourScale, Layout, Under, Waterfall};
 use crate::tools::spectra::{HEIGHT_PX, picture, sheet, show_contactor};
 use selvedge_chart::{At, Axis, Chart, Extent, Row, Rule};
 use selvedge_foundation::quantity;
@@ -74,15 +75,15 @@ impl DriveSpectrum {
         let Waterfall { ring, image, .. } = &self.waterfall;
         let painter = ui.painter();
         let colours = colours(bench.selection.scale, bench.settings.preferences.colour_map);
-        spectrogram::paint(painter, &layout, (ring, image), &colours);
-        spectrogram::paint_carriers(painter, layout.picture);
+        waterfall::paint(painter, &layout, (ring, image), &colours);
+        waterfall::paint_carriers(painter, layout.picture);
         if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what drives the contactor is drawn here";
-            spectrogram::paint_sentence(painter, layout.picture, words);
+            paint_sentence(painter, layout.picture, words);
         }
         let pointer = response.hover_pos();
         if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
-            spectrogram::tell(ui, response, &layout, || words_of(&under));
+            waterfall::tell(ui, response, &layout, || words_of(&under));
         }
     }
 }
@@ -127,8 +128,8 @@ impl Tool for DriveSpectrum {
         };
         let title = format!("Spectrum that drives contactor {contactor}");
         let note = "Amplitude spectrum (peak) of the drive, after gains and before output limits: \
-                    100 ms under a Hann window whose gain is compensated; the largest in rows 4.9 % \
-                    of the frequency wide. Marks on the right: 40 and 320 Hz.";
+                    100 ms under a Hann window whose gain is compensated; the largest in rows 4.9 \
+                    % of the frequency wide. Marks on the right: 40 and 320 Hz.";
         let ticks = columns.iter().map(|column| column.tick);
         let origin = bench.rendered_origin();
         let origin = origin.of_contactor(contactor).in_ticks(ticks);
@@ -157,6 +158,6 @@ fn words_of(under: &Under) -> String {
     format!(
         "{}\n{amplitude}\nPeak amplitude, after gains and before output limits: 100 ms of the \
          drive under a Hann window, whose gain is compensated",
-        spectrogram::place_words(under)
+        waterfall::place_words(under)
     )
 }

@@ -7,6 +7,7 @@ pub(crate) mod spatial;
 pub(crate) mod spatial_plot;
 #[cfg(test)]
 mod tests;
+pub(crate) mod waterfall;
 pub(crate) mod wave;
 
 use eframe::egui::{RichText, Ui};
@@ -15,9 +16,9 @@ use crate::bench::Bench;
 use crate::bench::export::Sheet;
 use crate::bench::signals::ring::N_COLUMNS;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
-use crate::kit::spectrogram::ShownColumn;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::tools::spectra::waterfall::ShownColumn;
 use selvedge_chart::{Axis, Chart, Raster};
 use selvedge_render::scene::TICKS_PER_S;
 

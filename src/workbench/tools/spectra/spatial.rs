@@ -11,7 +11,7 @@ use crate::bench::signals::spatial::{
 };
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::tools::spectra::spatial_plot::{Plot, means_of, words_of};
 use crate::tools::spectra::{contactor, show_contactor};

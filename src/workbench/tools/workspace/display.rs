@@ -6,12 +6,12 @@
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::command::DotStyle;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::selection::Selection;
 use crate::bench::trail::TRAIL_S;
 use crate::bench::view::{Dot, Live};
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::limit_mark::paint_limit_mark;

@@ -97,7 +97,8 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
     );
 }
 
-/// Declares every textile in sight to the accessibility tree: painted, they would not be there, with its place on the screen.
+/// Declares every textile in sight to the accessibility tree: painted, they would not be there,
+/// with its place on the screen.
 fn declare(ui: &Ui, stage: &Stage<'_>) {
     for (index, cloth) in stage.scene.cloths.iter().enumerate() {
         let bounds = arrange::screen_bounds(&stage.view, cloth).intersect(stage.ground);

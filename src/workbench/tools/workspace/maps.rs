@@ -10,8 +10,8 @@ use eframe::egui::{
     self, Color32, ColorImage, TextureFilter, TextureHandle, TextureOptions, TextureWrapMode,
 };
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::job::{Job, Polled};
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_render::array::{ContactInspector, TextileResponse, VelocityMap};

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use eframe::egui::{Sense, Ui, vec2};
 
+use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
-use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::tools::accuracy::sampling::CostView;
 use crate::tools::accuracy::view::numbers::{HISTOGRAM, LINE, quiet_line};

@@ -4,9 +4,9 @@
 use eframe::egui::{Color32, Sense, Ui, vec2};
 
 use crate::bench::rendering::Rendering;
+use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
-use crate::kit::spectrogram::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::tools::accuracy::checker::{ErrorView, ROUNDING_DB, edges_db};
 use crate::tools::accuracy::sampling::{Accuracy, Tally};

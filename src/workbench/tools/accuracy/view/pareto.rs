@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::bench::Bench;
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};

@@ -11,7 +11,7 @@ pub(crate) mod table;
 
 use eframe::egui::{self, Ui};
 
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::STEP;
 use crate::tools::collection::state::{CollectionView, Mode};
 use crate::tools::collection::view::hand::Hand;

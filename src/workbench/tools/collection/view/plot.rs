@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use crate::bench::library_selection::Joining;
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Side, paint_ticks};
 use crate::kit::{swatch, theme};

@@ -3,8 +3,8 @@
 
 use eframe::egui::{Margin, Rect, Ui};
 
-use crate::bench::amplitude::AmplitudeScale;
 use crate::bench::export::ink;
+use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::widgets::axis::Tick;

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
 
 use crate::bench::Bench;
-use crate::kit::spectrogram::paint_sentence;
+use crate::kit::pane::paint_sentence;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
 use crate::tools::lab::preview::Preview;

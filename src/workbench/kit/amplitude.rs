@@ -11,8 +11,8 @@ use selvedge_foundation::quantity;
 
 /// From the largest to the smallest amplitude on the scale.
 const SPAN: f64 = 100.0;
-/// From the top of the levels of curves to their bottom: wider than the scale, whose top they share,
-/// since curves fall far, dB.
+/// From the top of the levels of curves to their bottom: wider than the scale, whose top they
+/// share, since curves fall far, dB.
 const LEVELS_SPAN_DB: f64 = 60.0;
 /// The full scale of the output, where the scale begins and which it never exceeds by itself, µm.
 const FULL_SCALE_UM: f64 = 50.0;

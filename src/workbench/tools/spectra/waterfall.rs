@@ -13,7 +13,6 @@ use eframe::egui::{
 use crate::bench::signals::history::{Entry, History};
 use crate::bench::signals::ring::{ColumnRing, N_COLUMNS, N_SLOTS, slot_of};
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, row_of};
-use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
@@ -320,15 +319,6 @@ fn paint_bar(painter: &Painter, layout: &Layout, scale: &ColourScale) {
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &scale.marks);
     let unit_at = pos2(layout.all.right(), bar.top() - 6.0);
     paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, scale.unit);
-}
-
-/// Writes one dim sentence into the middle of an empty picture.
-pub(crate) fn paint_sentence(painter: &Painter, area: Rect, sentence: &str) {
-    let palette = Palette::of(painter.ctx().theme());
-    let width = (area.width() - 16.0).max(40.0);
-    let galley = painter.layout(sentence.to_owned(), theme::small(), palette.dim, width);
-    let corner = area.center() - 0.5 * galley.size();
-    painter.galley(corner, galley, palette.dim);
 }
 
 /// What lies under the pointer.

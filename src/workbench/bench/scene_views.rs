@@ -1,0 +1,63 @@
+//! The scene as panes draw it, and where its numbers come from when they are exported.
+
+use std::sync::Arc;
+
+use crate::bench::export::origin::Origin;
+use crate::bench::view::{Marks, SceneView};
+use crate::bench::{Bench, query};
+
+impl Bench {
+    /// Where numbers of the scene come from.
+    pub(crate) fn origin(&self) -> Origin {
+        let reference_db = self.live.reference_db;
+        let scene = self.document.scene();
+        let origin = Origin::of(scene, &self.document.tuning(), reference_db);
+        if self.selection.mute_solo.is_any() {
+            let words = "parts are muted or felt alone";
+            origin.and("audition", words, words)
+        } else {
+            origin
+        }
+    }
+
+    /// The same for amplitudes that the engine rendered.
+    pub(crate) fn rendered_origin(&self) -> Origin {
+        let status = &self.live.status;
+        self.origin().by_method(status.method, status.bound_db)
+    }
+
+    /// The scene as panes draw it, without a look at pictures.
+    pub(crate) fn plain_scene_view(&self) -> SceneView {
+        query::scene_view(
+            &self.document,
+            &self.library.view,
+            &self.library.dots,
+            &self.selection.mute_solo,
+            self.live.reference_db,
+        )
+    }
+
+    /// The scene as panes draw it; textiles in it want their pictures.
+    pub(crate) fn scene_view(&mut self) -> SceneView {
+        let placed = &self.document.scene().textiles;
+        for cloth in placed {
+            self.library.view.want(&cloth.id);
+        }
+        for flaw in self.library.view.work(&self.ctx, self.is_stepped()) {
+            self.notices.give(flaw);
+        }
+        let mut view = query::scene_view(
+            &self.document,
+            &self.library.view,
+            &self.library.dots,
+            &self.selection.mute_solo,
+            self.live.reference_db,
+        );
+        view.picked = Arc::clone(&self.library.selection.0);
+        view.marks = Marks {
+            cloth: self.selection.cloth,
+            hovered: self.selection.hovered,
+        };
+        view
+    }
+}
