@@ -32,7 +32,7 @@ mod xml;
 
 pub use archive::{Archive, pack};
 pub use atomic::{create, read, read_text, write_atomic};
-pub use bytes::{ByteReader, Number, latin1};
+pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
 pub use flaw::{Flaw, Place};
 pub use gray16::{

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::number_table::decoded;
 use selvedge_foundation::files::FileError;
+use selvedge_foundation::files::decoded;
 
 /// Larger files are refused before they are read as text.
 const MAX_BYTES: usize = 64 << 20;

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use super::reading::{About, Stated, UNEVEN_MEND, even_step};
 use super::{HeightOptions, LengthUnit, Reading, n_points};
-use crate::number_table::{NoTable, RawTable, decoded, table_with_gaps};
+use crate::number_table::{NoTable, RawTable, table_with_gaps};
 use selvedge_foundation::files::FileError;
+use selvedge_foundation::files::decoded;
 
 /// Reads a profile or a map.
 pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
