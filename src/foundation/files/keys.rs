@@ -30,9 +30,10 @@ pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, 
     })
 }
 
-/// Reads what is understood of a TOML text whose keys all have defaults: a key that is unknown is
-/// passed over, a value (or an entry of a table) that is not understood is left out. Says also the
-/// first line of one.
+/// Reads what is understood of a TOML text whose keys all have defaults.
+///
+/// A key that is unknown is passed over; a value, or an entry of a table, that is not understood is
+/// left out: the first line of one comes back too.
 ///
 /// # Errors
 /// This is not TOML at all.

@@ -160,7 +160,7 @@ mod tests {
             loop {
                 progress
                     .step(0.5, "waiting")
-                    .map_err(|_| "stopped".to_owned())?;
+                    .map_err(|_stopped| "stopped".to_owned())?;
                 thread::yield_now();
             }
         });

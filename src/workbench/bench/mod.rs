@@ -152,10 +152,9 @@ impl Bench {
         let origin = scene.map_or(Origin::Shipped, |path| Origin::File(path.to_owned()));
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
-        let (settings, complaint) = if is_stepped {
-            (Settings::in_memory(), None)
-        } else {
-            Settings::of_user()
+        let (settings, complaint) = match drive {
+            Drive::Stepped => (Settings::in_memory(), None),
+            Drive::Live => Settings::of_user(),
         };
         let opened = open(origin, settings.preferences.rendering)?;
         let scene_serial = opened.prepared.serial();
@@ -163,10 +162,9 @@ impl Bench {
             scene: opened.prepared,
             on_news: (!is_stepped).then(|| waker(ctx)),
         };
-        let engine = if is_stepped {
-            Engine::without_thread(config, now)?
-        } else {
-            Engine::start(config)?
+        let engine = match drive {
+            Drive::Stepped => Engine::without_thread(config, now)?,
+            Drive::Live => Engine::start(config)?,
         };
         let loaded = opened.loaded;
         let library = Arc::clone(loaded.library());

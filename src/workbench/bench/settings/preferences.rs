@@ -157,8 +157,12 @@ enum ThemeWord {
 
 /// A share as a whole number of hundredths.
 mod percent {
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::{Deserialize as _, Deserializer, Serializer};
 
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands a reference over"
+    )]
     pub(super) fn serialize<S: Serializer>(share: &f32, to: S) -> Result<S::Ok, S::Error> {
         to.serialize_f32((share * 100.0).round())
     }
@@ -171,10 +175,14 @@ mod percent {
 /// Overlays by their names.
 mod overlay_words {
     use serde::de::Error as _;
-    use serde::{Deserialize, Deserializer, Serialize as _, Serializer};
+    use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
 
     use super::Overlays;
 
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands a reference over"
+    )]
     pub(super) fn serialize<S: Serializer>(overlays: &Overlays, to: S) -> Result<S::Ok, S::Error> {
         overlays.words().serialize(to)
     }
@@ -228,7 +236,7 @@ mod arrangement_keys {
 mod scene_paths {
     use std::path::PathBuf;
 
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::{Deserialize as _, Deserializer, Serializer};
 
     use super::Preferences;
 
@@ -253,7 +261,7 @@ mod areas {
     use std::collections::BTreeMap;
 
     use serde::de::Error as _;
-    use serde::{Deserialize, Deserializer, Serializer};
+    use serde::{Deserialize as _, Deserializer, Serializer};
 
     use super::Area;
 

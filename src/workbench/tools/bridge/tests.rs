@@ -247,7 +247,7 @@ fn the_pane_is_drawn_in_every_state() {
         });
     }
     found.wizard = Some(wizard);
-    let stages = [
+    let stages = vec![
         ("folded", Stage::new(BridgePhase::Ready)),
         ("open", calibrated),
         ("walking", walking),

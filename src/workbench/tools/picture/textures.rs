@@ -15,7 +15,7 @@ use crate::tools::picture::images::Image;
 /// Stages as textures, and from where the relief is looked at.
 #[derive(Default)]
 pub(crate) struct Textures {
-    textures: BTreeMap<usize, (Image, TextureHandle)>,
+    stages: BTreeMap<usize, (Image, TextureHandle)>,
     /// From where the relief is looked at.
     pub(crate) view: Option<View3d>,
     /// The relief that was shown last.
@@ -25,7 +25,7 @@ pub(crate) struct Textures {
 impl std::fmt::Debug for Textures {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Textures")
-            .field("cards", &self.textures.keys())
+            .field("cards", &self.stages.keys())
             .field("view", &self.view)
             .finish_non_exhaustive()
     }
@@ -46,7 +46,7 @@ impl Textures {
                 painter.ctx().load_texture(name, data, options),
             )
         };
-        let kept = self.textures.entry(card).or_insert_with(make);
+        let kept = self.stages.entry(card).or_insert_with(make);
         if !Arc::ptr_eq(&kept.0, image) {
             *kept = make();
         }

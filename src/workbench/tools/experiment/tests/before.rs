@@ -87,7 +87,7 @@ fn a_session_with_a_library_of_ones_own_is_resumed_wherever_its_log_lies() {
     end(&mut window);
     window.pass(3);
     act(&mut window, |one, bench| {
-        one.resume_session(log.clone(), bench)
+        one.resume_session(log.clone(), bench);
     });
     window.pass(3);
     assert!(experiment(&window).session.is_some());

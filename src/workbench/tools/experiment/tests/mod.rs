@@ -85,7 +85,7 @@ fn pass(window: &mut Headless) {
 }
 
 fn mark(window: &mut Headless, mark: Mark) {
-    act(window, |one, bench| one.mark(&mark, bench));
+    act(window, move |one, bench| one.mark(&mark, bench));
 }
 
 fn answer(window: &mut Headless) {

@@ -55,14 +55,14 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
             .vline(left.right(), whole.y_range(), (1.0, hairline));
         inside(ui, left.with_max_x(left.right() - 10.0), |ui| {
             scrolled_column(ui, "import-left", |ui| {
-                show_left(ui, importing, context.commands)
+                show_left(ui, importing, context.commands);
             });
         });
         let right = right.with_min_x(right.left() + 12.0);
         let edge = (right.bottom() - KEEP).max(right.top() + 0.45 * right.height());
         let (look, keep) = right.split_top_bottom_at_y(edge);
         inside(ui, look, |ui| {
-            show_look(ui, importing, context.bench.settings.preferences.colour_map)
+            show_look(ui, importing, context.bench.settings.preferences.colour_map);
         });
         ui.painter()
             .hline(right.x_range(), edge - 4.0, (1.0, hairline));
@@ -77,7 +77,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
             let size = vec2(ui.available_width(), 0.8 * whole.height().max(300.0));
             let (rect, _) = ui.allocate_exact_size(size, eframe::egui::Sense::hover());
             inside(ui, rect, |ui| {
-                show_look(ui, importing, context.bench.settings.preferences.colour_map)
+                show_look(ui, importing, context.bench.settings.preferences.colour_map);
             });
             keep::show(ui, importing, context.bench);
         });

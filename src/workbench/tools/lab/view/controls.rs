@@ -24,7 +24,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
             lab.begin_with(bench, beginning);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_steps(ui, lab)
+            show_steps(ui, lab);
         });
     });
     ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, &mut lab.page));
@@ -105,12 +105,13 @@ fn show_steps(ui: &mut Ui, lab: &mut Lab) {
         .as_ref()
         .is_some_and(|steps| steps.now() != steps.first());
     // From the right.
-    let all: [(&str, &str, bool, fn(&mut Lab)); 3] = [
-        ("Start", "Back to the start", is_changed, Lab::restart),
-        ("Redo", "Redo in the lab", forth, Lab::redo),
-        ("Undo", "Undo in the lab", back, Lab::undo),
+    let acts: [fn(&mut Lab); 3] = [Lab::restart, Lab::redo, Lab::undo];
+    let all = [
+        ("Start", "Back to the start", is_changed),
+        ("Redo", "Redo in the lab", forth),
+        ("Undo", "Undo in the lab", back),
     ];
-    for (sign, name, can, act) in all {
+    for ((sign, name, can), act) in all.into_iter().zip(acts) {
         let refusal = (!can).then_some("Nothing has changed");
         let response = ui.add_enabled(can, egui::Button::new(sign).min_size(vec2(26.0, ROW)));
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, name));
