@@ -197,15 +197,9 @@ impl Bench {
 
     /// Takes the news of a file. To be called every frame.
     pub(crate) fn poll_clips(&mut self) {
-        let task = &mut self.files.clips.task;
-        let was_stopped = task.as_ref().is_some_and(Task::is_stopped);
-        let Some(outcome) = finished(task) else {
-            return;
-        };
-        match outcome {
-            Ok(written) => self.notices.give(said(&written)),
-            Err(_) if was_stopped => {}
-            Err(words) => self.notices.give(words),
+        if let Some(outcome) = finished(&mut self.files.clips.task) {
+            let line = outcome.map_or_else(|words| words, |written| said(&written));
+            self.notices.give(line);
         }
     }
 }

@@ -32,6 +32,17 @@ pub(crate) enum Keep {
     Feel(Arc<Vec<NewTextile>>),
 }
 
+impl Keep {
+    /// Of textiles that are to be felt, or not.
+    pub(crate) fn of(textiles: Arc<Vec<NewTextile>>, is_felt: bool) -> Self {
+        if is_felt {
+            Self::Feel(textiles)
+        } else {
+            Self::Save(textiles)
+        }
+    }
+}
+
 /// Textiles that were kept.
 #[derive(Debug)]
 pub(crate) struct Kept {

@@ -10,8 +10,9 @@ use eframe::egui::{
     self, Color32, ColorImage, TextureFilter, TextureHandle, TextureOptions, Vec2, vec2,
 };
 
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::view::{ClothPicture, ShelfItem};
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Appearance, Library, kind_of, measured_figures};
 
 /// Most pictures that are read in one go.
@@ -28,7 +29,7 @@ pub(crate) struct LibraryView {
     /// Textiles whose pictures were asked for, whatever came of it.
     asked: BTreeSet<String>,
     wanted: Vec<String>,
-    coming: Option<Job<Vec<Read>>>,
+    coming: Option<Task<Vec<Read>>>,
 }
 
 impl LibraryView {
@@ -87,33 +88,25 @@ impl LibraryView {
     }
 
     /// Takes pictures that came and sends for those that are wanted; says what could not be read.
-    /// With `is_at_once` they are read here and now.
-    pub(crate) fn work(&mut self, ctx: &egui::Context, is_at_once: bool) -> Vec<String> {
-        let mut flaws = Vec::new();
-        match self.coming.as_ref().map(Job::poll) {
-            Some(Polled::Done(read)) => {
-                self.coming = None;
-                flaws = self.hang(ctx, read);
-            }
-            Some(Polled::BrokeOff) => self.coming = None,
-            Some(Polled::Working) | None => {}
+    pub(crate) fn work(&mut self, ctx: &egui::Context, executor: &Executor) -> Vec<String> {
+        let mut flaws = self.take(ctx);
+        while self.coming.is_none() && !self.wanted.is_empty() {
+            let n = self.wanted.len().min(AT_ONCE);
+            let some = self.wanted.drain(..n).collect();
+            let library = Arc::clone(&self.library);
+            let read = move |_: &mut Progress<'_>| Ok(read_all(&library, some));
+            self.coming = Some(executor.start("selvedge-pictures", read));
+            flaws.extend(self.take(ctx));
         }
-        if self.wanted.is_empty() || self.coming.is_some() {
-            return flaws;
-        }
-        if is_at_once {
-            let wanted = std::mem::take(&mut self.wanted);
-            flaws.extend(self.hang(ctx, read_all(&self.library, wanted)));
-            return flaws;
-        }
-        let some = self
-            .wanted
-            .drain(..self.wanted.len().min(AT_ONCE))
-            .collect();
-        let library = Arc::clone(&self.library);
-        let read = move || read_all(&library, some);
-        self.coming = Job::start("selvedge-pictures", ctx, read).ok();
         flaws
+    }
+
+    fn take(&mut self, ctx: &egui::Context) -> Vec<String> {
+        match finished(&mut self.coming) {
+            Some(Ok(read)) => self.hang(ctx, read),
+            Some(Err(line)) => vec![line],
+            None => Vec::new(),
+        }
     }
 
     fn hang(&mut self, ctx: &egui::Context, read: Vec<Read>) -> Vec<String> {
@@ -275,13 +268,16 @@ mod tests {
         let ctx = egui::Context::default();
         let mut library_view = shipped();
         let id = library_view.items()[3].id.clone();
-        assert_eq!(library_view.work(&ctx, true), Vec::<String>::new());
+        assert_eq!(
+            library_view.work(&ctx, &Executor::InLine),
+            Vec::<String>::new()
+        );
         assert!(library_view.pictures.is_empty(), "nobody asked");
         library_view.want(&id);
         library_view.want(&id);
         library_view.want("no-such-textile");
         assert_eq!(library_view.wanted.len(), 2);
-        let flaws = library_view.work(&ctx, true);
+        let flaws = library_view.work(&ctx, &Executor::InLine);
         assert_eq!(flaws.len(), 1, "{flaws:?}");
         assert!(library_view.picture(&id).is_some() && library_view.pictures.len() == 1);
         library_view.want("no-such-textile");

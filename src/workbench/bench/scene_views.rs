@@ -43,7 +43,7 @@ impl Bench {
         for cloth in placed {
             self.library.view.want(&cloth.id);
         }
-        for flaw in self.library.view.work(&self.ctx, self.is_stepped()) {
+        for flaw in self.library.view.work(&self.ctx, &self.executor) {
             self.notices.give(flaw);
         }
         let mut view = query::scene_view(

@@ -141,7 +141,9 @@ impl Workbench {
 
     /// Previews of recipes that were begun in the textile lab.
     pub fn previews_computed(&self) -> u64 {
-        self.tools.get::<Lab>().map_or(0, |lab| lab.n_computed)
+        self.tools
+            .get::<Lab>()
+            .map_or(0, |lab| lab.previews.n_begun())
     }
 
     /// The textiles of the library that are selected, by their ids in order.

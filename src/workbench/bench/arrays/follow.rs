@@ -77,7 +77,7 @@ impl Bench {
 
     fn save_arrays(&mut self, ctx: &egui::Context) {
         let now_s = ctx.input(|input| input.time);
-        let (failure, wait_s) = self.device.arrays.save_if_changed(ctx, now_s);
+        let (failure, wait_s) = self.device.arrays.save_if_changed(&self.executor, now_s);
         if let Some(wait_s) = wait_s {
             ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
         }

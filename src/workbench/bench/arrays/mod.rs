@@ -16,9 +16,7 @@ pub(crate) use crate::bench::arrays::wizard::Wizard;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use eframe::egui;
-
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::{Executor, Task, finished};
 use selvedge_device::{ArrayProfile, BridgeError, DeviceUid, ProfileFolder};
 use selvedge_engine::array_of;
 use selvedge_render::scene::Display;
@@ -35,7 +33,7 @@ pub(crate) struct Arrays {
     /// Names of profiles whose files are to be written or removed.
     unsaved: BTreeSet<String>,
     changed_s: Option<f64>,
-    writing: Option<Job<Result<(), BridgeError>>>,
+    writing: Option<Task<()>>,
     /// Whether the engine did not take the profile that it was sent last.
     is_refused: bool,
     /// Whether what was changed waits until the device is disarmed.
@@ -137,20 +135,10 @@ impl Arrays {
     /// To be called every frame; says when to call again.
     pub(crate) fn save_if_changed(
         &mut self,
-        ctx: &egui::Context,
+        executor: &Executor,
         now_s: f64,
     ) -> (Option<String>, Option<f64>) {
-        let failure = match self.writing.as_ref().map(Job::poll) {
-            Some(Polled::Done(outcome)) => {
-                self.writing = None;
-                outcome.err().map(|error| error.to_string())
-            }
-            Some(Polled::BrokeOff) => {
-                self.writing = None;
-                Some("writing an array profile broke off; change it again to keep it".to_owned())
-            }
-            Some(Polled::Working) | None => None,
-        };
+        let failure = finished(&mut self.writing).and_then(Result::err);
         if self.unsaved.is_empty() || self.writing.is_some() || self.folder.is_none() {
             return (failure, None);
         }
@@ -158,8 +146,11 @@ impl Arrays {
         if rested_s < PAUSE_S {
             return (failure, Some(PAUSE_S - rested_s));
         }
-        let work = self.work();
-        self.writing = work.and_then(|work| Job::start("selvedge-arrays", ctx, work).ok());
+        self.writing = self.work().map(|work| {
+            executor.start("selvedge-arrays", |_| {
+                work().map_err(|error| error.to_string())
+            })
+        });
         (failure, None)
     }
 
@@ -257,11 +248,11 @@ mod keeping_tests {
         assert_eq!(again.named("rig"), Some(rig()));
         assert!(flaws[0].contains("bad.toml:1: "), "{flaws:?}");
         arrays.forget("rig");
-        let ctx = egui::Context::default();
-        assert_eq!(arrays.save_if_changed(&ctx, 1.0), (None, Some(PAUSE_S)));
-        assert_eq!(arrays.save_if_changed(&ctx, 2.0), (None, None));
+        let threads = Executor::Threads(eframe::egui::Context::default());
+        assert_eq!(arrays.save_if_changed(&threads, 1.0), (None, Some(PAUSE_S)));
+        assert_eq!(arrays.save_if_changed(&threads, 2.0), (None, None));
         while arrays.writing.is_some() {
-            assert_eq!(arrays.save_if_changed(&ctx, 3.0).0, None);
+            assert_eq!(arrays.save_if_changed(&threads, 3.0).0, None);
         }
         assert_eq!(Arrays::in_folder(&path).0.named("rig"), None);
     }

@@ -1,13 +1,8 @@
-//! Every method on the scene at hand, measured on demand: a thread with progress, and what it
-//! found.
+//! Every method on the scene at hand, measured on demand, and what was found.
 
 use std::sync::Arc;
 
-use eframe::egui;
-
-use crate::bench::job::{Job, Polled};
 use crate::bench::rendering::Rendering;
-use crate::bench::task::Watch;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::RenderScene;
 use selvedge_render::scene::{ExplorationPath, Pose};
@@ -32,13 +27,6 @@ pub(crate) struct Wanted {
     pub rendering: Rendering,
     /// The change of the scene that it is of.
     pub(crate) n_edits: u64,
-}
-
-/// A measurement at work.
-#[derive(Debug)]
-pub(crate) struct Measuring {
-    job: Job<Result<Measured, ReportError>>,
-    watch: Watch,
 }
 
 /// A measurement that is over.
@@ -71,48 +59,8 @@ impl Measured {
     }
 }
 
-impl Measuring {
-    /// Begins to measure; `ctx` is woken as it goes on.
-    ///
-    /// # Errors
-    /// The system gives no thread.
-    pub(crate) fn start(
-        wanted: Wanted,
-        effort: Effort,
-        ctx: &egui::Context,
-    ) -> std::io::Result<Self> {
-        let watch = Watch::default();
-        let (own, waker) = (watch.clone(), ctx.clone());
-        let work = move || own.over(&waker, |progress| measure(wanted, effort, progress));
-        Ok(Self {
-            job: Job::start("selvedge-measure", ctx, work)?,
-            watch,
-        })
-    }
-
-    /// How far it is, 0…1.
-    pub(crate) fn share(&self) -> f32 {
-        self.watch.share()
-    }
-
-    /// Asks it to stop.
-    pub(crate) fn stop(&self) {
-        self.watch.stop();
-    }
-
-    /// What it found, once it is over.
-    pub(crate) fn poll(&self) -> Polled<Result<Measured, ReportError>> {
-        self.job.poll()
-    }
-}
-
-impl Drop for Measuring {
-    fn drop(&mut self) {
-        self.stop();
-    }
-}
-
-fn measure(
+/// Measures.
+pub(crate) fn measure(
     wanted: Wanted,
     effort: Effort,
     progress: &mut Progress<'_>,

@@ -4,15 +4,16 @@
 use std::sync::Arc;
 
 use crate::bench::Bench;
-use crate::bench::job::Polled;
+use crate::bench::background::{Task, finished};
 use crate::tools::accuracy::checker::{Checker, ErrorView, Setting, TickSample};
-use crate::tools::accuracy::measuring::{Measured, Measuring, Wanted};
+use crate::tools::accuracy::measuring::{Measured, Wanted, measure};
 use crate::tools::accuracy::worker::Checking;
 use selvedge_engine::{ClockView, DurationHistogram, Snapshot};
 use selvedge_foundation::geometry::Velocity;
+use selvedge_foundation::progress::Progress;
 use selvedge_render::array::Method;
 use selvedge_render::scene::Pose;
-use selvedge_studies::{Effort, ReportError};
+use selvedge_studies::Effort;
 
 /// Ticks that were seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -54,7 +55,7 @@ pub(crate) struct Accuracy {
     /// Bound of the level error of the method that runs, dB.
     pub(crate) bound_db: f64,
     /// A measurement at work.
-    pub measuring: Option<Measuring>,
+    pub measuring: Option<Task<Measured>>,
     /// The last one that came to its end.
     pub measured: Option<Measured>,
     /// The row of it that is told in words.
@@ -194,34 +195,25 @@ impl Accuracy {
         } else {
             Effort::Full
         };
-        match Measuring::start(wanted, effort, &bench.ctx) {
-            Ok(measuring) => self.measuring = Some(measuring),
-            Err(error) => {
-                let words = format!("The scene was not measured: {error}; try again");
-                bench.notices.give(words);
-            }
-        }
+        let work = move |progress: &mut Progress<'_>| {
+            measure(wanted, effort, progress).map_err(|error| error.to_string())
+        };
+        self.measuring = Some(bench.executor.start("selvedge-measure", work));
     }
 
     /// Takes what a measurement found, if it is over.
     pub(crate) fn poll_measuring(&mut self, bench: &mut Bench) {
-        match self.measuring.as_ref().map(Measuring::poll) {
-            None | Some(Polled::Working) => return,
-            Some(Polled::Done(Ok(measured))) => {
+        match finished(&mut self.measuring) {
+            Some(Ok(measured)) => {
                 self.chosen = measured.running();
                 self.measured = Some(measured);
             }
-            Some(Polled::Done(Err(ReportError::Cancelled))) => {}
-            Some(Polled::Done(Err(error))) => {
+            Some(Err(error)) => {
                 let words = format!("The scene was not measured: {error}");
                 bench.notices.give(words);
             }
-            Some(Polled::BrokeOff) => {
-                let words = "Measuring the scene broke off; please report the scene";
-                bench.notices.give(words);
-            }
+            None => {}
         }
-        self.measuring = None;
     }
 }
 

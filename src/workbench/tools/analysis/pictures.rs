@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::ColorImage;
 
-use crate::bench::follower::Answer;
+use crate::bench::latest::Computed;
 use crate::tools::analysis::findings::Findings;
 use selvedge_chart::Paper;
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -36,26 +36,19 @@ impl PartialEq for Wanted {
     }
 }
 
-/// Figures as they were drawn, or why one was not.
+/// Figures as they were drawn, in the order of the section, or why one was not.
 #[derive(Debug)]
 pub(crate) struct Pictures {
-    /// Which figures.
-    pub wanted: Wanted,
-    /// Their pixels, in the order of the section.
+    /// Their pixels.
     pub images: Vec<Result<Arc<ColorImage>, String>>,
 }
 
-impl Answer for Pictures {
-    type Inputs = Wanted;
+impl Computed<Wanted> for Pictures {
     const THREAD: &str = "selvedge-figures";
 
-    fn inputs(&self) -> &Wanted {
-        &self.wanted
-    }
-
-    fn work(
-        wanted: Wanted,
-        _: Option<&Self>,
+    fn compute(
+        wanted: &Wanted,
+        _: Option<(&Wanted, &Self)>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         let section = wanted.findings.analysis.sections.get(wanted.section);
@@ -70,14 +63,14 @@ impl Answer for Pictures {
             });
             images.push(image.map_err(|error| error.to_string()));
         }
-        Ok(Self { wanted, images })
+        Ok(Self { images })
     }
 
-    fn broken(wanted: Wanted, why: &str) -> Self {
+    fn broken(wanted: &Wanted, why: &str) -> Self {
         let section = wanted.findings.analysis.sections.get(wanted.section);
         let n = section.map_or(0, |section| section.figures.len());
         let images = (0..n).map(|_| Err(why.to_owned())).collect();
-        Self { wanted, images }
+        Self { images }
     }
 
     fn serves(under_way: &Wanted, now: &Wanted) -> bool {

@@ -3,14 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui;
-
 use crate::bench::Bench;
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::{FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exportable;
-use crate::bench::follower::Follower;
+use crate::bench::latest::Latest;
 use crate::bench::pane::Pane;
-use crate::bench::task::{Task, taken};
 use crate::bench::tool::PaneContext;
 use crate::tools::analysis::asked::{Asked, Choice, Fields};
 use crate::tools::analysis::findings::{Findings, find_out};
@@ -38,7 +36,7 @@ pub(crate) struct Analysis {
     pub(super) failure: Option<String>,
     pub(super) writing: Option<Task<PathBuf>>,
     pub(super) written: Option<Result<PathBuf, String>>,
-    pub(super) pictures: Follower<Pictures>,
+    pub(super) pictures: Latest<Wanted, Pictures>,
     /// Tables and figures of the section at hand as they are laid out.
     pub(super) looks: Looks,
 }
@@ -96,23 +94,18 @@ impl Analysis {
             .active
             .as_ref()
             .map(|session| session.log.clone());
-        self.begin_with(&bench.ctx, bench.is_stepped(), active);
+        self.begin_with(&bench.executor, active);
+        bench.ctx.request_repaint();
     }
 
     /// The same; `active` is the log of the session that is active in this window.
-    pub(super) fn begin_with(
-        &mut self,
-        ctx: &egui::Context,
-        is_at_once: bool,
-        active: Option<PathBuf>,
-    ) {
+    pub(super) fn begin_with(&mut self, executor: &Executor, active: Option<PathBuf>) {
         let Some(asked) = self.asked().filter(|_| self.task.is_none()) else {
             return;
         };
         self.failure = None;
         let work = move |progress: &mut Progress<'_>| find_out(asked, active.as_deref(), progress);
-        self.task = Some(Task::start(("selvedge-analysis", ctx), is_at_once, work));
-        ctx.request_repaint();
+        self.task = Some(executor.start("selvedge-analysis", work));
     }
 
     /// Stops the analysis under way; the last result stays.
@@ -137,8 +130,7 @@ impl Analysis {
         };
         self.written = None;
         let work = move |_: &mut Progress<'_>| found.write(folder);
-        let name = ("selvedge-report", &bench.ctx);
-        self.writing = Some(Task::start(name, bench.is_stepped(), work));
+        self.writing = Some(bench.executor.start("selvedge-report", work));
         bench.ctx.request_repaint();
     }
 
@@ -174,13 +166,12 @@ impl Analysis {
 
     /// Takes what threads have found, written and drawn. To be called every frame.
     pub(crate) fn poll(&mut self) {
-        match taken(&mut self.task) {
-            Some((Ok(found), _)) => self.take(found),
-            Some((Err(line), false)) => self.failure = Some(line),
-            // Whoever stopped it knows.
-            Some((Err(_), true)) | None => {}
+        match finished(&mut self.task) {
+            Some(Ok(found)) => self.take(found),
+            Some(Err(line)) => self.failure = Some(line),
+            None => {}
         }
-        if let Some((outcome, _)) = taken(&mut self.writing) {
+        if let Some(outcome) = finished(&mut self.writing) {
             self.written = Some(outcome);
         }
         self.pictures.poll();
@@ -211,8 +202,8 @@ impl Analysis {
     /// Has figures drawn as they are wanted.
     pub(super) fn draw(&mut self, bench: &Bench, wanted: Wanted) {
         let before = self.pictures.n_begun();
-        self.pictures.follow(&bench.ctx, bench.is_stepped(), wanted);
-        if bench.is_stepped() && self.pictures.n_begun() > before {
+        self.pictures.follow(&bench.ctx, &bench.executor, &wanted);
+        if self.pictures.n_begun() > before {
             bench.ctx.request_repaint();
         }
     }

@@ -7,12 +7,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::time::Duration;
 
 use eframe::egui;
 
-use crate::bench::job::{Job, Polled};
-use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress};
+use crate::bench::background::{Executor, Task};
+use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::Library;
 use selvedge_textile::surface::{Direction, Surface};
 use selvedge_textile::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
@@ -21,8 +20,6 @@ use selvedge_textile::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
 const MOST_KEPT: usize = 64;
 /// Surfaces are kept up to about this many bytes together.
 const MOST_BYTES: usize = 256 << 20;
-/// What came is drawn this often.
-const NEWS: Duration = Duration::from_millis(50);
 
 /// What is asked of every textile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +63,8 @@ pub(crate) struct Measurements {
 #[derive(Debug)]
 struct Work {
     asked: Asked,
-    job: Job<Result<(), Cancelled>>,
+    task: Task<()>,
     news: Receiver<News>,
-    cancel: CancelFlag,
 }
 
 /// What it has to say of one textile.
@@ -76,7 +72,7 @@ type News = (String, Result<(Figures, Arc<Surface>), String>);
 
 impl Drop for Work {
     fn drop(&mut self) {
-        self.cancel.cancel();
+        self.task.stop();
     }
 }
 
@@ -131,8 +127,7 @@ impl Measurements {
             })
             .collect();
         if !wanted.is_empty() {
-            // Without a thread everything stays as it was; the next frame asks again.
-            self.work = Work::start(ctx, Arc::clone(library), asked, wanted).ok();
+            self.work = Some(Work::start(ctx, Arc::clone(library), asked, wanted));
         }
     }
 
@@ -192,7 +187,7 @@ impl Measurements {
             return;
         };
         // Its end is asked for first: nothing is said after it.
-        let is_over = !matches!(work.job.poll(), Polled::Working);
+        let is_over = work.task.poll().is_some();
         let (asked, news): (Asked, Vec<News>) = (work.asked, work.news.try_iter().collect());
         if is_over {
             self.work = None;
@@ -236,26 +231,20 @@ impl Measurements {
 }
 
 impl Work {
+    /// Begins; on a thread in every window, since what is there is shown while the rest is measured.
     fn start(
         ctx: &egui::Context,
         library: Arc<Library>,
         asked: Asked,
         wanted: Vec<(String, Option<Arc<Surface>>)>,
-    ) -> std::io::Result<Self> {
+    ) -> Self {
         let (sender, news) = sync_channel(wanted.len().max(1));
-        let cancel = CancelFlag::new();
-        let (flag, waker) = (cancel.clone(), ctx.clone());
-        let work = move || {
-            let mut heard = |_: f64, _: &str| waker.request_repaint_after(NEWS);
-            let progress = &mut Progress::new(&mut heard, flag);
-            measure(&library, &asked, wanted, &sender, progress)
-        };
-        Ok(Self {
-            asked,
-            job: Job::start("selvedge-collection", ctx, work)?,
-            news,
-            cancel,
-        })
+        let executor = Executor::Threads(ctx.clone());
+        let task = executor.start("selvedge-collection", move |progress| {
+            let measured = measure(&library, &asked, wanted, &sender, progress);
+            measured.map_err(|stop| stop.to_string())
+        });
+        Self { asked, task, news }
     }
 }
 

@@ -6,12 +6,9 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use eframe::egui;
-
 use crate::bench::Bench;
+use crate::bench::background::{Executor, Task};
 use crate::bench::error::AppError;
-use crate::bench::job::{Job, Polled};
-use crate::bench::task::Watch;
 use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
@@ -36,8 +33,7 @@ struct Brought {
 /// A comparison under way.
 struct Running {
     inputs: Inputs,
-    job: Job<Brought>,
-    watch: Watch,
+    task: Task<Brought>,
 }
 
 /// How a comparison ended.
@@ -123,7 +119,7 @@ impl Compare {
             Err(words) => return Standing::Impossible((*words).to_owned()),
         };
         if let Some(running) = &self.running {
-            return Standing::Running(running.watch.share());
+            return Standing::Running(running.task.share());
         }
         match &self.ended {
             Some((of, End::Cancelled)) if of == inputs => Standing::Cancelled,
@@ -134,40 +130,19 @@ impl Compare {
         }
     }
 
-    /// Begins to compare; on this thread when `is_at_once`.
-    fn begin(
-        &mut self,
-        inputs: Inputs,
-        loaded: &LoadedScene,
-        ctx: &egui::Context,
-        is_at_once: bool,
-    ) {
+    /// Begins to compare.
+    fn begin(&mut self, inputs: Inputs, loaded: &LoadedScene, executor: &Executor) {
         self.cancel();
-        self.running = None;
         self.n_begun += 1;
-        let watch = Watch::default();
         let mut cache = std::mem::take(&mut self.cache);
-        let (own, waker) = (watch.clone(), ctx.clone());
         let (loaded, asked) = (loaded.clone(), inputs.clone());
-        let work = move || {
-            let found = own.over(&waker, |progress| {
-                compare(&asked, &loaded, &mut cache, progress)
-            });
+        let task = executor.start("selvedge-compare", move |progress| {
+            let found = compare(&asked, &loaded, &mut cache, progress);
             let found = found.map_err(|error| error.to_string());
-            Brought { cache, found }
-        };
-        if is_at_once {
-            return self.take(inputs, work());
-        }
-        match Job::start("selvedge-compare", ctx, work) {
-            Ok(job) => {
-                self.running = Some(Running { inputs, job, watch });
-            }
-            Err(error) => {
-                let words = format!("Nothing was compared: {error}; press “compare” to try again");
-                self.ended = Some((inputs, End::Failed(words)));
-            }
-        }
+            Ok(Brought { cache, found })
+        });
+        self.running = Some(Running { inputs, task });
+        self.poll();
     }
 
     /// Forgets what was chosen and found in another scene.
@@ -182,7 +157,7 @@ impl Compare {
     /// Asks the comparison under way to stop.
     pub(crate) fn cancel(&self) {
         if let Some(running) = &self.running {
-            running.watch.stop();
+            running.task.stop();
         }
     }
 
@@ -191,13 +166,10 @@ impl Compare {
         let Some(running) = self.running.take() else {
             return;
         };
-        match running.job.poll() {
-            Polled::Done(brought) => self.take(running.inputs, brought),
-            Polled::Working => self.running = Some(running),
-            Polled::BrokeOff => {
-                let words = "Comparing broke off; press “compare” to try again".to_owned();
-                self.ended = Some((running.inputs, End::Failed(words)));
-            }
+        match running.task.poll() {
+            None => self.running = Some(running),
+            Some(Ok(brought)) => self.take(running.inputs, brought),
+            Some(Err(words)) => self.ended = Some((running.inputs, End::Failed(words))),
         }
     }
 
@@ -242,12 +214,7 @@ impl Compare {
             && inputs.route.n_ticks() <= MOST_AT_ONCE
             && !bench.pointer.moment.is_down
         {
-            self.begin(
-                inputs.clone(),
-                &bench.engine_scene.loaded,
-                &bench.ctx,
-                bench.is_stepped(),
-            );
+            self.begin(inputs.clone(), &bench.engine_scene.loaded, &bench.executor);
             return self.standing(&asked);
         }
         standing
@@ -256,12 +223,7 @@ impl Compare {
     /// Compares what is asked for now, whether it was compared before or not.
     pub(crate) fn run(&mut self, bench: &Bench) {
         if let Ok(inputs) = self.inputs(bench) {
-            self.begin(
-                inputs,
-                &bench.engine_scene.loaded,
-                &bench.ctx,
-                bench.is_stepped(),
-            );
+            self.begin(inputs, &bench.engine_scene.loaded, &bench.executor);
         }
     }
 }

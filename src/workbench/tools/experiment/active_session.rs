@@ -4,9 +4,7 @@
 use std::path::PathBuf;
 use std::time::{Instant, SystemTime};
 
-use eframe::egui;
-
-use crate::bench::task::{Task, taken};
+use crate::bench::background::{Executor, Task, finished};
 use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::now::{Began, Now, Pause};
@@ -311,14 +309,14 @@ impl ActiveSession {
     }
 
     /// Begins to write what waits, once its recording is there. Whether it begins now.
-    pub(crate) fn write(&mut self, (ctx, is_at_once): (&egui::Context, bool), has_engine: bool) {
+    pub(crate) fn write(&mut self, executor: &Executor, has_engine: bool) -> bool {
         let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
         let is_complete = !self.is_recording || !has_engine;
         if !(is_due && is_complete) {
-            return;
+            return false;
         }
         let (Some(pending), Some(mut session)) = (&mut self.pending, self.session.take()) else {
-            return;
+            return false;
         };
         if let Some(recording) = self.recording.take() {
             // Where nobody moved there is no path.
@@ -348,9 +346,8 @@ impl ActiveSession {
                 outcome: outcome.map_err(|error| error.to_string()),
             })
         };
-        let task = Task::start(("selvedge-session", ctx), is_at_once, work);
-        self.writing = Some(task);
-        ctx.request_repaint();
+        self.writing = Some(executor.start("selvedge-session", work));
+        true
     }
 
     /// Takes what came back from the disk: whether the next step begins.
@@ -358,7 +355,7 @@ impl ActiveSession {
     /// # Errors
     /// The thread broke off and the session with it: it must be resumed.
     pub(crate) fn poll(&mut self, began: Began) -> Result<bool, String> {
-        let Some((outcome, _)) = taken(&mut self.writing) else {
+        let Some(outcome) = finished(&mut self.writing) else {
             return Ok(false);
         };
         let Written { session, outcome } = outcome?;

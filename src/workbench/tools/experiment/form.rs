@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::bench::background::Task;
 use crate::bench::session::title_of;
-use crate::bench::task::Task;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
 use selvedge_experiment::session::{Found, find_sessions, log_path};

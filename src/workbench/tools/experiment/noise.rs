@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::bench::Bench;
-use crate::bench::task::{Task, taken};
+use crate::bench::background::{Task, finished};
 use crate::tools::experiment::form::NOISE_FILE;
 use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::MaskingNoise;
@@ -50,15 +50,14 @@ impl Experiment {
         }
         let folder = self.form.folder();
         let work = move |progress: &mut Progress<'_>| write_noise(&folder, progress);
-        let name = ("selvedge-noise", &bench.ctx);
-        self.noise = Some(Task::start(name, bench.is_stepped(), work));
+        self.noise = Some(bench.executor.start("selvedge-noise", work));
     }
 
     /// Takes what came of it.
     pub(crate) fn poll_noise(&mut self, bench: &mut Bench) {
-        match taken(&mut self.noise) {
-            Some((Ok(()), _)) => self.form.has_noise = true,
-            Some((Err(line), _)) => bench.notices.give(line),
+        match finished(&mut self.noise) {
+            Some(Ok(())) => self.form.has_noise = true,
+            Some(Err(line)) => bench.notices.give(line),
             None => {}
         }
     }

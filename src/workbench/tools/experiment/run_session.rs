@@ -2,11 +2,11 @@
 
 use std::time::SystemTime;
 
+use crate::bench::background::finished;
 use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::session::SessionInSight;
-use crate::bench::task::taken;
 use crate::bench::view::Source;
 use crate::bench::{Bench, FRAME};
 use crate::tools::experiment::active_session::ActiveSession;
@@ -220,8 +220,11 @@ impl Experiment {
     }
 
     fn write_row(&mut self, bench: &Bench) {
-        if let Some(session) = &mut self.session {
-            session.write((&bench.ctx, bench.is_stepped()), bench.engine.is_running());
+        let has_engine = bench.engine.is_running();
+        if let Some(session) = &mut self.session
+            && session.write(&bench.executor, has_engine)
+        {
+            bench.ctx.request_repaint();
         }
     }
 
@@ -231,16 +234,16 @@ impl Experiment {
             session.vibration = bench.live.vibration;
         }
         self.take_recording(bench);
-        match taken(&mut self.form.listing) {
-            Some((Ok(listed), _)) => self.form.take_listed(listed),
-            Some((Err(line), _)) => self.form.failure = Some(line),
+        match finished(&mut self.form.listing) {
+            Some(Ok(listed)) => self.form.take_listed(listed),
+            Some(Err(line)) => self.form.failure = Some(line),
             None => {}
         }
         self.follow_folder(bench);
         self.poll_noise(bench);
-        match taken(&mut self.beginning) {
-            Some((Ok(begun), _)) => self.activate(begun, bench),
-            Some((Err(line), _)) => self.form.failure = Some(line),
+        match finished(&mut self.beginning) {
+            Some(Ok(begun)) => self.activate(begun, bench),
+            Some(Err(line)) => self.form.failure = Some(line),
             None => {}
         }
         self.write_row(bench);
@@ -253,7 +256,7 @@ impl Experiment {
             return;
         };
         let library_view = &mut session.materials.library_view;
-        let flaws = library_view.work(&bench.ctx, bench.is_stepped());
+        let flaws = library_view.work(&bench.ctx, &bench.executor);
         match session.poll(began(bench)) {
             Ok(true) => self.present(bench),
             Ok(false) => {}

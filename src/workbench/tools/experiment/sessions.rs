@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use crate::bench::Bench;
 use crate::bench::pane::Pane;
-use crate::bench::task::Task;
 use crate::tools::experiment::form::list;
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::state::{Begun, Experiment};
@@ -17,8 +16,8 @@ impl Experiment {
     pub(crate) fn list_sessions(&mut self, bench: &Bench, is_asked: bool) {
         let folder = self.form.folder();
         let work = move |_: &mut Progress<'_>| list(&folder, is_asked);
-        let name = ("selvedge-sessions", &bench.ctx);
-        self.form.lists(Task::start(name, bench.is_stepped(), work));
+        let listing = bench.executor.start("selvedge-sessions", work);
+        self.form.lists(listing);
     }
 
     /// Lists a folder once it was typed, while somebody looks.
@@ -91,8 +90,7 @@ impl Experiment {
             let session = open()?;
             Ok(Begun { session, materials })
         };
-        let name = ("selvedge-session", &bench.ctx);
-        self.beginning = Some(Task::start(name, bench.is_stepped(), work));
+        self.beginning = Some(bench.executor.start("selvedge-session", work));
         bench.ctx.request_repaint();
     }
 }

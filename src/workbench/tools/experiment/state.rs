@@ -1,6 +1,6 @@
 //! What the window knows of experiments: the form, the session, the participant's window.
 
-use crate::bench::task::Task;
+use crate::bench::background::Task;
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::materials::Materials;

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use crate::bench::Bench;
-use crate::bench::follower::Standing;
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::finished;
 use crate::bench::keep::{Keep, NewTextile};
+use crate::bench::latest::Standing;
+use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::work::{Body, Found};
-use crate::tools::import::{Import, Keeping};
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::{TextileError, nth_id};
 
 /// The textiles of what was read, one for every place.
@@ -106,55 +107,25 @@ impl Import {
         };
         self.kept = None;
         let said = self.draft.words.clone();
-        let make = move || textiles(&found, &said);
-        if bench.is_stepped() {
-            return self.take_textiles(bench, make(), is_felt);
-        }
-        match Job::start("selvedge-import-keep", &bench.ctx, make) {
-            Ok(job) => self.keeping = Some(Keeping { job, is_felt }),
-            Err(error) => {
-                let line = format!("nothing was kept: {error}; try again");
-                self.kept = Some(Err(Failure::at(Step::Keep, line)));
-            }
-        }
+        let make = move |_: &mut Progress<'_>| Ok((textiles(&found, &said), is_felt));
+        self.keeping = Some(bench.executor.start("selvedge-import-keep", make));
+        self.poll_keeping(bench);
     }
 
     /// Takes textiles that are made. To be called every frame.
     pub(crate) fn poll_keeping(&mut self, bench: &mut Bench) {
-        let Some(keeping) = self.keeping.take() else {
+        let failed = |line| Err(Failure::at(Step::Keep, format!("nothing was kept: {line}")));
+        let Some(outcome) = finished(&mut self.keeping) else {
             return;
         };
-        match keeping.job.poll() {
-            Polled::Working => self.keeping = Some(keeping),
-            Polled::Done(made) => self.take_textiles(bench, made, keeping.is_felt),
-            Polled::BrokeOff => {
-                let line = "nothing was kept: making it broke off; try again";
-                self.kept = Some(Err(Failure::at(Step::Keep, line)));
-            }
-        }
-    }
-
-    fn take_textiles(
-        &mut self,
-        bench: &mut Bench,
-        made: Result<Vec<NewTextile>, Failure>,
-        is_felt: bool,
-    ) {
-        let made = match made {
-            Ok(made) => made,
-            Err(failure) => {
-                self.kept = Some(Err(failure));
-                return;
-            }
-        };
-        let names: Vec<String> = made.iter().map(|textile| textile.id.clone()).collect();
-        let made = Arc::new(made);
-        let keep = if is_felt {
-            Keep::Feel(made)
-        } else {
-            Keep::Save(made)
-        };
-        bench.commands.push(keep.into());
-        self.kept = Some(Ok(names.join(", ")));
+        let (made, is_felt) = outcome.unwrap_or_else(|line| (failed(line), false));
+        self.kept = Some(made.map(|made| {
+            let names: Vec<&str> = made.iter().map(|textile| textile.id.as_str()).collect();
+            let names = names.join(", ");
+            bench
+                .commands
+                .push(Keep::of(Arc::new(made), is_felt).into());
+            names
+        }));
     }
 }

@@ -37,11 +37,11 @@ use std::sync::Arc;
 use eframe::egui::{self, Ui};
 
 use crate::bench::Bench;
+use crate::bench::background::{Executor, Task};
 use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exported;
-use crate::bench::follower::{Follower, Standing};
-use crate::bench::job::Job;
 use crate::bench::keep::NewTextile;
+use crate::bench::latest::{Latest, Standing};
 use crate::bench::pane::Pane;
 use crate::bench::source_file::SourceFile;
 use crate::bench::tool::{PaneContext, Tool};
@@ -51,11 +51,8 @@ use crate::kit::widgets::relief::{Relief, ReliefPicture};
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
 
-/// Textiles on their way to the library.
-struct Keeping {
-    job: Job<Result<Vec<NewTextile>, Failure>>,
-    is_felt: bool,
-}
+/// Textiles that were made for the library, and whether they are to be felt.
+type Made = (Result<Vec<NewTextile>, Failure>, bool);
 
 /// An import: what is wanted of it and what was found.
 #[derive(Default)]
@@ -64,8 +61,8 @@ pub(crate) struct Import {
     pub draft: Draft,
     /// The relief as a texture.
     pub picture: ReliefPicture,
-    reading: Follower<Found>,
-    keeping: Option<Keeping>,
+    reading: Latest<Inputs, Found>,
+    keeping: Option<Task<Made>>,
     /// What was kept last, or why nothing was.
     kept: Option<Result<String, Failure>>,
 }
@@ -73,7 +70,7 @@ pub(crate) struct Import {
 impl Import {
     /// What was found last, whatever has changed since.
     pub(crate) fn found(&self) -> Option<&Arc<Found>> {
-        self.reading.found()
+        self.reading.value()
     }
 
     /// Readings that were begun.
@@ -185,12 +182,13 @@ impl Import {
     }
 
     /// Lets the reading follow what was chosen.
-    pub(crate) fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, executor: &Executor) {
         if self.standing() == Standing::Empty {
             return;
         }
         let before = self.relief();
-        self.reading.follow(ctx, is_at_once, self.inputs());
+        let inputs = self.inputs();
+        self.reading.follow(ctx, executor, &inputs);
         self.renew_picture(before.as_ref());
     }
 
@@ -222,7 +220,7 @@ impl Tool for Import {
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        self.follow(ui.ctx(), context.bench.is_stepped());
+        self.follow(ui.ctx(), &context.bench.executor);
         framed(ui, 10, |ui| view::show(ui, self, context));
     }
 

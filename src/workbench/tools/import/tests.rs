@@ -54,11 +54,11 @@ fn import_of(paths: &[PathBuf]) -> Import {
 /// Reads as the pane does when it is drawn.
 fn read(importing: &mut Import) {
     let ctx = egui::Context::default();
-    importing.follow(&ctx, true);
+    importing.follow(&ctx, &Executor::InLine);
     // What was stopped on a thread ends first.
     while matches!(importing.standing(), Standing::Working(_)) {
         importing.poll();
-        importing.follow(&ctx, true);
+        importing.follow(&ctx, &Executor::InLine);
         std::thread::yield_now();
     }
     assert_eq!(importing.standing(), Standing::Fresh);
@@ -257,7 +257,7 @@ fn only_what_has_changed_is_read_anew() {
     importing.draft.words.name = "Another".to_owned();
     let n_read = importing.n_read();
     let ctx = egui::Context::default();
-    importing.follow(&ctx, true);
+    importing.follow(&ctx, &Executor::InLine);
     assert_eq!(importing.n_read(), n_read, "a name needs no reading");
 }
 
@@ -276,7 +276,8 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
         work::read(inputs, None, &mut progress),
         Err(Cancelled)
     ));
-    importing.follow(&egui::Context::default(), false);
+    let ctx = egui::Context::default();
+    importing.follow(&ctx, &Executor::Threads(ctx.clone()));
     importing.cancel();
     assert_eq!(importing.standing(), Standing::Stopped);
     importing.draft.looked.is_official = true;

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use crate::bench::follower::Answer;
+use crate::bench::latest::Computed;
 use crate::kit::widgets::relief::Relief;
 use crate::tools::import::draft::{DraftFile, Looked, Told};
 use crate::tools::import::envelope::Envelope;
@@ -131,25 +131,20 @@ impl Found {
     }
 }
 
-impl Answer for Found {
-    type Inputs = Inputs;
+impl Computed<Inputs> for Found {
     const THREAD: &str = "selvedge-import";
 
-    fn inputs(&self) -> &Inputs {
-        &self.inputs
-    }
-
-    fn work(
-        inputs: Inputs,
-        prior: Option<&Self>,
+    fn compute(
+        inputs: &Inputs,
+        prior: Option<(&Inputs, &Self)>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
-        read(inputs, prior, progress)
+        read(inputs.clone(), prior.map(|(_, found)| found), progress)
     }
 
-    fn broken(inputs: Inputs, why: &str) -> Self {
-        let line = format!("nothing was read: {why}; press “read again”");
-        Self::failed(inputs, Measurement::Heights, Failure::at(Step::Files, line))
+    fn broken(inputs: &Inputs, why: &str) -> Self {
+        let failure = Failure::at(Step::Files, format!("nothing was read: {why}"));
+        Self::failed(inputs.clone(), Measurement::Heights, failure)
     }
 
     fn serves(under_way: &Inputs, now: &Inputs) -> bool {

@@ -57,7 +57,7 @@ impl Tool for Lab {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let preview = self.preview.as_ref().ok_or(
+        let preview = self.preview().ok_or(
             "There is nothing to export yet: the surface is being made in the textile lab",
         )?;
         let scene = bench.document.scene();

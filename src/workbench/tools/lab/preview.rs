@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::bench::latest::Computed;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity;
@@ -222,6 +223,62 @@ impl Preview {
             );
         }
         figures
+    }
+}
+
+/// What a preview is wanted of.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PreviewAsked {
+    /// The recipe.
+    pub(crate) manifest: Manifest,
+    /// What it is felt through.
+    pub(crate) filters: Filters,
+}
+
+/// What became of a recipe.
+#[derive(Debug, Default)]
+pub(crate) struct PreviewFound {
+    /// The preview; where there is none, the one before.
+    pub(crate) preview: Option<Arc<Preview>>,
+    /// Why there is none of this recipe.
+    pub(crate) refusal: Option<String>,
+}
+
+impl Computed<PreviewAsked> for PreviewFound {
+    const THREAD: &str = "selvedge-lab";
+
+    fn compute(
+        asked: &PreviewAsked,
+        prior: Option<(&PreviewAsked, &Self)>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let made = Preview::of(asked.manifest.clone(), &asked.filters, progress);
+        if made.is_err() {
+            // Work that was stopped is no refusal.
+            progress.step(1.0, "refused")?;
+        }
+        let before = || prior.and_then(|(_, found)| found.preview.clone());
+        Ok(match made {
+            Ok(preview) => Self {
+                preview: Some(Arc::new(preview)),
+                refusal: None,
+            },
+            Err(words) => Self {
+                preview: before(),
+                refusal: Some(words),
+            },
+        })
+    }
+
+    fn broken(_: &PreviewAsked, why: &str) -> Self {
+        Self {
+            preview: None,
+            refusal: Some(why.to_owned()),
+        }
+    }
+
+    fn serves(_: &PreviewAsked, _: &PreviewAsked) -> bool {
+        true
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::bench::keep::NewTextile;
-use crate::bench::task::Task;
+use crate::bench::background::Task;
+use crate::bench::keep::Keep;
+use crate::bench::latest::{Latest, Standing};
 use crate::tools::lab::family::{Family, FamilyFields};
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::pictures::Pictures;
-use crate::tools::lab::preview::{Compared, Preview};
+use crate::tools::lab::preview::{Compared, Preview, PreviewAsked, PreviewFound};
 use crate::tools::lab::recipes::Recipes;
 use crate::tools::lab::steps::Steps;
 use selvedge_textile::surface::Direction;
@@ -75,7 +76,7 @@ pub(crate) struct Lab {
     /// What it is compared with.
     pub compared: Option<Compared>,
     /// What became of the recipe that was computed last.
-    pub(crate) preview: Option<Arc<Preview>>,
+    pub(crate) previews: Latest<PreviewAsked, PreviewFound>,
     /// What is pictured of it, as it was drawn last.
     pub(crate) pictures: Pictures,
     /// Which stroke is looked at.
@@ -90,26 +91,40 @@ pub(crate) struct Lab {
     pub family: Option<Family>,
     /// Why something was not done.
     pub refusal: Option<String>,
-    /// Whether the preview was stopped: nothing is computed until something changes.
-    pub is_stopped: bool,
-    /// Previews that were begun.
-    pub(crate) n_computed: u64,
-    /// Counts changes of the recipe and of what it is felt through.
-    serial: u64,
     pub(crate) recipes: Recipes,
-    shown_serial: Option<u64>,
-    filters: Option<Filters>,
+    /// What it is felt through.
+    pub(crate) filters: Filters,
     pub(crate) beginning: Option<Task<Begun>>,
     pub(crate) comparing: Option<Task<Compared>>,
-    pub(crate) previewing: Option<(u64, Option<Task<Preview>>)>,
     pub(crate) trying: Option<Task<Family>>,
-    pub(crate) keeping: Option<(Option<Task<Vec<NewTextile>>>, bool)>,
+    pub(crate) keeping: Option<Task<Keep>>,
 }
 
 impl Lab {
-    /// Whether the preview is of the recipe as it is.
-    pub(crate) fn is_fresh(&self) -> bool {
-        self.shown_serial == Some(self.serial)
+    /// What a preview is wanted of; `None` while the recipe makes no sense.
+    pub(crate) fn asked(&self) -> Option<PreviewAsked> {
+        let manifest = self.steps.as_ref()?.read().as_ref().ok()?.clone();
+        let filters = self.filters;
+        Some(PreviewAsked { manifest, filters })
+    }
+
+    /// How the preview stands to the recipe as it is.
+    pub(crate) fn standing(&self) -> Standing {
+        let asked = self.asked();
+        asked.map_or(Standing::Empty, |asked| self.previews.standing(&asked))
+    }
+
+    /// What became of a recipe: of the last one that made a surface.
+    pub(crate) fn preview(&self) -> Option<&Arc<Preview>> {
+        self.previews.value()?.preview.as_ref()
+    }
+
+    /// Why something was not done, or why there is no preview of the recipe as it is.
+    pub(crate) fn refusal(&self) -> Option<&str> {
+        let found = self.previews.value();
+        let found = found.filter(|_| self.standing() == Standing::Fresh);
+        let refused = || found?.refusal.as_deref();
+        self.refusal.as_deref().or_else(refused)
     }
 
     /// What is wrong with the recipe.
@@ -119,34 +134,21 @@ impl Lab {
 
     /// How far what is computed is, 0…1; `None` while nothing is.
     pub(crate) fn share(&self) -> Option<f32> {
-        let preview = self.previewing.as_ref().and_then(|(_, task)| task.as_ref());
-        let share = preview.map(Task::share);
-        share
+        let preview = match self.standing() {
+            Standing::Working(share) => Some(share),
+            _ => None,
+        };
+        preview
             .or_else(|| self.trying.as_ref().map(Task::share))
             .or_else(|| self.beginning.as_ref().map(Task::share))
             .or_else(|| self.comparing.as_ref().map(Task::share))
-            .or_else(|| self.keeping.as_ref()?.0.as_ref().map(Task::share))
+            .or_else(|| self.keeping.as_ref().map(Task::share))
     }
 
     /// The recipe has changed.
     pub(crate) fn has_changed(&mut self) {
-        self.serial += 1;
-        self.is_stopped = false;
+        self.previews.go_on();
         self.refusal = None;
-    }
-
-    /// Notices that everything is felt through other filters.
-    pub(crate) fn feel_through(&mut self, filters: Filters) {
-        if self.filters.replace(filters) != Some(filters) {
-            self.serial += 1;
-        }
-    }
-
-    /// The recipe to compute next; `None` while there is nothing to do.
-    pub(crate) fn due(&self) -> Option<(u64, Manifest)> {
-        let is_idle = self.previewing.is_none() && !self.is_stopped && !self.is_fresh();
-        let manifest = self.steps.as_ref()?.read().as_ref().ok()?;
-        is_idle.then(|| (self.serial, manifest.clone()))
     }
 
     /// Begins a recipe; the one at hand can be had back.
@@ -162,18 +164,6 @@ impl Lab {
         self.parent = begun.parent.as_ref().map(|(parent, _)| parent.clone());
         self.compared = begun.parent.map(|(_, compared)| compared);
         self.has_changed();
-    }
-
-    /// Takes in a preview of this serial number.
-    pub(crate) fn show(&mut self, serial: u64, preview: Preview) {
-        self.preview = Some(Arc::new(preview));
-        self.shown_serial = Some(serial);
-    }
-
-    /// Says that there is no preview of this serial number, and why.
-    pub(crate) fn refuse(&mut self, serial: u64, words: String) {
-        self.shown_serial = Some(serial);
-        self.refusal = Some(words);
     }
 
     /// The recipe as it would be kept.

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use eframe::egui;
+
 use super::*;
+use crate::bench::background::Executor;
 use crate::bench::command::lab::Beginning;
+use crate::bench::latest::Standing;
 use crate::tools::lab::family::{Family, Member, Plan};
-use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Begun;
 use crate::tools::lab::work::{begin, built};
 use selvedge_foundation::progress::unheard;
@@ -169,24 +172,26 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
 
 #[test]
 fn a_preview_is_due_until_it_is_shown_and_not_while_it_is_stopped() {
+    let ctx = egui::Context::default();
     let mut lab = small();
-    let (serial, manifest) = lab.due().unwrap();
-    lab.is_stopped = true;
-    assert!(lab.due().is_none());
-    lab.is_stopped = false;
-    let filters = Filters::default();
-    let preview = unheard(|progress| Preview::of(manifest, &filters, progress)).unwrap();
+    lab.follow_recipe(&ctx, &Executor::Threads(ctx.clone()));
+    lab.stop();
+    assert_eq!(lab.standing(), Standing::Stopped);
+    lab.follow_recipe(&ctx, &Executor::InLine);
+    assert_eq!(lab.previews.n_begun(), 1);
+    lab.previews.go_on();
+    while lab.standing() != Standing::Fresh {
+        lab.follow_recipe(&ctx, &Executor::InLine);
+        std::thread::yield_now();
+    }
+    let preview = lab.preview().unwrap();
     let [asked, found, _] = preview.hurst.unwrap();
     assert!(asked == 0.5 && (found - asked).abs() < 0.3, "{found}");
     assert_eq!(
         preview.felt.over_speed[Direction::WeftReverse.index()].len(),
         49
     );
-    lab.show(serial, preview);
-    assert!(lab.due().is_none() && lab.is_fresh());
-    lab.has_changed();
-    assert!(
-        lab.due().is_some() && lab.preview.is_some(),
-        "the last one stays"
-    );
+    lab.set(&ctx, HURST, Some(0.6.into()));
+    assert!(matches!(lab.standing(), Standing::Working(_)));
+    assert!(lab.preview().is_some(), "the last one stays");
 }

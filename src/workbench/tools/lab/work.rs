@@ -6,26 +6,17 @@ use std::sync::Arc;
 use eframe::egui;
 
 use crate::bench::Bench;
+use crate::bench::background::{Executor, finished};
 use crate::bench::command::lab::Beginning;
 use crate::bench::keep::{Keep, NewTextile};
-use crate::bench::task::{Task, taken};
 use crate::tools::lab::family::{Family, Plan};
-use crate::tools::lab::preview::{Compared, Preview};
+use crate::tools::lab::preview::Compared;
 use crate::tools::lab::state::{Begun, Lab};
 use crate::tools::lab::steps::Steps;
 use selvedge_foundation::files::KeyValue;
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::tactile::Filters;
 use selvedge_textile::{Draft, Library, Manifest, Parent, Place, RECIPES, TextileError};
-
-/// Begins work on a thread, or does it here and now in a stepped window.
-fn start<T: Send + 'static>(
-    name: &str,
-    bench: &Bench,
-    work: impl FnOnce(&mut Progress<'_>) -> Result<T, String> + Send + 'static,
-) -> Task<T> {
-    Task::start((name, &bench.ctx), bench.is_stepped(), work)
-}
 
 impl Lab {
     /// Sets a parameter, or leaves it out.
@@ -54,7 +45,7 @@ impl Lab {
         let work =
             move |progress: &mut Progress<'_>| begin(&beginning, &library, &filters, progress);
         self.refusal = None;
-        self.beginning = Some(start("selvedge-lab-begin", bench, work));
+        self.beginning = Some(bench.executor.start("selvedge-lab-begin", work));
     }
 
     /// Compares with this textile of the library.
@@ -66,19 +57,16 @@ impl Lab {
             let textile = library.load(&id).map_err(|error| error.to_string())?;
             Compared::of(&textile, &filters, progress).map_err(|stop| stop.to_string())
         };
-        self.comparing = Some(start("selvedge-lab-compare", bench, work));
+        self.comparing = Some(bench.executor.start("selvedge-lab-compare", work));
     }
 
     /// Stops what is being computed.
     pub(crate) fn stop(&mut self) {
-        self.is_stopped = true;
-        if let Some((_, Some(task))) = &self.previewing {
-            task.stop();
-        }
+        self.previews.stop();
         if let Some(task) = &self.trying {
             task.stop();
         }
-        if let Some((Some(task), _)) = &self.keeping {
+        if let Some(task) = &self.keeping {
             task.stop();
         }
     }
@@ -89,7 +77,7 @@ impl Lab {
         let (draft, filters) = (steps.now().clone(), bench.document.scene().filters);
         let work = move |progress: &mut Progress<'_>| Family::of(&draft, &plan, &filters, progress);
         self.refusal = None;
-        self.trying = Some(start("selvedge-lab-family", bench, work));
+        self.trying = Some(bench.executor.start("selvedge-lab-family", work));
     }
 
     /// Keeps the recipe as a textile, and lays it under the display if it is to be felt.
@@ -114,9 +102,10 @@ impl Lab {
             Err(words) => self.refusal = Some(words),
             Ok(recipes) => {
                 self.refusal = None;
-                let work = move |progress: &mut Progress<'_>| built(&recipes, progress);
-                let task = start("selvedge-lab-keep", bench, work);
-                self.keeping = Some((Some(task), feels));
+                let work = move |progress: &mut Progress<'_>| {
+                    Ok(Keep::of(Arc::new(built(&recipes, progress)?), feels))
+                };
+                self.keeping = Some(bench.executor.start("selvedge-lab-keep", work));
                 self.poll_keeping(bench);
             }
         }
@@ -124,79 +113,47 @@ impl Lab {
 
     /// Takes what was built to be kept, whether the lab is in sight or not.
     pub(crate) fn poll_keeping(&mut self, bench: &mut Bench) {
-        let Some((task, feels)) = &mut self.keeping else {
-            return;
-        };
-        let feels = *feels;
-        let Some((outcome, was_stopped)) = taken(task) else {
-            return;
-        };
-        self.keeping = None;
-        match outcome {
-            Ok(textiles) => {
-                let textiles = Arc::new(textiles);
-                let keep = if feels {
-                    Keep::Feel(textiles)
-                } else {
-                    Keep::Save(textiles)
-                };
-                bench.commands.push(keep.into());
-            }
-            Err(_) if was_stopped => {}
-            Err(words) => self.refusal = Some(format!("Nothing was kept: {words}")),
+        match finished(&mut self.keeping) {
+            Some(Ok(keep)) => bench.commands.push(keep.into()),
+            Some(Err(words)) => self.refusal = Some(format!("Nothing was kept: {words}")),
+            None => {}
         }
     }
 
     /// Has what the lab shows, or sends for it: called while it is in sight.
     pub(crate) fn follow(&mut self, bench: &Bench) {
-        let filters = bench.document.scene().filters;
-        self.feel_through(filters);
+        self.filters = bench.document.scene().filters;
         if self.steps.is_none() && self.beginning.is_none() && self.refusal.is_none() {
             self.begin_with(bench, Beginning::Example(RECIPES[0].0));
         }
         self.take();
-        if let Some((serial, manifest)) = self.due() {
-            self.n_computed += 1;
-            let work = move |progress: &mut Progress<'_>| Preview::of(manifest, &filters, progress);
-            let task = start("selvedge-lab", bench, work);
-            self.previewing = Some((serial, Some(task)));
-            self.take();
+        self.follow_recipe(&bench.ctx, &bench.executor);
+    }
+
+    /// Lets the preview follow the recipe.
+    pub(crate) fn follow_recipe(&mut self, ctx: &egui::Context, executor: &Executor) {
+        self.previews.poll();
+        if let Some(asked) = self.asked() {
+            self.previews.follow(ctx, executor, &asked);
         }
     }
 
     /// Takes what threads bring.
     fn take(&mut self) {
-        if let Some((outcome, _)) = taken(&mut self.beginning) {
-            match outcome {
-                Ok(begun) => self.begin(begun),
-                Err(words) => self.refusal = Some(words),
-            }
+        match finished(&mut self.beginning) {
+            Some(Ok(begun)) => self.begin(begun),
+            Some(Err(words)) => self.refusal = Some(words),
+            None => {}
         }
-        if let Some((outcome, _)) = taken(&mut self.comparing) {
-            match outcome {
-                Ok(compared) => self.compared = Some(compared),
-                Err(words) => self.refusal = Some(words),
-            }
+        match finished(&mut self.comparing) {
+            Some(Ok(compared)) => self.compared = Some(compared),
+            Some(Err(words)) => self.refusal = Some(words),
+            None => {}
         }
-        if let Some((outcome, was_stopped)) = taken(&mut self.trying) {
-            match outcome {
-                Ok(family) => self.family = Some(family),
-                Err(_) if was_stopped => {}
-                Err(words) => self.refusal = Some(words),
-            }
-        }
-        let Some((serial, task)) = &mut self.previewing else {
-            return;
-        };
-        let serial = *serial;
-        let Some((outcome, was_stopped)) = taken(task) else {
-            return;
-        };
-        self.previewing = None;
-        match outcome {
-            Ok(preview) => self.show(serial, preview),
-            Err(_) if was_stopped => {}
-            Err(words) => self.refuse(serial, words),
+        match finished(&mut self.trying) {
+            Some(Ok(family)) => self.family = Some(family),
+            Some(Err(words)) => self.refusal = Some(words),
+            None => {}
         }
     }
 }

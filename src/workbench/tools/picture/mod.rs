@@ -39,7 +39,7 @@ impl Tool for Picture {
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        self.follow(ui.ctx(), context.bench.is_stepped());
+        self.follow(ui.ctx(), &context.bench.executor);
         framed(ui, 10, |ui| view::show(ui, self, context.commands));
     }
 

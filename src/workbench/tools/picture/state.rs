@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use crate::bench::background::Executor;
 use crate::bench::command::Commands;
-use crate::bench::follower::{Follower, Standing};
 use crate::bench::keep::Keep;
+use crate::bench::latest::{Latest, Standing};
 use crate::bench::source_file::SourceFile;
 use crate::tools::picture::draft::{Chosen, Draft, Part};
 use crate::tools::picture::found::Found;
@@ -20,7 +21,7 @@ pub(crate) struct Picture {
     pub draft: Draft,
     /// The stages as textures.
     pub(crate) textures: Textures,
-    work: Follower<Found>,
+    work: Latest<Draft, Found>,
     /// The id that was handed to the library last.
     kept: Option<String>,
 }
@@ -28,7 +29,7 @@ pub(crate) struct Picture {
 impl Picture {
     /// What was made last, whatever has changed since.
     pub(crate) fn found(&self) -> Option<&Arc<Found>> {
-        self.work.found()
+        self.work.value()
     }
 
     /// Runs that were begun.
@@ -122,13 +123,7 @@ impl Picture {
             return;
         };
         self.kept = made.textile.first().map(|textile| textile.id.clone());
-        let textile = Arc::clone(&made.textile);
-        let keep = if is_felt {
-            Keep::Feel(textile)
-        } else {
-            Keep::Save(textile)
-        };
-        commands.push(keep.into());
+        commands.push(Keep::of(Arc::clone(&made.textile), is_felt).into());
     }
 
     /// Takes what a thread has made, if it is done.
@@ -137,9 +132,9 @@ impl Picture {
     }
 
     /// Lets the stages follow what was chosen: to be called while the pane is in sight.
-    pub(crate) fn follow(&mut self, ctx: &egui::Context, is_at_once: bool) {
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, executor: &Executor) {
         if self.standing() != Standing::Empty {
-            self.work.follow(ctx, is_at_once, self.draft.clone());
+            self.work.follow(ctx, executor, &self.draft);
         }
     }
 }

@@ -4,8 +4,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::bench::follower::Answer;
 use crate::bench::keep::NewTextile;
+use crate::bench::latest::Computed;
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
@@ -36,25 +36,20 @@ impl From<Cancelled> for End {
     }
 }
 
-impl Answer for Found {
-    type Inputs = Draft;
+impl Computed<Draft> for Found {
     const THREAD: &str = "selvedge-picture";
 
-    fn inputs(&self) -> &Draft {
-        &self.inputs
-    }
-
-    fn work(
-        inputs: Draft,
-        prior: Option<&Self>,
+    fn compute(
+        inputs: &Draft,
+        prior: Option<(&Draft, &Self)>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
-        read(inputs, prior, progress)
+        read(inputs.clone(), prior.map(|(_, found)| found), progress)
     }
 
-    fn broken(inputs: Draft, why: &str) -> Self {
-        let line = format!("nothing was worked out: {why}; open the picture again");
-        Self::failed(inputs, Step::Picture, line)
+    fn broken(inputs: &Draft, why: &str) -> Self {
+        let line = format!("nothing was worked out: {why}");
+        Self::failed(inputs.clone(), Step::Picture, line)
     }
 
     /// What was made so far of a file is kept only when the run ends.

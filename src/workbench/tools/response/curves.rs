@@ -4,11 +4,15 @@
 //! only when a curve's own inputs change. Until that is done the last curves stay, unless the
 //! textile is another.
 
+use std::sync::Arc;
+
 use eframe::egui;
 
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::Executor;
+use crate::bench::latest::{Computed, Latest};
 use crate::bench::probe::{Probe, SPEEDS_MM_PER_S};
 use selvedge_foundation::geometry::Velocity;
+use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_render::array::{PointSpread, TextileResponse};
 
 /// Steps of direction in a quarter turn: 5° each.
@@ -27,13 +31,24 @@ pub(crate) struct Wanted {
     pub probe: Probe,
 }
 
-/// The curves as they were last computed.
+/// The curves of the textile that is wanted, as they were last computed.
 #[derive(Debug, Default)]
 pub(crate) struct Curves {
-    around: Option<Curve>,
-    over_speed: Option<Curve>,
-    here: Option<Curve>,
-    job: Option<Job<Vec<(Kind, Curve)>>>,
+    latest: Latest<Wanted, Computation>,
+    /// Those to show; none while they are of another textile.
+    shown: Option<Arc<Computation>>,
+}
+
+/// Amplitudes before gains.
+type Curve = Arc<[PointSpread]>;
+
+/// The curves for one thing that was wanted.
+#[derive(Debug, Default)]
+struct Computation {
+    around: Curve,
+    over_speed: Curve,
+    here: Curve,
+    /// Curves computed so far.
     n_computed: u64,
 }
 
@@ -46,13 +61,6 @@ enum Kind {
     Speed,
     /// Nothing: the chosen velocity itself.
     Here,
-}
-
-/// What a curve was computed for, and its values.
-#[derive(Debug, Clone)]
-struct Curve {
-    wanted: Wanted,
-    values: Vec<PointSpread>,
 }
 
 impl Wanted {
@@ -78,22 +86,59 @@ impl Wanted {
             let own = self.response.along(velocity);
             self.response.at(own, self.points)
         };
-        let values = match kind {
+        match kind {
             Kind::Direction => {
                 let speed_mm_per_s = self.probe.speed_mm_per_s;
-                self.response
-                    .by_direction(speed_mm_per_s, self.points, N_A_QUARTER)
+                let around = self
+                    .response
+                    .by_direction(speed_mm_per_s, self.points, N_A_QUARTER);
+                around.into()
             }
             Kind::Speed => {
                 let along = |speed| self.probe.with_speed(speed).velocity();
                 speeds_mm_per_s().map(|speed| at(along(speed))).collect()
             }
-            Kind::Here => vec![at(self.probe.velocity())],
-        };
-        Curve {
-            wanted: self.clone(),
-            values,
+            Kind::Here => [at(self.probe.velocity())].into(),
         }
+    }
+}
+
+impl PartialEq for Wanted {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_same(other, Kind::Here)
+    }
+}
+
+impl Computed<Wanted> for Computation {
+    const THREAD: &str = "selvedge-curves";
+
+    fn compute(
+        wanted: &Wanted,
+        prior: Option<(&Wanted, &Self)>,
+        _: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let mut n_computed = prior.map_or(0, |(_, before)| before.n_computed);
+        let mut curve = |kind, of: fn(&Self) -> &Curve| match prior {
+            Some((for_, before)) if for_.is_same(wanted, kind) => Arc::clone(of(before)),
+            _ => {
+                n_computed += 1;
+                wanted.computed(kind)
+            }
+        };
+        Ok(Self {
+            around: curve(Kind::Direction, |of| &of.around),
+            over_speed: curve(Kind::Speed, |of| &of.over_speed),
+            here: curve(Kind::Here, |of| &of.here),
+            n_computed,
+        })
+    }
+
+    fn broken(_: &Wanted, _: &str) -> Self {
+        Self::default()
+    }
+
+    fn serves(_: &Wanted, _: &Wanted) -> bool {
+        true
     }
 }
 
@@ -105,91 +150,45 @@ pub(crate) fn speeds_mm_per_s() -> impl Iterator<Item = f64> {
 }
 
 impl Curves {
-    /// Has the curves as they are wanted, at once or as soon as a thread has computed them.
-    pub(crate) fn catch_up(&mut self, ctx: &egui::Context, wanted: Wanted, is_at_once: bool) {
-        self.take();
+    /// Lets the curves follow what is wanted.
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, executor: &Executor, wanted: Wanted) {
         let wanted = Wanted {
             response: wanted.response.without_gains(),
             ..wanted
         };
-        let kinds = [Kind::Direction, Kind::Speed, Kind::Here];
-        let mut stale = Vec::new();
-        for kind in kinds {
-            let place = self.place(kind);
-            let is_other = |curve: &Curve| !curve.wanted.is_same_cloth(&wanted);
-            if place.as_ref().is_some_and(is_other) {
-                *place = None;
-            }
-            let is_same = |curve: &Curve| curve.wanted.is_same(&wanted, kind);
-            if !place.as_ref().is_some_and(is_same) {
-                stale.push(kind);
-            }
-        }
-        if stale.is_empty() || self.job.is_some() {
-            return;
-        }
-        self.n_computed += stale.len() as u64;
-        let work = move || -> Vec<(Kind, Curve)> {
-            let computed = |kind| (kind, wanted.computed(kind));
-            stale.into_iter().map(computed).collect()
-        };
-        if is_at_once {
-            self.put(work());
-        } else {
-            // Without a thread the curves stay as they were; the next frame asks again.
-            self.job = Job::start("selvedge-curves", ctx, work).ok();
-        }
-    }
-
-    fn take(&mut self) {
-        match self.job.as_ref().map(Job::poll) {
-            Some(Polled::Done(curves)) => {
-                self.job = None;
-                self.put(curves);
-            }
-            Some(Polled::BrokeOff) => self.job = None,
-            Some(Polled::Working) | None => {}
-        }
-    }
-
-    fn put(&mut self, curves: Vec<(Kind, Curve)>) {
-        for (kind, curve) in curves {
-            *self.place(kind) = Some(curve);
-        }
-    }
-
-    fn place(&mut self, kind: Kind) -> &mut Option<Curve> {
-        match kind {
-            Kind::Direction => &mut self.around,
-            Kind::Speed => &mut self.over_speed,
-            Kind::Here => &mut self.here,
-        }
+        self.latest.poll();
+        self.latest.follow(ctx, executor, &wanted);
+        let is_of_it = self
+            .latest
+            .key()
+            .is_some_and(|of| of.is_same_cloth(&wanted));
+        self.shown = self.latest.value().filter(|_| is_of_it).cloned();
     }
 
     /// Amplitudes before gains over the direction of movement, evenly apart all around,
     /// counter-clockwise from the warp; empty until they are computed.
     pub(crate) fn around(&self) -> &[PointSpread] {
-        values(self.around.as_ref())
+        self.curve(|shown| &shown.around)
     }
 
     /// The same over [`speeds_mm_per_s`].
     pub(crate) fn over_speed(&self) -> &[PointSpread] {
-        values(self.over_speed.as_ref())
+        self.curve(|shown| &shown.over_speed)
     }
 
     /// The same at the chosen velocity itself.
     pub(crate) fn here(&self) -> Option<&PointSpread> {
-        values(self.here.as_ref()).first()
+        self.curve(|shown| &shown.here).first()
     }
 
     /// Curves computed so far: it stands still while nothing changes or nobody looks.
     pub(crate) fn n_computed(&self) -> u64 {
-        self.n_computed
+        self.latest.value().map_or(0, |value| value.n_computed)
     }
-}
 
-fn values(curve: Option<&Curve>) -> &[PointSpread] {
-    curve.map_or(&[], |curve| &curve.values)
+    fn curve(&self, of: fn(&Computation) -> &Curve) -> &[PointSpread] {
+        self.shown.as_deref().map_or(&[], |shown| of(shown))
+    }
 }
 
 #[cfg(test)]
@@ -231,7 +230,7 @@ mod tests {
                 reference.tick(&[pose])[0].amplitude_um(0)
             };
             let probe = Probe::default().with_speed(63.0).with_direction(55.0);
-            curves.catch_up(&ctx, wanted(&inspector, textile, probe), true);
+            curves.follow(&ctx, &Executor::InLine, wanted(&inspector, textile, probe));
             let factors = inspector.response(textile).unwrap().factors();
             let mut check = |spread: &PointSpread, velocity: Velocity| {
                 let found = spread.scaled(factors).at_place_um.unwrap();
@@ -261,7 +260,7 @@ mod tests {
         let mut curves = Curves::default();
         let probe = Probe::default();
         let mut n_after = |inspector: &ContactInspector, textile, probe| {
-            curves.catch_up(&ctx, wanted(inspector, textile, probe), true);
+            curves.follow(&ctx, &Executor::InLine, wanted(inspector, textile, probe));
             curves.n_computed()
         };
         assert_eq!(n_after(&inspector, 0, probe), 3);
@@ -277,15 +276,16 @@ mod tests {
     #[test]
     fn a_thread_computes_the_curves_of_another_textile_and_none_is_shown_meanwhile() {
         let ctx = egui::Context::default();
+        let threads = Executor::Threads(ctx.clone());
         let scene = RenderScene::of(&LoadedScene::shipped().unwrap());
         let inspector = ContactInspector::new(&scene);
         let mut curves = Curves::default();
         for textile in [0, 1] {
             let wanted = || wanted(&inspector, textile, Probe::default());
-            curves.catch_up(&ctx, wanted(), false);
+            curves.follow(&ctx, &threads, wanted());
             assert!(curves.around().is_empty() && curves.here().is_none());
             while curves.here().is_none() {
-                curves.catch_up(&ctx, wanted(), false);
+                curves.follow(&ctx, &threads, wanted());
                 std::thread::yield_now();
             }
             assert_eq!(curves.over_speed().len(), usize::from(N_SPEEDS));

@@ -72,7 +72,7 @@ impl Response {
             points: place.map(|(_, points)| points),
             probe,
         };
-        (self.curves).catch_up(&bench.ctx, wanted, bench.is_stepped());
+        (self.curves).follow(&bench.ctx, &bench.executor, wanted);
         let cloth = scene.cloths.get(textile)?;
         Some(ResponseView {
             textile: format!("{} {}", cloth.label, cloth.name).trim().to_owned(),

@@ -6,6 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::*;
+use crate::bench::background::Executor;
 use crate::bench::command::Command;
 use crate::bench::probe::Probe;
 use crate::kit::amplitude::AmplitudeScale;
@@ -47,7 +48,7 @@ fn window(pane: Pane) -> Harness<'static, Pane> {
             points: Some(points),
             probe: pane.probe,
         };
-        pane.curves.catch_up(ui.ctx(), wanted, true);
+        (pane.curves).follow(ui.ctx(), &Executor::InLine, wanted);
         let view = ResponseView {
             textile: "1 Silk".to_owned(),
             rotation_deg: pane.rotation_deg,

@@ -5,15 +5,19 @@
 //! that it shows has changed; until it is done the last one stays, unless the textile is another.
 
 use std::fmt;
+use std::sync::Arc;
 
 use eframe::egui::{
-    self, Color32, ColorImage, TextureFilter, TextureHandle, TextureOptions, TextureWrapMode,
+    self, Color32, ColorImage, ImageData, TextureFilter, TextureHandle, TextureOptions,
+    TextureWrapMode,
 };
 
-use crate::bench::job::{Job, Polled};
+use crate::bench::background::Executor;
+use crate::bench::latest::{Computed, Latest};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_foundation::geometry::Velocity;
+use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_render::array::{ContactInspector, TextileResponse, VelocityMap};
 use selvedge_textile::tactile::Band;
 
@@ -41,9 +45,11 @@ pub(crate) struct Wanted {
 /// The maps of a scene's textiles, by their place in its list.
 #[derive(Default)]
 pub(crate) struct Maps {
-    slots: Vec<Option<Slot>>,
-    job: Option<Job<Vec<Made>>>,
-    n_computed: u64,
+    latest: Latest<Vec<Key>, Computation>,
+    /// Maps and their pictures on the graphics card.
+    slots: Vec<Option<(Arc<Map>, TextureHandle)>>,
+    /// Maps computed before all were forgotten.
+    n_before: u64,
 }
 
 /// What one map shows.
@@ -51,6 +57,8 @@ pub(crate) struct Maps {
 struct Key {
     response: TextileResponse,
     wanted: Wanted,
+    /// The longest side of a picture that the graphics card takes.
+    max_px: usize,
 }
 
 /// A map as it is shown.
@@ -62,139 +70,135 @@ pub(crate) struct ShownMap<'a> {
     pub wanted: Wanted,
 }
 
-/// A map and its picture on the graphics card.
-struct Slot {
+/// A map that was made.
+struct Map {
     key: Key,
     map: VelocityMap,
-    texture: TextureHandle,
+    image: Arc<ColorImage>,
 }
 
-/// What a thread brings back: which textile, what it shows, its picture.
-struct Made {
-    index: usize,
-    key: Key,
-    map: VelocityMap,
-    image: ColorImage,
+/// The maps of all textiles; none of one whose map is too large.
+#[derive(Default)]
+struct Computation {
+    maps: Vec<Option<Arc<Map>>>,
+    /// Maps computed so far.
+    n_computed: u64,
 }
 
-impl Key {
-    fn is_same(&self, other: &Self) -> bool {
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
         self.wanted == other.wanted && self.response.is_same(&other.response)
     }
 }
 
+impl Computed<Vec<Key>> for Computation {
+    const THREAD: &str = "selvedge-maps";
+
+    fn compute(
+        keys: &Vec<Key>,
+        prior: Option<(&Vec<Key>, &Self)>,
+        _: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let (known, before) = prior.map_or((&[][..], &[][..]), |(keys, of)| (keys, &of.maps));
+        let mut n_computed = prior.map_or(0, |(_, before)| before.n_computed);
+        let mut map = |(index, key): (usize, &Key)| {
+            if known.get(index) == Some(key) {
+                return before.get(index).cloned().flatten();
+            }
+            n_computed += 1;
+            Map::of(key).map(Arc::new)
+        };
+        let maps = keys.iter().enumerate().map(&mut map).collect();
+        Ok(Self { maps, n_computed })
+    }
+
+    fn broken(_: &Vec<Key>, _: &str) -> Self {
+        Self::default()
+    }
+
+    fn serves(_: &Vec<Key>, _: &Vec<Key>) -> bool {
+        true
+    }
+}
+
 impl Maps {
-    /// Has every textile's map as it is wanted, at once or as soon as a thread has made it.
-    pub(crate) fn catch_up(
+    /// Lets every textile's map follow what is wanted.
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
-        inspector: &ContactInspector,
-        wanted: Wanted,
-        is_at_once: bool,
+        executor: &Executor,
+        (inspector, wanted): (&ContactInspector, Wanted),
     ) {
-        self.take(ctx);
+        let max_px = ctx.input(|input| input.max_texture_side);
         let responses = (0..).map_while(|textile| inspector.response(textile));
-        let mut stale = Vec::new();
-        let mut n_textiles = 0;
-        for (index, response) in responses.enumerate() {
-            n_textiles = index + 1;
-            self.slots
-                .resize_with(self.slots.len().max(n_textiles), || None);
-            let slot = &mut self.slots[index];
-            let is_other = |slot: &Slot| !slot.key.response.is_same_cloth(&response);
-            if slot.as_ref().is_some_and(is_other) {
-                *slot = None;
-            }
-            let key = Key { response, wanted };
-            if !slot.as_ref().is_some_and(|slot| slot.key.is_same(&key)) {
-                stale.push((index, key));
-            }
-        }
-        self.slots.truncate(n_textiles);
-        if stale.is_empty() || self.job.is_some() {
-            return;
-        }
-        self.n_computed += stale.len() as u64;
-        let most = ctx.input(|input| input.max_texture_side);
-        let work = move || -> Vec<Made> {
-            let made = |(index, key)| made(index, key, most);
-            stale.into_iter().filter_map(made).collect()
+        let key = |response| Key {
+            response,
+            wanted,
+            max_px,
         };
-        if is_at_once {
-            self.put(ctx, work());
-        } else {
-            // Without a thread the map stays as it was; the next frame asks again.
-            self.job = Job::start("selvedge-maps", ctx, work).ok();
-        }
-    }
-
-    /// Takes what a thread has made.
-    fn take(&mut self, ctx: &egui::Context) {
-        match self.job.as_ref().map(Job::poll) {
-            Some(Polled::Done(made)) => {
-                self.job = None;
-                self.put(ctx, made);
-            }
-            Some(Polled::BrokeOff) => self.job = None,
-            Some(Polled::Working) | None => {}
-        }
-    }
-
-    fn put(&mut self, ctx: &egui::Context, made: Vec<Made>) {
-        for Made {
-            index,
-            key,
-            map,
-            image,
-        } in made
-        {
-            let Some(place) = self.slots.get_mut(index) else {
+        let keys: Vec<Key> = responses.map(key).collect();
+        self.latest.poll();
+        self.latest.follow(ctx, executor, &keys);
+        self.slots.resize_with(keys.len(), || None);
+        let maps = self.latest.value().map_or(&[][..], |value| &value.maps);
+        for (index, (slot, key)) in self.slots.iter_mut().zip(&keys).enumerate() {
+            let map = maps.get(index).and_then(Option::as_ref);
+            let is_of_it = |map: &&Arc<Map>| map.key.response.is_same_cloth(&key.response);
+            let Some(map) = map.filter(is_of_it) else {
+                *slot = None;
                 continue;
             };
-            if let Some(slot) = place {
-                slot.texture.set(image, OPTIONS);
-                (slot.key, slot.map) = (key, map);
+            if let Some((shown, texture)) = slot {
+                if !Arc::ptr_eq(shown, map) {
+                    texture.set(ImageData::Color(Arc::clone(&map.image)), OPTIONS);
+                    *shown = Arc::clone(map);
+                }
             } else {
-                let texture = ctx.load_texture(format!("map {index}"), image, OPTIONS);
-                *place = Some(Slot { key, map, texture });
+                let name = format!("map {index}");
+                let image = ImageData::Color(Arc::clone(&map.image));
+                let texture = ctx.load_texture(name, image, OPTIONS);
+                *slot = Some((Arc::clone(map), texture));
             }
         }
     }
 
     /// Forgets all maps, and what is on its way.
     pub(crate) fn clear(&mut self) {
-        self.slots.clear();
-        self.job = None;
+        *self = Self {
+            n_before: self.n_computed(),
+            ..Self::default()
+        };
     }
 
     /// The picture of a textile's map and the points along warp and weft that it holds; `None`
     /// while there is none, and for a textile that is not felt at all.
     pub(crate) fn picture(&self, textile: usize) -> Option<(egui::TextureId, [usize; 2])> {
-        let slot = self.slots.get(textile)?.as_ref()?;
-        let factor = slot.key.response.factors()[slot.key.wanted.band.index()];
-        (factor > 0.0).then(|| (slot.texture.id(), slot.map.n_points()))
+        let (shown, texture) = self.slots.get(textile)?.as_ref()?;
+        let factor = shown.key.response.factors()[shown.key.wanted.band.index()];
+        (factor > 0.0).then(|| (texture.id(), shown.map.n_points()))
     }
 
     /// The map of a textile; `None` while there is none, and for a textile that is not felt at all.
     pub(crate) fn shown(&self, textile: usize) -> Option<ShownMap<'_>> {
         self.picture(textile)?;
-        let slot = self.slots.get(textile)?.as_ref()?;
+        let (shown, _) = self.slots.get(textile)?.as_ref()?;
         Some(ShownMap {
-            map: &slot.map,
-            wanted: slot.key.wanted,
+            map: &shown.map,
+            wanted: shown.key.wanted,
         })
     }
 
     /// The amplitude that a textile's map shows at a place along its warp and weft, mm; in µm.
     pub(crate) fn amplitude_um(&self, textile: usize, place_mm: [f64; 2]) -> Option<f64> {
-        let slot = self.slots.get(textile)?.as_ref()?;
-        let amplitudes_um = slot.map.amplitudes_um(place_mm);
-        Some(amplitudes_um[slot.key.wanted.band.index()])
+        let (shown, _) = self.slots.get(textile)?.as_ref()?;
+        let amplitudes_um = shown.map.amplitudes_um(place_mm);
+        Some(amplitudes_um[shown.key.wanted.band.index()])
     }
 
     /// Maps computed so far: it stands still while nothing changes or nobody looks.
     pub(crate) fn n_computed(&self) -> u64 {
-        self.n_computed
+        let value = self.latest.value();
+        self.n_before + value.map_or(0, |value| value.n_computed)
     }
 }
 
@@ -202,22 +206,21 @@ impl fmt::Debug for Maps {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Maps")
             .field("n_slots", &self.slots.len())
-            .field("n_computed", &self.n_computed)
+            .field("n_computed", &self.n_computed())
             .finish_non_exhaustive()
     }
 }
 
-/// Makes a map; `None` when its picture has more pixels along a side than the graphics card takes.
-fn made(index: usize, key: Key, most: usize) -> Option<Made> {
-    let velocity = key.response.along(key.wanted.velocity);
-    let map = key.response.map(velocity);
-    let image = image_of(&map, &key.wanted);
-    (image.width().max(image.height()) <= most).then_some(Made {
-        index,
-        key,
-        map,
-        image,
-    })
+impl Map {
+    /// Makes a map; `None` when its picture has more pixels along a side than the graphics card
+    /// takes.
+    fn of(key: &Key) -> Option<Self> {
+        let velocity = key.response.along(key.wanted.velocity);
+        let map = key.response.map(velocity);
+        let image = Arc::new(image_of(&map, &key.wanted));
+        let key = key.clone();
+        (image.width().max(image.height()) <= key.max_px).then_some(Self { key, map, image })
+    }
 }
 
 /// One pixel a pair of points: columns along the warp, rows along the weft.
@@ -261,7 +264,7 @@ mod tests {
             let velocity = Velocity::new(velocity[0], velocity[1]);
             let wanted = wanted(velocity, Band::High);
             for _ in 0..3 {
-                maps.catch_up(&ctx, &inspector, wanted, true);
+                maps.follow(&ctx, &Executor::InLine, (&inspector, wanted));
             }
             assert_eq!(maps.n_computed(), n * n_textiles, "once a velocity");
             for (textile, placed) in scene.textiles.iter().enumerate() {
@@ -285,34 +288,31 @@ mod tests {
     #[test]
     fn a_thread_makes_the_map_and_the_last_one_stays_meanwhile() {
         let ctx = egui::Context::default();
+        let threads = Executor::Threads(ctx.clone());
         let mut scene = RenderScene::of(&LoadedScene::shipped().unwrap());
         let mut inspector = ContactInspector::new(&scene);
         let mut maps = Maps::default();
         let slow = wanted(Velocity::new(20.0, 0.0), Band::Low);
-        maps.catch_up(&ctx, &inspector, slow, false);
+        maps.follow(&ctx, &threads, (&inspector, slow));
         assert!(maps.picture(0).is_none(), "still to come");
         while maps.picture(0).is_none() {
-            maps.catch_up(&ctx, &inspector, slow, false);
+            maps.follow(&ctx, &threads, (&inspector, slow));
             std::thread::yield_now();
         }
         let before = maps.amplitude_um(0, [3.0, 3.0]).unwrap();
         let n_made = maps.n_computed();
         scene.textiles[0].scene_gain_db = f64::NEG_INFINITY;
         inspector.set_gains(&scene);
-        maps.catch_up(&ctx, &inspector, slow, false);
-        assert_eq!(maps.n_computed(), n_made + 1, "one textile has other gains");
+        maps.follow(&ctx, &threads, (&inspector, slow));
         assert_eq!(maps.amplitude_um(0, [3.0, 3.0]), Some(before));
         while maps.picture(0).is_some() {
-            maps.catch_up(&ctx, &inspector, slow, false);
+            maps.follow(&ctx, &threads, (&inspector, slow));
             std::thread::yield_now();
         }
         assert_eq!(maps.amplitude_um(0, [3.0, 3.0]), Some(0.0), "silent now");
-        maps.catch_up(
-            &ctx,
-            &ContactInspector::new(&RenderScene::default()),
-            slow,
-            false,
-        );
+        assert_eq!(maps.n_computed(), n_made + 1, "one textile has other gains");
+        let none = ContactInspector::new(&RenderScene::default());
+        maps.follow(&ctx, &threads, (&none, slow));
         assert_eq!(maps.amplitude_um(1, [3.0, 3.0]), None, "no textile, no map");
         maps.clear();
     }

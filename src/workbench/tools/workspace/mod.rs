@@ -163,7 +163,7 @@ impl Workspace {
 
     /// Has what the overlays show that are switched on.
     fn prepare_overlays(&mut self, ctx: &egui::Context, bench: &mut Bench) {
-        let (overlays, is_at_once) = (self.view.overlays, bench.is_stepped());
+        let overlays = self.view.overlays;
         if overlays.shows(Overlay::Points) {
             self.lattice.prepare(ctx);
         }
@@ -183,7 +183,7 @@ impl Workspace {
             scale: bench.selection.scale,
             colours: bench.settings.preferences.colour_map,
         };
-        self.maps.catch_up(ctx, inspector, wanted, is_at_once);
+        self.maps.follow(ctx, &bench.executor, (inspector, wanted));
     }
 }
 

@@ -1,6 +1,7 @@
 //! Files that a window has opened before anything is exported.
 
 use super::*;
+use crate::bench::background::Executor;
 use crate::tools::import::Import;
 use crate::tools::import::tests::export;
 use crate::tools::picture::Picture;
@@ -12,7 +13,7 @@ impl Headless {
         let path = folder.write("twill.txt", export());
         self.dispatch(FileCommand::Use(Purpose::ImportFiles, path));
         let import: &mut Import = self.workbench.tools.get_mut().unwrap();
-        import.follow(&self.ctx, true);
+        import.follow(&self.ctx, &Executor::InLine);
     }
 
     /// Works out a picture of a cloth.
@@ -34,6 +35,6 @@ impl Headless {
         fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
         self.dispatch(FileCommand::Use(Purpose::OpenPicture, path));
         let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
-        picture.follow(&self.ctx, true);
+        picture.follow(&self.ctx, &Executor::InLine);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::bench::Drive;
+use crate::bench::background::Executor;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Command, Part, PlayCommand, ShowCommand};
 use crate::bench::rendering::Rendering;
@@ -226,6 +227,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
 #[test]
 fn a_measurement_that_is_stopped_leaves_the_last_one() {
     let (mut accuracy, mut bench) = exploring();
+    bench.executor = Executor::Threads(bench.ctx.clone());
     accuracy.measure(&mut bench);
     accuracy.measuring.as_ref().unwrap().stop();
     while accuracy.measuring.is_some() {

@@ -11,6 +11,7 @@ use std::{fs, thread};
 use eframe::egui::{self, vec2};
 
 use super::*;
+use crate::bench::background::Executor;
 use crate::bench::command::ShowCommand;
 use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
@@ -169,7 +170,7 @@ fn an_analysis_that_is_cancelled_leaves_the_last_result() {
     let mut analysis = Analysis::default();
     analysis.fields.folder = folder.0.display().to_string();
     analysis.choice = asked(&folder.0).choice;
-    analysis.begin_with(&ctx, true, None);
+    analysis.begin_with(&Executor::InLine, None);
     analysis.poll();
     let found = Arc::clone(analysis.found.as_ref().unwrap());
     analysis.choice = Choice {
@@ -177,7 +178,7 @@ fn an_analysis_that_is_cancelled_leaves_the_last_result() {
         has_random_data: true,
         with_active: false,
     };
-    analysis.begin_with(&ctx, false, None);
+    analysis.begin_with(&Executor::Threads(ctx.clone()), None);
     assert!(analysis.share().is_some());
     analysis.stop();
     let began = Instant::now();
@@ -247,7 +248,7 @@ fn figures_are_drawn_once_and_only_while_they_are_in_sight() {
     analysis_mut(&mut window).section = map;
     window.pass(4);
     assert_eq!(analysis(&window).n_drawn(), 1);
-    let pictures = Arc::clone(analysis(&window).pictures.found().unwrap());
+    let pictures = Arc::clone(analysis(&window).pictures.value().unwrap());
     for image in &pictures.images[..2] {
         let image = image.as_ref().unwrap();
         let n_inked = image.pixels.iter().filter(|pixel| pixel.a() > 128).count();

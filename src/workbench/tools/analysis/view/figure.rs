@@ -56,8 +56,8 @@ fn picture_of<'a>(
     found: &Arc<Findings>,
     nth: usize,
 ) -> Option<&'a Result<Arc<ColorImage>, String>> {
-    let pictures = analysis.pictures.found()?;
-    let wanted = &pictures.wanted;
+    let pictures = analysis.pictures.value()?;
+    let wanted = analysis.pictures.key()?;
     let is_same = Arc::ptr_eq(&wanted.findings, found) && wanted.section == analysis.section;
     pictures.images.get(nth).filter(|_| is_same)
 }

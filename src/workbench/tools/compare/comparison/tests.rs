@@ -31,6 +31,10 @@ fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
     Inputs::of(choice, Some(&held), scene, tunings(), route).unwrap()
 }
 
+fn threads() -> Executor {
+    Executor::Threads(eframe::egui::Context::default())
+}
+
 fn ended(comparison: &mut Compare) {
     while comparison.running.is_some() {
         comparison.poll();
@@ -104,12 +108,11 @@ fn a_held_tuning_keeps_gains_and_filters_as_they_were() {
 
 #[test]
 fn a_comparison_is_fresh_until_something_changes() {
-    let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
     let mut comparison = Compare::default();
     let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));
     assert_eq!(comparison.standing(&Ok(inputs.clone())), Standing::None);
-    comparison.begin(inputs.clone(), &loaded, &ctx, false);
+    comparison.begin(inputs.clone(), &loaded, &threads());
     ended(&mut comparison);
     assert_eq!(comparison.standing(&Ok(inputs.clone())), Standing::Fresh);
     let found = comparison.found().unwrap();
@@ -127,7 +130,6 @@ fn a_comparison_is_fresh_until_something_changes() {
 
 #[test]
 fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
-    let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
     let mut comparison = Compare::default();
     comparison.choice.what = What::Methods;
@@ -136,7 +138,7 @@ fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
         loaded.scene(),
         route(40.0, 40.0, 1 << 40),
     );
-    comparison.begin(inputs.clone(), &loaded, &ctx, false);
+    comparison.begin(inputs.clone(), &loaded, &threads());
     let standing = comparison.standing(&Ok(inputs.clone()));
     assert!(matches!(standing, Standing::Running(_)), "{standing:?}");
     comparison.cancel();
@@ -147,13 +149,12 @@ fn a_long_comparison_is_stopped_and_does_not_begin_again_by_itself() {
 
 #[test]
 fn a_textile_that_is_not_there_is_a_sentence() {
-    let ctx = egui::Context::default();
     let loaded = LoadedScene::shipped().unwrap();
     let mut comparison = Compare::default();
     comparison.choice.what = What::Textiles;
     comparison.choice.textiles[0] = Some("felt-hat".to_owned());
     let inputs = asked(&comparison.choice, loaded.scene(), route(40.0, 40.0, 40));
-    comparison.begin(inputs.clone(), &loaded, &ctx, true);
+    comparison.begin(inputs.clone(), &loaded, &Executor::InLine);
     match comparison.standing(&Ok(inputs)) {
         Standing::Impossible(words) => assert!(words.contains("felt-hat"), "{words}"),
         other => panic!("{other:?}"),

@@ -15,7 +15,7 @@ pub(crate) mod table;
 use eframe::egui::{RichText, Ui, vec2};
 
 use crate::bench::command::Commands;
-use crate::bench::follower::Standing;
+use crate::bench::latest::Standing;
 use crate::bench::tool::PaneContext;
 use crate::kit::drop::dropped;
 use crate::kit::pane::{inside, scrolled_column};

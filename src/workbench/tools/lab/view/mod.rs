@@ -20,6 +20,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
 
 use crate::bench::Bench;
+use crate::bench::latest::Standing;
 use crate::kit::pane::paint_sentence;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::button;
@@ -83,17 +84,18 @@ fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
                 ui.label(small("computing", palette.dim));
                 return;
             }
-            if lab.is_stopped && !lab.is_fresh() {
+            let standing = lab.standing();
+            if standing == Standing::Stopped {
                 if button(ui, "Go on", "Compute the preview after all", None) {
-                    lab.is_stopped = false;
+                    lab.previews.go_on();
                 }
                 ui.label(small("stopped: an earlier recipe is shown", palette.text));
                 return;
             }
-            let words = match (lab.fault(), &lab.refusal) {
+            let words = match (lab.fault(), lab.refusal()) {
                 (Some(fault), _) => fault.message.as_str(),
-                (None, Some(words)) => words.as_str(),
-                (None, None) if lab.is_fresh() => "",
+                (None, Some(words)) => words,
+                (None, None) if standing == Standing::Fresh => "",
                 (None, None) => "to be computed",
             };
             let label = egui::Label::new(small(words, palette.text)).truncate();
@@ -105,9 +107,9 @@ fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
 /// The plots, in a grid or below each other.
 fn show_plots(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let room = ui.available_size();
-    let Some(preview) = lab.preview.clone() else {
-        let words = match (&lab.refusal, lab.fault()) {
-            (Some(words), _) => words.as_str(),
+    let Some(preview) = lab.preview().cloned() else {
+        let words = match (lab.refusal(), lab.fault()) {
+            (Some(words), _) => words,
             (None, Some(_)) => "Mend the recipe: the wrong value is marked",
             (None, None) => "The surface is being made",
         };
@@ -126,7 +128,7 @@ fn show_plots(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     area.show(ui, |ui| {
         let size = vec2(ui.available_width(), height - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-        if !lab.is_fresh() {
+        if lab.standing() != Standing::Fresh {
             ui.set_opacity(STALE);
         }
         let parts = if is_narrow { stacked(rect) } else { grid(rect) };

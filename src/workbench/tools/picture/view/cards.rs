@@ -6,7 +6,7 @@ use eframe::egui::{
     Align2, Color32, Painter, Rect, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
-use crate::bench::follower::Standing;
+use crate::bench::latest::Standing;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d;

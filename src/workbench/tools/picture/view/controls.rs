@@ -3,7 +3,7 @@
 use eframe::egui::{RichText, Ui};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::bench::follower::Standing;
+use crate::bench::latest::Standing;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
