@@ -30,7 +30,12 @@ pub(crate) fn paint_ticks(
     let hairline = Stroke::new(1.0, palette.hairline);
     let rulers = rulers(transform, scales);
     let (labels, title) = rulers[0].labels(&chart.x.label);
-    let mut taken = f32::NEG_INFINITY;
+    // Below the last of several charts with one horizontal axis.
+    let mut taken = if chart.is_x_shared {
+        f32::INFINITY
+    } else {
+        f32::NEG_INFINITY
+    };
     for (value, label) in labels {
         let place = scales[0].place(value).unwrap_or_default();
         let x = painter.round_to_pixel_center(transform.position_from_point_x(place));
@@ -45,12 +50,10 @@ pub(crate) fn paint_ticks(
         }
     }
     let corner = area.right_bottom() + vec2(-4.0, -1.0);
-    paint_title(
-        painter,
-        (corner, Align2::RIGHT_BOTTOM),
-        &title,
-        0.5 * area.width(),
-    );
+    if !chart.is_x_shared {
+        let room = 0.5 * area.width();
+        paint_title(painter, (corner, Align2::RIGHT_BOTTOM), &title, room);
+    }
     if f32::from(margin.left) < LABELS {
         return;
     }

@@ -34,6 +34,8 @@ pub(crate) enum Drag {
     Pans,
     /// It chooses a value for the pane, and so do the arrows.
     Chooses,
+    /// Whatever the pane makes of it, which moves and zooms by the axes that it gives the chart.
+    ByPane,
 }
 
 /// How a chart stands in its pane.
@@ -169,6 +171,7 @@ fn paint(ui: &Ui, chart: &Chart, (area, bounds, scales): (Rect, PlotBounds, [Sca
         id.with("frame"),
         builder.layer_id(ui.layer_id()),
     );
+    within.set_opacity(ui.opacity());
     within.set_clip_rect(area.expand(1.0).intersect(ui.clip_rect()));
     let plot = Plot::new(id)
         .id(id.with("plot"))

@@ -107,6 +107,9 @@ pub(crate) fn gesture(ui: &Ui, response: &Response, area: Rect, setting: &Settin
         closer: 1.0,
         ..Gesture::default()
     };
+    if setting.drag == Drag::ByPane {
+        return gesture;
+    }
     let (size, pans) = (area.size(), setting.drag == Drag::Pans);
     if let Some(at) = response.hover_pos().filter(|at| area.contains(*at)) {
         gesture.at = [

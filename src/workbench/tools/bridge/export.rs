@@ -32,7 +32,7 @@ pub(crate) fn distributions(timing: &LinkTiming, origin: Origin) -> Option<Expor
         .with("from_s", column(|bar| bar.from.as_secs_f64()))
         .with("to_s", column(|bar| bar.to.as_secs_f64()))
         .with("count", counts);
-    let panels = both.map(|(name, distribution)| panel(name, distribution));
+    let panels = both.map(|(name, distribution)| chart(name, distribution));
     let row = Row {
         panels: panels.into(),
         height_px: 300.0,
@@ -57,7 +57,8 @@ pub(crate) fn distributions(timing: &LinkTiming, origin: Origin) -> Option<Expor
     Some(Exported::new(title, sheet, vec![row], note, origin))
 }
 
-fn panel(name: &str, distribution: &Distribution) -> Chart {
+/// How often a thing took how long.
+pub(crate) fn chart(name: &str, distribution: &Distribution) -> Chart {
     let heard = distribution.bars().filter(|bar| bar.count > 0);
     let points: Vec<[f64; 2]> = heard
         .map(|bar| {

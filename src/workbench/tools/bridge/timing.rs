@@ -3,25 +3,30 @@
 
 use std::time::Duration;
 
-use eframe::egui::{self, Label, Rect, RichText, Sense, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{Label, Margin, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgeView, LinkTiming};
 use crate::kit::pane::paint_sentence;
+use crate::kit::plot;
+use crate::kit::plot::Setting;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
 use crate::kit::widgets::text::{button, field_row, quiet_pair};
+use crate::tools::bridge::export::chart;
 use selvedge_device::{BridgeState, Distribution, Spread};
 use selvedge_foundation::quantity;
 
-/// Height of the bars, points.
-const BARS: f32 = 36.0;
-/// Height of a line of small letters, points.
-const LINE: f32 = 14.0;
-/// Both distributions have this axis, ms: the same quantity, the same scale.
-const TIMES_MS: [f64; 2] = [0.03, 300.0];
+/// Height of a distribution, points.
+const HEIGHT: f32 = 54.0;
+/// Room around it for its axis, points.
+const MARGIN: Margin = Margin {
+    left: 2,
+    right: 2,
+    top: 2,
+    bottom: 16,
+};
 
 /// What matters of the times while they are folded away.
 pub(crate) fn summary(bridge: Option<&BridgeView>) -> String {
@@ -82,22 +87,24 @@ fn show_distribution(ui: &mut Ui, name: &str, distribution: &Distribution, tip: 
     let palette = Palette::in_ui(ui);
     let title = RichText::new(name).font(theme::small()).color(palette.dim);
     ui.label(title).on_hover_text(tip);
-    let size = vec2(ui.available_width(), BARS + LINE);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let words = words(name, &distribution.spread);
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &words));
-    response.on_hover_text(&words);
-    let plot = rect
-        .with_max_y(rect.bottom() - LINE)
-        .shrink2(vec2(2.0, 0.0));
-    let axis = Axis::log(TIMES_MS[0], TIMES_MS[1]);
-    let ticks = [(0.1, "0.1"), (1.0, "1"), (10.0, "10"), (100.0, "100 ms")];
-    let ticks = ticks.map(|(ms, name)| Tick::named(ms, name));
-    paint_ticks(ui.painter(), plot, (&axis, Side::Bottom), &ticks);
+    let size = vec2(ui.available_width(), HEIGHT);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let setting = Setting {
+        name,
+        margin: MARGIN,
+        wheel: false,
+        hover: false,
+        has_legend: false,
+        ..Setting::default()
+    };
+    if let Some(shown) = plot::show(ui, rect, &chart(name, distribution), &setting) {
+        let words = words(name, &distribution.spread);
+        let response = shown.response;
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &words));
+        response.on_hover_text(&words);
+    }
     if distribution.spread.n == 0 {
-        paint_sentence(ui.painter(), plot, "none yet");
-    } else {
-        paint_bars(ui, plot, &axis, distribution);
+        paint_sentence(ui.painter(), rect - MARGIN, "none yet");
     }
     let Spread {
         median,
@@ -124,24 +131,6 @@ fn words(name: &str, spread: &Spread) -> String {
         "{name}: median {median} ms, 99 of 100 within {p99} ms, longest {max} ms, of {}",
         spread.n
     )
-}
-
-fn paint_bars(ui: &Ui, plot: Rect, axis: &Axis, distribution: &Distribution) {
-    let ink = Palette::in_ui(ui).dim;
-    let most = distribution.bars().map(|bar| bar.count).max().unwrap_or(1);
-    for bar in distribution.bars().filter(|bar| bar.count > 0) {
-        let x = |time: Duration| {
-            let x = axis.x(plot.x_range(), time.as_secs_f64() * 1e3);
-            x.clamp(plot.left(), plot.right())
-        };
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = (f64::from(bar.count) / f64::from(most)) as f32;
-        // One among thousands is still seen.
-        let top = plot.bottom() - (share * plot.height()).max(1.5);
-        let right = (x(bar.to) - 1.0).max(x(bar.from) + 1.0);
-        let rect = Rect::from_min_max(pos2(x(bar.from), top), pos2(right, plot.bottom()));
-        ui.painter().rect_filled(rect, 0, ink);
-    }
 }
 
 /// Where the log of the links is, and why it is not whole if so.

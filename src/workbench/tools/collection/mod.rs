@@ -9,7 +9,7 @@
 //! Neither saved nor undone. Gains are applied when it is drawn, so that no slider computes
 //! anything.
 
-pub(crate) mod export;
+pub(crate) mod chart;
 pub(crate) mod listing;
 pub(crate) mod measure;
 pub(crate) mod measuring;
@@ -108,7 +108,7 @@ impl Tool for Collection {
                  pane is in sight",
             );
         }
-        Ok(export::scatter(&view, origin))
+        Ok(chart::exported(&view, origin))
     }
 
     fn leave_scene(&mut self, _bench: &mut Bench) {

@@ -10,10 +10,11 @@ use crate::bench::Bench;
 use crate::bench::background::{Executor, Task};
 use crate::bench::error::AppError;
 use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
+use selvedge_chart::Chart;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::LoadedScene;
-use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, Spread, replay_pair};
+use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, replay_pair};
 
 /// A path of at most so many ticks (ten minutes) is compared as soon as something has changed; a
 /// longer one when it is asked for.
@@ -53,7 +54,7 @@ pub(crate) struct Compare {
     ended: Option<(Inputs, End)>,
     running: Option<Running>,
     cache: TableCache,
-    columns: Option<Vec<[Spread; 2]>>,
+    chart: Option<Chart>,
     n_begun: u64,
 }
 
@@ -98,18 +99,16 @@ impl Compare {
         self.ended.as_ref().map(|(inputs, _)| &inputs.route)
     }
 
-    /// What was found over time, in at most so many columns; kept until that changes.
-    pub(crate) fn columns(&mut self, n_columns: usize) -> &[[Spread; 2]] {
-        let n_entries = self.found().map_or(0, |found| found.over_time.len());
-        let wanted = n_columns.min(n_entries);
-        if self
-            .columns
-            .as_ref()
-            .is_none_or(|kept| kept.len() != wanted)
-        {
-            self.columns = self.found().map(|found| found.columns(wanted));
-        }
-        self.columns.as_deref().unwrap_or_default()
+    /// What was found last, and the chart of it over time, made once.
+    pub(crate) fn found_over_time(
+        &mut self,
+        chart: impl Fn(&LevelDifference) -> Chart,
+    ) -> Option<(&LevelDifference, &Chart)> {
+        let Some((_, End::Found(found))) = &self.ended else {
+            return None;
+        };
+        let chart = self.chart.get_or_insert_with(|| chart(found));
+        Some((found, chart))
     }
 
     /// How it stands to what is asked for now.
@@ -175,7 +174,7 @@ impl Compare {
 
     fn take(&mut self, inputs: Inputs, brought: Brought) {
         self.cache = brought.cache;
-        self.columns = None;
+        self.chart = None;
         let end = match brought.found {
             Ok(Some(found)) => End::Found(found),
             Ok(None) => End::Cancelled,

@@ -1,16 +1,19 @@
-//! By how much two runs on the same path differ: by contactor and over time.
+//! By how much two runs on the same path differ: by contactor and over time, as charts and numbers.
 
 use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, N_COLOURS, Sheet, cells};
 use crate::kit::theme::colour_map::Diverging;
 use crate::tools::compare::choice::Side;
-use crate::tools::compare::words::scale_db;
+use crate::tools::compare::words::{band_name, scale_db};
 use selvedge_chart::{Axis, Chart, ColourBar, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
-use selvedge_render::LevelDifference;
 use selvedge_render::scene::TICKS_PER_S;
+use selvedge_render::{LevelDifference, Spread};
 use selvedge_textile::tactile::Band;
+
+/// More columns than this a chart over time does not have: a longer path has several ticks in each.
+const MAX_COLUMNS: usize = 2048;
 
 /// One contactor, or one part of the path, in one band.
 struct Found {
@@ -43,7 +46,7 @@ pub(crate) fn differences(
         bar: Some(bar(map, most_db)),
     };
     let time = Row {
-        panels: vec![time_panel(&found, difference)],
+        panels: vec![over_time_chart(difference)],
         height_px: 220.0,
         bar: None,
     };
@@ -164,30 +167,37 @@ fn map_panel(
     cells::panel(band, grid, cell, Vec::new())
 }
 
-fn time_panel(found: &[Found], difference: &LevelDifference) -> Chart {
-    let own = |band: Band| {
-        let of_time = found.iter().filter(|one| one.of == "time");
-        of_time.filter(move |one| one.band == band && one.ends_db[0].is_finite())
+/// The least and the most of the mean over contactors, along the path.
+pub(crate) fn over_time_chart(difference: &LevelDifference) -> Chart {
+    let columns = difference.columns(MAX_COLUMNS);
+    let n_ticks = difference.n_ticks;
+    let s_a_column = n_ticks as f64 / TICKS_PER_S / columns.len().max(1) as f64;
+    let range = |spreads: &[Spread; 2], band: Band| spreads[band.index()].range_db;
+    let line = |band: Band, end: usize| {
+        let level = |(nth, spreads)| {
+            let db = range(spreads, band).map_or(f64::NAN, |range| range[end]);
+            [nth as f64 * s_a_column, db]
+        };
+        Series {
+            name: if end == 0 {
+                band_name(band)
+            } else {
+                String::new()
+            },
+            points: columns.iter().enumerate().map(level).collect(),
+            style: Style::Line,
+            ink: ink(band),
+            weight: Weight::Thin,
+            ..Series::default()
+        }
     };
-    let line = |band: Band, end: usize| Series {
-        name: if end == 0 {
-            format!("{} Hz", quantity::fixed(band.carrier_hz(), 0))
-        } else {
-            String::new()
-        },
-        points: own(band)
-            .map(|one| [one.first_tick / TICKS_PER_S, one.ends_db[end]])
-            .collect(),
-        style: Style::Line,
-        ink: ink(band),
-        weight: Weight::Thin,
-        ..Series::default()
-    };
-    let all = Band::ALL.into_iter().flat_map(own);
-    let most_db = scale_db(all.flat_map(|one| one.ends_db));
-    let end_s = (difference.n_ticks.max(2) - 1) as f64 / TICKS_PER_S;
-    // A path that fits has one tick in each entry: least and most are the same line.
-    let ends: &[usize] = if difference.ticks_per_entry > 1 {
+    let ranges = Band::ALL
+        .into_iter()
+        .flat_map(|band| columns.iter().filter_map(move |all| range(all, band)));
+    let most_db = scale_db(ranges.flatten());
+    let end_s = (n_ticks.max(2) - 1) as f64 / TICKS_PER_S;
+    // A path that fits has one tick in each column: least and most are the same line.
+    let ends: &[usize] = if n_ticks > columns.len() as u64 {
         &[0, 1]
     } else {
         &[0]

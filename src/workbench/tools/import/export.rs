@@ -4,6 +4,7 @@
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet, bar};
 use crate::kit::theme::colour_map::ColourMap;
+use crate::tools::import::view::curves::profile_chart;
 use crate::tools::import::work::{Body, Found, Heights};
 use selvedge_chart::{Axis, Chart, Ink, Raster, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
@@ -207,21 +208,8 @@ fn profile_of(found: &Heights) -> (Sheet, Row) {
     let heights_um = map.heights_um().values().to_vec();
     let step_mm = map.step_mm()[0];
     let places: Vec<f64> = (0..heights_um.len()).map(|i| i as f64 * step_mm).collect();
-    let envelope = found.profile.as_deref();
-    let points = envelope
-        .into_iter()
-        .flat_map(crate::tools::import::envelope::Envelope::points);
-    let points = points.map(|(sample, height_um)| [sample * step_mm, height_um]);
-    let [low, high] = envelope.map_or([0.0, 1.0], crate::tools::import::envelope::Envelope::range);
-    let panel = Chart {
-        x: Axis::linear("place, mm").within([0.0, map.size_mm()[0]]),
-        y: Axis::linear("height, µm").within([low, high]),
-        series: vec![Series {
-            points: points.collect(),
-            ..Series::default()
-        }],
-        ..Chart::default()
-    };
+    let panel = found.profile.as_deref();
+    let panel = panel.map_or_else(Chart::default, |envelope| profile_chart(map, envelope));
     let row = Row {
         panels: vec![panel],
         height_px: 240.0,

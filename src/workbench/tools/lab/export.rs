@@ -6,7 +6,8 @@ use crate::kit::amplitude::AmplitudeScale;
 use crate::tools::lab::preview::{Felt, Preview, speeds_mm_per_s};
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::curves::chart as lab_chart;
-use selvedge_chart::{Axis, Chart, Row, Series, Style, Weight};
+use crate::tools::lab::view::profile::chart as profile_chart;
+use selvedge_chart::Row;
 
 /// A row of the table: a place of the profile, or a speed.
 struct Line {
@@ -30,7 +31,7 @@ pub(crate) fn curves(
     let direction = lab.look.direction.label();
     let rows = vec![
         Row {
-            panels: vec![profile_panel(lab, &lines)],
+            panels: vec![profile_chart(lab, &preview.felt)],
             height_px: 220.0,
             bar: None,
         },
@@ -118,30 +119,4 @@ fn sheet(lines: &[Line]) -> Sheet {
         .with("a320_um", number(&|line| line.amplitudes_um[0][1]))
         .with("compared_a40_um", number(&|line| line.amplitudes_um[1][0]))
         .with("compared_a320_um", number(&|line| line.amplitudes_um[1][1]))
-}
-
-fn profile_panel(lab: &Lab, lines: &[Line]) -> Chart {
-    let look = lab.look;
-    let ends = [look.from_mm, look.from_mm + look.span_mm];
-    let series = |of: &dyn Fn(&Line) -> f64, weight, name: &str| Series {
-        name: name.to_owned(),
-        points: lines
-            .iter()
-            .filter(|line| line.over == "place" && (ends[0]..=ends[1]).contains(&line.x))
-            .map(|line| [line.x, of(line)])
-            .filter(|[_, height]| height.is_finite())
-            .collect(),
-        style: Style::Line,
-        weight,
-        ..Series::default()
-    };
-    Chart {
-        x: Axis::linear("place along the stroke, mm").within(ends),
-        y: Axis::linear("height, µm"),
-        series: vec![
-            series(&|line| line.compared_um, Weight::Thin, "compared"),
-            series(&|line| line.height_um, Weight::Normal, "recipe"),
-        ],
-        ..Chart::default()
-    }
 }

@@ -1,15 +1,31 @@
 //! A picture's directions by both measures, and what was found of its lattice.
 
+use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::{Exported, Sheet};
 use crate::tools::picture::found::Found;
-use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style};
 use selvedge_foundation::quantity;
+use selvedge_textile::picture::{Directions, Measured};
 
 /// The two curves over angle; nothing before they are there.
 pub(crate) fn directions(found: &Found) -> Option<Exported> {
     let cloth = found.cloth.as_deref()?;
     let directions = cloth.directions.as_ref()?;
+    let title = format!("Directions of the threads: {}", found.inputs.own_name());
+    let note = "Directions in which maxima of the autocorrelation lie in lines; each measure as a \
+                share of its highest value.";
+    let chart = direction_chart(directions);
+    Some(Exported::of_chart(
+        &title,
+        chart,
+        320.0,
+        note,
+        origin(found),
+    ))
+}
+
+/// Both measures over half a turn, each by its own highest value, with the chosen directions marked.
+pub(crate) fn direction_chart(directions: &Directions) -> Chart {
     let curves = [&directions.by_concentration, &directions.by_hough];
     let n = curves[0].curve.len();
     let angles: Vec<f64> = (0..n).map(|i| 180.0 * i as f64 / n as f64).collect();
@@ -22,40 +38,50 @@ pub(crate) fn directions(found: &Found) -> Option<Exported> {
             .map(|x| x / most)
             .collect::<Vec<f64>>()
     });
-    let line = |nth: usize, name: &str, ink, style| Series {
+    let line = |nth: usize, name: &str, ink| Series {
         name: name.to_owned(),
         points: angles
             .iter()
             .zip(&shares[nth])
             .map(|(x, y)| [*x, *y])
             .collect(),
-        style,
+        marked: marked(curves[nth]),
+        style: Style::Line,
         ink,
         ..Series::default()
     };
-    let panel = Chart {
+    let series = vec![
+        line(0, "mean concentration", Ink::Black),
+        line(1, "Hough transform", Ink::Grey),
+    ];
+    let [first, second] = shares;
+    Chart {
         x: Axis::linear("direction, degrees clockwise from x").within([0.0, 180.0]),
         y: Axis::linear("share of the highest").within([0.0, 1.05]),
-        series: vec![
-            line(0, "mean concentration", Ink::Black, Style::Line),
-            line(1, "Hough transform", Ink::Grey, Style::Line),
-        ],
+        series,
+        columns: Columns::default()
+            .with("direction_deg", angles)
+            .with("mean_concentration_share", first)
+            .with("hough_share", second),
         ..Chart::default()
+    }
+}
+
+/// Where on its curve the directions are that a measure finds best.
+fn marked(measured: &Measured) -> Vec<usize> {
+    let n = measured.curve.len().max(1);
+    let best = measured.best.into_iter().flatten();
+    let index = |angle: f64| {
+        let share = (angle / std::f64::consts::PI).rem_euclid(1.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "an index of the curve"
+        )]
+        let index = (share * n as f64).round() as usize % n;
+        index
     };
-    let row = Row {
-        panels: vec![panel],
-        height_px: 320.0,
-        bar: None,
-    };
-    let [first, second] = shares.clone();
-    let sheet = Sheet::default()
-        .with("direction_deg", angles)
-        .with("mean_concentration_share", first)
-        .with("hough_share", second);
-    let title = format!("Directions of the threads: {}", found.inputs.own_name());
-    let note = "Directions in which maxima of the autocorrelation lie in lines; each measure as a \
-                share of its highest value.";
-    Some(Exported::new(title, sheet, vec![row], note, origin(found)))
+    best.map(index).collect()
 }
 
 fn origin(found: &Found) -> Origin {

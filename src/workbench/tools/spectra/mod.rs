@@ -4,7 +4,6 @@
 pub(crate) mod contact;
 pub(crate) mod drive;
 pub(crate) mod spatial;
-pub(crate) mod spatial_plot;
 #[cfg(test)]
 mod tests;
 pub(crate) mod waterfall;

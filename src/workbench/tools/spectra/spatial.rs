@@ -1,28 +1,35 @@
 //! The spatial spectra under the selected contactor: power density over wavenumber, with the bins
 //! lit that sound at its speed.
 
-use eframe::egui::{self, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
+use eframe::egui::{Align2, Painter, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2};
 
 use crate::bench::Bench;
-use crate::bench::export::{Exported, NO_CONTACTOR, Sheet, ink};
+use crate::bench::export::{Exported, NO_CONTACTOR, ink};
 use crate::bench::pane::Pane;
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ};
 use crate::bench::signals::spatial::{
     DENSITIES_DB, SpatialCurve, SpatialView, density_db, wavenumber_per_mm,
 };
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
+use crate::kit::plot;
+use crate::kit::plot::Setting;
+use crate::kit::plot::layers::colour;
+use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::tools::spectra::spatial_plot::{Plot, means_of, words_of};
 use crate::tools::spectra::{contactor, show_contactor};
-use selvedge_chart::{At, Axis, Chart, Extent, Ink, Row, Rule, Series, Style, Weight};
+use selvedge_chart::{At, Axis, Chart, Columns, Extent, Ink, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity;
-use selvedge_textile::surface::{Direction, N_BINS};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, N_BINS};
 use selvedge_textile::tactile::Band;
 
-/// Places of the drawing on paper to a factor of e of wavenumber, each with one point of a curve at
+/// Places of the chart to a factor of e of wavenumber, each with one point of a curve at
 /// most.
 const STEPS_PER_E: f64 = 60.0;
+
+/// How much of their ink curves lack where they do not sound.
+const UNLIT: f32 = 0.5;
 
 /// What a view is made for: scene, contactor, place, turn, motion.
 type Key = (u64, usize, [f64; 6]);
@@ -69,16 +76,7 @@ impl SpatialSpectra {
 
     /// Shows the spectra in the space that is left.
     fn show(&mut self, ui: &mut Ui, bench: &mut Bench) {
-        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-        let name = format!("Spatial spectra under contactor {}", contactor(bench));
-        response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
-        let area = Rect::from_min_max(
-            pos2(rect.left() + 34.0, rect.top() + 18.0),
-            pos2(rect.right() - 8.0, rect.bottom() - 18.0),
-        );
-        if area.width() < 48.0 || area.height() < 24.0 {
-            return;
-        }
+        let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
         self.catch_up(bench);
         let Some(view) = &self.view else {
             let words =
@@ -86,15 +84,25 @@ impl SpatialSpectra {
             paint_sentence(ui.painter(), rect, words);
             return;
         };
-        let plot = Plot::new(area);
-        plot.paint(ui.painter(), view);
-        let pointer = response.hover_pos().filter(|at| area.contains(*at));
-        if let Some(at) = pointer {
-            let k = plot.bin_at(at.x);
-            let x = plot.x(wavenumber_per_mm(k));
+        let setting = Setting {
+            name: "Spatial spectra",
+            hover: false,
+            has_legend: false,
+            ..Setting::default()
+        };
+        let Some(shown) = plot::show(ui, rect, &with_frequencies(view), &setting) else {
+            return;
+        };
+        let name = format!("Spatial spectra under contactor {}", contactor(bench));
+        let response = &shown.response;
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &name));
+        paint_legend(ui.painter(), shown.area(), view);
+        if let Some(at) = shown.pointer().filter(|_| !response.dragged()) {
+            let k = bin_of(shown.values_at(at)[0]);
+            let x = shown.at([wavenumber_per_mm(k), 0.0]).x;
             let stroke = Stroke::new(1.0, Palette::in_ui(ui).selection.gamma_multiply(0.35));
-            ui.painter().vline(x, area.y_range(), stroke);
-            response.on_hover_text_at_pointer(words_of(view, k));
+            ui.painter().vline(x, shown.area().y_range(), stroke);
+            shown.response.on_hover_text_at_pointer(words_of(view, k));
         }
     }
 }
@@ -122,25 +130,132 @@ impl Tool for SpatialSpectra {
     }
 }
 
-/// The spectra with the bins that sound in bold.
-fn exported(view: &SpatialView, contactor: usize, bench: &Bench) -> Exported {
+/// The spectra with the bins that sound in bold; without the columns.
+fn chart(view: &SpatialView) -> Chart {
     let mut series: Vec<Series> = names(view).collect();
     for curve in view.curves.iter().rev() {
         series.extend(lines(view, curve));
     }
-    let panel = Chart {
+    Chart {
         x: Axis::log("wavenumber, cycles/mm")
             .within([wavenumber_per_mm(1), wavenumber_per_mm(N_BINS)]),
         y: Axis::linear("power density, dB re 1 µm² per cycle/mm").within(DENSITIES_DB),
         series,
         rules: carriers(view),
         ..Chart::default()
+    }
+}
+
+/// The chart with the frequencies that wavenumbers sound at above it, and the carriers of the
+/// slower direction; what does not sound is faint.
+fn with_frequencies(view: &SpatialView) -> Chart {
+    let mut chart = chart(view);
+    for series in &mut chart.series {
+        if series.weight == Weight::Thin {
+            series.faintness = UNLIT;
+        }
+    }
+    let Some(fastest) = view.fastest() else {
+        return chart;
     };
-    let row = Row {
-        panels: vec![panel],
-        height_px: 340.0,
-        bar: None,
+    let rule = |wavenumber: f64, ink, extent| Rule {
+        at: At::X(wavenumber),
+        ink,
+        extent,
+        ..Rule::default()
     };
+    chart
+        .rules
+        .extend([LEAST_HZ, 100.0, MOST_HZ].map(|hz| Rule {
+            label: quantity::fixed(hz, 0),
+            ..rule(fastest.wavenumber_per_mm(hz), Ink::Grey, Extent::Edge)
+        }));
+    for slower in view.felt.iter().flatten().filter(|felt| **felt != fastest) {
+        chart.rules.extend(Band::ALL.map(|band| {
+            let wavenumber = slower.wavenumber_per_mm(band.carrier_hz());
+            rule(wavenumber, ink(band), Extent::Dashed)
+        }));
+    }
+    chart
+}
+
+/// Names the curves, and lights those that are felt.
+fn paint_legend(painter: &Painter, area: Rect, view: &SpatialView) {
+    let palette = Palette::of(painter.ctx().theme());
+    let right = area.right() - 6.0;
+    for (y, curve) in (0_u8..)
+        .map(|nth| area.top() + 10.0 + 13.0 * f32::from(nth))
+        .zip(&view.curves)
+    {
+        let direction = curve.direction;
+        let line = line(direction, Vec::new(), Weight::Thin);
+        let ink = colour(line.ink, palette);
+        let at = pos2(right - 28.0, y);
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            direction.label(),
+            theme::small(),
+            palette.dim,
+        );
+        let sample = [pos2(right - 22.0, y), pos2(right, y)];
+        let stroke = match view.felt_in(direction) {
+            Some(_) => Stroke::new(2.0, ink),
+            None => Stroke::new(1.0, ink.gamma_multiply(1.0 - UNLIT)),
+        };
+        if line.style == Style::Dashed {
+            painter.extend(Shape::dashed_line(&sample, stroke, 5.0, 4.0));
+        } else {
+            painter.line_segment(sample, stroke);
+        }
+    }
+}
+
+/// The bin nearest to a wavenumber.
+fn bin_of(wavenumber_per_mm: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the bins"
+    )]
+    let k = (wavenumber_per_mm / BIN_SPACING_PER_MM)
+        .round()
+        .clamp(1.0, N_BINS as f64) as usize;
+    k
+}
+
+fn words_of(view: &SpatialView, k: usize) -> String {
+    let wavenumber = quantity::with_unit(wavenumber_per_mm(k), 2, "cycles/mm");
+    let curves = view.curves.iter().map(|curve| curve_words(view, curve, k));
+    let curves: Vec<String> = curves.collect();
+    format!(
+        "{wavenumber}, bin {k}\n{}\nOne-sided power density re 1 µm² per cycle/mm: the power of a \
+         bin over 0.23 cycles/mm",
+        curves.join("\n")
+    )
+}
+
+fn curve_words(view: &SpatialView, curve: &SpatialCurve, k: usize) -> String {
+    let density = curve.density_um2_mm.get(k - 1).copied().unwrap_or(0.0);
+    let level = quantity::with_unit(density_db(density), 1, "dB");
+    let (name, point) = (curve.direction.label(), curve.point);
+    let source = if curve.taken_from == curve.direction {
+        String::new()
+    } else {
+        format!(", taken from {}", curve.taken_from.label())
+    };
+    let sounds = view.felt_in(curve.direction).map(|felt| {
+        let frequency_hz = wavenumber_per_mm(k) * felt.speed_mm_per_s;
+        format!(", sounds at {}", quantity::with_unit(frequency_hz, 0, "Hz"))
+    });
+    format!(
+        "{name}  {level}, point {point}{source}{}",
+        sounds.unwrap_or_default()
+    )
+}
+
+/// The spectra with their numbers.
+fn exported(view: &SpatialView, contactor: usize, bench: &Bench) -> Exported {
     let note = "One-sided power density of the heights at the nearest points of the four profiles: \
                 the power of a bin over 0.23 cycles/mm; bins that fall together as their mean. \
                 Bold: what sounds between 10 Hz and 1 kHz at the present speed; marked: what \
@@ -161,11 +276,15 @@ fn exported(view: &SpatialView, contactor: usize, bench: &Bench) -> Exported {
         origin = origin.and(key, &felt.speed_mm_per_s.to_string(), &brief);
     }
     let title = format!("Spatial spectra under contactor {contactor}");
-    Exported::new(title, sheet(view), vec![row], note, origin)
+    let chart = Chart {
+        columns: columns(view),
+        ..chart(view)
+    };
+    Exported::of_chart(&title, chart, 340.0, note, origin)
 }
 
 /// One row a bin and direction.
-fn sheet(view: &SpatialView) -> Sheet {
+fn columns(view: &SpatialView) -> Columns {
     let bins = || {
         let curves = view.curves.iter();
         curves.flat_map(|curve| {
@@ -190,7 +309,7 @@ fn sheet(view: &SpatialView) -> Sheet {
         let felt = view.felt_in(curve.direction);
         felt.map_or(f64::NAN, |felt| wavenumber_per_mm(k) * felt.speed_mm_per_s)
     };
-    Sheet::default()
+    Columns::default()
         .with("direction", words(&|curve| curve.direction))
         .with("taken_from", words(&|curve| curve.taken_from))
         .with("point", whole(&|curve, _| curve.point))
@@ -215,13 +334,31 @@ fn names(view: &SpatialView) -> impl Iterator<Item = Series> {
     })
 }
 
+/// The curve of a density as `[wavenumber, density]`: bins nearer to one another than a step as
+/// their mean.
+fn means_of(density_um2_mm: &[f64]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    let (mut n_bins, mut wavenumbers, mut densities) = (0.0, 0.0, 0.0);
+    let mut next = f64::NEG_INFINITY;
+    for (k, density) in (1..).zip(density_um2_mm) {
+        n_bins += 1.0;
+        wavenumbers += wavenumber_per_mm(k);
+        densities += density;
+        let at = (wavenumbers / n_bins).ln() * STEPS_PER_E;
+        if at >= next {
+            points.push([wavenumbers / n_bins, densities / n_bins]);
+            (n_bins, wavenumbers, densities) = (0.0, 0.0, 0.0);
+            next = at + 1.0;
+        }
+    }
+    points
+}
+
 /// A curve, and over it in bold what sounds of it; bins that fall together as their mean.
 fn lines(view: &SpatialView, curve: &SpatialCurve) -> Vec<Series> {
     let direction = curve.direction;
     let level = |[wavenumber, density]: [f64; 2]| [wavenumber, density_db(density)];
-    #[expect(clippy::cast_possible_truncation, reason = "a place on paper")]
-    let x = |wavenumber: f64| (wavenumber.ln() * STEPS_PER_E) as f32;
-    let means = means_of(&curve.density_um2_mm, 1.0, x);
+    let means = means_of(&curve.density_um2_mm);
     let points: Vec<[f64; 2]> = means.into_iter().map(level).collect();
     let Some(felt) = view.felt_in(direction) else {
         return vec![line(direction, points, Weight::Thin)];
@@ -265,4 +402,27 @@ fn carriers(view: &SpatialView) -> Vec<Rule> {
         extent: Extent::Across,
     };
     Band::ALL.map(rule).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flat_density_stays_flat_however_many_bins_fall_together() {
+        let points = means_of(&[0.1; N_BINS]);
+        let is_flat = |[_, density]: &[f64; 2]| (density - 0.1).abs() < 1e-12;
+        assert!(points.iter().all(is_flat), "{points:?}");
+        assert!(points.len() < N_BINS, "{}", points.len());
+        let is_rising = |pair: &[[f64; 2]]| pair[0][0] < pair[1][0];
+        assert!(points.windows(2).all(is_rising), "rising");
+    }
+
+    #[test]
+    fn a_wavenumber_finds_its_bin() {
+        for k in [1, 2, 7, 40] {
+            assert_eq!(bin_of(wavenumber_per_mm(k)), k);
+        }
+        assert_eq!((bin_of(1e-6), bin_of(1e6)), (1, N_BINS));
+    }
 }

@@ -8,9 +8,15 @@ use crate::bench::rendering::Rendering;
 use crate::tools::accuracy::checker::{ERRORS_DB, ErrorView, ROUNDING_DB, edges_db};
 use crate::tools::accuracy::measuring::Measured;
 use crate::tools::accuracy::sampling::{Accuracy, CostView};
-use selvedge_chart::{At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series};
+use selvedge_chart::{
+    At, Axis, Bars, Chart, Columns, Extent, Ink, Row, Rule, Series, Style, Tone, Weight, Words,
+};
 use selvedge_foundation::quantity;
+use selvedge_studies::Row as Method;
 use selvedge_textile::tactile::Band;
+
+/// The axis of the errors of methods, dB. Smaller ones, and none at all, stand at its left end.
+const METHOD_ERRORS_DB: [f64; 2] = [1e-8, 100.0];
 
 /// One bin of a histogram, or one method.
 #[derive(Default)]
@@ -32,9 +38,7 @@ pub(crate) fn exported(accuracy: &Accuracy, rendering: Rendering, origin: Origin
         .chain(accuracy.measured.iter().flat_map(methods))
         .collect();
     let mut panels = vec![error_chart(accuracy, rendering), cost_chart(&cost)];
-    if found.iter().any(|one| one.of == "method") {
-        panels.push(method_chart(&found));
-    }
+    panels.extend(accuracy.measured.as_ref().map(method_chart));
     let row = Row {
         panels,
         height_px: 340.0,
@@ -193,18 +197,75 @@ pub(crate) fn cost_chart(cost: &CostView) -> Chart {
     }
 }
 
-fn method_chart(found: &[Found]) -> Chart {
-    let methods = found.iter().filter(|one| one.of == "method");
-    let series = methods.map(|one| Series {
-        name: one.name.clone(),
-        points: vec![[one.cost_s, one.error_db.max(ERRORS_DB[0])]],
+/// Where a method stands, error and CPU time; no error at all, and one beyond the axis, at its ends.
+pub(crate) fn method_point(row: &Method) -> Option<[f64; 2]> {
+    let cost_s = row.cost?.cpu_s;
+    let error_db = row.error?.clamp(METHOD_ERRORS_DB[0], METHOD_ERRORS_DB[1]);
+    (cost_s > 0.0 && cost_s.is_finite()).then_some([error_db, cost_s])
+}
+
+/// Every method, with those that nothing beats joined and the one that runs marked; each is named
+/// once, where it runs or first stands.
+pub(crate) fn method_chart(measured: &Measured) -> Chart {
+    let running = measured.running();
+    let all = measured.rows.iter().zip(&measured.front).enumerate();
+    let all: Vec<_> = all
+        .filter_map(|(index, (row, is_front))| Some((index, row, *is_front, method_point(row)?)))
+        .collect();
+    let dots = |front: bool, ink| {
+        let own = || all.iter().filter(|one| one.2 == front);
+        Series {
+            points: own().map(|one| one.3).collect(),
+            marked: own()
+                .position(|one| Some(one.0) == running)
+                .into_iter()
+                .collect(),
+            ink,
+            ..Series::default()
+        }
+    };
+    let front = dots(true, Ink::Black);
+    let mut steps = front.points.clone();
+    steps.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
+    let steps = Series {
+        points: steps
+            .windows(2)
+            .flat_map(|pair| [pair[0], [pair[1][0], pair[0][1]], pair[1]])
+            .collect(),
+        style: Style::Line,
+        ink: Ink::Grey,
+        weight: Weight::Thin,
         ..Series::default()
+    };
+    let mut words: Vec<Words> = Vec::new();
+    let mut named: Vec<&str> = Vec::new();
+    let runs = |one: &&(usize, _, _, _)| Some(one.0) == running;
+    for (index, row, _, at) in all.iter().filter(runs).chain(&all) {
+        if named.contains(&&*row.method) {
+            continue;
+        }
+        named.push(&row.method);
+        let runs = if Some(*index) == running {
+            ", runs now"
+        } else {
+            ""
+        };
+        words.push(Words {
+            at: *at,
+            text: format!("{}{runs}", row.method),
+            tone: Tone::Aside,
+        });
+    }
+    let costs = all.iter().map(|one| one.3[1]);
+    let [min_s, max_s] = costs.fold([f64::INFINITY, 0.0], |[min, max], s| {
+        [s.min(min), s.max(max)]
     });
     Chart {
         title: "Methods on this scene".to_owned(),
-        x: Axis::log("CPU time a tick, s"),
-        y: Axis::log("level error, dB").within(ERRORS_DB),
-        series: series.collect(),
+        x: Axis::log("level error, dB").within(METHOD_ERRORS_DB),
+        y: Axis::log("CPU time a tick, s").within([0.4 * min_s, 1.8 * max_s]),
+        series: vec![steps, dots(false, Ink::Grey), front],
+        words,
         ..Chart::default()
     }
 }

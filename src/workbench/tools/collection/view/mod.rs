@@ -5,7 +5,6 @@ pub(crate) mod cloths;
 pub(crate) mod hand;
 pub(crate) mod head;
 pub(crate) mod plot;
-pub(crate) mod points;
 pub(crate) mod status;
 pub(crate) mod table;
 

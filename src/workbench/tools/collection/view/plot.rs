@@ -1,24 +1,27 @@
 //! The plot: every textile as a small piece of its cloth between two axes.
 
 use eframe::egui::{
-    self, Align2, Color32, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
-    pos2, vec2,
+    Color32, Painter, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 
 use crate::bench::library_selection::Joining;
 use crate::kit::pane::paint_sentence;
+use crate::kit::plot::{Drag, Setting, Shown};
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Side, paint_ticks};
-use crate::kit::{swatch, theme};
+use crate::kit::{plot, swatch, theme};
+use crate::tools::collection::chart;
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
 use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
-use crate::tools::collection::view::points::{Placed, Plot};
+use selvedge_chart::{Chart, Ruler, Scale};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
 
-/// Room around the plot for ticks and titles: left, top, right, bottom, points.
-const ROOM: [f32; 4] = [40.0, 18.0, 8.0, 32.0];
+/// Room for pieces of cloth beyond the outermost points, as a share of an axis.
+const BESIDE: f64 = 0.05;
+/// How much of their ink lines lack that lead from where textiles are without the tuning.
+const FAINT: f32 = 0.55;
 /// Side of a piece of cloth, where there are few and where there are many, points.
 const SIDES: [f32; 2] = [22.0, 15.0];
 /// More textiles than this are many.
@@ -32,60 +35,50 @@ const AWAY: f32 = 4.0;
 /// Contactors that are taken to sound when it is asked what is just noticed.
 const N_ACTIVE: usize = 24;
 
+/// A textile in the plot.
+struct Placed<'a> {
+    entry: Entry<'a>,
+    at: Pos2,
+}
+
 /// Shows the plot in the space that there is.
 pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-    let [left, top, right, bottom] = ROOM;
-    let area = Rect::from_min_max(rect.min + vec2(left, top), rect.max - vec2(right, bottom));
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    let rect = rect.with_max_y(rect.bottom().min(rect.top() + TALLEST * rect.width()));
     let [x, y] = &view.choice.axes;
-    let name = format!("Plot of {} over {}", y.name(), x.name());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, &name));
-    let area = area.with_max_y(area.bottom().min(area.top() + TALLEST * area.width()));
-    let Some(plot) = Plot::of(area, view) else {
+    let chart = chart::chart(view, FAINT);
+    if chart.series.iter().all(|series| series.points.is_empty()) {
         let words = if view.progress.is_some() {
             "The library is being measured"
         } else {
             "No textile that is shown has both of these figures: choose other axes"
         };
-        paint_sentence(ui.painter(), area, words);
+        paint_sentence(ui.painter(), rect, words);
+        return;
+    }
+    let setting = Setting {
+        name: &format!("Plot of {} over {}", y.name(), x.name()),
+        drag: Drag::Chooses,
+        hover: false,
+        has_legend: false,
+        ..Setting::default()
+    };
+    let chart = with_room(chart, rect.size() - setting.margin.sum());
+    let Some(shown) = plot::show(ui, rect, &chart, &setting) else {
         return;
     };
-    paint_axes(ui.painter(), &plot, view);
-    let placed = plot.placed(view);
+    let placed = placed(&shown, view);
     let side = SIDES[usize::from(placed.len() > MANY)];
-    let framed = frame_selecting(ui, &response, &placed, hand);
-    paint_tuning(ui, &placed);
+    let framed = frame_selecting(ui, &shown.response, &placed, hand);
     let marked = placed.iter().find(|one| one.entry.is_marked);
     if let Some(marked) = marked.filter(|_| x.is_log() && y.is_log()) {
-        paint_just_noticed(ui.painter(), &plot, marked, view);
+        paint_just_noticed(ui.painter(), &shown, &marked.entry, view);
     }
     let palette = Palette::in_ui(ui);
     let inks = [palette.dim, palette.text];
-    paint_names(ui.painter(), area, (&placed, side), inks);
+    paint_names(ui.painter(), shown.area(), (&placed, side), inks);
     for one in in_order(&placed) {
-        let library_view = &mut hand.bench.library.view;
-        library_view.want(&one.entry.item.id);
-        let picture = library_view.picture(&one.entry.item.id);
-        let square = Rect::from_center_size(one.at, vec2(side, side));
-        let response = ui.interact(
-            square,
-            ui.scope_id().with(("point", &one.entry.item.id)),
-            Sense::click_and_drag(),
-        );
-        let name = format!("{} in the plot", one.entry.item.name);
-        let is_selected = one.entry.is_selected;
-        response
-            .widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, true, is_selected, &name));
-        if picture.is_some() {
-            swatch::paint(ui.painter(), square, SHOWN_MM, picture);
-        } else {
-            ui.painter().circle_filled(one.at, 4.0, palette.line);
-        }
-        let is_framed = framed.is_some_and(|frame| frame.contains(one.at));
-        paint_state(ui.painter(), square, &one.entry, is_framed);
-        paint_focus(ui, &response);
-        answer(ui, &response, &one.entry, hand);
-        response.on_hover_text(words_of(&one.entry, view));
+        show_piece(ui, one, (side, framed), view, hand);
     }
     if let Some(frame) = framed {
         let ink = palette.selection;
@@ -93,6 +86,67 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
         let edge = Stroke::new(1.0, ink);
         ui.painter().rect_stroke(frame, 0, edge, StrokeKind::Inside);
     }
+}
+
+/// The chart as the screen shows it: with room at the ends for pieces of cloth, a decade as long
+/// on both of two logarithmic axes, and names placed by where there is room.
+fn with_room(mut chart: Chart, size: Vec2) -> Chart {
+    let lengths = [size.x, size.y].map(|length| f64::from(length.max(1.0)));
+    let rulers = chart.rulers();
+    let scales = rulers.each_ref().map(Ruler::scale);
+    let ends = rulers.each_ref().map(|ruler| {
+        let place = |end| ruler.scale().place(end).unwrap_or_default();
+        ruler.ends().map(place)
+    });
+    let mut spans = ends.map(|[low, high]| (1.0 + 2.0 * BESIDE) * (high - low));
+    if scales == [Scale::Log; 2] {
+        let a_point = (spans[0] / lengths[0]).max(spans[1] / lengths[1]);
+        spans = lengths.map(|length| a_point * length);
+    }
+    for (nth, axis) in [&mut chart.x, &mut chart.y].into_iter().enumerate() {
+        let middle = 0.5 * (ends[nth][0] + ends[nth][1]);
+        let wider = [-0.5, 0.5].map(|half| scales[nth].value(middle + half * spans[nth]));
+        axis.range = Some(wider);
+    }
+    chart.words.clear();
+    chart
+}
+
+/// The textiles that have both figures and lie in the frame, in the view's order.
+fn placed<'a>(shown: &Shown, view: &CollectionView<'a>) -> Vec<Placed<'a>> {
+    let placed = |entry: &Entry<'a>| {
+        let at = shown.at(chart::point(entry, view, view.choice.is_tuned)?);
+        let is_seen = shown.area().contains(at);
+        is_seen.then_some(Placed { entry: *entry, at })
+    };
+    view.entries.iter().filter_map(placed).collect()
+}
+
+/// One textile as a piece of its cloth.
+fn show_piece(
+    ui: &Ui,
+    one: &Placed<'_>,
+    (side, framed): (f32, Option<Rect>),
+    view: &CollectionView<'_>,
+    hand: &mut Hand<'_>,
+) {
+    let item = &one.entry.item;
+    hand.bench.library.view.want(&item.id);
+    let square = Rect::from_center_size(one.at, vec2(side, side));
+    let id = ui.scope_id().with(("point", &item.id));
+    let response = ui.interact(square, id, Sense::click_and_drag());
+    let name = format!("{} in the plot", item.name);
+    let is_selected = one.entry.is_selected;
+    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_selected, &name));
+    let picture = hand.bench.library.view.picture(&item.id);
+    if picture.is_some() {
+        swatch::paint(ui.painter(), square, SHOWN_MM, picture);
+    }
+    let is_framed = framed.is_some_and(|frame| frame.contains(one.at));
+    paint_state(ui.painter(), square, &one.entry, is_framed);
+    paint_focus(ui, &response);
+    answer(ui, &response, &one.entry, hand);
+    response.on_hover_text(words_of(&one.entry, view));
 }
 
 /// What is selected or marked lies on top of the others.
@@ -113,7 +167,8 @@ fn frame_selecting(
     if response.clicked() {
         hand.select(Vec::new(), Joining::Alone);
     }
-    if !(response.dragged() || response.drag_stopped()) {
+    let button = PointerButton::Primary;
+    if !(response.dragged_by(button) || response.drag_stopped_by(button)) {
         return None;
     }
     let (from, to) = ui.input(|input| {
@@ -125,7 +180,7 @@ fn frame_selecting(
     });
     let began = ui.scope_id().with("frame began");
     let kept = ui.data(|data| data.get_temp(began));
-    let from = if response.drag_started() {
+    let from = if response.drag_started_by(button) {
         from
     } else {
         kept.or(from)
@@ -134,7 +189,7 @@ fn frame_selecting(
         ui.data_mut(|data| data.insert_temp(began, from));
     }
     let frame = Rect::from_two_pos(from?, to?);
-    if !response.drag_stopped() {
+    if !response.drag_stopped_by(button) {
         return Some(frame);
     }
     let within = placed.iter().filter(|one| frame.contains(one.at));
@@ -147,51 +202,6 @@ fn frame_selecting(
     };
     hand.select(ids, joining);
     None
-}
-
-fn paint_axes(painter: &Painter, plot: &Plot, view: &CollectionView<'_>) {
-    let palette = Palette::of(painter.ctx().theme());
-    let area = plot.area;
-    paint_ticks(
-        painter,
-        area,
-        (&plot.x, Side::Bottom),
-        &plot.x.ticks(area.width(), 44.0),
-    );
-    paint_ticks(
-        painter,
-        area,
-        (&plot.y, Side::Left),
-        &plot.y.ticks(area.height(), 28.0),
-    );
-    let ink = |measure: &Measure| {
-        measure
-            .band()
-            .map_or(palette.dim, |band| palette.band(band))
-    };
-    let [x, y] = &view.choice.axes;
-    let at = pos2(area.left(), area.top() - 4.0);
-    let (text, font) = (y.label(view.items), theme::small());
-    painter.text(at, Align2::LEFT_BOTTOM, text, font.clone(), ink(y));
-    let at = pos2(area.right(), area.bottom() + 17.0);
-    painter.text(at, Align2::RIGHT_TOP, x.label(view.items), font, ink(x));
-}
-
-/// Faint lines from where textiles are without the tuning to where they are with it.
-fn paint_tuning(ui: &Ui, placed: &[Placed<'_>]) {
-    let palette = Palette::in_ui(ui);
-    for one in placed {
-        let Some(raw) = one.raw else { continue };
-        let is_lit = one.entry.is_marked || one.entry.is_selected;
-        let ink = if is_lit {
-            palette.line
-        } else {
-            palette.line.gamma_multiply(0.45)
-        };
-        ui.painter()
-            .line_segment([raw, one.at], Stroke::new(1.0, ink));
-        ui.painter().circle_filled(raw, 1.5, ink);
-    }
 }
 
 /// Writes names right or left of their points where they touch no point and no other name; those
@@ -234,11 +244,11 @@ fn paint_names(
 /// A frame around a textile within which no other is told from it by either amplitude, by a model.
 fn paint_just_noticed(
     painter: &Painter,
-    plot: &Plot,
-    marked: &Placed<'_>,
+    shown: &Shown,
+    marked: &Entry<'_>,
     view: &CollectionView<'_>,
 ) {
-    let Some(mean_um) = marked.entry.mean_um(view.choice.is_tuned) else {
+    let Some(mean_um) = marked.mean_um(view.choice.is_tuned) else {
         return;
     };
     let palette = Palette::of(painter.ctx().theme());
@@ -251,11 +261,11 @@ fn paint_just_noticed(
         [um / factor, um * factor]
     });
     let frame = Rect::from_two_pos(
-        plot.at([ends[0][0], ends[1][0]]),
-        plot.at([ends[0][1], ends[1][1]]),
+        shown.at([ends[0][0], ends[1][0]]),
+        shown.at([ends[0][1], ends[1][1]]),
     );
     let edge = Stroke::new(1.0, palette.line);
-    let painter = painter.with_clip_rect(plot.area.expand(1.0));
+    let painter = painter.with_clip_rect(shown.area().expand(1.0));
     painter.rect_stroke(frame, 4, edge, StrokeKind::Inside);
 }
 

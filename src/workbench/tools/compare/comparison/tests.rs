@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::tools::compare::export::over_time_chart;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathRow, Scene, Stroke};
@@ -119,8 +120,13 @@ fn a_comparison_is_fresh_until_something_changes() {
     assert_eq!(found.n_ticks, 40);
     let mean_db = found.in_all[0].mean_db().unwrap();
     assert!((mean_db - 6.0).abs() < 1e-4, "{mean_db} dB of master gain");
-    assert_eq!(comparison.columns(8).len(), 8);
-    assert_eq!(comparison.columns(900).len(), 40, "an entry each");
+    let chart = over_time_chart(found);
+    assert_eq!(
+        chart.series.len(),
+        2,
+        "an entry each: least and most are one line"
+    );
+    assert_eq!(chart.series[0].points.len(), 40);
     let mut other = inputs.clone();
     other.sides[1].method = Method::Banded;
     assert_eq!(comparison.standing(&Ok(other)), Standing::Stale);

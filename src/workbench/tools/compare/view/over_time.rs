@@ -1,31 +1,28 @@
 //! When A and B differ: the difference of the mean levels along the path.
 
-use eframe::egui::{
-    self, Align2, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{Margin, Painter, Rect, Stroke, Ui, pos2};
 
 use crate::bench::command::{Commands, PlayCommand};
+use crate::bench::export::ink;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::Source;
-use crate::kit::theme;
+use crate::kit::plot;
+use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks, paint_unit};
 use crate::tools::compare::choice::Route;
 use crate::tools::compare::comparison::Compare;
-use crate::tools::compare::words::{band_name, decimals_of, scale_db, signed_db, unit_of};
+use crate::tools::compare::export::over_time_chart;
+use crate::tools::compare::words::{band_name, decimals_of, signed_db};
+use selvedge_chart::{At, Band as Area, Chart, Extent, Ink, Rule, Weight};
 use selvedge_foundation::quantity::{clock, fixed};
+use selvedge_render::LevelDifference;
 use selvedge_render::scene::TICKS_PER_S;
-use selvedge_render::{LevelDifference, Spread};
 use selvedge_textile::tactile::{Band, just_noticeable_db};
 
-/// Space for numbers and titles around the plot, points.
-const LEFT: f32 = 34.0;
-const TOP: f32 = 20.0;
-const BOTTOM: f32 = 16.0;
 /// A tick of the path, ms.
 const TICK_MS: u64 = 25;
 
-/// Shows the curve in `rect`.
+/// Shows the curve in `rect`; a click goes to a tick of the recording.
 pub(crate) fn show(
     ui: &Ui,
     rect: Rect,
@@ -33,229 +30,134 @@ pub(crate) fn show(
     route: &Route,
     context: &mut PaneContext<'_>,
 ) {
-    let area = Rect::from_min_max(rect.min + vec2(LEFT, TOP), rect.max - vec2(6.0, BOTTOM));
-    if area.width() < 40.0 || area.height() < 24.0 {
-        return;
-    }
     let is_at_hand = compare.route() == Some(route);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "points of a screen"
-    )]
-    let n_columns = area.width() as usize;
-    let columns = compare.columns(n_columns).to_vec();
-    let Some(found) = compare.found() else {
+    let Some((found, chart)) = compare.found_over_time(with_noticed) else {
         return;
     };
-    let plot = Plot::new(area, found, &columns);
-    let id = ui.scope_id().with("difference over time");
-    let response = ui.interact(area, id, Sense::click());
-    response.widget_info(|| {
-        let words = format!(
-            "Level difference over time, B less A, {} ticks",
-            found.n_ticks
-        );
-        WidgetInfo::labeled(egui::Role::Canvas, true, words)
-    });
-    plot.paint(&ui.painter_at(rect), &columns);
+    let words = format!(
+        "Level difference over time, B less A, {} ticks",
+        found.n_ticks
+    );
+    let setting = Setting {
+        name: &words,
+        margin: Margin {
+            top: 6,
+            ..Setting::default().margin
+        },
+        hover: false,
+        has_legend: false,
+        ..Setting::default()
+    };
+    let Some(shown) = plot::show(ui, rect, chart, &setting) else {
+        return;
+    };
+    paint_alone(&ui.painter_at(shown.area()), &shown, found);
     let is_recorded = is_at_hand && matches!(route, Route::Take(_));
     let play = context.bench.live.play;
     if is_recorded && play.source == Source::Recording {
-        let x = ui.painter().round_to_pixel_center(plot.x_of(play.tick));
+        let x = ui.painter().round_to_pixel_center(x_of(&shown, play.tick));
         let stroke = Stroke::new(1.0, Palette::in_ui(ui).selection);
-        ui.painter().vline(x, area.y_range(), stroke);
+        ui.painter_at(shown.area())
+            .vline(x, shown.area().y_range(), stroke);
     }
-    answer(&response, &plot, &columns, is_recorded, context.commands);
+    answer(shown, found, is_recorded, context.commands);
 }
 
-struct Plot {
-    area: Rect,
-    time_s: Axis,
-    height_db: Axis,
-    n_ticks: u64,
-    /// Just noticeable differences of both bands, dB.
-    noticed_db: [Option<f64>; 2],
-}
-
-impl Plot {
-    fn new(area: Rect, found: &LevelDifference, columns: &[[Spread; 2]]) -> Self {
-        let ends = columns
-            .iter()
-            .flatten()
-            .filter_map(|spread| spread.range_db);
-        let most_db = scale_db(ends.flatten());
-        let last = found.n_ticks.saturating_sub(1).max(1);
-        Self {
-            area,
-            time_s: Axis::linear(0.0, last as f64 / TICKS_PER_S),
-            height_db: Axis::linear(-most_db, most_db),
-            n_ticks: found.n_ticks,
-            noticed_db: found
-                .sensation_db
-                .map(|above_db| above_db.map(just_noticeable_db)),
-        }
-    }
-
-    fn x_of(&self, tick: u64) -> f32 {
-        self.time_s
-            .x(self.area.x_range(), tick as f64 / TICKS_PER_S)
-    }
-
-    fn tick_at(&self, x: f32) -> u64 {
-        let time_s = self.time_s.value_at_x(self.area.x_range(), x);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "not below 0, and bounded next"
-        )]
-        let tick = (time_s * TICKS_PER_S).round().max(0.0) as u64;
-        tick.min(self.n_ticks.saturating_sub(1))
-    }
-
-    fn y_of(&self, difference_db: f64) -> f32 {
-        self.height_db.y(self.area.y_range(), difference_db)
-    }
-
-    fn paint(&self, painter: &Painter, columns: &[[Spread; 2]]) {
-        self.paint_noticed(painter);
-        self.paint_axes(painter);
-        let within = painter.with_clip_rect(self.area.expand(1.0));
-        for band in Band::ALL {
-            self.paint_line(&within, band, columns);
-        }
-        self.paint_title(painter);
-    }
-
-    /// Within the shaded bands no difference is noticed, by the model.
-    fn paint_noticed(&self, painter: &Painter) {
-        let palette = Palette::of(painter.ctx().theme());
-        for band in Band::ALL {
-            let Some(noticed_db) = self.noticed_db[band.index()] else {
-                continue;
-            };
-            let ys = [noticed_db, -noticed_db].map(|db| self.y_of(db));
-            let shaded = Rect::from_x_y_ranges(self.area.x_range(), ys[0]..=ys[1]);
-            let shaded = shaded.intersect(self.area);
-            let ink = palette.band(band);
-            painter.rect_filled(shaded, 0, ink.gamma_multiply(0.09));
-            for y in ys.into_iter().filter(|y| self.area.y_range().contains(*y)) {
-                let stroke = Stroke::new(1.0, ink.gamma_multiply(0.35));
-                painter.hline(
-                    self.area.x_range(),
-                    painter.round_to_pixel_center(y),
-                    stroke,
-                );
-            }
-        }
-    }
-
-    fn paint_axes(&self, painter: &Painter) {
-        let most_db = self.height_db.most();
-        let (unit, factor) = unit_of(most_db);
-        let heights = [-most_db, 0.0, most_db].map(|db| Tick {
-            value: db,
-            ..Tick::number(db * factor)
+/// The chart with what is just noticed, by the model, and the lines so that both are seen where
+/// they coincide.
+fn with_noticed(found: &LevelDifference) -> Chart {
+    let mut chart = over_time_chart(found);
+    let ends_s = chart.x.range.unwrap_or_default();
+    let most_db = chart.y.range.map_or(f64::INFINITY, |[_, most]| most);
+    let rule = |db: f64, label: &str, ink, extent| Rule {
+        at: At::Y(db),
+        label: label.to_owned(),
+        ink,
+        extent,
+    };
+    chart.rules.push(rule(0.0, "", Ink::Grey, Extent::Across));
+    let min_db = noticed_db(found)
+        .map(|(_, db)| db)
+        .fold(f64::INFINITY, f64::min);
+    for (band, db) in noticed_db(found) {
+        let ink = ink(band);
+        let within_db = db.min(most_db);
+        let label = format!("JND ±{} (model)", fixed(db, 1));
+        let label = if db > min_db { "" } else { &label };
+        chart.bands.push(Area {
+            points: ends_s.map(|s| [s, -within_db, within_db]).to_vec(),
+            ink,
+            ..Area::default()
         });
-        paint_ticks(painter, self.area, (&self.height_db, Side::Left), &heights);
-        let mut times = self.time_s.ticks(self.area.width(), 48.0);
-        // The last number would not fit beside its unit.
-        if let Some(last) = times.last_mut() {
-            last.label += " s";
+        chart.rules.push(rule(-db, "", ink, Extent::Dashed));
+        chart.rules.push(rule(db, label, ink, Extent::Dashed));
+    }
+    for series in chart
+        .series
+        .iter_mut()
+        .filter(|one| one.ink == ink(Band::Low))
+    {
+        series.weight = Weight::Bold;
+    }
+    chart
+}
+
+/// Just noticeable differences of the bands that A sounds in, dB.
+fn noticed_db(found: &LevelDifference) -> impl Iterator<Item = (Band, f64)> {
+    let of = |band: Band| Some((band, just_noticeable_db(found.sensation_db[band.index()]?)));
+    Band::ALL.into_iter().filter_map(of)
+}
+
+fn x_of(shown: &Shown, tick: u64) -> f32 {
+    shown.at([tick as f64 / TICKS_PER_S, 0.0]).x
+}
+
+/// Strokes at the upper edge where only B sounds and at the lower where only A does.
+fn paint_alone(painter: &Painter, shown: &Shown, found: &LevelDifference) {
+    let area = shown.area();
+    let palette = Palette::of(painter.ctx().theme());
+    for (band, side) in Band::ALL
+        .into_iter()
+        .flat_map(|band| [(band, 0), (band, 1)])
+    {
+        let is_only = |entry: &[selvedge_render::Spread; 2]| entry[band.index()].is_only[side];
+        let top = [area.bottom() - 4.0, area.top()][side];
+        let mut entry = 0;
+        for run in found.over_time.chunk_by(|a, b| is_only(a) == is_only(b)) {
+            let x = |entry: usize| x_of(shown, entry as u64 * found.ticks_per_entry);
+            if is_only(&run[0]) {
+                let ends = [x(entry), x(entry + run.len() - 1) + 1.0];
+                let stroke = Rect::from_min_max(pos2(ends[0], top), pos2(ends[1], top + 4.0));
+                painter.rect_filled(stroke, 0, palette.band(band));
+            }
+            entry += run.len();
         }
-        paint_ticks(painter, self.area, (&self.time_s, Side::Bottom), &times);
-        let palette = Palette::of(painter.ctx().theme());
-        let zero = painter.round_to_pixel_center(self.y_of(0.0));
-        painter.hline(self.area.x_range(), zero, Stroke::new(1.0, palette.line));
-        let at = pos2(self.area.left() - 5.0, self.area.top() - 6.0);
-        paint_unit(painter, at, Align2::RIGHT_BOTTOM, unit);
-    }
-
-    fn paint_title(&self, painter: &Painter) {
-        let palette = Palette::of(painter.ctx().theme());
-        let noticed = self.noticed_db.iter().flatten();
-        let least = noticed.copied().min_by(f64::total_cmp);
-        let words = match least {
-            Some(db) => format!("B − A  JND ±{} (model)", fixed(db, 1)),
-            None => "B − A".to_owned(),
-        };
-        let at = pos2(self.area.right(), self.area.top() - 10.0);
-        let font = theme::small();
-        painter.text(at, Align2::RIGHT_CENTER, words, font, palette.dim);
-    }
-
-    fn x_of_column(&self, column: usize, n_columns: usize) -> f32 {
-        let last = n_columns.saturating_sub(1).max(1) as f32;
-        self.area.left() + column as f32 / last * self.area.width()
-    }
-
-    /// From the least to the most in every column; gaps where not both sound, with a stroke at the
-    /// upper edge for B only and at the lower for A only.
-    fn paint_line(&self, painter: &Painter, band: Band, columns: &[[Spread; 2]]) {
-        let ink = Palette::of(painter.ctx().theme()).band(band);
-        // Where both lines coincide, both are seen.
-        let width = [2.5, 1.25][band.index()];
-        let mut run: Vec<Pos2> = Vec::new();
-        let flush = |run: &mut Vec<Pos2>| {
-            if let [alone] = run[..] {
-                painter.circle_filled(alone, 0.6 * width, ink);
-            }
-            painter.add(Shape::line(std::mem::take(run), Stroke::new(width, ink)));
-        };
-        for (column, spreads) in columns.iter().enumerate() {
-            let spread = &spreads[band.index()];
-            let x = self.x_of_column(column, columns.len());
-            match spread.range_db {
-                Some([least, most]) => {
-                    run.push(pos2(x, self.y_of(least)));
-                    if most > least {
-                        run.push(pos2(x, self.y_of(most)));
-                    }
-                }
-                None => flush(&mut run),
-            }
-            let edges = [self.area.bottom() - 4.0, self.area.top()];
-            for (top, _) in edges.into_iter().zip(spread.is_only).filter(|(_, is)| *is) {
-                painter.vline(x, top..=top + 4.0, Stroke::new(1.0, ink));
-            }
-        }
-        flush(&mut run);
     }
 }
 
-fn answer(
-    response: &Response,
-    plot: &Plot,
-    columns: &[[Spread; 2]],
-    is_recorded: bool,
-    commands: &mut Commands,
-) {
-    let Some(pointer) = response.hover_pos() else {
+fn answer(shown: Shown, found: &LevelDifference, is_recorded: bool, commands: &mut Commands) {
+    let Some(pointer) = shown.pointer() else {
         return;
     };
-    let tick = plot.tick_at(pointer.x);
-    if response.clicked() && is_recorded {
-        commands.push(PlayCommand::ReplayAt(tick).into());
-    }
-    let share = (pointer.x - plot.area.left()) / plot.area.width();
+    let [time_s, _] = shown.values_at(pointer);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "not below 0, and a column that is not there is none"
+        reason = "not below 0, and bounded next"
     )]
-    let column = (share * columns.len().saturating_sub(1) as f32)
-        .round()
-        .max(0.0) as usize;
-    let Some(spreads) = columns.get(column) else {
-        return;
-    };
-    let words = words(plot, tick, spreads, is_recorded);
-    response.clone().on_hover_ui_at_pointer(|ui| {
-        ui.label(words);
-    });
+    let tick = (time_s * TICKS_PER_S).round().max(0.0) as u64;
+    let tick = tick.min(found.n_ticks.saturating_sub(1));
+    if shown.response.clicked() && is_recorded {
+        commands.push(PlayCommand::ReplayAt(tick).into());
+    }
+    if let Some(words) = words(found, tick, is_recorded) {
+        shown.response.on_hover_text_at_pointer(words);
+    }
 }
 
-fn words(plot: &Plot, tick: u64, spreads: &[Spread; 2], is_recorded: bool) -> String {
+fn words(found: &LevelDifference, tick: u64, is_recorded: bool) -> Option<String> {
+    let entry = usize::try_from(tick / found.ticks_per_entry).ok()?;
+    let spreads = found.over_time.get(entry)?;
     let line = |band: Band| {
         let spread = &spreads[band.index()];
         let difference = match (spread.range_db, spread.is_only) {
@@ -269,8 +171,9 @@ fn words(plot: &Plot, tick: u64, spreads: &[Spread; 2], is_recorded: bool) -> St
             (None, [true, true]) => "A only or B only".to_owned(),
             (None, [false, false]) => "silent in both".to_owned(),
         };
-        let noticed = plot.noticed_db[band.index()].map_or_else(String::new, |noticed_db| {
-            format!(", just noticeable ±{} dB", fixed(noticed_db, 1))
+        let noticed = noticed_db(found).find(|(of, _)| *of == band);
+        let noticed = noticed.map_or_else(String::new, |(_, db)| {
+            format!(", just noticeable ±{} dB", fixed(db, 1))
         });
         format!("{}  {difference}{noticed}", band_name(band))
     };
@@ -280,9 +183,9 @@ fn words(plot: &Plot, tick: u64, spreads: &[Spread; 2], is_recorded: bool) -> St
     } else {
         "This path is generated: record one to go to its ticks"
     };
-    format!(
+    Some(format!(
         "{}   tick {tick}\n{low}\n{high}\nB less A, of the mean over all contactors. Shaded: too \
          little to be noticed at the mean level of A, a model (“Compare” in the guide)\n{end}",
         clock(tick * TICK_MS),
-    )
+    ))
 }

@@ -1,83 +1,43 @@
 //! The third step for strokes: every curve with what is marked of it, the evaluated section, and
 //! the figures of it.
 
-use eframe::egui::{
-    Align, Align2, Layout, Painter, Pos2, Rect, RichText, Shape, Stroke, Ui, pos2, vec2,
-};
+use eframe::egui::{Align, Align2, Layout, Margin, Rect, RichText, Ui, pos2, vec2};
 
+use crate::kit::plot;
+use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::axis::{Axis, Side, paint_ticks, paint_unit};
-use crate::kit::widgets::polyline::corners;
 use crate::kit::widgets::text::toggle;
 use crate::tools::import::draft::Draft;
 use crate::tools::import::envelope::Envelope;
 use crate::tools::import::view::section;
 use crate::tools::import::view::section::{Ends, Wish};
 use crate::tools::import::work::{Heights, Strokes};
+use selvedge_chart::{At, Axis, Band, Chart, Extent, Ink, Rule, Series, Style, Weight};
 use selvedge_foundation::quantity::{fixed, with_unit};
-use selvedge_textile::surface::Direction;
-use selvedge_textile::{KesImport, KesReading, KesStroke, MarkKind, TextileAxis};
+use selvedge_textile::surface::{Direction, HeightMap};
+use selvedge_textile::{KesImport, KesReading, KesStroke, Mark, MarkKind, TextileAxis};
 
 /// Height of the row of sections, points.
 const LINE: f32 = 22.0;
-/// Room left of the plots for numbers, right of them for figures, points.
-const LEFT: f32 = 44.0;
-const RIGHT: f32 = 112.0;
-/// Room above a plot for its name, and below the last for places, points.
-const TOP: f32 = 15.0;
-const BOTTOM: f32 = 32.0;
+/// Room around the curves: for numbers and names, and on the right for figures.
+const MARGIN: Margin = Margin {
+    left: 44,
+    right: 112,
+    top: 15,
+    bottom: 2,
+};
+/// Room below the last for places, points.
+const BOTTOM: i8 = 18;
+/// More outliers than this are not drawn.
+const MAX_OUTLIERS: usize = 500;
 
-/// A curve in its plot.
-struct Plot<'a> {
+/// A curve in the column of curves.
+struct Lane<'a> {
     name: &'static str,
-    /// The plot, and the room right of it.
     rect: Rect,
-    x: Axis,
-    y: Axis,
-    envelope: &'a Envelope,
-    /// The place of sample 0, and mm a sample, with sign.
-    start_mm: f64,
-    step_mm: f64,
-}
-
-impl Plot<'_> {
-    fn place_mm(&self, sample: f64) -> f64 {
-        self.start_mm + sample * self.step_mm
-    }
-
-    fn at(&self, sample: f64, value: f64) -> Pos2 {
-        pos2(
-            self.x.x(self.rect.x_range(), self.place_mm(sample)),
-            self.y.y(self.rect.y_range(), value),
-        )
-    }
-
-    fn span(&self, samples: &std::ops::Range<usize>) -> Rect {
-        let ends = [samples.start, samples.end].map(|sample| {
-            let place = self.place_mm(sample as f64 - 0.5);
-            self.x.x(self.rect.x_range(), place)
-        });
-        let range = ends[0].min(ends[1])..=ends[0].max(ends[1]);
-        Rect::from_x_y_ranges(range, self.rect.y_range()).intersect(self.rect)
-    }
-
-    fn paint_line(&self, painter: &Painter, section: Option<[f64; 2]>) {
-        let palette = Palette::of(painter.ctx().theme());
-        let points = self.envelope.points();
-        let points: Vec<Pos2> = points
-            .map(|(sample, value)| self.at(sample, value))
-            .collect();
-        let line = corners(&points);
-        let within = painter.with_clip_rect(self.rect.intersect(painter.clip_rect()));
-        within.add(Shape::line(line.clone(), Stroke::new(1.0, palette.line)));
-        if let Some(section) = section {
-            let [from, to] = section.map(|mm| self.x.x(self.rect.x_range(), mm));
-            let part = Rect::from_x_y_ranges(from..=to, self.rect.y_range());
-            let within = within.with_clip_rect(part.intersect(within.clip_rect()));
-            within.add(Shape::line(line, Stroke::new(1.0, palette.text)));
-        }
-    }
+    chart: &'a Chart,
+    figures: Vec<(&'static str, String)>,
 }
 
 /// Shows the step.
@@ -97,67 +57,149 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
     show_sections(ui, draft, axes, import);
     let room = room_of(ui);
     let n = reading.strokes.len() + usize::from(reading.friction.is_some());
-    let height = ((room.height() - BOTTOM) / n.max(1) as f32).max(44.0);
-    let x = places_of(reading);
-    let y = heights_of(strokes);
+    let height = ((room.height() - f32::from(BOTTOM)) / n.max(1) as f32).max(44.0);
+    let rect = |nth: usize| {
+        let top = room.top() + height * nth as f32;
+        Rect::from_x_y_ranges(room.x_range(), top..=top + height)
+    };
+    let ends = [places_of(reading), heights_of(strokes)];
     for (nth, (stroke, envelope)) in reading.strokes.iter().zip(&*strokes.envelopes).enumerate() {
-        let plot = Plot {
-            name: stroke.direction.label(),
-            rect: rect_of(room, height, nth),
-            x,
-            y,
-            envelope,
-            start_mm: stroke.start_mm,
-            step_mm: stroke.step_mm
-                * if stroke.direction.is_reverse() {
-                    -1.0
-                } else {
-                    1.0
-                },
-        };
         let axis = usize::from(stroke.axis() == TextileAxis::Weft);
-        paint_frame(ui, &plot, nth + 1 == n, "µm");
-        paint_marks(ui, &plot, stroke);
-        plot.paint_line(ui.painter(), axes[axis].map(|ends| ends.at_mm));
-        paint_outliers(ui, &plot, stroke);
-        if let Some(import) = import {
-            paint_figures(ui, &plot, &smd_words(import, stroke.direction));
-        }
-        if let Some(ends) = axes[axis]
-            && let Some(moved) = section::drag(ui, (plot.rect, &plot.x), plot.name, ends)
+        let section = axes[axis];
+        let mut chart = stroke_chart(stroke, envelope, section.map(|ends| ends.at_mm), ends);
+        chart.is_x_shared = nth + 1 < n;
+        let lane = Lane {
+            name: stroke.direction.label(),
+            rect: rect(nth),
+            chart: &chart,
+            figures: import.map_or_else(Vec::new, |import| smd_words(import, stroke.direction)),
+        };
+        let shown = show_lane(ui, lane);
+        if let (Some(shown), Some(section)) = (shown, section)
+            && let Some(moved) = section::drag(ui, &shown, stroke.direction.label(), section)
         {
             draft.looked.sections[axis] = Some(moved);
         }
     }
-    show_friction(ui, strokes, (rect_of(room, height, n.max(1) - 1), x));
+    if let (Some(friction), Some(envelope)) = (&reading.friction, &strokes.friction) {
+        let place_mm = |sample: f64| friction.start_mm + sample * friction.step_mm;
+        let section = import.and_then(KesImport::friction_section);
+        let section = section.map(|one| [one.from_mm, one.to_mm]);
+        let lane = Lane {
+            name: "friction",
+            rect: rect(n - 1),
+            chart: &curve(envelope, place_mm, section, [ends[0], envelope.range()]),
+            figures: import.map_or_else(Vec::new, friction_words),
+        };
+        show_lane(ui, lane);
+    }
     ui.advance_cursor_after_rect(room);
 }
 
-/// The friction with its section and its figures.
-fn show_friction(ui: &Ui, strokes: &Strokes, (rect, x): (Rect, Axis)) {
-    let import = strokes.import.as_ref();
-    let friction = strokes
-        .reading
-        .as_ref()
-        .and_then(|reading| reading.friction.as_ref());
-    if let (Some(friction), Some(envelope)) = (friction, &strokes.friction) {
-        let [low, high] = envelope.range();
-        let plot = Plot {
-            name: "friction",
-            rect,
-            x,
-            y: Axis::linear(low, high),
-            envelope,
-            start_mm: friction.start_mm,
-            step_mm: friction.step_mm,
-        };
-        paint_frame(ui, &plot, true, "");
-        let section = import.and_then(KesImport::friction_section);
-        plot.paint_line(ui.painter(), section.map(|one| [one.from_mm, one.to_mm]));
-        if let Some(import) = import {
-            paint_figures(ui, &plot, &friction_words(import));
-        }
+/// Shows a curve with its name and its figures beside it.
+fn show_lane(ui: &Ui, lane: Lane<'_>) -> Option<Shown> {
+    let mut margin = MARGIN;
+    let mut rect = lane.rect;
+    if !lane.chart.is_x_shared {
+        margin.bottom = BOTTOM;
+        rect.max.y += f32::from(BOTTOM - MARGIN.bottom);
     }
+    let setting = Setting {
+        name: &format!("Curve of {}", lane.name),
+        margin,
+        link: Some("places of imported strokes"),
+        hover: false,
+        has_legend: false,
+        ..Setting::default()
+    };
+    let shown = plot::show(ui, rect, lane.chart, &setting)?;
+    let (at, ink) = (
+        shown.area().right_top() + vec2(10.0, -2.0),
+        Palette::in_ui(ui).text,
+    );
+    ui.painter()
+        .text(at, Align2::LEFT_BOTTOM, lane.name, theme::small(), ink);
+    paint_figures(ui, shown.area(), lane.name, &lane.figures);
+    Some(shown)
+}
+
+/// A curve in grey, and in black what is evaluated of it; ends are those of places and of values.
+fn curve(
+    envelope: &Envelope,
+    place_mm: impl Fn(f64) -> f64,
+    section: Option<[f64; 2]>,
+    [places_mm, values]: [[f64; 2]; 2],
+) -> Chart {
+    let points = envelope.points();
+    let points: Vec<[f64; 2]> = points
+        .map(|(sample, value)| [place_mm(sample), value])
+        .collect();
+    let within = |[from, to]: [f64; 2]| {
+        let own = points.iter().filter(move |at| from <= at[0] && at[0] <= to);
+        own.copied().collect()
+    };
+    let line = |points: Vec<[f64; 2]>, ink| Series {
+        points,
+        style: Style::Line,
+        ink,
+        weight: Weight::Thin,
+        ..Series::default()
+    };
+    let section = section.map_or_else(Vec::new, within);
+    Chart {
+        x: Axis::linear("place along the forward stroke, mm").within(places_mm),
+        y: Axis::linear("").within(values),
+        series: vec![line(points, Ink::Grey), line(section, Ink::Black)],
+        ..Chart::default()
+    }
+}
+
+/// A stroke: on grey what is left out, with its name; dots are outliers.
+fn stroke_chart(
+    stroke: &KesStroke,
+    envelope: &Envelope,
+    section: Option<[f64; 2]>,
+    ends: [[f64; 2]; 2],
+) -> Chart {
+    let sign = if stroke.direction.is_reverse() {
+        -1.0
+    } else {
+        1.0
+    };
+    let place_mm = |sample: f64| stroke.start_mm + sample * sign * stroke.step_mm;
+    let mut chart = curve(envelope, place_mm, section, ends);
+    "height, µm".clone_into(&mut chart.y.label);
+    let is_outlier = |mark: &&Mark| mark.kind == MarkKind::Outlier;
+    for mark in stroke.marks.iter().filter(|mark| !is_outlier(mark)) {
+        let span = [mark.samples.start, mark.samples.end];
+        let span = span.map(|sample| place_mm(sample as f64 - 0.5));
+        chart.bands.push(Band {
+            points: span.map(|mm| [mm, ends[1][0], ends[1][1]]).to_vec(),
+            ink: Ink::Grey,
+            ..Band::default()
+        });
+        chart.rules.push(Rule {
+            at: At::X(0.5 * (span[0] + span[1])),
+            label: mark.kind.label().to_owned(),
+            ink: Ink::Grey,
+            extent: Extent::Edge,
+        });
+    }
+    let farthest = |mark: &Mark| {
+        let of = |i: &usize| stroke.heights_um[*i].abs();
+        let farthest = mark
+            .samples
+            .clone()
+            .max_by(|a, b| of(a).total_cmp(&of(b)))?;
+        Some([place_mm(farthest as f64), stroke.heights_um[farthest]])
+    };
+    let outliers = stroke.marks.iter().filter(is_outlier);
+    chart.series.push(Series {
+        points: outliers.take(MAX_OUTLIERS).filter_map(farthest).collect(),
+        ink: Ink::Black,
+        ..Series::default()
+    });
+    chart
 }
 
 /// The sections in numbers, and whether the official band is asked for.
@@ -203,7 +245,7 @@ fn room_of(ui: &Ui) -> Rect {
 }
 
 /// The places that all strokes are drawn over.
-fn places_of(reading: &KesReading) -> Axis {
+fn places_of(reading: &KesReading) -> [f64; 2] {
     let friction = reading.friction.as_ref().map(|friction| {
         let length_mm = friction.mu.len() as f64 * friction.step_mm;
         [friction.start_mm, friction.start_mm + length_mm]
@@ -214,104 +256,29 @@ fn places_of(reading: &KesReading) -> Axis {
         .map(KesStroke::range_mm)
         .chain(friction);
     let range = strokes.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    let [low, high] = range.unwrap_or([0.0, 1.0]);
-    Axis::linear(low, high)
+    range.unwrap_or([0.0, 1.0])
 }
 
 /// The heights of all strokes, so that they share a scale.
-fn heights_of(strokes: &Strokes) -> Axis {
+fn heights_of(strokes: &Strokes) -> [f64; 2] {
     let ranges = strokes.envelopes.iter().map(Envelope::range);
     let range = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     let [low, high] = range.unwrap_or([0.0, 1.0]);
     let margin = 0.05 * (high - low);
-    Axis::linear(low - margin, high + margin)
-}
-
-fn rect_of(room: Rect, height: f32, nth: usize) -> Rect {
-    let top = room.top() + height * nth as f32;
-    Rect::from_min_max(
-        pos2(room.left() + LEFT, top + TOP),
-        pos2(room.right() - RIGHT, top + height - 2.0),
-    )
-}
-
-fn paint_frame(ui: &Ui, plot: &Plot<'_>, is_last: bool, unit: &str) {
-    let palette = Palette::in_ui(ui);
-    let painter = ui.painter();
-    painter.rect_filled(plot.rect, 0, palette.floor);
-    paint_ticks(
-        painter,
-        plot.rect,
-        (&plot.y, Side::Left),
-        &plot.y.ticks(plot.rect.height(), 26.0),
-    );
-    let ticks = plot.x.ticks(plot.rect.width(), 48.0);
-    if is_last {
-        paint_ticks(painter, plot.rect, (&plot.x, Side::Bottom), &ticks);
-        let at = pos2(plot.rect.right(), plot.rect.bottom() + 14.0);
-        paint_unit(
-            painter,
-            at,
-            Align2::RIGHT_TOP,
-            "mm along the forward stroke",
-        );
-    }
-    let title = plot.rect.left_top() - vec2(0.0, 2.0);
-    let (font, name) = (theme::small(), plot.name);
-    painter.text(title, Align2::LEFT_BOTTOM, name, font, palette.text);
-    let unit_at = pos2(plot.rect.left() - 6.0, plot.rect.top() - 2.0);
-    paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, unit);
-}
-
-/// Run-in and turn-round: on grey, with their names.
-fn paint_marks(ui: &Ui, plot: &Plot<'_>, stroke: &KesStroke) {
-    let palette = Palette::in_ui(ui);
-    for mark in stroke
-        .marks
-        .iter()
-        .filter(|mark| mark.kind != MarkKind::Outlier)
-    {
-        let span = plot.span(&mark.samples);
-        ui.painter().rect_filled(span, 0, palette.raised);
-        let at = pos2(span.center().x, plot.rect.top() - 2.0);
-        let at = pos2(
-            at.x.clamp(plot.rect.left() + 96.0, plot.rect.right() - 30.0),
-            at.y,
-        );
-        let label = mark.kind.label();
-        let font = theme::small();
-        ui.painter()
-            .text(at, Align2::CENTER_BOTTOM, label, font, palette.dim);
-    }
-}
-
-/// Outliers: rings around what stands off.
-fn paint_outliers(ui: &Ui, plot: &Plot<'_>, stroke: &KesStroke) {
-    let ink = Palette::in_ui(ui).text;
-    let outliers = stroke
-        .marks
-        .iter()
-        .filter(|mark| mark.kind == MarkKind::Outlier);
-    for mark in outliers.take(500) {
-        let of = |i: &usize| stroke.heights_um[*i].abs();
-        let farthest = mark.samples.clone().max_by(|a, b| of(a).total_cmp(&of(b)));
-        if let Some(i) = farthest {
-            let at = plot.at(i as f64, stroke.heights_um[i]);
-            ui.painter().circle_stroke(at, 4.0, Stroke::new(1.0, ink));
-        }
-    }
+    [low - margin, high + margin]
 }
 
 /// Names and values right of a plot.
-fn paint_figures(ui: &Ui, plot: &Plot<'_>, figures: &[(&'static str, String)]) {
+fn paint_figures(ui: &Ui, area: Rect, of: &str, figures: &[(&'static str, String)]) {
+    let right = area.right() + f32::from(MARGIN.right);
     let palette = Palette::in_ui(ui);
-    let mut y = plot.rect.top() + 7.0;
+    let mut y = area.top() + 7.0;
     for (name, value) in figures {
-        let left = plot.rect.right() + 10.0;
+        let left = area.right() + 10.0;
         let painter = ui.painter();
         let font = theme::small();
         painter.text(pos2(left, y), Align2::LEFT_CENTER, name, font, palette.dim);
-        let right = pos2(plot.rect.right() + RIGHT - 4.0, y);
+        let right = pos2(right - 4.0, y);
         painter.text(
             right,
             Align2::RIGHT_CENTER,
@@ -325,12 +292,10 @@ fn paint_figures(ui: &Ui, plot: &Plot<'_>, figures: &[(&'static str, String)]) {
         .iter()
         .map(|(name, value)| format!("{name} {value}"))
         .collect();
-    let told = format!("{}: {}", plot.name, told.join(", "));
+    let told = format!("{of}: {}", told.join(", "));
     let response = ui.interact(
-        plot.rect
-            .translate(vec2(plot.rect.width(), 0.0))
-            .with_max_x(plot.rect.right() + RIGHT),
-        ui.scope_id().with((plot.name, "figures")),
+        Rect::from_x_y_ranges(area.right()..=right, area.y_range()),
+        ui.scope_id().with((of, "figures")),
         eframe::egui::Sense::hover(),
     );
     response.widget_info(|| {
@@ -368,21 +333,30 @@ pub(crate) fn show_profile(ui: &mut Ui, heights: &Heights) {
         return;
     };
     let map = heights.import.map();
-    let height = (room.height() - BOTTOM).clamp(60.0, 320.0);
-    let [low, high] = envelope.range();
-    let plot = Plot {
-        name: "profile",
-        rect: rect_of(room, height, 0),
-        x: Axis::linear(0.0, map.size_mm()[0]),
-        y: Axis::linear(low, high),
-        envelope,
-        start_mm: 0.0,
-        step_mm: map.step_mm()[0],
-    };
-    paint_frame(ui, &plot, true, "µm");
-    plot.paint_line(ui.painter(), Some([0.0, map.size_mm()[0]]));
+    let height = (room.height() - f32::from(BOTTOM)).clamp(60.0, 320.0);
     let smd = heights.places.iter().flatten().next();
     let smd = smd.map(|place| ("SMD", with_unit(place.smd_um(), 2, "µm")));
-    paint_figures(ui, &plot, smd.as_slice());
+    let lane = Lane {
+        name: "profile",
+        rect: room.with_max_y(room.top() + height),
+        chart: &profile_chart(map, envelope),
+        figures: smd.into_iter().collect(),
+    };
+    show_lane(ui, lane);
     ui.advance_cursor_after_rect(room);
+}
+
+/// A profile over its length.
+pub(crate) fn profile_chart(map: &HeightMap, envelope: &Envelope) -> Chart {
+    let (length_mm, step_mm) = (map.size_mm()[0], map.step_mm()[0]);
+    let whole = [0.0, length_mm];
+    let mut chart = curve(
+        envelope,
+        |sample| sample * step_mm,
+        Some(whole),
+        [whole, envelope.range()],
+    );
+    "place, mm".clone_into(&mut chart.x.label);
+    "height, µm".clone_into(&mut chart.y.label);
+    chart
 }

@@ -3,8 +3,8 @@
 
 use eframe::egui::{CursorIcon, DragValue, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
 
+use crate::kit::plot::Shown;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::Axis;
 use crate::kit::widgets::slider::key_steps;
 use crate::kit::widgets::text::toggle;
 use selvedge_textile::KesSection;
@@ -60,16 +60,16 @@ fn rounded(mm: f64) -> f64 {
     (mm * 1e3).round() / 1e3 + 0.0
 }
 
-/// Lets a section be dragged on a plot; says where it is then.
-pub(crate) fn drag(
-    ui: &Ui,
-    (plot, axis): (Rect, &Axis),
-    name: &str,
-    ends: Ends,
-) -> Option<[f64; 2]> {
-    let x = ends.at_mm.map(|mm| axis.x(plot.x_range(), mm));
-    let mm_a_point = (axis.most() - axis.least()) / f64::from(plot.width().max(1.0));
+/// Lets a section be dragged on a chart; says where it is then.
+pub(crate) fn drag(ui: &Ui, shown: &Shown, name: &str, ends: Ends) -> Option<[f64; 2]> {
+    let plot = shown.area();
+    let x = ends
+        .at_mm
+        .map(|mm| shown.at([mm, shown.values_at(plot.center())[1]]).x);
+    let [left, right] = [plot.left_top(), plot.right_top()].map(|at| shown.values_at(at)[0]);
+    let mm_a_point = (right - left) / f64::from(plot.width());
     let body = Rect::from_x_y_ranges(x[0] + GRIP..=(x[1] - GRIP).max(x[0] + GRIP), plot.y_range());
+    let body = body.intersect(plot);
     let body = ui.interact(body, ui.scope_id().with((name, "body")), Sense::drag());
     let mut moved = None;
     if let Some(by_mm) = wanted_mm(ui, &body, mm_a_point, &format!("{name} section")) {
@@ -77,6 +77,9 @@ pub(crate) fn drag(
     }
     let palette = Palette::in_ui(ui);
     for (end, word) in ["start", "end"].into_iter().enumerate() {
+        if !plot.expand(1.0).x_range().contains(x[end]) {
+            continue;
+        }
         let grip = Rect::from_x_y_ranges(x[end] - GRIP..=x[end] + GRIP, plot.y_range());
         let grip = ui.interact(grip, ui.scope_id().with((name, end)), Sense::drag());
         let label = format!("{name} section {word}");

@@ -113,13 +113,13 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
         1 => cloth.and_then(|cloth| correlation(&painter, room, cloth, textures)),
         2 => cloth
             .and_then(|cloth| cloth.directions.as_ref())
-            .map(|directions| plots::directions(&painter, room, directions)),
+            .map(|directions| plots::directions(ui, room, directions)),
         3..=5 => images.map(|images| {
             textures.paint(&painter, room, card, &images[card - 3]);
         }),
         _ => found
             .and_then(|found| found.made.as_deref())
-            .map(|made| plots::strokes(&painter, room, made)),
+            .map(|made| plots::strokes(ui, room, made)),
     };
     if is_shown.is_none() {
         nothing(ui, room, waiting(card, cloth));

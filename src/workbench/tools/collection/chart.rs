@@ -1,11 +1,11 @@
-//! The library as the collection shows it: one row a textile, and the plot.
+//! The plot of the library and its numbers, one row a textile: what the pane shows and exports.
 
+use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::export::{Exported, Sheet};
 use crate::bench::view::ShelfItem;
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
-use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style, Tone, Weight, Words};
+use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Tone, Weight, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -15,12 +15,7 @@ const MOST_NAMED: usize = 20;
 const HEIGHT_PX: f64 = 560.0;
 
 /// The textiles that are shown.
-pub(crate) fn scatter(view: &CollectionView<'_>, origin: Origin) -> Exported {
-    let row = Row {
-        panels: vec![panel(view)],
-        height_px: HEIGHT_PX,
-        bar: None,
-    };
+pub(crate) fn exported(view: &CollectionView<'_>, origin: Origin) -> Exported {
     let [x, y] = &view.choice.axes;
     let speed_mm_per_s = view.choice.speed_mm_per_s;
     let speed = quantity::with_unit(speed_mm_per_s, 0, "mm/s");
@@ -43,15 +38,26 @@ pub(crate) fn scatter(view: &CollectionView<'_>, origin: Origin) -> Exported {
         .and("x", &x.label(view.items), "")
         .and("y", &y.label(view.items), "");
     let title = format!("The library: {} over {}", y.name(), x.name());
-    Exported::new(title, sheet(view), vec![row], &note, origin)
+    let chart = Chart {
+        columns: columns(view),
+        ..chart(view, 0.0)
+    };
+    Exported::of_chart(&title, chart, HEIGHT_PX, &note, origin)
 }
 
-fn point(entry: &Entry<'_>, view: &CollectionView<'_>, is_tuned: bool) -> Option<[f64; 2]> {
+/// Where a textile stands, if it has both figures.
+pub(crate) fn point(
+    entry: &Entry<'_>,
+    view: &CollectionView<'_>,
+    is_tuned: bool,
+) -> Option<[f64; 2]> {
     let [x, y] = &view.choice.axes;
     Some([entry.value(x, is_tuned)?, entry.value(y, is_tuned)?])
 }
 
-fn panel(view: &CollectionView<'_>) -> Chart {
+/// Every textile as a dot, with a line from where it is without the tuning; without the columns.
+/// `faintness` is that of lines of what is neither selected nor pointed at.
+pub(crate) fn chart(view: &CollectionView<'_>, faintness: f32) -> Chart {
     let is_tuned = view.choice.is_tuned;
     let at = |entry: &Entry<'_>| point(entry, view, is_tuned);
     let dots = |name: &str, ink, takes: &dyn Fn(&Entry<'_>) -> bool| Series {
@@ -70,8 +76,10 @@ fn panel(view: &CollectionView<'_>) -> Chart {
         series.extend(view.entries.iter().filter_map(|one| {
             let points = vec![point(one, view, false)?, at(one)?];
             let is_moved = points[0].map(f64::to_bits) != points[1].map(f64::to_bits);
+            let is_lit = one.is_selected || one.is_marked;
             is_moved.then(|| Series {
                 points,
+                faintness: if is_lit { 0.0 } else { faintness },
                 style: Style::Line,
                 ink: Ink::Grey,
                 weight: Weight::Thin,
@@ -113,7 +121,7 @@ fn axis_of(measure: &Measure, view: &CollectionView<'_>) -> Axis {
     }
 }
 
-fn sheet(view: &CollectionView<'_>) -> Sheet {
+fn columns(view: &CollectionView<'_>) -> Columns {
     let entries = &view.entries;
     let words = |of: &dyn Fn(&ShelfItem) -> &str| -> Vec<String> {
         entries.iter().map(|one| of(one.item).to_owned()).collect()
@@ -136,7 +144,7 @@ fn sheet(view: &CollectionView<'_>) -> Sheet {
     let [low, high] = Band::ALL;
     let measured = Measure::Figure("SMD".to_owned());
     let is_tuned = view.choice.is_tuned;
-    Sheet::default()
+    Columns::default()
         .with("textile", words(&|item| &item.id))
         .with("name", words(&|item| &item.name))
         .with("construction", words(&|item| item.construction))
