@@ -26,9 +26,6 @@ pub(super) struct ReportArgs {
     /// What random numbers begin with
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Run the studies that take long, too
-    #[arg(long)]
-    long: bool,
     /// Name the studies and what they ask
     #[arg(long)]
     list: bool,
@@ -125,10 +122,8 @@ fn command(args: &ReportArgs, out: &Path) -> String {
         words.push("--only".to_owned());
         words.extend(args.only.iter().cloned());
     }
-    for (flag, is_set) in [("--quick", args.quick), ("--long", args.long)] {
-        if is_set {
-            words.push(flag.to_owned());
-        }
+    if args.quick {
+        words.push("--quick".to_owned());
     }
     words.push(format!("--seed {}", args.seed));
     words.join(" ")

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{Align2, Color32, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
-use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotTransform};
+use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotPoint, PlotTransform};
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -112,7 +112,7 @@ struct Pen<'a> {
 
 impl Pen<'_> {
     fn at(&self, point: [f64; 2]) -> Option<Pos2> {
-        super::position(self.transform, self.scales, point)
+        position(self.transform, self.scales, point)
     }
 
     fn text(&self, at: Pos2, anchor: Align2, text: &str, ink: Color32) -> Shape {
@@ -273,4 +273,20 @@ fn push_dot(at: Pos2, (ink, colour): (Ink, Color32), palette: &Palette, shapes: 
         shapes.push(Shape::circle_filled(at, 4.5, palette.panel));
         shapes.push(Shape::circle_filled(at, 3.5, colour));
     }
+}
+
+/// Where a point of a chart lies on the screen.
+pub(crate) fn position(
+    transform: &PlotTransform,
+    scales: [Scale; 2],
+    [x, y]: [f64; 2],
+) -> Option<Pos2> {
+    let point = PlotPoint::new(scales[0].place(x)?, scales[1].place(y)?);
+    let at = transform.position_from_point(&point);
+    let near = |at: f32, low: f32, high: f32| at.clamp(low - 1e4, high + 1e4);
+    let frame = transform.frame();
+    Some(pos2(
+        near(at.x, frame.left(), frame.right()),
+        near(at.y, frame.top(), frame.bottom()),
+    ))
 }

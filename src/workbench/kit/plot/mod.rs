@@ -13,71 +13,22 @@
 pub(crate) mod around;
 pub(crate) mod hover;
 pub(crate) mod layers;
+pub(crate) mod setting;
 #[cfg(test)]
 mod tests;
 pub(crate) mod view;
 
-use eframe::egui::{Id, Margin, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2};
-use egui_plot::{Plot, PlotBounds, PlotPoint, PlotTransform};
+use eframe::egui::{Id, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2};
+use egui_plot::{Plot, PlotBounds, PlotTransform};
 
-use crate::kit::plot::layers::Layers;
+pub(crate) use crate::kit::plot::setting::{Drag, Setting};
+
+use crate::kit::plot::layers::{Layers, position};
 use crate::kit::plot::view::View;
 use selvedge_chart::{Chart, Scale};
 
 /// A smaller frame shows nothing that can be read, points.
 const SMALLEST: [f32; 2] = [24.0, 16.0];
-
-/// What dragging over a chart does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Drag {
-    /// It moves the view; a double click shows everything again.
-    Pans,
-    /// It chooses a value for the pane, and so do the arrows.
-    Chooses,
-    /// Whatever the pane makes of it, which moves and zooms by the axes that it gives the chart.
-    ByPane,
-}
-
-/// How a chart stands in its pane.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Setting<'a> {
-    /// What assistive tools call it; one name a window.
-    pub name: &'a str,
-    /// Room for labels around the frame.
-    pub margin: Margin,
-    /// Whether the wheel alone zooms: not where the pane scrolls.
-    pub wheel: bool,
-    /// What dragging with the primary button does.
-    pub drag: Drag,
-    /// Charts with the same horizontal axis: they are zoomed together and share a cursor.
-    pub link: Option<&'static str>,
-    /// Whether hovering names what every series says there: not where the pane has own words.
-    pub hover: bool,
-    /// What hovering says of the whole chart, below that.
-    pub note: &'a str,
-    /// Whether the names of series stand above the frame.
-    pub has_legend: bool,
-}
-
-impl Default for Setting<'_> {
-    fn default() -> Self {
-        Self {
-            name: "Chart",
-            margin: Margin {
-                left: 34,
-                right: 8,
-                top: 18,
-                bottom: 18,
-            },
-            wheel: true,
-            drag: Drag::Pans,
-            link: None,
-            hover: true,
-            note: "",
-            has_legend: true,
-        }
-    }
-}
 
 /// A chart that is shown: where values lie.
 #[derive(Debug)]
@@ -110,18 +61,6 @@ impl Shown {
         let at = self.response.hover_pos()?;
         self.area().contains(at).then_some(at)
     }
-}
-
-/// Where a point of a chart lies on the screen.
-fn position(transform: &PlotTransform, scales: [Scale; 2], [x, y]: [f64; 2]) -> Option<Pos2> {
-    let point = PlotPoint::new(scales[0].place(x)?, scales[1].place(y)?);
-    let at = transform.position_from_point(&point);
-    let near = |at: f32, low: f32, high: f32| at.clamp(low - 1e4, high + 1e4);
-    let frame = transform.frame();
-    Some(pos2(
-        near(at.x, frame.left(), frame.right()),
-        near(at.y, frame.top(), frame.bottom()),
-    ))
 }
 
 /// Shows a chart in a rectangle; `None` where there is no room.

@@ -4,8 +4,16 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use std::sync::Arc;
+
+use eframe::egui;
+
 use super::*;
+use crate::bench::background::Executor;
+use crate::bench::keep::NewTextile;
+use crate::bench::latest::Standing;
 use crate::kit::theme::colour_map::ColourMap;
+use crate::tools::import::failure::{Failure, Step};
 use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress, unheard};
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::surface::Representation;

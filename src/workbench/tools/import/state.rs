@@ -1,0 +1,188 @@
+//! An import: what is wanted of it and what was found.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui;
+
+use crate::bench::Bench;
+use crate::bench::background::{Executor, Task};
+use crate::bench::command::ShowCommand;
+use crate::bench::keep::NewTextile;
+use crate::bench::latest::{Latest, Standing};
+use crate::bench::pane::Pane;
+use crate::bench::source_file::SourceFile;
+use crate::kit::widgets::relief::{Relief, ReliefPicture};
+use crate::tools::import::draft::{Draft, DraftFile, HeightsDraft, Looked, StrokesDraft};
+use crate::tools::import::failure::Failure;
+use crate::tools::import::work::{Found, Inputs};
+
+/// More files than these are no import.
+const MOST_FILES: usize = 8;
+
+/// Textiles that were made for the library, and whether they are to be felt.
+type Made = (Result<Vec<NewTextile>, Failure>, bool);
+
+/// An import: what is wanted of it and what was found.
+#[derive(Default)]
+pub(crate) struct Import {
+    /// What was chosen and typed.
+    pub draft: Draft,
+    /// The relief as a texture.
+    pub picture: ReliefPicture,
+    pub(super) reading: Latest<Inputs, Found>,
+    pub(super) keeping: Option<Task<Made>>,
+    /// What was kept last, or why nothing was.
+    pub(super) kept: Option<Result<String, Failure>>,
+}
+
+impl Import {
+    /// What was found last, whatever has changed since.
+    pub(crate) fn found(&self) -> Option<&Arc<Found>> {
+        self.reading.value()
+    }
+
+    /// Readings that were begun.
+    pub(crate) fn n_read(&self) -> u64 {
+        self.reading.n_begun()
+    }
+
+    /// What was kept last, or why nothing was.
+    pub(crate) fn kept(&self) -> Option<Result<&str, &Failure>> {
+        self.kept.as_ref().map(|kept| kept.as_deref())
+    }
+
+    /// Whether textiles are on their way to the library.
+    pub(crate) fn is_keeping(&self) -> bool {
+        self.keeping.is_some()
+    }
+
+    pub(super) fn inputs(&self) -> Inputs {
+        Inputs {
+            told: self.draft.told.clone(),
+            looked: self.draft.looked.clone(),
+        }
+    }
+
+    /// How what was found stands to what is chosen.
+    pub(crate) fn standing(&self) -> Standing {
+        if self.draft.told.files.is_empty() {
+            return Standing::Empty;
+        }
+        self.reading.standing(&self.inputs())
+    }
+
+    /// Takes files to those that are there; says why not, in one line.
+    pub(crate) fn add(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
+        let mut draft = self.draft.clone();
+        let is_first = draft.told.files.is_empty();
+        for path in paths {
+            let is_there = |file: &DraftFile| file.source.path() == path;
+            if !draft.told.files.iter().any(is_there) {
+                draft.told.files.push(DraftFile {
+                    source: Arc::new(SourceFile::new(path)),
+                    place: None,
+                    is_friction: false,
+                });
+            }
+        }
+        let n = draft.told.files.len();
+        if n > MOST_FILES {
+            return Err(format!(
+                "{n} files where an import takes {MOST_FILES}; leave some out"
+            ));
+        }
+        if is_first {
+            // What was typed for other files does not hold for these.
+            draft.told.strokes = StrokesDraft::default();
+            draft.told.heights = HeightsDraft::default();
+        }
+        draft.looked = Looked {
+            is_official: draft.looked.is_official,
+            ..Looked::default()
+        };
+        self.take_draft(draft);
+        Ok(())
+    }
+
+    /// Takes files that were chosen or dropped, and shows them.
+    pub(super) fn take_files(&mut self, paths: Vec<PathBuf>, bench: &mut Bench) {
+        if let Err(line) = self.add(paths) {
+            bench.notices.give(line);
+        }
+        bench
+            .commands
+            .push(ShowCommand::Reveal(Pane::Import).into());
+    }
+
+    /// Takes what was chosen and typed.
+    pub(super) fn take_draft(&mut self, draft: Draft) {
+        let before = std::mem::replace(&mut self.draft, draft);
+        self.forget_after(&before);
+    }
+
+    /// Forgets what came of a draft that reads otherwise.
+    pub(super) fn forget_after(&mut self, before: &Draft) {
+        if before.told != self.draft.told {
+            self.kept = None;
+            self.picture = ReliefPicture::default();
+        }
+    }
+
+    /// Reads the files anew from the disk.
+    pub(crate) fn read_again(&mut self) {
+        for file in &mut self.draft.told.files {
+            file.source = Arc::new(SourceFile::new(file.source.path().to_owned()));
+        }
+        self.reading.go_on();
+        self.picture = ReliefPicture::default();
+    }
+
+    /// Stops reading until something else is chosen.
+    pub(crate) fn cancel(&mut self) {
+        self.reading.stop();
+    }
+
+    /// Takes what a thread has read, if it is done.
+    pub(crate) fn poll(&mut self) {
+        let before = self.relief();
+        self.reading.poll();
+        self.renew_picture(before.as_ref());
+    }
+
+    /// Lets the reading follow what was chosen.
+    pub(crate) fn follow(&mut self, ctx: &egui::Context, executor: &Executor) {
+        if self.standing() == Standing::Empty {
+            return;
+        }
+        let before = self.relief();
+        let inputs = self.inputs();
+        self.reading.follow(ctx, executor, &inputs);
+        self.renew_picture(before.as_ref());
+    }
+
+    fn relief(&self) -> Option<Arc<Relief>> {
+        self.found()?.heights()?.relief.clone()
+    }
+
+    /// Forgets the picture of another relief.
+    fn renew_picture(&mut self, before: Option<&Arc<Relief>>) {
+        let now = self.relief();
+        let is_same = match (before, &now) {
+            (Some(before), Some(now)) => Arc::ptr_eq(before, now),
+            _ => before.is_none() && now.is_none(),
+        };
+        if !is_same {
+            self.picture = ReliefPicture::default();
+        }
+    }
+}
+
+impl std::fmt::Debug for Import {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Import")
+            .field("draft", &self.draft)
+            .field("n_read", &self.n_read())
+            .finish_non_exhaustive()
+    }
+}
