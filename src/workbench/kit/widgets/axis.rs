@@ -1,5 +1,5 @@
-//! Axes: where a number lies along a line, which round numbers are named on it, and the painting
-//! of ticks beside a plot.
+//! Axes of pictures, which charts have no part in: where a number lies along a line, which round
+//! numbers are named on it, and the painting of ticks beside a picture.
 //!
 //! It knows nothing of what is plotted.
 
@@ -29,8 +29,6 @@ pub(crate) enum Side {
     Left,
     /// Numbers right of it.
     Right,
-    /// Numbers above it.
-    Top,
     /// Numbers below it.
     Bottom,
 }
@@ -93,11 +91,6 @@ impl Axis {
             most,
             is_log,
         }
-    }
-
-    /// Its lower end.
-    pub(crate) fn least(&self) -> f64 {
-        self.least
     }
 
     /// Its upper end.
@@ -209,37 +202,6 @@ fn decimals_of(magnitude: f64) -> usize {
         .unwrap_or(4)
 }
 
-/// Paints hairlines across a plot at the ticks of an axis, and their numbers at its side.
-pub(crate) fn paint_ticks(
-    painter: &Painter,
-    plot: Rect,
-    (axis, side): (&Axis, Side),
-    ticks: &[Tick],
-) {
-    let palette = Palette::of(painter.ctx().theme());
-    let hairline = Stroke::new(1.0, palette.hairline);
-    for tick in ticks {
-        let at = place_of(plot, axis, side, tick.value);
-        match side {
-            Side::Left | Side::Right => {
-                painter.hline(
-                    plot.x_range(),
-                    painter.round_to_pixel_center(at.y),
-                    hairline,
-                );
-            }
-            Side::Top | Side::Bottom => {
-                painter.vline(
-                    painter.round_to_pixel_center(at.x),
-                    plot.y_range(),
-                    hairline,
-                );
-            }
-        }
-        paint_label(painter, plot, (at, side), &tick.label, palette.dim);
-    }
-}
-
 /// Paints short strokes outside a plot at the ticks of an axis, and their numbers behind them:
 /// beside pictures, which hairlines would cut.
 pub(crate) fn paint_outer_ticks(
@@ -259,7 +221,6 @@ pub(crate) fn paint_outer_ticks(
         let out = match side {
             Side::Left => vec2(-3.0, 0.0),
             Side::Right => vec2(3.0, 0.0),
-            Side::Top => vec2(0.0, -3.0),
             Side::Bottom => vec2(0.0, 3.0),
         };
         painter.line_segment([at, at + out], stroke);
@@ -269,19 +230,12 @@ pub(crate) fn paint_outer_ticks(
 
 /// Writes a label at a place on a side of a plot, moved inwards where it would leave the plot's
 /// length.
-pub(crate) fn paint_label(
-    painter: &Painter,
-    plot: Rect,
-    (at, side): (Pos2, Side),
-    label: &str,
-    ink: Color32,
-) {
+fn paint_label(painter: &Painter, plot: Rect, (at, side): (Pos2, Side), label: &str, ink: Color32) {
     let text = painter.layout_no_wrap(label.to_owned(), theme::small_number(), ink);
     let half = 0.5 * text.size();
     let centre = match side {
         Side::Left => pos2(plot.left() - LETTER_GAP - half.x, at.y),
         Side::Right => pos2(plot.right() + LETTER_GAP + half.x, at.y),
-        Side::Top => pos2(at.x, plot.top() - 3.0 - half.y),
         Side::Bottom => pos2(at.x, plot.bottom() + 3.0 + half.y),
     };
     let within = |place: f32, range: Rangef, half: f32| {
@@ -293,7 +247,7 @@ pub(crate) fn paint_label(
             centre.x,
             within(centre.y, plot.y_range().expand(2.0), half.y),
         ),
-        Side::Top | Side::Bottom => pos2(within(centre.x, plot.x_range(), half.x), centre.y),
+        Side::Bottom => pos2(within(centre.x, plot.x_range(), half.x), centre.y),
     };
     painter.galley(centre - half, text, ink);
 }
@@ -308,7 +262,6 @@ fn place_of(plot: Rect, axis: &Axis, side: Side, value: f64) -> Pos2 {
     match side {
         Side::Left => pos2(plot.left(), axis.y(plot.y_range(), value)),
         Side::Right => pos2(plot.right(), axis.y(plot.y_range(), value)),
-        Side::Top => pos2(axis.x(plot.x_range(), value), plot.top()),
         Side::Bottom => pos2(axis.x(plot.x_range(), value), plot.bottom()),
     }
 }
@@ -367,7 +320,7 @@ mod tests {
         let nan = f64::NAN;
         for (least, most) in [(1.0, 1.0), (nan, 2.0), (2.0, -1.0), (0.0, f64::INFINITY)] {
             for axis in [Axis::log(least, most), Axis::linear(least, most)] {
-                assert!(axis.most() > axis.least(), "{axis:?}");
+                assert!(axis.most > axis.least, "{axis:?}");
                 let ticks = axis.ticks(0.0, 0.0);
                 assert!(ticks.len() <= MAX_TICKS, "{axis:?}: {}", ticks.len());
             }

@@ -24,7 +24,7 @@ pub(crate) fn directions(found: &Found) -> Option<Exported> {
     ))
 }
 
-/// Both measures over half a turn, each by its own highest value, with the chosen directions marked.
+/// Both measures over half a turn, each by its own highest value; chosen directions are marked.
 pub(crate) fn direction_chart(directions: &Directions) -> Chart {
     let curves = [&directions.by_concentration, &directions.by_hough];
     let n = curves[0].curve.len();

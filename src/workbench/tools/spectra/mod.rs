@@ -4,6 +4,7 @@
 pub(crate) mod contact;
 pub(crate) mod drive;
 pub(crate) mod spatial;
+pub(crate) mod spatial_chart;
 #[cfg(test)]
 mod tests;
 pub(crate) mod waterfall;

@@ -17,8 +17,8 @@ const N_STEPS: u8 = 192;
 /// drawn this factor too low and too high.
 const APART: f64 = 1.003;
 
-/// The explanation that is shown.
-pub(crate) fn explanation(why: &Explanation, filters: &Filters, origin: Origin) -> Exported {
+/// The energy that each band takes, bin by bin, and the filters below it.
+pub(crate) fn charts(why: &Explanation, filters: &Filters) -> [Chart; 2] {
     let energies = why.energies();
     let taken = |(_, taken): &(f64, [f64; 2])| taken[0].max(taken[1]);
     let largest = energies.iter().map(taken).fold(0.0, f64::max);
@@ -54,6 +54,12 @@ pub(crate) fn explanation(why: &Explanation, filters: &Filters, origin: Origin) 
         series: Band::ALL.map(|band| curve(filters, band)).to_vec(),
         ..Chart::default()
     };
+    [energy, gains]
+}
+
+/// The explanation that is shown.
+pub(crate) fn explanation(why: &Explanation, filters: &Filters, origin: Origin) -> Exported {
+    let [energy, gains] = charts(why, filters);
     let row = |panel, height_px| Row {
         panels: vec![panel],
         height_px,

@@ -1,16 +1,17 @@
 //! Why the chosen contactor does what it does: the chain of numbers, and the energy by bin.
 
 use eframe::egui::{
-    self, Align, Align2, Layout, Painter, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
-    WidgetInfo, pos2, vec2,
+    self, Align, Layout, Margin, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2,
 };
 
 use crate::bench::perceptual_level::SOURCE;
+use crate::kit::plot;
+use crate::kit::plot::Setting;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_ticks};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, paint_limit_mark};
 use crate::tools::why::explanation::Explanation;
+use crate::tools::why::export::charts;
 use crate::tools::why::text::{LIMITS, lines};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
@@ -23,10 +24,8 @@ const NAMES: f32 = 88.0;
 const CHAIN: f32 = 300.0;
 /// A pane narrower than this has no room for the energy, points.
 const ROOM_FOR_ENERGY: f32 = 520.0;
-/// Frequencies that the energy is drawn over, Hz.
-const FREQUENCIES_HZ: [f64; 2] = [10.0, 1000.0];
-/// Points of a filter's curve.
-const CURVE: u8 = 96;
+/// How much of the height the energy takes; the filters have the rest.
+const ENERGY: f32 = 0.62;
 
 /// Shows the pane; without a contactor, what to do.
 pub(crate) fn show(ui: &mut Ui, why: Option<&Explanation>, filters: &Filters) {
@@ -113,78 +112,31 @@ fn show_line(ui: &mut Ui, name: &str, value: &str, limiters: Option<String>) {
     });
 }
 
-/// The energy that each band takes, bin by bin, with the filters over it.
+/// The energy that each band takes, bin by bin, and the filters below it.
 fn show_energy(ui: &Ui, rect: Rect, why: &Explanation, filters: &Filters) {
-    let id = ui.scope_id().with("energy by bin");
-    let response = ui.interact(rect, id, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Energy by bin"));
-    let plot = Rect::from_min_max(rect.min + vec2(30.0, 16.0), rect.max - vec2(8.0, 18.0));
-    if plot.width() < 60.0 || plot.height() < 30.0 {
-        return;
-    }
-    let painter = ui.painter_at(rect);
-    let axis = Axis::log(FREQUENCIES_HZ[0], FREQUENCIES_HZ[1]);
-    let ticks = [10.0, 40.0, 100.0, 320.0, 1000.0].map(Tick::number);
-    paint_ticks(&painter, plot, (&axis, Side::Bottom), &ticks);
-    let energies = why.energies();
-    let largest = energies
-        .iter()
-        .flat_map(|(_, taken)| *taken)
-        .fold(0.0, f64::max);
-    let height = Axis::linear(0.0, if largest > 0.0 { largest } else { 1.0 });
-    for (frequency_hz, taken) in &energies {
-        let x = axis.x(plot.x_range(), *frequency_hz);
-        paint_bars(
-            &painter,
-            plot,
-            x,
-            taken.map(|um2| height.y(plot.y_range(), um2)),
-        );
-    }
-    paint_filters(&painter, plot, &axis, filters);
-    let palette = Palette::in_ui(ui);
-    let most = quantity::with_unit(largest, 3, "µm²");
-    let corner = plot.left_top() - vec2(0.0, 8.0);
-    let words = format!("energy by bin, up to {most}");
-    painter.text(
-        corner,
-        Align2::LEFT_CENTER,
-        words,
-        theme::small(),
-        palette.dim,
-    );
-    response.on_hover_text(
-        "What each band takes of every bin that sounds below 1 kHz: its power times the filter's \
-         power gain. The curves are the filters, from 0 to 1",
-    );
-}
-
-fn paint_bars(painter: &Painter, plot: Rect, x: f32, tops: [f32; 2]) {
-    let palette = Palette::of(painter.ctx().theme());
-    for band in Band::ALL {
-        let left = x - 2.0 + 2.0 * band.index() as f32;
-        let bar = Rect::from_min_max(
-            pos2(left, tops[band.index()].min(plot.bottom())),
-            pos2(left + 2.0, plot.bottom()),
-        );
-        if bar.left() >= plot.left() && bar.right() <= plot.right() {
-            painter.rect_filled(bar, 0, palette.band(band));
-        }
-    }
-}
-
-fn paint_filters(painter: &Painter, plot: Rect, axis: &Axis, filters: &Filters) {
-    let palette = Palette::of(painter.ctx().theme());
-    for band in Band::ALL {
-        let point = |i: u8| {
-            let frequency_hz = axis.value(f64::from(i) / f64::from(CURVE - 1));
-            #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-            let gain = filters.gain(band, frequency_hz).clamp(0.0, 1.0) as f32;
-            let y = plot.bottom() - gain * plot.height();
-            pos2(axis.x(plot.x_range(), frequency_hz), y)
-        };
-        let ink = palette.band(band).gamma_multiply(0.6);
-        let points: Vec<egui::Pos2> = (0..CURVE).map(point).collect();
-        painter.add(egui::Shape::line(points, Stroke::new(1.0, ink)));
-    }
+    let [energy, gains] = charts(why, filters);
+    let (above, below) = rect.split_top_bottom_at_fraction(ENERGY);
+    let setting = Setting {
+        name: "Energy by bin",
+        margin: Margin {
+            bottom: 4,
+            ..Setting::default().margin
+        },
+        link: Some("frequency of bins"),
+        note: "What each band takes of every bin that sounds below 1 kHz: its power times the \
+               filter's power gain",
+        ..Setting::default()
+    };
+    plot::show(ui, above, &energy, &setting);
+    let setting = Setting {
+        name: "Gains of the filters",
+        margin: Margin {
+            top: 4,
+            ..Setting::default().margin
+        },
+        link: setting.link,
+        has_legend: false,
+        ..Setting::default()
+    };
+    plot::show(ui, below, &gains, &setting);
 }

@@ -197,7 +197,7 @@ pub(crate) fn cost_chart(cost: &CostView) -> Chart {
     }
 }
 
-/// Where a method stands, error and CPU time; no error at all, and one beyond the axis, at its ends.
+/// Where a method stands, error and CPU time; no error and one beyond the axis stand at its ends.
 pub(crate) fn method_point(row: &Method) -> Option<[f64; 2]> {
     let cost_s = row.cost?.cpu_s;
     let error_db = row.error?.clamp(METHOD_ERRORS_DB[0], METHOD_ERRORS_DB[1]);
@@ -210,12 +210,12 @@ pub(crate) fn method_chart(measured: &Measured) -> Chart {
     let running = measured.running();
     let all = measured.rows.iter().zip(&measured.front).enumerate();
     let all: Vec<_> = all
-        .filter_map(|(index, (row, is_front))| Some((index, row, *is_front, method_point(row)?)))
+        .filter_map(|(index, (row, is_front))| Some((index, *is_front, method_point(row)?)))
         .collect();
     let dots = |front: bool, ink| {
-        let own = || all.iter().filter(|one| one.2 == front);
+        let own = || all.iter().filter(|one| one.1 == front);
         Series {
-            points: own().map(|one| one.3).collect(),
+            points: own().map(|one| one.2).collect(),
             marked: own()
                 .position(|one| Some(one.0) == running)
                 .into_iter()
@@ -237,26 +237,7 @@ pub(crate) fn method_chart(measured: &Measured) -> Chart {
         weight: Weight::Thin,
         ..Series::default()
     };
-    let mut words: Vec<Words> = Vec::new();
-    let mut named: Vec<&str> = Vec::new();
-    let runs = |one: &&(usize, _, _, _)| Some(one.0) == running;
-    for (index, row, _, at) in all.iter().filter(runs).chain(&all) {
-        if named.contains(&&*row.method) {
-            continue;
-        }
-        named.push(&row.method);
-        let runs = if Some(*index) == running {
-            ", runs now"
-        } else {
-            ""
-        };
-        words.push(Words {
-            at: *at,
-            text: format!("{}{runs}", row.method),
-            tone: Tone::Aside,
-        });
-    }
-    let costs = all.iter().map(|one| one.3[1]);
+    let costs = all.iter().map(|one| one.2[1]);
     let [min_s, max_s] = costs.fold([f64::INFINITY, 0.0], |[min, max], s| {
         [s.min(min), s.max(max)]
     });
@@ -265,7 +246,33 @@ pub(crate) fn method_chart(measured: &Measured) -> Chart {
         x: Axis::log("level error, dB").within(METHOD_ERRORS_DB),
         y: Axis::log("CPU time a tick, s").within([0.4 * min_s, 1.8 * max_s]),
         series: vec![steps, dots(false, Ink::Grey), front],
-        words,
+        words: names(measured),
         ..Chart::default()
     }
+}
+
+/// The name of each method, at the one that runs or the first of its settings.
+fn names(measured: &Measured) -> Vec<Words> {
+    let running = measured
+        .running()
+        .and_then(|index| measured.rows.get(index));
+    let mut named: Vec<&str> = Vec::new();
+    let mut words = Vec::new();
+    for (nth, row) in running.into_iter().chain(&measured.rows).enumerate() {
+        let Some(at) = method_point(row).filter(|_| !named.contains(&&*row.method)) else {
+            continue;
+        };
+        let runs = if nth == 0 && running.is_some() {
+            ", runs now"
+        } else {
+            ""
+        };
+        named.push(&row.method);
+        words.push(Words {
+            at,
+            text: format!("{}{runs}", row.method),
+            tone: Tone::Aside,
+        });
+    }
+    words
 }

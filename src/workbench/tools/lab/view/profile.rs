@@ -30,7 +30,8 @@ pub(crate) fn show(ui: &mut Ui, rect: Rect, lab: &mut Lab, preview: &Preview) {
         },
         drag: Drag::ByPane,
         has_legend: false,
-        note: "In travel order. Drag to move along, Ctrl+wheel to look closer, double click to see all",
+        note: "In travel order. Drag to move along, Ctrl+wheel to look closer, double click to see \
+               all",
         ..Setting::default()
     };
     let rect = rect.with_min_y(rect.top() + 20.0);
