@@ -11,13 +11,14 @@ use eframe::egui::{
     ScrollArea, TextEdit, Ui, vec2,
 };
 
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
 use crate::kit::widgets::text::{button, choice, section};
-use crate::shell::completion::Completing;
+use crate::shell::completion::complete;
 use selvedge_engine::ClipKind;
 
 /// What is said when a path is asked for.
@@ -166,7 +167,7 @@ pub(crate) struct Ask {
     pub path: String,
     /// Whether the field has had the focus once.
     pub(crate) was_focused: bool,
-    completing: Option<Completing>,
+    completing: Option<Task<[String; 2]>>,
 }
 
 impl Ask {
@@ -192,12 +193,10 @@ impl Ask {
     /// Takes the completion that has come, unless something else was typed meanwhile; says whether
     /// the path is another one now.
     fn take_completion(&mut self) -> bool {
-        let Some(path) = self.completing.as_ref().and_then(Completing::poll) else {
+        let Some(Ok([typed, path])) = finished(&mut self.completing) else {
             return false;
         };
-        let begun = self.completing.take();
-        let is_current = begun.is_some_and(|begun| begun.typed == self.path);
-        if !is_current || path == self.path {
+        if typed != self.path || path == self.path {
             return false;
         }
         self.path = path;
@@ -231,7 +230,8 @@ fn show_field(ui: &mut Ui, title: &egui::Response, ask: &mut Ask, words: AskWord
     let id = ui.make_persistent_id("path");
     let was_completed = ask.take_completion();
     if ui.memory(|memory| memory.has_focus(id)) && is_tab(ui) {
-        ask.completing = Completing::start(&ask.path, words.ending, ui.ctx());
+        let threads = Executor::Threads(ui.ctx().clone());
+        ask.completing = Some(complete(&ask.path, words.ending, &threads));
     }
     let field = TextEdit::singleline(&mut ask.path)
         .id(id)

@@ -3,50 +3,27 @@
 //! The folder is listed on a thread of its own, when it is asked for: it may lie on the other side
 //! of a network.
 
+use std::fs;
 use std::path::{MAIN_SEPARATOR, Path};
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
-use std::{fs, thread};
 
-use eframe::egui;
+use crate::bench::background::{Executor, Task};
 
 /// Most entries of a folder that are looked at.
 const MAX_ENTRIES: usize = 10_000;
 
-/// A completion on its way.
-#[derive(Debug)]
-pub(crate) struct Completing {
-    /// What was typed.
-    pub typed: String,
-    result: Receiver<String>,
-}
-
-impl Completing {
-    /// Begins to complete `typed` to a folder or a file with this ending; `ctx` is woken then.
-    pub(crate) fn start(typed: &str, ending: &'static str, ctx: &egui::Context) -> Option<Self> {
-        let (sender, result) = sync_channel(1);
-        let (path, ctx) = (typed.to_owned(), ctx.clone());
-        let job = thread::Builder::new().name("selvedge-complete".to_owned());
-        job.spawn(move || {
-            let names = names_in(Path::new(split(&path).0), ending);
-            // Nobody waits any more when the field was put away.
-            drop(sender.send(completed(&path, &names).unwrap_or(path)));
-            ctx.request_repaint();
-        })
-        .ok()?;
-        Some(Self {
-            typed: typed.to_owned(),
-            result,
-        })
-    }
-
-    /// The path, once it is there: longer, or as it was typed.
-    pub(crate) fn poll(&self) -> Option<String> {
-        match self.result.try_recv() {
-            Ok(path) => Some(path),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(self.typed.clone()),
-        }
-    }
+/// Begins to complete `typed` to a folder or a file with this ending. It gives what was typed and
+/// the path then: longer, or the same.
+pub(crate) fn complete(
+    typed: &str,
+    ending: &'static str,
+    executor: &Executor,
+) -> Task<[String; 2]> {
+    let typed = typed.to_owned();
+    executor.start("selvedge-complete", move |_| {
+        let names = names_in(Path::new(split(&typed).0), ending);
+        let path = completed(&typed, &names).unwrap_or_else(|| typed.clone());
+        Ok([typed, path])
+    })
 }
 
 /// The folder of a path, with its separator, and what was typed of the name.

@@ -129,7 +129,7 @@ impl Tool for Bridge {
         if target.is_some() {
             bench.notices.forget_about(port::BACK);
         }
-        self.ports.hold(target.as_ref());
+        self.ports.hold(&bench.ctx, target.as_ref());
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {

@@ -1,12 +1,10 @@
 //! The serial ports of this machine, listed on a thread of its own: some drivers take their time.
 
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
-use std::thread;
-
 use eframe::egui;
 
+use crate::bench::background::{Executor, Task, finished};
 use crate::tools::bridge::replug::Replug;
-use selvedge_device::{BridgeError, FoundPort, PortEntry, Target, list_ports};
+use selvedge_device::{FoundPort, PortEntry, Target, list_ports};
 
 /// The ports as a pane shows them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -23,62 +21,40 @@ pub(crate) struct PortsView {
     pub back: Option<FoundPort>,
 }
 
-/// What a listing found.
-type Listed = Result<Vec<PortEntry>, BridgeError>;
-
 /// The ports that are known, and a listing on its way.
 #[derive(Debug, Default)]
 pub(crate) struct Ports {
     view: PortsView,
-    listing: Option<Receiver<Listed>>,
+    listing: Option<Task<Vec<PortEntry>>>,
     replug: Replug,
 }
 
 impl Ports {
-    /// Begins to list the ports, unless that is under way; `ctx` is woken when it is done.
+    /// Begins to list the ports, unless that is under way.
     pub(crate) fn list(&mut self, ctx: &egui::Context) {
-        let ctx = ctx.clone();
-        self.list_by(list_ports, move || ctx.request_repaint());
+        self.list_by(ctx, || list_ports().map_err(|error| error.to_string()));
     }
 
     fn list_by(
         &mut self,
-        list: impl FnOnce() -> Listed + Send + 'static,
-        wake: impl FnOnce() + Send + 'static,
+        ctx: &egui::Context,
+        list: impl FnOnce() -> Result<Vec<PortEntry>, String> + Send + 'static,
     ) {
         if self.view.is_listing {
             return;
         }
-        let (sender, listing) = sync_channel(1);
-        let job = thread::Builder::new().name("selvedge-ports".to_owned());
-        let started = job.spawn(move || {
-            // Nobody waits any more when the window is gone.
-            drop(sender.send(list()));
-            wake();
-        });
-        match started {
-            Ok(_) => {
-                self.view.is_listing = true;
-                self.listing = Some(listing);
-            }
-            Err(error) => self.view.error = Some(format!("cannot list ports: {error}")),
-        }
+        self.view.is_listing = true;
+        let threads = Executor::Threads(ctx.clone());
+        self.listing = Some(threads.start("selvedge-ports", |_| list()));
     }
 
     /// Takes what was found, once it is there. To be called every frame.
     pub(crate) fn poll(&mut self) {
-        let Some(listing) = &self.listing else {
-            return;
+        let (ports, error) = match finished(&mut self.listing) {
+            Some(Ok(ports)) => (ports, None),
+            Some(Err(error)) => (Vec::new(), Some(error)),
+            None => return,
         };
-        let (ports, error) = match listing.try_recv() {
-            Err(TryRecvError::Empty) => return,
-            Ok(Ok(ports)) => (ports, None),
-            Ok(Err(error)) => (Vec::new(), Some(error.to_string())),
-            Err(TryRecvError::Disconnected) => {
-                (Vec::new(), Some("listing the ports broke off".to_owned()))
-            }
-        };
-        self.listing = None;
         self.view = PortsView {
             is_listing: false,
             is_known: true,
@@ -92,10 +68,10 @@ impl Ports {
     }
 
     /// A link is opened to `target`, or to none any more.
-    pub(crate) fn hold(&mut self, target: Option<&Target>) {
+    pub(crate) fn hold(&mut self, ctx: &egui::Context, target: Option<&Target>) {
         self.view.back = None;
         match target {
-            Some(Target::Port(path)) => self.replug.hold(path.clone()),
+            Some(Target::Port(path)) => self.replug.hold(ctx, path.clone()),
             Some(_) | None => self.replug.let_go(),
         }
     }
@@ -138,17 +114,12 @@ mod tests {
     use super::*;
 
     /// Lists by `list` and takes the outcome.
-    fn listed(ports: &mut Ports, list: fn() -> Listed) {
-        let (woken, wake) = sync_channel(1);
-        let wake_up = move || {
-            woken.send(()).ok();
-        };
-        ports.list_by(list, wake_up);
+    fn listed(ports: &mut Ports, list: fn() -> Result<Vec<PortEntry>, String>) {
+        ports.list_by(&egui::Context::default(), list);
         assert!(ports.view().is_listing, "on its way");
-        // It ends without a word when the thread breaks off.
-        wake.recv().ok();
         while ports.listing.is_some() {
             ports.poll();
+            std::thread::yield_now();
         }
     }
 
@@ -167,7 +138,7 @@ mod tests {
         listed(&mut ports, || Ok(one()));
         let found = [("/dev/ttyACM0".to_owned(), "Array bridge".to_owned())];
         assert_eq!(ports.view().ports, found);
-        listed(&mut ports, || Err(BridgeError::List("no udev".to_owned())));
+        listed(&mut ports, || Err("no udev".to_owned()));
         assert!(ports.view().ports.is_empty() && ports.view().is_known);
         let error = ports.view().error.clone();
         assert!(error.is_some_and(|error| error.contains("no udev")));
@@ -175,16 +146,14 @@ mod tests {
 
     #[test]
     fn a_listing_that_is_under_way_is_not_begun_again() {
-        let (go, wait) = sync_channel::<()>(0);
+        let ctx = egui::Context::default();
+        let (go, wait) = std::sync::mpsc::sync_channel::<()>(0);
         let mut ports = Ports::default();
-        ports.list_by(
-            move || {
-                wait.recv().ok();
-                Ok(one())
-            },
-            || {},
-        );
-        ports.list_by(|| Ok(Vec::new()), || {});
+        ports.list_by(&ctx, move || {
+            wait.recv().ok();
+            Ok(one())
+        });
+        ports.list_by(&ctx, || Ok(Vec::new()));
         ports.poll();
         assert!(ports.view().is_listing);
         drop(go);

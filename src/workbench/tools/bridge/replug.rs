@@ -6,10 +6,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use std::time::Duration;
 
+use eframe::egui;
+
+use crate::bench::background::{Executor, Task};
 use selvedge_device::{FoundPort, PortIdentity};
 
 const EVERY: Duration = Duration::from_secs(1);
@@ -29,7 +32,7 @@ enum Phase {
     #[default]
     Nothing,
     /// Its identity is being found out.
-    Asking(Receiver<PortIdentity>),
+    Asking(Task<PortIdentity>),
     /// Connected, or at least not lost.
     Held(PortIdentity),
     /// Lost, and looked for.
@@ -53,18 +56,10 @@ impl Drop for Search {
 
 impl Replug {
     /// A port was opened: what it is recognised by is asked for while it is there.
-    pub(crate) fn hold(&mut self, path: PathBuf) {
-        let (sender, identity) = sync_channel(1);
-        let job = thread::Builder::new().name("selvedge-ports".to_owned());
-        let asked = job.spawn(move || {
-            // Nobody waits any more when another port was opened.
-            drop(sender.send(PortIdentity::of(&path)));
-        });
-        self.phase = match asked {
-            Ok(_) => Phase::Asking(identity),
-            // Without a thread nothing is found again; everything else goes on.
-            Err(_) => Phase::Nothing,
-        };
+    pub(crate) fn hold(&mut self, ctx: &egui::Context, path: PathBuf) {
+        let threads = Executor::Threads(ctx.clone());
+        let identity = threads.start("selvedge-ports", move |_| Ok(PortIdentity::of(&path)));
+        self.phase = Phase::Asking(identity);
     }
 
     /// No port is of interest any more.
@@ -108,15 +103,17 @@ impl Replug {
         let Phase::Asking(asked) = &self.phase else {
             return;
         };
-        match asked.try_recv() {
-            Ok(identity) => self.phase = Phase::Held(identity),
-            Err(TryRecvError::Empty) => {}
-            Err(TryRecvError::Disconnected) => self.phase = Phase::Nothing,
+        match asked.poll() {
+            Some(Ok(identity)) => self.phase = Phase::Held(identity),
+            // Without an identity nothing is found again; everything else goes on.
+            Some(Err(_)) => self.phase = Phase::Nothing,
+            None => {}
         }
     }
 }
 
-/// Looks once a second; `None` when there is no thread for it.
+/// Looks once a second; `None` when there is no thread for it. It says nothing while it looks, so
+/// that nothing is drawn for it.
 fn search(mut lost: PortIdentity, wake: impl FnOnce() + Send + 'static) -> Option<Search> {
     let (sender, found) = sync_channel(1);
     let is_over = Arc::new(AtomicBool::new(false));
@@ -157,7 +154,7 @@ mod tests {
         let (old, new) = (folder.join("array"), folder.join("array-2"));
         symlink("/dev/null", &old).unwrap();
         let mut replug = Replug::default();
-        replug.hold(old.clone());
+        replug.hold(&egui::Context::default(), old.clone());
         while !matches!(replug.phase, Phase::Held(_)) {
             assert_eq!(replug.follow(false, None, || {}), None, "it is not lost");
         }
@@ -182,7 +179,7 @@ mod tests {
     fn a_search_that_nobody_wants_ends() {
         let path = std::env::temp_dir().join("selvedge-never-there");
         let mut replug = Replug::default();
-        replug.hold(path);
+        replug.hold(&egui::Context::default(), path);
         while !matches!(replug.phase, Phase::Searching(_)) {
             replug.follow(true, None, || {});
         }

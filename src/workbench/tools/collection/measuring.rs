@@ -231,7 +231,8 @@ impl Measurements {
 }
 
 impl Work {
-    /// Begins; on a thread in every window, since what is there is shown while the rest is measured.
+    /// Begins; on a thread in every window, since what is there is shown while the rest is
+    /// measured.
     fn start(
         ctx: &egui::Context,
         library: Arc<Library>,
