@@ -32,7 +32,7 @@ pub use crate::bench::Drive;
 pub use crate::bench::applied_gains::AppliedGains;
 pub use crate::bench::document::Document;
 pub use crate::bench::error::AppError;
-pub use crate::bench::recording::Take;
+pub use crate::bench::recording::Recording;
 pub use crate::bench::rendering::Rendering;
 pub use crate::bench::settings::Settings;
 pub use crate::bench::settings::build_cache;

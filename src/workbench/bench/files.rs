@@ -7,7 +7,7 @@ use crate::bench::Bench;
 use crate::bench::background::{Task, finished};
 use crate::bench::clips::{ClipsView, ending, said};
 use crate::bench::opening::{Opened, Origin, open};
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use selvedge_engine::{ClipKind, ClipWriter, write_clip};
 use selvedge_render::scene::ExplorationPath;
 use selvedge_render::{RenderScene, Replay};
@@ -54,7 +54,7 @@ impl Bench {
     pub(crate) fn open_recording(&mut self, path: PathBuf) {
         let task = self.executor.start("selvedge-recording", move |_| {
             let found = ExplorationPath::read(&path);
-            let take = found.map(|found| Take::from_path(path, found));
+            let take = found.map(|found| Recording::from_path(path, found));
             take.map_err(|error| error.to_string())
         });
         self.files.reading = Some(task);
@@ -62,7 +62,7 @@ impl Bench {
     }
 
     /// Takes an exploration that was read: it is replayed next.
-    pub(crate) fn take_take(&mut self, outcome: Result<Take, String>) {
+    pub(crate) fn take_take(&mut self, outcome: Result<Recording, String>) {
         match outcome {
             Ok(take) => {
                 self.exploration.at_hand = Some(take);
@@ -88,11 +88,11 @@ impl Bench {
     }
 
     /// Takes the news that a recording was saved.
-    pub(crate) fn take_saved(&mut self, outcome: Result<Take, String>) {
+    pub(crate) fn take_saved(&mut self, outcome: Result<Recording, String>) {
         match outcome {
             Ok(saved) => {
                 // Another exploration may have been recorded meanwhile.
-                let is_same = |take: &Take| Arc::ptr_eq(take.path(), saved.path());
+                let is_same = |take: &Recording| Arc::ptr_eq(take.path(), saved.path());
                 if self.exploration.at_hand.as_ref().is_some_and(is_same) {
                     self.exploration.at_hand = Some(saved);
                 }
@@ -209,7 +209,7 @@ mod tests {
     use super::*;
     use crate::bench::Drive;
     use crate::bench::clips::CLIPS;
-    use crate::bench::recording::Take;
+    use crate::bench::recording::Recording;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::{ExplorationPath, PathRow};
     use selvedge_scratch::ScratchFolder;
@@ -235,7 +235,8 @@ mod tests {
         let path = ExplorationPath::new(vec![row(0.0, 40.0), row(1.0, 120.0)]).unwrap();
         // Tables would take longer than the file.
         bench.engine_scene.rendering.method = selvedge_render::array::Method::Banded;
-        bench.exploration.at_hand = Some(Take::from_path(folder.join("slow stroke.csv"), path));
+        bench.exploration.at_hand =
+            Some(Recording::from_path(folder.join("slow stroke.csv"), path));
         for (kind, _) in CLIPS {
             let path = write(&mut bench, kind);
             assert!(path.metadata().unwrap().len() > 2000, "{kind:?}");

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bench::background::{Executor, Task};
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
 
@@ -49,7 +49,7 @@ pub(crate) struct Kept {
     /// The library that has them now.
     pub library: Arc<Library>,
     /// Its textiles.
-    pub(crate) library_view: Vec<ShelfItem>,
+    pub(crate) library_view: Vec<LibraryEntry>,
     /// Its folder.
     pub folder: PathBuf,
     /// The library that the window had when this was asked for.

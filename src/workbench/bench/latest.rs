@@ -145,7 +145,9 @@ impl<Key: Clone + PartialEq + Send + Sync + 'static, Value: Computed<Key>> Lates
             Value::compute(&asked, prior, progress).map_err(|Cancelled| "stopped".to_owned())
         });
         self.running = Some((key.clone(), task));
-        self.poll();
+        if matches!(executor, Executor::InLine) {
+            self.poll();
+        }
     }
 }
 

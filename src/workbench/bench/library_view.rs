@@ -11,7 +11,7 @@ use eframe::egui::{
 };
 
 use crate::bench::background::{Executor, Task, finished};
-use crate::bench::view::{ClothPicture, ShelfItem};
+use crate::bench::view::{ClothPicture, LibraryEntry};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Appearance, Library, kind_of, measured_figures};
 
@@ -24,7 +24,7 @@ type Read = (String, Result<Option<(ColorImage, Vec2)>, String>);
 /// A library in sight.
 pub(crate) struct LibraryView {
     library: Arc<Library>,
-    items: Arc<[ShelfItem]>,
+    items: Arc<[LibraryEntry]>,
     pictures: BTreeMap<String, (TextureHandle, ClothPicture)>,
     /// Textiles whose pictures were asked for, whatever came of it.
     asked: BTreeSet<String>,
@@ -34,7 +34,7 @@ pub(crate) struct LibraryView {
 
 impl LibraryView {
     /// The textiles of a library, without pictures yet.
-    pub(crate) fn new(library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
+    pub(crate) fn new(library: Arc<Library>, items: Vec<LibraryEntry>) -> Self {
         Self {
             library,
             items: items.into(),
@@ -47,7 +47,7 @@ impl LibraryView {
 
     /// The same with the textiles of another library, which has all that this one had: pictures
     /// stay.
-    pub(crate) fn with_library(self, library: Arc<Library>, items: Vec<ShelfItem>) -> Self {
+    pub(crate) fn with_library(self, library: Arc<Library>, items: Vec<LibraryEntry>) -> Self {
         Self {
             library,
             items: items.into(),
@@ -56,12 +56,12 @@ impl LibraryView {
     }
 
     /// The textiles, in the library's order.
-    pub(crate) fn items(&self) -> &[ShelfItem] {
+    pub(crate) fn items(&self) -> &[LibraryEntry] {
         &self.items
     }
 
-    /// The same, to keep while the shelf is used.
-    pub(crate) fn shared_items(&self) -> Arc<[ShelfItem]> {
+    /// The same, to keep while it is drawn.
+    pub(crate) fn shared_items(&self) -> Arc<[LibraryEntry]> {
         Arc::clone(&self.items)
     }
 
@@ -71,7 +71,7 @@ impl LibraryView {
     }
 
     /// The textile with this id.
-    pub(crate) fn item(&self, id: &str) -> Option<&ShelfItem> {
+    pub(crate) fn item(&self, id: &str) -> Option<&LibraryEntry> {
         self.items.iter().find(|item| item.id == id)
     }
 
@@ -133,14 +133,14 @@ impl LibraryView {
 
 impl std::fmt::Debug for LibraryView {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Shelf")
+        f.debug_struct("LibraryView")
             .field("items", &self.items.len())
             .field("pictures", &self.pictures.len())
             .finish_non_exhaustive()
     }
 }
 
-impl ShelfItem {
+impl LibraryEntry {
     /// Whether all words of a search are found in its name, its id or what it is, in any order and
     /// in letters of any size.
     pub(crate) fn matches(&self, sought: &str) -> bool {
@@ -153,14 +153,14 @@ impl ShelfItem {
 }
 
 /// What the manifests of a library say; one that cannot be read is listed with the reason.
-pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
+pub(crate) fn items_of(library: &Library) -> Vec<LibraryEntry> {
     let item = |id: &String| {
         let entry = library.index().and_then(|index| index.entry(id));
         let (level_db, mean_um) = entry.map_or((None, [0.0; 2]), |entry| {
             (entry.level_db(), [entry.a40_um, entry.a320_um])
         });
         match library.manifest(id) {
-            Ok(manifest) => ShelfItem {
+            Ok(manifest) => LibraryEntry {
                 id: id.clone(),
                 kind: kind(manifest.construction.word(), &manifest.fibre),
                 construction: manifest.construction.word(),
@@ -172,7 +172,7 @@ pub(crate) fn items_of(library: &Library) -> Vec<ShelfItem> {
                 mean_um,
                 flaw: None,
             },
-            Err(error) => ShelfItem {
+            Err(error) => LibraryEntry {
                 id: id.clone(),
                 name: id.clone(),
                 kind: String::new(),
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn every_shipped_textile_stands_on_the_shelf() {
+    fn every_shipped_textile_is_in_the_view() {
         let library_view = shipped();
         assert_eq!(library_view.items().len(), 16);
         for item in library_view.items() {

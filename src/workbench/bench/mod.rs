@@ -73,7 +73,7 @@ use crate::bench::state::{
     PointerState, SessionState,
 };
 use crate::bench::trail::Trail;
-use crate::bench::view::Live;
+use crate::bench::view::EngineView;
 use crate::kit::theme;
 use eframe::egui;
 use selvedge_device::{LogBound, SessionLog};
@@ -119,7 +119,7 @@ pub(crate) struct Bench {
     pub(crate) pointer: PointerState,
     pub(crate) engine: Engine,
     /// The engine as it was seen last.
-    pub(crate) live: Live,
+    pub(crate) live: EngineView,
     pub(crate) past: Past,
     pub(crate) engine_scene: EngineScene,
     pub(crate) inspection: InspectionCache,
@@ -175,7 +175,7 @@ impl Bench {
             session: SessionState::default(),
             pointer: PointerState::default(),
             engine,
-            live: Live::default(),
+            live: EngineView::default(),
             past: Past::default(),
             inspection: InspectionCache::on(&loaded, 0, 0),
             engine_scene: EngineScene {

@@ -52,8 +52,8 @@ impl Bench {
     }
 
     fn take_snapshot(&mut self, ctx: &egui::Context) {
-        while let Some(glimpse) = self.engine.next_tick_sample() {
-            self.past.history.take(glimpse);
+        while let Some(tick_sample) = self.engine.next_tick_sample() {
+            self.past.history.take(tick_sample);
         }
         let snapshot = self.engine.snapshot();
         let status = snapshot.link.and_then(|link| link.status);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::bench::error::AppError;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use selvedge_engine::PreparedScene;
 use selvedge_render::array::TableCache;
 use selvedge_render::scene::LoadedScene;
@@ -42,7 +42,7 @@ pub(crate) struct Opened {
     /// The tables that were made for it.
     pub cache: TableCache,
     /// The textiles of its library.
-    pub(crate) library_view: Vec<ShelfItem>,
+    pub(crate) library_view: Vec<LibraryEntry>,
 }
 
 /// Opens a scene on this thread.

@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::view::Source;
 use selvedge_engine::InputSource;
 use selvedge_foundation::geometry::Point;
@@ -93,7 +93,7 @@ impl Bench {
             return;
         };
         // A recording that ended before its first tick is none.
-        if let Ok(take) = Take::from_recording(&recording) {
+        if let Ok(take) = Recording::from_recording(&recording) {
             self.exploration.at_hand = Some(take);
         }
     }

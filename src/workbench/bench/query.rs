@@ -9,8 +9,8 @@ use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
-    BridgePhase, BridgeView, Cloth, Dot, InputView, LibraryDot, LinkTiming, Live, Marks, PlayView,
-    SceneView, ShelfItem, Source, Status,
+    BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LibraryDot, LibraryEntry,
+    LinkTiming, Marks, PlayView, SceneView, Source, Status,
 };
 use selvedge_device::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
 use selvedge_engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
@@ -67,7 +67,7 @@ pub(crate) fn library_dots(loaded: &LoadedScene, library_view: &LibraryView) -> 
     let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
     let has_index = loaded.library().index().is_some();
     if has_index && scene.filters == Filters::default() {
-        let dot = |item: &ShelfItem| {
+        let dot = |item: &LibraryEntry| {
             Some(LibraryDot {
                 id: item.id.clone(),
                 name: item.name.clone(),
@@ -104,7 +104,7 @@ pub(crate) fn live_view(
     snapshot: &Snapshot,
     frame_interval_s: Option<f64>,
     mute_solo: &MuteSolo,
-) -> Live {
+) -> EngineView {
     let contactors = snapshot
         .displays
         .first()
@@ -119,7 +119,7 @@ pub(crate) fn live_view(
     });
     let dots: Vec<Dot> = dots.collect();
     let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
-    Live {
+    EngineView {
         tick: snapshot.tick,
         centre: is_placed.then_some(snapshot.pose.position),
         pose: snapshot.pose,

@@ -14,7 +14,7 @@ use crate::bench::library_view::LibraryView;
 use crate::bench::opening::Opened;
 use crate::bench::preparing::Preparing;
 use crate::bench::query::IntervalMeter;
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::rendering::Rendering;
 use crate::bench::session::SessionInSight;
 use crate::bench::signals::history::History;
@@ -22,7 +22,6 @@ use crate::bench::sources::Sources;
 use crate::bench::trail::Trail;
 use crate::bench::view::{BridgeView, LibraryDot};
 use selvedge_device::FaultWords;
-use selvedge_engine::Recording;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
@@ -84,9 +83,9 @@ pub(crate) struct Exploration {
     /// Tablets, and other programs that joined.
     pub(crate) sources: Sources,
     /// The exploration that can be replayed.
-    pub(crate) at_hand: Option<Take>,
+    pub(crate) at_hand: Option<Recording>,
     /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
-    pub(crate) ended: Option<Recording>,
+    pub(crate) ended: Option<selvedge_engine::Recording>,
     /// Whether it is replayed again and again.
     pub(crate) does_loop: bool,
 }
@@ -97,9 +96,9 @@ pub(crate) struct Files {
     /// A scene on its way.
     pub(crate) opening: Option<Task<Box<Opened>>>,
     /// A recorded exploration on its way.
-    pub(crate) reading: Option<Task<Take>>,
+    pub(crate) reading: Option<Task<Recording>>,
     /// A recorded exploration on its way into a file.
-    pub(crate) saving: Option<Task<Take>>,
+    pub(crate) saving: Option<Task<Recording>>,
     /// A file for other programs on its way.
     pub(crate) clips: Clips,
     /// Folders that the desktop is asked to show.

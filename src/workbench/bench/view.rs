@@ -132,9 +132,9 @@ pub(crate) struct Cloth {
     pub picture: Option<ClothPicture>,
 }
 
-/// A textile of the library as the shelf shows it.
+/// A textile of the library as the library shows it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ShelfItem {
+pub(crate) struct LibraryEntry {
     /// What scenes call it.
     pub id: String,
     /// What people call it.
@@ -176,7 +176,7 @@ pub(crate) struct LibraryDot {
 
 /// What the engine did last.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Live {
+pub(crate) struct EngineView {
     /// Ticks since the engine started.
     pub tick: u64,
     /// The middle of the display; `None` before the pointer was ever in the workspace.
@@ -349,7 +349,7 @@ pub(crate) enum BridgePhase {
     Broken,
 }
 
-impl Live {
+impl EngineView {
     /// Whether one channel can be driven alone now: armed, and nothing played yet.
     pub(crate) fn takes_ident(&self) -> bool {
         let bridge = self.bridge.as_ref();

@@ -7,7 +7,7 @@ use eframe::egui::{
 use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::keys::hint;
 use crate::bench::perspective::Perspective;
-use crate::bench::view::{Live, SceneView, Status};
+use crate::bench::view::{EngineView, SceneView, Status};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
@@ -23,7 +23,7 @@ const ARMED_TAG: f32 = 84.0;
 pub(crate) fn show(
     ui: &mut Ui,
     scene: &SceneView,
-    live: &Live,
+    live: &EngineView,
     appearance: &Appearance,
     commands: &mut Commands,
 ) {
@@ -130,7 +130,7 @@ fn show_all_off(ui: &mut Ui, commands: &mut Commands) {
 }
 
 /// Whether high voltage is on: in red and large when it is, with the frame around the window.
-fn show_armed(ui: &mut Ui, live: &Live) {
+fn show_armed(ui: &mut Ui, live: &EngineView) {
     let palette = Palette::in_ui(ui);
     let is_armed = live.is_armed();
     let (word, ink) = match (is_armed, live.is_stopped) {

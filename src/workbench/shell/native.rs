@@ -20,7 +20,7 @@ use crate::bench::Drive;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::error::AppError;
 use crate::kit::view_transform::Pointed;
-use crate::shell::pending_motion::Backlog;
+use crate::shell::pending_motion::PendingMotion;
 use crate::shell::pointer::PointerTap;
 #[cfg(target_os = "linux")]
 use crate::shell::pointer_x11::Listener;
@@ -133,11 +133,11 @@ pub fn run(
         }),
         &event_loop,
     );
-    let backlog = Backlog::new(Instant::now());
+    let pending_motion = PendingMotion::new(Instant::now());
     let outcome = event_loop.run_app(&mut Stamping {
         app,
         shared,
-        backlog,
+        pending_motion,
         waits_over: Pointed::default(),
         n_held: 0,
     });
@@ -203,7 +203,7 @@ fn listener(_cc: &eframe::CreationContext<'_>, _tap: &Arc<Mutex<PointerTap>>) ->
 struct Stamping<'a> {
     app: EframeWinitApplication<'a>,
     shared: Shared,
-    backlog: Backlog,
+    pending_motion: PendingMotion,
     /// The window that what waits there is over.
     waits_over: Pointed,
     /// Buttons of the pointer that are held.
@@ -258,7 +258,7 @@ impl Stamping<'_> {
             self.pass_on();
             self.waits_over = window;
         }
-        self.backlog.moved(pixel);
+        self.pending_motion.moved(pixel);
     }
 
     /// Hands what was heard of the pointer to the engine.
@@ -267,7 +267,7 @@ impl Stamping<'_> {
         let shared = self.shared.borrow();
         let tap = shared.as_ref().map(|ears| &ears.tap);
         let mut tap = tap.map(|tap| tap.lock().unwrap_or_else(PoisonError::into_inner));
-        self.backlog.pass_on(Instant::now(), |stamp, pixel| {
+        self.pending_motion.pass_on(Instant::now(), |stamp, pixel| {
             if let Some(tap) = &mut tap {
                 tap.moved_to_pixel(stamp, window, pixel);
             }
@@ -286,7 +286,7 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
-        self.backlog.wakes(Instant::now());
+        self.pending_motion.wakes(Instant::now());
         self.app.new_events(event_loop, cause);
     }
 
@@ -300,11 +300,11 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         // After a frame the queue is full again for all we know: only what was heard is passed on.
-        if self.backlog.is_waiting() {
+        if self.pending_motion.is_waiting() {
             self.pass_on();
         }
         self.app.about_to_wait(event_loop);
-        self.backlog.falls_asleep(Instant::now());
+        self.pending_motion.falls_asleep(Instant::now());
     }
 
     fn suspended(&mut self, event_loop: &ActiveEventLoop) {

@@ -14,14 +14,14 @@ const ASLEEP: Duration = Duration::from_millis(1);
 
 /// Movements to pixels that were not passed on yet.
 #[derive(Debug)]
-pub(crate) struct Backlog {
+pub(crate) struct PendingMotion {
     waiting: Vec<[f64; 2]>,
     /// When the queue was last seen empty.
     clear_since: Instant,
     asleep_since: Instant,
 }
 
-impl Backlog {
+impl PendingMotion {
     /// An empty queue.
     pub(crate) fn new(now: Instant) -> Self {
         Self {
@@ -72,9 +72,13 @@ mod tests {
 
     const MS: Duration = Duration::from_millis(1);
 
-    fn passed_on(backlog: &mut Backlog, now: Instant, start: Instant) -> Vec<(u128, f64)> {
+    fn passed_on(
+        pending_motion: &mut PendingMotion,
+        now: Instant,
+        start: Instant,
+    ) -> Vec<(u128, f64)> {
         let mut seen = Vec::new();
-        backlog.pass_on(now, |stamp, pixel| {
+        pending_motion.pass_on(now, |stamp, pixel| {
             seen.push(((stamp - start).as_micros(), pixel[0]));
         });
         seen
@@ -83,29 +87,29 @@ mod tests {
     #[test]
     fn a_movement_that_wakes_the_thread_is_stamped_now() {
         let start = Instant::now();
-        let mut backlog = Backlog::new(start);
-        backlog.falls_asleep(start);
-        backlog.wakes(start + 500 * MS);
-        backlog.moved([3.0, 0.0]);
-        let seen = passed_on(&mut backlog, start + 500 * MS, start);
+        let mut pending_motion = PendingMotion::new(start);
+        pending_motion.falls_asleep(start);
+        pending_motion.wakes(start + 500 * MS);
+        pending_motion.moved([3.0, 0.0]);
+        let seen = passed_on(&mut pending_motion, start + 500 * MS, start);
         assert_eq!(seen, [(500_000, 3.0)]);
     }
 
     #[test]
     fn what_waited_while_a_frame_was_drawn_is_spread_over_that_time() {
         let start = Instant::now();
-        let mut backlog = Backlog::new(start);
+        let mut pending_motion = PendingMotion::new(start);
         // The queue is empty when drawing begins, 100 ms in; it takes 40 ms.
         assert!(
-            passed_on(&mut backlog, start + 100 * MS, start).is_empty(),
+            passed_on(&mut pending_motion, start + 100 * MS, start).is_empty(),
             "nothing waited"
         );
-        backlog.falls_asleep(start + 140 * MS);
-        backlog.wakes(start + 140 * MS);
+        pending_motion.falls_asleep(start + 140 * MS);
+        pending_motion.wakes(start + 140 * MS);
         for x in 1..=5_u8 {
-            backlog.moved([f64::from(x), 0.0]);
+            pending_motion.moved([f64::from(x), 0.0]);
         }
-        let seen = passed_on(&mut backlog, start + 140 * MS, start);
+        let seen = passed_on(&mut pending_motion, start + 140 * MS, start);
         let expected = [
             (108_000, 1.0),
             (116_000, 2.0),
@@ -119,19 +123,19 @@ mod tests {
     #[test]
     fn stamps_never_go_back() {
         let start = Instant::now();
-        let mut backlog = Backlog::new(start);
+        let mut pending_motion = PendingMotion::new(start);
         let mut last = start;
         for step in 0..200_u32 {
             let now = start + MS * step / 3;
-            backlog.wakes(now);
+            pending_motion.wakes(now);
             for _ in 0..step % 4 {
-                backlog.moved([0.0, 0.0]);
+                pending_motion.moved([0.0, 0.0]);
             }
-            backlog.pass_on(now, |stamp, _| {
+            pending_motion.pass_on(now, |stamp, _| {
                 assert!(stamp >= last, "step {step}");
                 last = stamp;
             });
-            backlog.falls_asleep(now);
+            pending_motion.falls_asleep(now);
         }
     }
 }

@@ -11,7 +11,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::bench::sources::SourcesView;
-use crate::bench::view::Live;
+use crate::bench::view::EngineView;
 use crate::kit::theme;
 use crate::shell::ask::{Ask, show as show_ask};
 use crate::shell::help::show as show_help;
@@ -126,7 +126,7 @@ fn bridge_window(ports: PortsView) -> Harness<'static, Commands> {
     window(move |ui, commands| {
         let profile = ArrayProfile::default();
         let view = BridgePane {
-            live: &Live::default(),
+            live: &EngineView::default(),
             target: None,
             array: ArrayView {
                 profile: &profile,
@@ -139,7 +139,7 @@ fn bridge_window(ports: PortsView) -> Harness<'static, Commands> {
                 folder: None,
             },
             sources: &SourcesView::default(),
-            has_plant: false,
+            has_actuator_model: false,
             faults: None,
             stops_on_focus_loss: false,
         };

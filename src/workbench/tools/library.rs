@@ -13,7 +13,7 @@ use crate::bench::library_view::LibraryItem;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tool};
-use crate::bench::view::{Cloth, ClothPicture, SceneView, ShelfItem};
+use crate::bench::view::{Cloth, ClothPicture, LibraryEntry, SceneView};
 use crate::kit::pane::framed;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{paint_line, row, toggle};
@@ -63,7 +63,7 @@ fn show(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
         .round();
     let (above, below) = whole.split_top_bottom_at_y(edge);
     ui.scope_builder(UiBuilder::new().max_rect(above), |ui| {
-        show_shelf(ui, search, context);
+        show_library(ui, search, context);
     });
     let line = Stroke::new(1.0, Palette::in_ui(ui).hairline);
     ui.painter().hline(whole.x_range(), edge + 1.0, line);
@@ -74,10 +74,10 @@ fn show(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
 }
 
 /// The library, as much of it as matches the search.
-fn show_shelf(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
+fn show_library(ui: &mut Ui, search: &mut String, context: &mut PaneContext<'_>) {
     show_search(ui, search);
     let items = context.bench.library.view.shared_items();
-    let matching: Vec<&ShelfItem> = items.iter().filter(|item| item.matches(search)).collect();
+    let matching: Vec<&LibraryEntry> = items.iter().filter(|item| item.matches(search)).collect();
     if matching.is_empty() {
         let words = if items.is_empty() {
             "This library holds no textiles: put some into its folder, then open the scene again"
@@ -115,7 +115,7 @@ fn show_search(ui: &mut Ui, search: &mut String) {
 /// One textile of the library: dragged into the workspace, or added by a double click.
 fn show_item(
     ui: &mut Ui,
-    item: &ShelfItem,
+    item: &LibraryEntry,
     picture: Option<ClothPicture>,
     context: &mut PaneContext<'_>,
 ) {
@@ -163,7 +163,7 @@ fn show_item(
     answer_item(ui, response, item, context);
 }
 
-fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut PaneContext<'_>) {
+fn answer_item(ui: &Ui, response: Response, item: &LibraryEntry, context: &mut PaneContext<'_>) {
     let scene = context.scene;
     if let Some(flaw) = &item.flaw {
         response.on_hover_text(flaw);
@@ -203,14 +203,14 @@ fn answer_item(ui: &Ui, response: Response, item: &ShelfItem, context: &mut Pane
 }
 
 /// The act that adds a textile in the middle of the workspace.
-fn added(item: &ShelfItem, scene: &SceneView) -> Command {
+fn added(item: &LibraryEntry, scene: &SceneView) -> Command {
     let [width_mm, height_mm] = scene.size_mm;
     let middle = Point::new(width_mm / 2.0, height_mm / 2.0);
     Edit::AddCloth(item.id.clone(), middle).into()
 }
 
 /// What can be done with a textile of the library.
-fn show_item_menu(ui: &mut Ui, item: &ShelfItem, scene: &SceneView, commands: &mut Commands) {
+fn show_item_menu(ui: &mut Ui, item: &LibraryEntry, scene: &SceneView, commands: &mut Commands) {
     let id = || item.id.clone();
     let acts = [
         ("Add to the scene", added(item, scene)),

@@ -10,12 +10,12 @@ pub(crate) use crate::bench::recording::strips::Strips;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use selvedge_engine::{ApplyTicks, Recording};
+use selvedge_engine::ApplyTicks;
 use selvedge_render::scene::{ExplorationPath, SceneError};
 
 /// A finished exploration. Cheap to clone.
 #[derive(Debug, Clone)]
-pub struct Take {
+pub struct Recording {
     path: Arc<ExplorationPath>,
     /// At which of its ticks a device played each row.
     apply_ticks: ApplyTicks,
@@ -24,12 +24,14 @@ pub struct Take {
     file: Option<PathBuf>,
 }
 
-impl Take {
+impl Recording {
     /// What was just recorded, as far as it was collected.
     ///
     /// # Errors
     /// Nothing was recorded.
-    pub(crate) fn from_recording(recording: &Recording) -> Result<Self, SceneError> {
+    pub(crate) fn from_recording(
+        recording: &selvedge_engine::Recording,
+    ) -> Result<Self, SceneError> {
         let path = recording.to_path()?;
         let ticks = recording.ticks().iter().enumerate();
         let strips = Strips::felt(
@@ -116,7 +118,7 @@ mod tests {
         bench.engine.send(Command::StopRecording).unwrap();
         bench.engine.advance_ticks(1).unwrap();
         let recording = bench.engine.take_recording().unwrap();
-        let take = Take::from_recording(&recording).unwrap();
+        let take = Recording::from_recording(&recording).unwrap();
         assert!(take.file().is_none() && take.strips().has_levels());
         assert_eq!(take.strips().n_ticks(), 60);
         assert_eq!(take.path().n_ticks(), 60);
@@ -141,7 +143,7 @@ mod tests {
             ..PathRow::default()
         };
         let path = ExplorationPath::new(vec![row(0.0, 0.0), row(1.0, 80.0)]).unwrap();
-        let take = Take::from_path(PathBuf::from("/somewhere/slow stroke.csv"), path);
+        let take = Recording::from_path(PathBuf::from("/somewhere/slow stroke.csv"), path);
         assert_eq!(take.name(), "slow stroke");
         assert!(take.file().is_some(), "it came from one");
         assert_eq!(take.strips().n_ticks(), take.path().n_ticks());
@@ -153,7 +155,7 @@ mod tests {
     #[test]
     fn saving_names_a_take_after_its_file() {
         let path = ExplorationPath::new(vec![PathRow::default()]).unwrap();
-        let take = Take::from_path(PathBuf::from("one.csv"), path);
+        let take = Recording::from_path(PathBuf::from("one.csv"), path);
         let saved = take.saved_as(PathBuf::from("/takes/two.csv"));
         assert_eq!(saved.name(), "two");
         assert_eq!(saved.file(), Some(Path::new("/takes/two.csv")));

@@ -23,12 +23,14 @@ const N_TRANSFORM: usize = 800;
 /// limits; 0 where the device was silent, another contactor was watched, or nothing is known.
 pub(crate) fn drive_um(history: &History, contactor: u32, tick: u64) -> [f64; 2] {
     let entries = history.entries();
-    let place = entries.partition_point(|entry| entry.glimpse.tick < tick);
-    let glimpse = entries.get(place).map(|entry| entry.glimpse);
-    let drives = glimpse.filter(|glimpse| {
-        glimpse.tick == tick && glimpse.watched == contactor && !glimpse.is_silent
+    let place = entries.partition_point(|entry| entry.tick_sample.tick < tick);
+    let tick_sample = entries.get(place).map(|entry| entry.tick_sample);
+    let drives = tick_sample.filter(|tick_sample| {
+        tick_sample.tick == tick && tick_sample.watched == contactor && !tick_sample.is_silent
     });
-    let known = drives.map_or([0.0; 2], |glimpse| glimpse.watched_um.map(f64::from));
+    let known = drives.map_or([0.0; 2], |tick_sample| {
+        tick_sample.watched_um.map(f64::from)
+    });
     known.map(|um| if um.is_finite() { um } else { 0.0 })
 }
 
@@ -185,7 +187,7 @@ mod tests {
         assert_eq!(drive_um(&history, 7, 4), [0.0; 2]);
         assert_eq!(drive_um(&driven(5..6, [f32::NAN, 2.0]), 7, 5), [0.0, 2.0]);
         let mut silent = History::default();
-        let held = *history.newest().map(|entry| &entry.glimpse).unwrap();
+        let held = *history.newest().map(|entry| &entry.tick_sample).unwrap();
         silent.take(TickSample {
             is_silent: true,
             ..held

@@ -1,22 +1,22 @@
 //! The last seconds, tick by tick: what timelines and spectrograms are drawn from.
 //!
-//! It keeps glimpses as they came. Time in it is felt time: every glimpse is one column wide, and a
+//! It keeps tick_samples as they came. Time in it is felt time: every tick_sample is one column wide, and a
 //! pause, however long, is one empty column.
 
 use std::collections::VecDeque;
 
 use selvedge_engine::TickSample;
 
-/// How many glimpses are kept: 12 s of exploration.
+/// How many tick_samples are kept: 12 s of exploration.
 pub(crate) const CAPACITY: usize = 480;
 
 /// A tick with its place in felt time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Entry {
-    /// Its column, counted from the first glimpse ever; a pause before it leaves one out.
+    /// Its column, counted from the first tick_sample ever; a pause before it leaves one out.
     pub column: u64,
     /// What happened.
-    pub glimpse: TickSample,
+    pub tick_sample: TickSample,
 }
 
 /// The last 12 s of exploration.
@@ -30,19 +30,22 @@ pub(crate) struct History {
 impl History {
     /// Takes in a tick. Says whether it was new: a tick that is already here changes nothing, and
     /// one from before it (the engine began anew) clears what was there.
-    pub(crate) fn take(&mut self, glimpse: TickSample) -> bool {
-        let last = self.entries.back().map(|entry| entry.glimpse.tick);
+    pub(crate) fn take(&mut self, tick_sample: TickSample) -> bool {
+        let last = self.entries.back().map(|entry| entry.tick_sample.tick);
         match last {
-            Some(last) if glimpse.tick == last => return false,
-            Some(last) if glimpse.tick < last => self.clear(),
-            Some(last) if glimpse.tick - last > 1 => self.next_column += 1,
+            Some(last) if tick_sample.tick == last => return false,
+            Some(last) if tick_sample.tick < last => self.clear(),
+            Some(last) if tick_sample.tick - last > 1 => self.next_column += 1,
             _ => {}
         }
         if self.entries.len() == CAPACITY {
             self.entries.pop_front();
         }
         let column = self.next_column;
-        self.entries.push_back(Entry { column, glimpse });
+        self.entries.push_back(Entry {
+            column,
+            tick_sample,
+        });
         self.next_column += 1;
         true
     }
@@ -59,10 +62,10 @@ impl History {
     }
 
     /// The ticks, old to new.
-    pub(crate) fn glimpses(
+    pub(crate) fn tick_samples(
         &self,
     ) -> impl DoubleEndedIterator<Item = &TickSample> + ExactSizeIterator + Clone {
-        self.entries.iter().map(|entry| &entry.glimpse)
+        self.entries.iter().map(|entry| &entry.tick_sample)
     }
 
     /// The ticks with their places in felt time, old to new.
@@ -93,7 +96,7 @@ impl History {
 mod tests {
     use super::*;
 
-    fn glimpse(tick: u64) -> TickSample {
+    fn tick_sample(tick: u64) -> TickSample {
         TickSample {
             tick,
             ..TickSample::default()
@@ -103,7 +106,7 @@ mod tests {
     fn of(ticks: impl IntoIterator<Item = u64>) -> History {
         let mut history = History::default();
         for tick in ticks {
-            history.take(glimpse(tick));
+            history.take(tick_sample(tick));
         }
         history
     }
@@ -114,19 +117,25 @@ mod tests {
         let columns: Vec<u64> = history.entries().iter().map(|e| e.column).collect();
         assert_eq!(columns, [0, 1, 2, 4, 5, 7]);
         assert!(history.at_column(3).is_none(), "the pause");
-        assert_eq!(history.at_column(4).map(|e| e.glimpse.tick), Some(4_000));
+        assert_eq!(
+            history.at_column(4).map(|e| e.tick_sample.tick),
+            Some(4_000)
+        );
         assert!(history.at_column(8).is_none(), "yet to come");
     }
 
     #[test]
     fn twelve_seconds_are_kept_old_to_new() {
         let history = of(0..2_000);
-        assert_eq!(history.glimpses().len(), CAPACITY);
-        assert_eq!(history.glimpses().next().map(|g| g.tick), Some(1_520));
-        assert_eq!(history.glimpses().next_back().map(|g| g.tick), Some(1_999));
+        assert_eq!(history.tick_samples().len(), CAPACITY);
+        assert_eq!(history.tick_samples().next().map(|g| g.tick), Some(1_520));
+        assert_eq!(
+            history.tick_samples().next_back().map(|g| g.tick),
+            Some(1_999)
+        );
         assert!(history.at_column(1_519).is_none(), "forgotten");
         assert_eq!(
-            history.at_column(1_520).map(|e| e.glimpse.tick),
+            history.at_column(1_520).map(|e| e.tick_sample.tick),
             Some(1_520)
         );
     }
@@ -134,10 +143,10 @@ mod tests {
     #[test]
     fn a_tick_counts_once_and_an_earlier_one_begins_anew() {
         let mut history = of([10, 11]);
-        assert!(!history.take(glimpse(11)), "it is there already");
-        assert_eq!((history.glimpses().len(), history.n_clears()), (2, 0));
-        assert!(history.take(glimpse(3)), "another engine");
-        assert_eq!((history.glimpses().len(), history.n_clears()), (1, 1));
+        assert!(!history.take(tick_sample(11)), "it is there already");
+        assert_eq!((history.tick_samples().len(), history.n_clears()), (2, 0));
+        assert!(history.take(tick_sample(3)), "another engine");
+        assert_eq!((history.tick_samples().len(), history.n_clears()), (1, 1));
         history.clear();
         assert!(history.newest().is_none(), "nothing left");
     }

@@ -119,7 +119,7 @@ mod tests {
     }
 
     fn mark(entry: &Entry, rows: &mut Rows) {
-        rows.fill(f32::from(u16::try_from(entry.glimpse.tick).unwrap()));
+        rows.fill(f32::from(u16::try_from(entry.tick_sample.tick).unwrap()));
     }
 
     #[test]

@@ -16,7 +16,7 @@ const REST_UM: f64 = 0.005;
 
 /// What the user chose, and what was seen last.
 #[derive(Debug)]
-pub(crate) struct PlantPeek {
+pub(crate) struct ActuatorPeek {
     /// Whether the section is open.
     pub is_open: bool,
     /// The finger on the contactors.
@@ -27,7 +27,7 @@ pub(crate) struct PlantPeek {
     pub view: PlantView,
 }
 
-impl Default for PlantPeek {
+impl Default for ActuatorPeek {
     fn default() -> Self {
         Self {
             is_open: false,
@@ -68,7 +68,7 @@ pub(crate) struct PlantCell {
     pub(crate) held_share: f64,
 }
 
-impl PlantPeek {
+impl ActuatorPeek {
     /// What the section shows; `None` where no emulator of this program is connected. To be called
     /// while its pane is drawn.
     pub(crate) fn look(&mut self, ctx: &egui::Context, engine: &mut Engine) -> Option<&PlantView> {
@@ -153,7 +153,7 @@ mod tests {
     fn contactors_are_modelled_only_while_the_open_section_is_drawn() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        let mut peek = PlantPeek::default();
+        let mut peek = ActuatorPeek::default();
         let none = peek.look(&ctx, &mut bench.engine);
         assert!(none.is_none(), "no emulator yet");
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
@@ -175,7 +175,7 @@ mod tests {
     fn the_finger_that_is_chosen_outlasts_the_link() {
         let ctx = egui::Context::default();
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        let mut peek = PlantPeek::default();
+        let mut peek = ActuatorPeek::default();
         bench.dispatch(DeviceCommand::ConnectEmulator.into());
         peek.skin = Skin::FIRM;
         let shown = peek.look(&ctx, &mut bench.engine).unwrap().skin;

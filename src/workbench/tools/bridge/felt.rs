@@ -9,7 +9,7 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fold::told_fold;
 use crate::kit::widgets::text::row;
-use crate::tools::bridge::actuators::{PlantCell, PlantPeek, PlantView};
+use crate::tools::bridge::actuators::{ActuatorPeek, PlantCell, PlantView};
 use selvedge_device::Skin;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
@@ -24,13 +24,13 @@ const CELL: f32 = 42.0;
 const LINE: f32 = 13.0;
 
 /// Shows the section; it opens and closes by its title.
-pub(crate) fn show(ui: &mut Ui, plant: &mut PlantPeek) {
-    let PlantPeek {
+pub(crate) fn show(ui: &mut Ui, peek: &mut ActuatorPeek) {
+    let ActuatorPeek {
         view,
         skin,
         is_open,
         ..
-    } = plant;
+    } = peek;
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
     let part = ("Displacement by a model", view.is_open);
     let head = told_fold(ui, part, "", |ui| show_open(ui, view, skin));

@@ -4,7 +4,7 @@ use eframe::egui::{Align, Label, Layout, RichText, Ui};
 
 use crate::bench::command::{Command, Commands};
 use crate::bench::sources::{SourceCommand, SourcesView};
-use crate::bench::view::{InputView, Live, Source};
+use crate::bench::view::{EngineView, InputView, Source};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{button, choice, quiet_pair, row};
@@ -15,7 +15,7 @@ use selvedge_foundation::quantity;
 const MENU: f32 = 288.0;
 
 /// Shows the part of the pane that is about inputs.
-pub(crate) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, commands: &mut Commands) {
+pub(crate) fn show(ui: &mut Ui, live: &EngineView, sources: &SourcesView, commands: &mut Commands) {
     row(ui, "Moved by", |ui| {
         ui.menu_button("Choose…", |ui| show_menu(ui, sources, commands))
             .response
@@ -29,7 +29,7 @@ pub(crate) fn show(ui: &mut Ui, live: &Live, sources: &SourcesView, commands: &m
 }
 
 /// What moves the display, in a few words.
-pub(crate) fn word(live: &Live) -> &'static str {
+pub(crate) fn word(live: &EngineView) -> &'static str {
     match live.play.source {
         Source::Device if live.input.is_lifted => "Tablet: lifted, silent",
         Source::Device => "Tablet",

@@ -35,7 +35,7 @@ use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::scrolled;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
-use crate::tools::bridge::actuators::PlantPeek;
+use crate::tools::bridge::actuators::ActuatorPeek;
 use crate::tools::bridge::ports::Ports;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
@@ -53,7 +53,7 @@ pub(crate) struct Bridge {
     /// What is to go wrong with the emulator when it is started next.
     faults: FaultWords,
     /// The emulator's contactors.
-    plant: PlantPeek,
+    actuators: ActuatorPeek,
 }
 
 impl Tool for Bridge {
@@ -70,13 +70,13 @@ impl Tool for Bridge {
             bench.notices.give(port::back_notice(&found));
         }
         let is_in_sight = bench.shows(Pane::Bridge);
-        self.plant.rest(&mut bench.engine, is_in_sight);
+        self.actuators.rest(&mut bench.engine, is_in_sight);
     }
 
     fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
         scrolled(ui, pane.title(), |ui| {
             let bench = &mut *context.bench;
-            let has_plant = self.plant.look(ui.ctx(), &mut bench.engine).is_some();
+            let has_actuator_model = self.actuators.look(ui.ctx(), &mut bench.engine).is_some();
             let profile = bench.array();
             // What no frame can carry is no array that a device drives.
             let is_drivable = profile.n_contactors() <= LARGEST_CHANNELS;
@@ -98,7 +98,7 @@ impl Tool for Bridge {
                     profile: &profile,
                 },
                 sources: &bench.sources_view(),
-                has_plant,
+                has_actuator_model,
                 faults: bench.device.faults.as_ref(),
                 stops_on_focus_loss: bench.settings.preferences.stops_on_focus_loss,
             };
@@ -177,8 +177,8 @@ impl Bridge {
                 faults::show(ui, &mut self.faults, commands);
             });
         }
-        if view.has_plant {
-            felt::show(ui, &mut self.plant);
+        if view.has_actuator_model {
+            felt::show(ui, &mut self.actuators);
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::bench::command::array::ArrayCommand;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
-use crate::bench::view::{BridgePhase, BridgeView, Dot, Live};
+use crate::bench::view::{BridgePhase, BridgeView, Dot, EngineView};
 use crate::kit::theme;
 use crate::tools::bridge::Bridge;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
@@ -23,7 +23,7 @@ const UID: DeviceUid = DeviceUid(*b"selvedge-emu");
 
 /// Everything that the pane is drawn from.
 pub(crate) struct Stage {
-    live: Live,
+    live: EngineView,
     profile: ArrayProfile,
     wizard: Option<Wizard>,
     waits: bool,
@@ -56,10 +56,10 @@ impl Stage {
         let mut dots = vec![Dot::default(); 24];
         dots[3] = held;
         Self {
-            live: Live {
+            live: EngineView {
                 bridge: Some(bridge),
                 dots,
-                ..Live::default()
+                ..EngineView::default()
             },
             profile: ArrayProfile::default(),
             wizard: None,
@@ -85,7 +85,7 @@ impl Stage {
                 folder: None,
             },
             sources: &self.sources,
-            has_plant: false,
+            has_actuator_model: false,
             faults: self.faults.as_ref(),
             stops_on_focus_loss: false,
         };

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use crate::bench::arrays::wizard::Wizard;
 use crate::bench::sources::SourcesView;
-use crate::bench::view::Live;
+use crate::bench::view::EngineView;
 use selvedge_device::{ArrayProfile, FaultWords};
 
 /// What the pane is drawn from.
 pub(crate) struct BridgePane<'a> {
     /// The engine and the device.
-    pub live: &'a Live,
+    pub live: &'a EngineView,
     /// What the link was opened to.
     pub target: Option<&'a str>,
     /// The array.
@@ -18,7 +18,7 @@ pub(crate) struct BridgePane<'a> {
     /// What moves the display, and who hears of it.
     pub sources: &'a SourcesView,
     /// Whether a model says what the contactors do: those of the emulator in this program.
-    pub has_plant: bool,
+    pub has_actuator_model: bool,
     /// What goes wrong with the emulator that is connected; `None` for other devices.
     pub faults: Option<&'a FaultWords>,
     /// Whether an armed device stops when the window loses the keyboard.

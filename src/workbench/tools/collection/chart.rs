@@ -2,7 +2,7 @@
 
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Tone, Weight, Words};
@@ -123,7 +123,7 @@ fn axis_of(measure: &Measure, view: &CollectionView<'_>) -> Axis {
 
 fn columns(view: &CollectionView<'_>) -> Columns {
     let entries = &view.entries;
-    let words = |of: &dyn Fn(&ShelfItem) -> &str| -> Vec<String> {
+    let words = |of: &dyn Fn(&LibraryEntry) -> &str| -> Vec<String> {
         entries.iter().map(|one| of(one.item).to_owned()).collect()
     };
     let number = |measure: &Measure, is_tuned: bool| -> Vec<f64> {

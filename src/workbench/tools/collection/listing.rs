@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::Entry;
 use selvedge_textile::tactile::Band;
@@ -22,7 +22,7 @@ pub(crate) enum Only {
 impl Only {
     /// What can be chosen among these textiles: constructions, then weaves and knits, in the order
     /// in which they first come.
-    pub(crate) fn all(items: &[ShelfItem]) -> Vec<Self> {
+    pub(crate) fn all(items: &[LibraryEntry]) -> Vec<Self> {
         let constructions = items.iter().map(|item| item.construction);
         let named = constructions.filter(|word| !word.is_empty());
         let structures = items.iter().filter_map(|item| item.structure);
@@ -47,7 +47,7 @@ impl Only {
     }
 
     /// Whether a textile is one of them.
-    pub(crate) fn takes(self, item: &ShelfItem) -> bool {
+    pub(crate) fn takes(self, item: &LibraryEntry) -> bool {
         match self {
             Self::All => true,
             Self::Construction(word) => item.construction == word,
@@ -107,7 +107,7 @@ impl Sort {
                 self.numbered(one, other)
             }
         };
-        let words = |text: fn(&ShelfItem) -> String| {
+        let words = |text: fn(&LibraryEntry) -> String| {
             move |one: &Entry<'_>, other: &Entry<'_>| {
                 let order = text(one.item).cmp(&text(other.item));
                 self.turned(order)

@@ -1,6 +1,6 @@
 //! What an axis can show of a textile: its name, its unit, and its value where there is one.
 
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use crate::tools::collection::measuring::Figures;
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_textile::tactile::Band;
@@ -24,7 +24,7 @@ pub(crate) enum Measure {
 
 impl Measure {
     /// What can be shown of these textiles.
-    pub(crate) fn all(items: &[ShelfItem]) -> Vec<Self> {
+    pub(crate) fn all(items: &[LibraryEntry]) -> Vec<Self> {
         let bands = |of: fn(Band) -> Self| Band::ALL.map(of);
         let mut all = bands(Self::Amplitude).to_vec();
         all.push(Self::Level);
@@ -57,7 +57,7 @@ impl Measure {
     }
 
     /// Its unit; empty where it has none.
-    pub(crate) fn unit(&self, items: &[ShelfItem]) -> &'static str {
+    pub(crate) fn unit(&self, items: &[LibraryEntry]) -> &'static str {
         match self {
             Self::Amplitude(_) | Self::Roughness => "µm",
             Self::Level => "dB re 1 µm",
@@ -73,7 +73,7 @@ impl Measure {
     }
 
     /// What an axis of it is called: name and unit.
-    pub(crate) fn label(&self, items: &[ShelfItem]) -> String {
+    pub(crate) fn label(&self, items: &[LibraryEntry]) -> String {
         let unit = self.unit(items);
         if unit.is_empty() {
             self.name()
@@ -99,7 +99,7 @@ impl Measure {
     /// no place on the axis, as silence has none among levels.
     pub(crate) fn value(
         &self,
-        item: &ShelfItem,
+        item: &LibraryEntry,
         figures: Option<&Figures>,
         gains_db: [f64; 2],
     ) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! The library as a whole: what is chosen of it, and the library as it is drawn by that.
 
 use crate::bench::library_selection::LibrarySelection;
-use crate::bench::view::{SceneView, ShelfItem};
+use crate::bench::view::{LibraryEntry, SceneView};
 use crate::tools::collection::listing::{Only, Sort};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::measuring::{Asked, Figures, Measurements};
@@ -85,7 +85,7 @@ pub(crate) struct Collection {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Entry<'a> {
     /// What it is.
-    pub item: &'a ShelfItem,
+    pub item: &'a LibraryEntry,
     /// What it gives without any gain; `None` until it is measured.
     pub figures: Option<&'a Figures>,
     /// What the present tuning adds to both bands, dB.
@@ -106,7 +106,7 @@ pub(crate) struct CollectionView<'a> {
     /// The textiles that match search and filter, in the chosen order.
     pub entries: Vec<Entry<'a>>,
     /// All textiles of the library, in its own order.
-    pub items: &'a [ShelfItem],
+    pub items: &'a [LibraryEntry],
     /// How many of them are measured, while that goes on.
     pub progress: Option<usize>,
     /// Whether measuring was stopped before its end.
@@ -167,7 +167,7 @@ impl Collection {
     /// The library as it is drawn in a scene.
     pub(crate) fn view<'a>(
         &'a self,
-        items: &'a [ShelfItem],
+        items: &'a [LibraryEntry],
         scene: &SceneView,
         selection: &LibrarySelection,
     ) -> CollectionView<'a> {
@@ -175,7 +175,7 @@ impl Collection {
             speed_mm_per_s: self.choice.speed_mm_per_s,
             filters: scene.filters,
         };
-        let entry = |item: &'a ShelfItem| {
+        let entry = |item: &'a LibraryEntry| {
             let figures = self.measurements.figures(&asked, &item.id);
             let is_pointed = self.pointed.as_ref() == Some(&item.id);
             Entry {
@@ -188,7 +188,7 @@ impl Collection {
             }
         };
         let choice = self.choice.clone();
-        let is_shown = |item: &&ShelfItem| choice.only.takes(item) && item.matches(&self.search);
+        let is_shown = |item: &&LibraryEntry| choice.only.takes(item) && item.matches(&self.search);
         let mut entries: Vec<Entry<'a>> = items.iter().filter(is_shown).map(entry).collect();
         choice.sort.order(&mut entries, choice.is_tuned);
         CollectionView {
@@ -204,7 +204,7 @@ impl Collection {
 
 /// What the present tuning adds to a textile of the library, by band, dB. Compression goes by the
 /// level at 100 mm/s whatever speed is shown.
-fn gains_db(scene: &SceneView, item: &ShelfItem, figures: Option<&Figures>) -> [f64; 2] {
+fn gains_db(scene: &SceneView, item: &LibraryEntry, figures: Option<&Figures>) -> [f64; 2] {
     let tuning = &scene.tuning;
     let level_db = figures.and_then(|figures| figures.level_db);
     let compress = |reference_db| tuning.compression_gain_db(level_db, reference_db);

@@ -101,7 +101,7 @@ impl HeldTuning {
 #[derive(Debug, Clone)]
 pub(crate) enum Route {
     /// A recorded exploration.
-    Take(Arc<ExplorationPath>),
+    Recording(Arc<ExplorationPath>),
     /// A generated stroke through the scene, this many ticks long.
     Stroke(Stroke, u64),
 }
@@ -109,7 +109,7 @@ pub(crate) enum Route {
 impl PartialEq for Route {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Take(one), Self::Take(other)) => Arc::ptr_eq(one, other),
+            (Self::Recording(one), Self::Recording(other)) => Arc::ptr_eq(one, other),
             (Self::Stroke(one, n), Self::Stroke(other, m)) => one == other && n == m,
             _ => false,
         }
@@ -120,7 +120,7 @@ impl Route {
     /// The recording at hand; without one, once along the stroke that the display explores with.
     pub(crate) fn at_hand(bench: &Bench) -> Self {
         if let Some(take) = &bench.exploration.at_hand {
-            return Self::Take(Arc::clone(take.path()));
+            return Self::Recording(Arc::clone(take.path()));
         }
         let stroke = resting_stroke(bench.document.scene());
         let n_ticks = (stroke.period_s() * TICKS_PER_S)
@@ -137,7 +137,7 @@ impl Route {
     /// Its ticks.
     pub(crate) fn n_ticks(&self) -> u64 {
         match self {
-            Self::Take(path) => path.n_ticks(),
+            Self::Recording(path) => path.n_ticks(),
             Self::Stroke(_, n_ticks) => *n_ticks,
         }
     }
@@ -145,7 +145,7 @@ impl Route {
     /// Every tick with its pose.
     pub(crate) fn ticks(&self) -> Box<dyn Iterator<Item = (u64, Pose)> + '_> {
         match self {
-            Self::Take(path) => Box::new(path.ticks()),
+            Self::Recording(path) => Box::new(path.ticks()),
             Self::Stroke(stroke, n_ticks) => {
                 Box::new((0..*n_ticks).map(|tick| (tick, pose_of(stroke, tick))))
             }
@@ -154,7 +154,7 @@ impl Route {
 
     fn pose_at(&self, tick: u64) -> Option<Pose> {
         match self {
-            Self::Take(path) => PathCursor::at(path, tick).step(path).map(|(_, pose)| pose),
+            Self::Recording(path) => PathCursor::at(path, tick).step(path).map(|(_, pose)| pose),
             Self::Stroke(stroke, _) => Some(pose_of(stroke, tick)),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet, bar, cells, rgb};
-use crate::bench::view::{Dot, Live, SceneView};
+use crate::bench::view::{Dot, EngineView, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::contactors::{HeatmapStyle, digits as cell_digits};
 use selvedge_chart::{Axis, Chart, Row, Tone, Words};
@@ -16,7 +16,7 @@ const HEIGHTS_PX: [f64; 2] = [160.0, 480.0];
 /// The heatmaps of a display whose contactors form a grid of rows and columns.
 pub(crate) fn heatmaps(
     scene: &SceneView,
-    live: &Live,
+    live: &EngineView,
     style: HeatmapStyle,
     (n_rows, n_columns): (usize, usize),
     origin: Origin,

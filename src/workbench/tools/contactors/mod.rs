@@ -13,7 +13,7 @@ use crate::bench::export::NOTHING_FELT;
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::tool::{PaneContext, Tool};
-use crate::bench::view::{Dot, Live, SceneView};
+use crate::bench::view::{Dot, EngineView, SceneView};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::pane::framed;
 use crate::kit::theme;
@@ -193,7 +193,7 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 /// How many contactors on cloth are too weak to be felt in each band.
-fn below_words(live: &Live) -> String {
+fn below_words(live: &EngineView) -> String {
     let on_cloth = || live.dots.iter().filter(|dot| dot.cloth.is_some());
     let [low, high] = Band::ALL.map(|band| {
         let is_below = |dot: &&Dot| live.perceptual_level.is_below(dot.amplitude_um)[band.index()];
@@ -256,7 +256,7 @@ pub(crate) fn digits(amplitude_um: f64) -> String {
 fn answer(
     response: &Response,
     places: &Places,
-    (scene, live): (&SceneView, &Live),
+    (scene, live): (&SceneView, &EngineView),
     commands: &mut Commands,
 ) {
     let at = response
@@ -291,7 +291,7 @@ fn answer(
     }
 }
 
-fn show_menu(ui: &mut Ui, index: usize, live: &Live, commands: &mut Commands) {
+fn show_menu(ui: &mut Ui, index: usize, live: &EngineView, commands: &mut Commands) {
     ui.label(format!("Contactor {index}"));
     let part = Part::Contactor(index);
     let is_muted = live.dots.get(index).is_some_and(|dot| dot.is_muted);

@@ -5,7 +5,7 @@
 
 use crate::bench::Bench;
 use crate::bench::session::title_of;
-use crate::bench::view::{BridgePhase, ClothPicture, Live};
+use crate::bench::view::{BridgePhase, ClothPicture, EngineView};
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::Draft;
 use crate::tools::experiment::guide;
@@ -185,7 +185,7 @@ impl Link {
 
 impl Experiment {
     /// What the participant sees.
-    pub(crate) fn participant(&self, live: &Live, now_s: f64) -> ParticipantView<'_> {
+    pub(crate) fn participant(&self, live: &EngineView, now_s: f64) -> ParticipantView<'_> {
         match &self.session {
             None => ParticipantView::Nobody {
                 is_coming: self.beginning.is_some(),

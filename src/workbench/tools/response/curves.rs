@@ -117,6 +117,7 @@ impl Computed<Wanted> for Computation {
         prior: Option<(&Wanted, &Self)>,
         _: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
+        let prior = prior.filter(|(_, before)| before.n_computed > 0);
         let mut n_computed = prior.map_or(0, |(_, before)| before.n_computed);
         let mut curve = |kind, of: fn(&Self) -> &Curve| match prior {
             Some((for_, before)) if for_.is_same(wanted, kind) => Arc::clone(of(before)),

@@ -68,7 +68,7 @@ impl ContactSpectrum {
         let name = (&bench.ctx, "contact spectrogram");
         self.waterfall
             .catch_up(name, (history, key), colour, |entry, levels_db| {
-                columns.levels_db(inspector, contactor, &entry.glimpse.pose, levels_db);
+                columns.levels_db(inspector, contactor, &entry.tick_sample.pose, levels_db);
             })
     }
 

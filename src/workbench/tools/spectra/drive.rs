@@ -48,7 +48,7 @@ impl DriveSpectrum {
     fn catch_up(&mut self, bench: &Bench) -> bool {
         let (history, scale) = (&bench.past.history, bench.selection.scale);
         let map = bench.settings.preferences.colour_map;
-        let watched = history.newest().map(|entry| entry.glimpse.watched);
+        let watched = history.newest().map(|entry| entry.tick_sample.watched);
         let key = (history.n_clears(), watched, scale.most_um().to_bits(), map);
         let colour = |um: f32| map.colour(scale.share(f64::from(um)));
         let spectrum = &mut self.spectrum;
@@ -56,9 +56,9 @@ impl DriveSpectrum {
         self.waterfall
             .catch_up(name, (history, key), colour, |entry, rows_um| {
                 // What another contactor did is not shown under this one's name.
-                let glimpse = &entry.glimpse;
-                if Some(glimpse.watched) == watched {
-                    spectrum.rows_um(history, glimpse.watched, glimpse.tick, rows_um);
+                let tick_sample = &entry.tick_sample;
+                if Some(tick_sample.watched) == watched {
+                    spectrum.rows_um(history, tick_sample.watched, tick_sample.tick, rows_um);
                 }
             })
     }

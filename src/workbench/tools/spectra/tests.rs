@@ -58,7 +58,7 @@ impl Plots {
             let pose = pose_at(tick);
             #[expect(
                 clippy::cast_possible_truncation,
-                reason = "as glimpses hold amplitudes"
+                reason = "as tick_samples hold amplitudes"
             )]
             let rounded = |um: f64| um as f32;
             let inspector = &mut self.bench.inspection.inspector;

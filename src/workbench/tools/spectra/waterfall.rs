@@ -168,7 +168,7 @@ impl<K: PartialEq> Waterfall<K> {
             let is_empty = rows.iter().all(|value| value.is_nan());
             (!is_empty).then_some(ShownColumn {
                 ago: next - 1 - column,
-                tick: entry.glimpse.tick,
+                tick: entry.tick_sample.tick,
                 rows,
             })
         };
@@ -417,7 +417,7 @@ mod tests {
             });
         }
         ring.catch_up(&history, |entry, rows| {
-            let tick = f32::from(u16::try_from(entry.glimpse.tick).unwrap());
+            let tick = f32::from(u16::try_from(entry.tick_sample.tick).unwrap());
             rows.iter_mut()
                 .zip(0_u8..)
                 .for_each(|(row, i)| *row = tick + f32::from(i) / 100.0);

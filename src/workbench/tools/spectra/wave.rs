@@ -230,8 +230,8 @@ impl Tool for DriveWave {
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
         let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
-        let glimpses = bench.past.history.glimpses();
-        let mut felt_um = glimpses.flat_map(|one| one.watched_um);
+        let tick_samples = bench.past.history.tick_samples();
+        let mut felt_um = tick_samples.flat_map(|one| one.watched_um);
         if !felt_um.any(|um| um > 0.0) {
             return Err(NOTHING_FELT);
         }

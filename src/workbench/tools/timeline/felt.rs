@@ -91,10 +91,13 @@ fn tell_live(ui: &Ui, response: &Response, plot: &Plot, placed: &[Placed]) {
     let Some(one) = live::nearest(placed, ago) else {
         return;
     };
-    let newest = placed.first().map_or(0, |newest| newest.glimpse.tick);
-    let before_ms = newest.saturating_sub(one.glimpse.tick) * TICK_MS;
+    let newest = placed.first().map_or(0, |newest| newest.tick_sample.tick);
+    let before_ms = newest.saturating_sub(one.tick_sample.tick) * TICK_MS;
     let seconds = quantity::with_unit(before_ms as f64 / 1000.0, 3, "s");
-    let head = format!("{seconds} before the newest   tick {}", one.glimpse.tick);
+    let head = format!(
+        "{seconds} before the newest   tick {}",
+        one.tick_sample.tick
+    );
     tell(
         ui,
         response,

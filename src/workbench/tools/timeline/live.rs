@@ -11,7 +11,7 @@ pub(crate) const N_TICKS: u64 = 480;
 /// How wide a gap is at most, in ticks.
 const GAP: u64 = 5;
 
-/// A glimpse and its place.
+/// A tick_sample and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placed {
     /// Ticks to the left of the newest, pauses left out.
@@ -19,7 +19,7 @@ pub(crate) struct Placed {
     /// Whether it goes on from the one before it: no tick is missing between them.
     pub(crate) goes_on: bool,
     /// What was there.
-    pub(crate) glimpse: TickSample,
+    pub(crate) tick_sample: TickSample,
 }
 
 impl Placed {
@@ -30,7 +30,7 @@ impl Placed {
             is_silent,
             mean_um,
             ..
-        } = self.glimpse;
+        } = self.tick_sample;
         let speed = pose.velocity.speed_mm_per_s();
         Felt {
             speed_mm_per_s: if speed.is_finite() { speed } else { 0.0 },
@@ -43,29 +43,29 @@ impl Placed {
     }
 }
 
-/// The glimpses that are shown with their places, new to old.
+/// The tick_samples that are shown with their places, new to old.
 pub(crate) fn placed(history: &History) -> Vec<Placed> {
     let mut ago = 0;
     let mut shown = Vec::new();
-    let mut glimpses = history.glimpses().rev().peekable();
-    while let Some(&glimpse) = glimpses.next() {
+    let mut tick_samples = history.tick_samples().rev().peekable();
+    while let Some(&tick_sample) = tick_samples.next() {
         if ago > N_TICKS {
             break;
         }
-        let step = glimpses
+        let step = tick_samples
             .peek()
-            .map(|before| glimpse.tick.saturating_sub(before.tick));
+            .map(|before| tick_sample.tick.saturating_sub(before.tick));
         shown.push(Placed {
             ago,
             goes_on: step == Some(1),
-            glimpse,
+            tick_sample,
         });
         ago += step.unwrap_or(0).clamp(1, GAP);
     }
     shown
 }
 
-/// The glimpse nearest to a place.
+/// The tick_sample nearest to a place.
 pub(crate) fn nearest(placed: &[Placed], ago: f64) -> Option<&Placed> {
     let distance = |one: &&Placed| (one.ago as f64 - ago).abs();
     placed
@@ -107,7 +107,7 @@ mod tests {
         let breaks: Vec<u64> = shown
             .iter()
             .filter(|one| !one.goes_on)
-            .map(|one| one.glimpse.tick)
+            .map(|one| one.tick_sample.tick)
             .collect();
         assert_eq!(breaks, [50_000, 0], "only strokes begin anew");
     }
@@ -116,14 +116,14 @@ mod tests {
     fn twelve_seconds_are_shown_and_no_more() {
         let shown = placed(&history(0..5_000));
         assert_eq!(shown.len(), 480);
-        assert_eq!(shown[0].glimpse.tick, 4_999);
+        assert_eq!(shown[0].tick_sample.tick, 4_999);
         assert!(placed(&history([])).is_empty());
     }
 
     #[test]
     fn the_pointer_reads_what_is_near_it() {
         let shown = placed(&history(0..20));
-        let read = nearest(&shown, 3.4).map(|one| one.glimpse.tick);
+        let read = nearest(&shown, 3.4).map(|one| one.tick_sample.tick);
         assert_eq!(read, Some(16));
         assert_eq!(nearest(&shown, 200.0), None);
     }

@@ -1,6 +1,6 @@
 //! What the timeline shows as plain data, tick for tick.
 
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::recording::strips::Felt;
 use crate::tools::timeline::live;
 use crate::tools::timeline::live::N_TICKS;
@@ -49,7 +49,7 @@ impl TransportView<'_> {
     fn felt_last(&self) -> TimelineTicks {
         let placed = live::placed(self.live);
         let tick = |one: &live::Placed| StripTick {
-            tick: one.glimpse.tick,
+            tick: one.tick_sample.tick,
             t_s: -(one.ago as f64) / TICKS_PER_S,
             goes_on: one.goes_on,
             felt: one.felt(),
@@ -66,7 +66,7 @@ impl TransportView<'_> {
     }
 }
 
-fn of_take(take: &Take) -> TimelineTicks {
+fn of_take(take: &Recording) -> TimelineTicks {
     let strips = take.strips();
     let n_ticks = strips.n_ticks();
     let step = usize::try_from(strips.ticks_per_entry()).unwrap_or(1);

@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Commands, PlayCommand};
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::recording::strips::Felt;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -36,7 +36,7 @@ pub(crate) fn show(
 fn show_take(
     ui: &Ui,
     rect: Rect,
-    take: &Take,
+    take: &Recording,
     tick: u64,
     (state, commands): (&mut Timeline, &mut Commands),
 ) {
@@ -121,7 +121,7 @@ pub(crate) fn tick_at(share: f64, n_ticks: u64) -> u64 {
     tick.min(last)
 }
 
-fn take_title(take: &Take) -> String {
+fn take_title(take: &Recording) -> String {
     let last = take.strips().n_ticks().saturating_sub(1);
     let length = quantity::clock(last * TICK_MS);
     let state = match take.file() {

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use super::*;
 use crate::bench::command::PlaySource;
 use crate::bench::command::{Command, PlayCommand};
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::recording::strips::Felt;
 use crate::bench::signals::history::History;
 use crate::tools::timeline::strips_view::{share_of, tick_at, told};
@@ -15,20 +15,20 @@ use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow};
 
 /// A stroke of ten seconds: ticks 0…400.
-fn recorded() -> Take {
+fn recorded() -> Recording {
     let row = |t_s: f64, x_mm| PathRow {
         t_s,
         position: Point::new(x_mm, 0.0),
         ..PathRow::default()
     };
     let path = ExplorationPath::new(vec![row(0.0, 0.0), row(10.0, 800.0)]).unwrap();
-    Take::from_path(PathBuf::from("stroke.csv"), path)
+    Recording::from_path(PathBuf::from("stroke.csv"), path)
 }
 
 /// Nothing was felt yet.
 static NOTHING: LazyLock<History> = LazyLock::new(History::default);
 
-fn view(take: Option<&Take>) -> TransportView<'_> {
+fn view(take: Option<&Recording>) -> TransportView<'_> {
     TransportView {
         source: PlaySource::Pointer,
         input: None,

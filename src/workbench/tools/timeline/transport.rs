@@ -2,7 +2,7 @@
 
 use crate::bench::Bench;
 use crate::bench::command::PlaySource;
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::signals::history::History;
 use crate::bench::view::Source;
 
@@ -29,7 +29,7 @@ pub(crate) struct TransportView<'a> {
     /// How fast the display moves, mm/s.
     pub speed_mm_per_s: f64,
     /// The recording at hand.
-    pub take: Option<&'a Take>,
+    pub take: Option<&'a Recording>,
     /// What was felt last.
     pub live: &'a History,
 }
@@ -61,7 +61,7 @@ impl<'a> TransportView<'a> {
 impl TransportView<'_> {
     /// The take that the timeline shows: the one that moves the display. While something is
     /// recorded, the timeline shows what is felt.
-    pub(crate) fn shown_take(&self) -> Option<&Take> {
+    pub(crate) fn shown_take(&self) -> Option<&Recording> {
         let is_shown = self.source == PlaySource::Recording && self.recorded_ticks.is_none();
         self.take.filter(|_| is_shown)
     }
@@ -84,7 +84,7 @@ impl TransportView<'_> {
         match self.source {
             PlaySource::Pointer | PlaySource::Input => {
                 let newest = self.live.newest();
-                let tick = newest.map_or(0, |entry| entry.glimpse.tick);
+                let tick = newest.map_or(0, |entry| entry.tick_sample.tick);
                 (
                     tick,
                     "The last tick in which something moved, since the program started",

@@ -10,7 +10,7 @@ use crate::bench::command::DotStyle;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::selection::Selection;
 use crate::bench::trail::TRAIL_S;
-use crate::bench::view::{Dot, Live};
+use crate::bench::view::{Dot, EngineView};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
@@ -33,7 +33,7 @@ const LEAST_SCALE: f32 = 2.4;
 pub(crate) fn paint(
     painter: &Painter,
     view: &ViewTransform,
-    live: &Live,
+    live: &EngineView,
     (selection, pointed): (&Selection, Option<usize>),
 ) {
     let dots = &live.dots;

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Commands, Part, ShowCommand};
-use crate::bench::view::{Live, SceneView};
+use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
@@ -151,7 +151,7 @@ fn paint_scale_bar(painter: &egui::Painter, glass: Rect) {
     );
 }
 
-fn show_readings(ui: &Ui, corner: egui::Pos2, width: f32, scene: &SceneView, live: &Live) {
+fn show_readings(ui: &Ui, corner: egui::Pos2, width: f32, scene: &SceneView, live: &EngineView) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter();
     let under = live

@@ -102,8 +102,10 @@ impl Computed<Vec<Key>> for Computation {
         let (known, before) = prior.map_or((&[][..], &[][..]), |(keys, of)| (keys, &of.maps));
         let mut n_computed = prior.map_or(0, |(_, before)| before.n_computed);
         let mut map = |(index, key): (usize, &Key)| {
-            if known.get(index) == Some(key) {
-                return before.get(index).cloned().flatten();
+            if let Some(map) = before.get(index)
+                && known.get(index) == Some(key)
+            {
+                return map.clone();
             }
             n_computed += 1;
             Map::of(key).map(Arc::new)

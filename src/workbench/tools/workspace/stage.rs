@@ -7,7 +7,7 @@ use eframe::egui::{Rect, Response};
 use crate::bench::command::{Look, Tool};
 use crate::bench::selection::Selection;
 use crate::bench::trail::Trail;
-use crate::bench::view::{Cloth, Live, SceneView};
+use crate::bench::view::{Cloth, EngineView, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::maps::Maps;
@@ -32,7 +32,7 @@ pub(crate) struct Layers<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Sight<'a> {
     pub(crate) scene: &'a SceneView,
-    pub(crate) live: &'a Live,
+    pub(crate) live: &'a EngineView,
     pub(crate) trail: &'a Trail,
     pub(crate) selection: &'a Selection,
     pub(crate) layers: Layers<'a>,
@@ -43,7 +43,7 @@ pub(crate) struct Sight<'a> {
 /// What the parts of the pane share during one frame.
 pub(crate) struct Stage<'a> {
     pub(crate) scene: &'a SceneView,
-    pub(crate) live: &'a Live,
+    pub(crate) live: &'a EngineView,
     pub(crate) trail: &'a Trail,
     pub(crate) selection: &'a Selection,
     pub(crate) layers: Layers<'a>,

@@ -11,7 +11,7 @@ use crate::bench::command::{Command, PlayCommand, ShowCommand};
 use crate::bench::library_view::LibraryItem;
 use crate::bench::selection::Selection;
 use crate::bench::trail::Trail;
-use crate::bench::view::{Cloth, Dot, Live, SceneView};
+use crate::bench::view::{Cloth, Dot, EngineView, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_foundation::geometry::{Frame, Point, Rotation};
 use selvedge_textile::tactile::{Filters, Tuning};
@@ -20,7 +20,7 @@ use selvedge_textile::tactile::{Filters, Tuning};
 struct Window {
     ctx: Context,
     scene: SceneView,
-    live: Live,
+    live: EngineView,
     view: WorkspaceView,
     selection: Selection,
     frame: u32,
@@ -55,7 +55,7 @@ impl Window {
         let mut window = Self {
             ctx,
             scene,
-            live: Live::default(),
+            live: EngineView::default(),
             view: WorkspaceView {
                 tool,
                 ..WorkspaceView::default()

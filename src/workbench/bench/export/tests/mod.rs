@@ -230,19 +230,22 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
 fn the_timeline_holds_speed_and_means_of_every_tick() {
     let mut desk = Headless::explored(80);
     let exported = desk.exported(Exportable::Timeline);
-    let glimpses: Vec<_> = desk
+    let tick_samples: Vec<_> = desk
         .workbench
         .bench
         .past
         .history
-        .glimpses()
+        .tick_samples()
         .copied()
         .collect();
-    let ticks: Vec<f64> = glimpses.iter().map(|glimpse| glimpse.tick as f64).collect();
+    let ticks: Vec<f64> = tick_samples
+        .iter()
+        .map(|tick_sample| tick_sample.tick as f64)
+        .collect();
     assert_eq!(column(&exported, "tick"), ticks);
     let means = column(&exported, "mean_a320_um");
-    for (mean, glimpse) in means.iter().zip(&glimpses) {
-        assert_eq!(*mean, f64::from(glimpse.mean_um[1]));
+    for (mean, tick_sample) in means.iter().zip(&tick_samples) {
+        assert_eq!(*mean, f64::from(tick_sample.mean_um[1]));
     }
     let level = quantity::level_db(*means.last().unwrap());
     let line = &exported.figure.rows[1].panels[0].series[1];

@@ -15,7 +15,14 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
         let exported = desk.exported(Exportable::Pane(what));
         let (values, ticks) = (column(&exported, name), column(&exported, "tick"));
         assert_eq!(values.len(), 320 * N_ROWS, "8 s, whether drawn or not");
-        let newest = desk.workbench.bench.past.history.newest().unwrap().glimpse;
+        let newest = desk
+            .workbench
+            .bench
+            .past
+            .history
+            .newest()
+            .unwrap()
+            .tick_sample;
         assert_eq!(ticks.last().copied(), Some(newest.tick as f64));
         let times = column(&exported, "t_s");
         assert_eq!(

@@ -180,19 +180,19 @@ fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
     };
     let rows = vec![row(0.0, 100.0), row(1.0, 110.0), row(5.0, 230.0)];
     let path = Arc::new(ExplorationPath::new(rows).unwrap());
-    let take = Route::Take(Arc::clone(&path));
+    let take = Route::Recording(Arc::clone(&path));
     assert_eq!(take.mostly_on(scene), Some(3), "lower right");
-    assert_eq!(take, Route::Take(path));
+    assert_eq!(take, Route::Recording(path));
     assert_eq!(take.ticks().count() as u64, take.n_ticks());
     assert_eq!(
-        Route::Take(take_of(&take)).mostly_on(&Scene::default()),
+        Route::Recording(take_of(&take)).mostly_on(&Scene::default()),
         None
     );
 }
 
 fn take_of(route: &Route) -> Arc<ExplorationPath> {
     match route {
-        Route::Take(path) => Arc::clone(path),
+        Route::Recording(path) => Arc::clone(path),
         Route::Stroke(..) => panic!("it is a recording"),
     }
 }

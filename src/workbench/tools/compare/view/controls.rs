@@ -3,7 +3,7 @@
 use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
 
 use crate::bench::Bench;
-use crate::bench::recording::Take;
+use crate::bench::recording::Recording;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -83,7 +83,12 @@ pub(crate) fn show(
             }
         }
         ui.add_space(STEP);
-        let take = context.bench.exploration.at_hand.as_ref().map(Take::name);
+        let take = context
+            .bench
+            .exploration
+            .at_hand
+            .as_ref()
+            .map(Recording::name);
         show_status(ui, standing, route, take);
     });
     ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
@@ -111,7 +116,7 @@ fn show_status(ui: &mut Ui, standing: &Standing, route: &Route, take: Option<&st
     let words = RichText::new(words).font(theme::small()).color(ink);
     let response = ui.add(Label::new(words).truncate());
     response.on_hover_text(match route {
-        Route::Take(_) => {
+        Route::Recording(_) => {
             "Both follow the recording at hand. Mute and solo are left out of account"
         }
         Route::Stroke(..) => {

@@ -52,7 +52,7 @@ pub(crate) fn show(
         return;
     };
     paint_alone(&ui.painter_at(shown.area()), &shown, found);
-    let is_recorded = is_at_hand && matches!(route, Route::Take(_));
+    let is_recorded = is_at_hand && matches!(route, Route::Recording(_));
     let play = context.bench.live.play;
     if is_recorded && play.source == Source::Recording {
         let x = ui.painter().round_to_pixel_center(x_of(&shown, play.tick));

@@ -14,7 +14,7 @@ use super::*;
 use crate::bench::command::Command;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::edit::Edit;
-use crate::bench::view::Live;
+use crate::bench::view::EngineView;
 use crate::shell::headless::Headless;
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::{Draft, Mark};
@@ -255,7 +255,7 @@ fn a_row_that_cannot_be_written_waits_with_its_answer_until_it_is() {
         stuck.failure
     );
     assert_eq!((stuck.progress.0, stuck.trial()), (0, Some(&trial)));
-    let view = experiment(&window).participant(&Live::default(), 0.0);
+    let view = experiment(&window).participant(&EngineView::default(), 0.0);
     assert!(
         matches!(view, ParticipantView::Words { left_s: None, .. }),
         "{view:?}"
@@ -281,7 +281,7 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
         };
         let link = Link::of(&window.workbench.bench);
         let told = format!("{:?}", session(&window).view(link, 0.0));
-        let view = experiment(&window).participant(&Live::default(), 0.0);
+        let view = experiment(&window).participant(&EngineView::default(), 0.0);
         let words = format!("{view:?}");
         for stimulus in &design.stimuli {
             assert!(!words.contains(&stimulus.id), "{words}");

@@ -3,7 +3,7 @@
 use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
 
 use crate::bench::Bench;
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
@@ -105,7 +105,7 @@ fn ids_words(importing: &Import, found: Option<&Found>) -> String {
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, importing: &Import, items: &[ShelfItem], refusal: Option<&str>) {
+fn show_outcome(ui: &mut Ui, importing: &Import, items: &[LibraryEntry], refusal: Option<&str>) {
     let is_known = |id: &str| items.iter().any(|item| item.id == id);
     let taken = || importing.taken(is_known);
     match (importing.kept(), refusal) {

@@ -4,7 +4,7 @@ use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, Widg
 
 use crate::bench::Bench;
 use crate::bench::command::lab::Beginning;
-use crate::bench::view::ShelfItem;
+use crate::bench::view::LibraryEntry;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::tools::lab::state::{Lab, Page};
@@ -52,7 +52,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
 }
 
 /// What a recipe can begin with; says what was chosen.
-fn show_beginnings(ui: &mut Ui, items: &[ShelfItem]) -> Option<Beginning> {
+fn show_beginnings(ui: &mut Ui, items: &[LibraryEntry]) -> Option<Beginning> {
     let mut chosen = None;
     let mut begin = |ui: &mut Ui, beginning: Beginning| {
         chosen = Some(beginning);
@@ -84,7 +84,7 @@ fn show_beginnings(ui: &mut Ui, items: &[ShelfItem]) -> Option<Beginning> {
 }
 
 /// The textiles of the library that can be read; says which one was chosen.
-fn list(ui: &mut Ui, salt: &str, items: &[ShelfItem]) -> Option<String> {
+fn list(ui: &mut Ui, salt: &str, items: &[LibraryEntry]) -> Option<String> {
     let mut chosen = None;
     let area = ScrollArea::vertical().id_salt(salt).max_height(LIST);
     area.show(ui, |ui| {
