@@ -6,6 +6,7 @@
 #![expect(clippy::expect_used, reason = "a test that fails says so by panicking")]
 
 mod modules;
+mod shape;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -443,38 +444,5 @@ fn a_circle_is_found_and_a_facade_is_none() {
         found,
         [["a", "b", "c"].map(str::to_owned)],
         "by way of the root"
-    );
-}
-
-/// The floors of the window: who may use whom.
-#[test]
-fn the_floors_of_the_window_stay_apart() {
-    let mut faults = Vec::new();
-    let uses = |line: &str, path: &str| line.contains(path);
-    for source in sources(&["src/workbench"]) {
-        let path = source.path.trim_start_matches("src/workbench/");
-        let is_test = path.contains("/tests/") || path.ends_with("tests.rs");
-        let mut parts = path.split('/');
-        let floor = parts.next().unwrap_or_default();
-        let tool = parts.next().unwrap_or_default().trim_end_matches(".rs");
-        let above: &[&str] = match floor {
-            "kit" => &["crate::bench", "crate::tools", "crate::shell"],
-            "bench" => &["crate::tools", "crate::shell"],
-            "tools" => &["crate::shell", "crate::tools"],
-            _ => &[],
-        };
-        let own = format!("crate::tools::{tool}");
-        // Tests may drive the whole window.
-        let code = source.code().take_while(|(_, line)| *line != "mod tests {");
-        for (number, line) in code.filter(|_| !is_test) {
-            let is_own = floor == "tools" && uses(line, &own);
-            for upper in above.iter().filter(|upper| uses(line, upper) && !is_own) {
-                faults.push(format!("{}:{number}: uses {upper}", source.path));
-            }
-        }
-    }
-    report(
-        "a floor of the window uses one above it, or a tool another tool",
-        &faults,
     );
 }

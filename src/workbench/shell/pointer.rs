@@ -1,8 +1,8 @@
 //! The way of a pointer movement to the engine, outside the toolkit.
 //!
 //! The toolkit's events carry no time and wait for the next frame. So the window's own event
-//! handler stamps every movement (`pending_motion.rs`), turns it into mm with the view of the last frame
-//! and hands it to the engine's ring, whether a frame is drawn or not.
+//! handler stamps every movement (`pending_motion.rs`), turns it into mm with the view of the last
+//! frame and hands it to the engine's ring, whether a frame is drawn or not.
 
 use std::time::Instant;
 

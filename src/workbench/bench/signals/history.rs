@@ -1,7 +1,7 @@
 //! The last seconds, tick by tick: what timelines and spectrograms are drawn from.
 //!
-//! It keeps tick_samples as they came. Time in it is felt time: every tick_sample is one column wide, and a
-//! pause, however long, is one empty column.
+//! It keeps tick_samples as they came. Time in it is felt time: every tick_sample is one column
+//! wide, and a pause, however long, is one empty column.
 
 use std::collections::VecDeque;
 

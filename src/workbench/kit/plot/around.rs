@@ -15,6 +15,8 @@ use selvedge_chart::{At, Chart, Ink, Ruler, Scale};
 const GAP: f32 = 5.0;
 /// A frame with less room on its left has no vertical labels, points.
 const LABELS: f32 = 20.0;
+/// How much of what is drawn the ground of a title covers.
+const GROUND: f32 = 0.8;
 /// From one label to the next, points: beside and below one another.
 const APART: [f32; 2] = [48.0, 22.0];
 
@@ -29,7 +31,7 @@ pub(crate) fn paint_ticks(
     let area = *transform.frame();
     let hairline = Stroke::new(1.0, palette.hairline);
     let rulers = rulers(transform, scales);
-    let (labels, title) = rulers[0].labels(&chart.x.label);
+    let (labels, _) = rulers[0].labels(&chart.x.label);
     // Below the last of several charts with one horizontal axis.
     let mut taken = if chart.is_x_shared {
         f32::INFINITY
@@ -49,15 +51,10 @@ pub(crate) fn paint_ticks(
             painter.galley(pos2(middle - half, area.bottom() + 3.0), text, palette.dim);
         }
     }
-    let corner = area.right_bottom() + vec2(-4.0, -1.0);
-    if !chart.is_x_shared {
-        let room = 0.5 * area.width();
-        paint_title(painter, (corner, Align2::RIGHT_BOTTOM), &title, room);
-    }
     if f32::from(margin.left) < LABELS {
         return;
     }
-    let (labels, title) = rulers[1].labels(&chart.y.label);
+    let (labels, _) = rulers[1].labels(&chart.y.label);
     for (value, label) in labels {
         let place = scales[1].place(value).unwrap_or_default();
         let y = painter.round_to_pixel_center(transform.position_from_point_y(place));
@@ -69,25 +66,42 @@ pub(crate) fn paint_ticks(
         let corner = pos2(area.left() - GAP - size.x, middle - 0.5 * size.y);
         painter.galley(corner, text, palette.dim);
     }
-    let corner = area.left_top() + vec2(4.0, 1.0);
-    paint_title(
-        painter,
-        (corner, Align2::LEFT_TOP),
-        &title,
-        0.5 * area.width(),
-    );
+}
+
+/// Says what the axes measure, over what is drawn, so that it can be read.
+pub(crate) fn paint_titles(
+    painter: &Painter,
+    chart: &Chart,
+    transform: &PlotTransform,
+    (scales, margin): ([Scale; 2], Margin),
+) {
+    let area = *transform.frame();
+    let [x, y] = rulers(transform, scales);
+    let room = 0.5 * area.width();
+    if !chart.is_x_shared {
+        let (_, title) = x.labels(&chart.x.label);
+        let corner = area.right_bottom() + vec2(-4.0, -1.0);
+        paint_title(painter, (corner, Align2::RIGHT_BOTTOM), &title, room);
+    }
+    if f32::from(margin.left) >= LABELS {
+        let (_, title) = y.labels(&chart.y.label);
+        let corner = area.left_top() + vec2(4.0, 1.0);
+        paint_title(painter, (corner, Align2::LEFT_TOP), &title, room);
+    }
 }
 
 /// Writes what an axis measures, its unit alone where there is no room for more.
 fn paint_title(painter: &Painter, (at, anchor): (Pos2, Align2), title: &str, room: f32) {
-    let ink = Palette::of(painter.ctx().theme()).dim;
+    let palette = Palette::of(painter.ctx().theme());
+    let ink = palette.dim;
     let text = |title: &str| painter.layout_no_wrap(title.to_owned(), theme::small(), ink);
     let mut galley = text(title);
     if galley.size().x > room {
         galley = text(title.rsplit_once(", ").map_or("", |(_, unit)| unit));
     }
-    let corner = anchor.anchor_size(at, galley.size()).min;
-    painter.galley(corner, galley, ink);
+    let place = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(place, 0, palette.panel.gamma_multiply(GROUND));
+    painter.galley(place.min, galley, ink);
 }
 
 /// The rulers of what is shown.

@@ -88,6 +88,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
     let transform = PlotTransform::new(area, bounds, false);
     around::paint_ticks(ui.painter(), chart, &transform, (scales, setting.margin));
     paint(ui, chart, (area, bounds, scales), id);
+    around::paint_titles(ui.painter(), chart, &transform, (scales, setting.margin));
     around::paint_marks(ui.painter(), chart, &transform, scales[0]);
     if setting.has_legend {
         around::paint_legend(ui.painter(), chart, area);

@@ -77,9 +77,19 @@ pub(crate) struct ActiveSession {
     opened: Instant,
     /// When the present step began.
     pub began: Began,
-    /// Whether the engine records the exploration of this trial.
-    is_recording: bool,
-    recording: Option<Recording>,
+    /// The engine's recording of this trial.
+    recording: TrialRecording,
+}
+
+/// How it stands with the recording of a trial.
+#[derive(Debug)]
+enum TrialRecording {
+    /// There is none.
+    Nothing,
+    /// The engine records.
+    Running,
+    /// It came to its end.
+    Ended(Recording),
 }
 
 impl ActiveSession {
@@ -110,8 +120,7 @@ impl ActiveSession {
             last_response_s: None,
             opened: began.at,
             began,
-            is_recording: false,
-            recording: None,
+            recording: TrialRecording::Nothing,
         };
         for stimulus in &active.design.stimuli {
             if let Source::Textile { id, .. } = &stimulus.source {
@@ -293,35 +302,34 @@ impl ActiveSession {
 
     /// The engine began to record the exploration of this trial.
     pub(crate) fn records(&mut self) {
-        self.is_recording = true;
-        self.recording = None;
+        self.recording = TrialRecording::Running;
     }
 
     /// Whether the engine still records.
     pub(crate) fn is_recording(&self) -> bool {
-        self.is_recording
+        matches!(self.recording, TrialRecording::Running)
     }
 
     /// The engine's recording came to its end.
     pub(crate) fn take_recording(&mut self, recording: Recording) {
-        self.is_recording = false;
-        self.recording = Some(recording);
+        self.recording = TrialRecording::Ended(recording);
     }
 
     /// Begins to write what waits, once its recording is there. Whether it begins now.
     pub(crate) fn write(&mut self, executor: &Executor, has_engine: bool) -> bool {
         let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
-        let is_complete = !self.is_recording || !has_engine;
+        let is_complete = !self.is_recording() || !has_engine;
         if !(is_due && is_complete) {
             return false;
         }
         let (Some(pending), Some(mut session)) = (&mut self.pending, self.session.take()) else {
             return false;
         };
-        if let Some(recording) = self.recording.take() {
+        if let TrialRecording::Ended(recording) = &self.recording {
             // Where nobody moved there is no path.
             pending.path = recording.to_path().ok();
             recording.samples().clone_into(&mut pending.samples);
+            self.recording = TrialRecording::Nothing;
         }
         let pending = pending.clone();
         let apparatus = Apparatus {

@@ -24,6 +24,9 @@ use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
 /// What a view is made for: scene, contactor, place, turn, motion.
 type Key = (u64, usize, [f64; 6]);
 
+/// Nothing is computed for a pane without room for anything, points.
+const SMALLEST: f32 = 48.0;
+
 /// The spectra as they were last computed.
 #[derive(Debug, Default)]
 pub(crate) struct SpatialSpectra {
@@ -67,6 +70,9 @@ impl SpatialSpectra {
     /// Shows the spectra in the space that is left.
     fn show(&mut self, ui: &mut Ui, bench: &mut Bench) {
         let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        if rect.size().min_elem() < SMALLEST {
+            return;
+        }
         self.catch_up(bench);
         let Some(view) = &self.view else {
             let words =

@@ -1,6 +1,6 @@
 //! When A and B differ: the difference of the mean levels along the path.
 
-use eframe::egui::{Margin, Painter, Rect, Stroke, Ui, pos2};
+use eframe::egui::{Align2, Margin, Painter, Rect, Stroke, Ui, pos2, vec2};
 
 use crate::bench::command::{Commands, PlayCommand};
 use crate::bench::export::ink;
@@ -8,6 +8,7 @@ use crate::bench::tool::PaneContext;
 use crate::bench::view::Source;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
+use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::tools::compare::choice::Route;
 use crate::tools::compare::comparison::Compare;
@@ -52,6 +53,16 @@ pub(crate) fn show(
         return;
     };
     paint_alone(&ui.painter_at(shown.area()), &shown, found);
+    let just_noticed = noticed_db(found).map(|(_, db)| db).reduce(f64::min);
+    if let Some(db) = just_noticed {
+        let words = format!("JND ±{} (model)", fixed(db, 1));
+        let (at, ink) = (
+            shown.area().right_top() + vec2(-4.0, 1.0),
+            Palette::in_ui(ui).dim,
+        );
+        ui.painter()
+            .text(at, Align2::RIGHT_TOP, words, theme::small(), ink);
+    }
     let is_recorded = is_at_hand && matches!(route, Route::Recording(_));
     let play = context.bench.live.play;
     if is_recorded && play.source == Source::Recording {
