@@ -1,19 +1,19 @@
 //! The last seconds, tick by tick: what timelines and spectrograms are drawn from.
 //!
-//! It keeps tick_samples as they came. Time in it is felt time: every tick_sample is one column
+//! It keeps tick samples as they came. Time in it is felt time: every tick sample is one column
 //! wide, and a pause, however long, is one empty column.
 
 use std::collections::VecDeque;
 
 use selvedge_engine::TickSample;
 
-/// How many tick_samples are kept: 12 s of exploration.
+/// How many tick samples are kept: 12 s of exploration.
 pub(crate) const CAPACITY: usize = 480;
 
 /// A tick with its place in felt time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Entry {
-    /// Its column, counted from the first tick_sample ever; a pause before it leaves one out.
+    /// Its column, counted from the first tick sample ever; a pause before it leaves one out.
     pub column: u64,
     /// What happened.
     pub tick_sample: TickSample,

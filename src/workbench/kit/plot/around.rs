@@ -16,7 +16,7 @@ const GAP: f32 = 5.0;
 /// A frame with less room on its left has no vertical labels, points.
 const LABELS: f32 = 20.0;
 /// How much of what is drawn the ground of a title covers.
-const GROUND: f32 = 0.8;
+const GROUND: f32 = 0.6;
 /// From one label to the next, points: beside and below one another.
 const APART: [f32; 2] = [48.0, 22.0];
 

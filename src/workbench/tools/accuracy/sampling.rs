@@ -178,7 +178,7 @@ impl Accuracy {
     }
 
     /// Measures every method on the scene as it is felt now.
-    pub(crate) fn measure(&mut self, bench: &mut Bench) {
+    pub(crate) fn measure(&mut self, bench: &Bench) {
         let wanted = Wanted {
             name: bench.document.scene().name.clone(),
             scene: bench.inspection.scene.clone(),

@@ -44,7 +44,7 @@ impl Tool for Analysis {
         self.follow_session(context.bench);
         framed(ui, 10, |ui| {
             if let Some(wanted) = view::show(ui, self, context) {
-                self.draw(context.bench, wanted);
+                self.draw(context.bench, &wanted);
             }
         });
     }

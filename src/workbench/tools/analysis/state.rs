@@ -200,9 +200,9 @@ impl Analysis {
     }
 
     /// Has figures drawn as they are wanted.
-    pub(super) fn draw(&mut self, bench: &Bench, wanted: Wanted) {
+    pub(super) fn draw(&mut self, bench: &Bench, wanted: &Wanted) {
         let before = self.pictures.n_begun();
-        self.pictures.follow(&bench.ctx, &bench.executor, &wanted);
+        self.pictures.follow(&bench.ctx, &bench.executor, wanted);
         if self.pictures.n_begun() > before {
             bench.ctx.request_repaint();
         }

@@ -11,7 +11,7 @@ pub(crate) const N_TICKS: u64 = 480;
 /// How wide a gap is at most, in ticks.
 const GAP: u64 = 5;
 
-/// A tick_sample and its place.
+/// A tick sample and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placed {
     /// Ticks to the left of the newest, pauses left out.
@@ -43,7 +43,7 @@ impl Placed {
     }
 }
 
-/// The tick_samples that are shown with their places, new to old.
+/// The tick samples that are shown with their places, new to old.
 pub(crate) fn placed(history: &History) -> Vec<Placed> {
     let mut ago = 0;
     let mut shown = Vec::new();
@@ -65,7 +65,7 @@ pub(crate) fn placed(history: &History) -> Vec<Placed> {
     shown
 }
 
-/// The tick_sample nearest to a place.
+/// The tick sample nearest to a place.
 pub(crate) fn nearest(placed: &[Placed], ago: f64) -> Option<&Placed> {
     let distance = |one: &&Placed| (one.ago as f64 - ago).abs();
     placed

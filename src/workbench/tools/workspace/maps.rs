@@ -47,7 +47,7 @@ pub(crate) struct Wanted {
 pub(crate) struct Maps {
     latest: Latest<Vec<Key>, Computation>,
     /// Maps and their pictures on the graphics card.
-    slots: Vec<Option<(Arc<Map>, TextureHandle)>>,
+    slots: Vec<Option<(Arc<Made>, TextureHandle)>>,
     /// Maps computed before all were forgotten.
     n_before: u64,
 }
@@ -71,7 +71,7 @@ pub(crate) struct ShownMap<'a> {
 }
 
 /// A map that was made.
-struct Map {
+struct Made {
     key: Key,
     map: VelocityMap,
     image: Arc<ColorImage>,
@@ -80,7 +80,7 @@ struct Map {
 /// The maps of all textiles; none of one whose map is too large.
 #[derive(Default)]
 struct Computation {
-    maps: Vec<Option<Arc<Map>>>,
+    maps: Vec<Option<Arc<Made>>>,
     /// Maps computed so far.
     n_computed: u64,
 }
@@ -108,7 +108,7 @@ impl Computed<Vec<Key>> for Computation {
                 return map.clone();
             }
             n_computed += 1;
-            Map::of(key).map(Arc::new)
+            Made::of(key).map(Arc::new)
         };
         let maps = keys.iter().enumerate().map(&mut map).collect();
         Ok(Self { maps, n_computed })
@@ -145,7 +145,7 @@ impl Maps {
         let maps = self.latest.value().map_or(&[][..], |value| &value.maps);
         for (index, (slot, key)) in self.slots.iter_mut().zip(&keys).enumerate() {
             let map = maps.get(index).and_then(Option::as_ref);
-            let is_of_it = |map: &&Arc<Map>| map.key.response.is_same_cloth(&key.response);
+            let is_of_it = |map: &&Arc<Made>| map.key.response.is_same_cloth(&key.response);
             let Some(map) = map.filter(is_of_it) else {
                 *slot = None;
                 continue;
@@ -213,7 +213,7 @@ impl fmt::Debug for Maps {
     }
 }
 
-impl Map {
+impl Made {
     /// Makes a map; `None` when its picture has more pixels along a side than the graphics card
     /// takes.
     fn of(key: &Key) -> Option<Self> {

@@ -204,7 +204,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
     bench.engine.advance_ticks(1).unwrap();
     bench.exploration.ended = bench.engine.take_recording();
     bench.take_recording();
-    accuracy.measure(&mut bench);
+    accuracy.measure(&bench);
     while accuracy.measuring.is_some() {
         accuracy.poll_measuring(&mut bench);
         std::thread::yield_now();
@@ -228,7 +228,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
 fn a_measurement_that_is_stopped_leaves_the_last_one() {
     let (mut accuracy, mut bench) = exploring();
     bench.executor = Executor::Threads(bench.ctx.clone());
-    accuracy.measure(&mut bench);
+    accuracy.measure(&bench);
     accuracy.measuring.as_ref().unwrap().stop();
     while accuracy.measuring.is_some() {
         accuracy.poll_measuring(&mut bench);

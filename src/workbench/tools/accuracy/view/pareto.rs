@@ -22,7 +22,7 @@ use selvedge_studies::Row;
 const REACH: f32 = 7.0;
 
 /// Shows the methods in the space that is left.
-pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
+pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &Bench) {
     show_head(ui, accuracy, bench);
     let chosen = accuracy.chosen;
     let words = (accuracy.measured.as_ref()).map(|measured| words_below(chosen, measured));
@@ -50,9 +50,11 @@ pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
     }
     let rows = measured.rows.iter().enumerate();
     let clicked = shown.and_then(|shown| {
-        let is_chosen = |(index, _): &(usize, &Row)| chosen == Some(*index);
-        let clicked = rows.filter(|one| show_point(ui, &shown, *one, is_chosen(one)));
-        clicked.last().map(|(index, _)| index)
+        rows.fold(None, |clicked, (index, row)| {
+            let is_chosen = chosen == Some(index);
+            let is_clicked = show_point(ui, &shown, (index, row), is_chosen);
+            is_clicked.then_some(index).or(clicked)
+        })
     });
     if let Some(index) = clicked {
         accuracy.chosen = (chosen != Some(index)).then_some(index);
@@ -63,7 +65,7 @@ pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
     }
 }
 
-fn show_head(ui: &mut Ui, accuracy: &mut Accuracy, bench: &mut Bench) {
+fn show_head(ui: &mut Ui, accuracy: &mut Accuracy, bench: &Bench) {
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         if let Some(measuring) = &accuracy.measuring {

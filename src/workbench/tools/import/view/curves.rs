@@ -74,7 +74,7 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
             chart: &chart,
             figures: import.map_or_else(Vec::new, |import| smd_words(import, stroke.direction)),
         };
-        let shown = show_lane(ui, lane);
+        let shown = show_lane(ui, &lane);
         if let (Some(shown), Some(section)) = (shown, section)
             && let Some(moved) = section::drag(ui, &shown, stroke.direction.label(), section)
         {
@@ -91,13 +91,13 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, strokes: &Strokes) {
             chart: &curve(envelope, place_mm, section, [ends[0], envelope.range()]),
             figures: import.map_or_else(Vec::new, friction_words),
         };
-        show_lane(ui, lane);
+        show_lane(ui, &lane);
     }
     ui.advance_cursor_after_rect(room);
 }
 
 /// Shows a curve with its name and its figures beside it.
-fn show_lane(ui: &Ui, lane: Lane<'_>) -> Option<Shown> {
+fn show_lane(ui: &Ui, lane: &Lane<'_>) -> Option<Shown> {
     let mut margin = MARGIN;
     let mut rect = lane.rect;
     if !lane.chart.is_x_shared {
@@ -342,7 +342,7 @@ pub(crate) fn show_profile(ui: &mut Ui, heights: &Heights) {
         chart: &profile_chart(map, envelope),
         figures: smd.into_iter().collect(),
     };
-    show_lane(ui, lane);
+    show_lane(ui, &lane);
     ui.advance_cursor_after_rect(room);
 }
 

@@ -58,7 +58,9 @@ pub(crate) fn strokes(ui: &Ui, rect: Rect, made: &Made) {
         };
         let setting = Setting {
             name: &format!("Heights {}", direction.label()),
+            // All on one scale, whose heights stand beside the relief: no numbers between them.
             margin: Margin {
+                left: 4,
                 bottom: if is_last { MARGIN.bottom } else { 0 },
                 ..MARGIN
             },
