@@ -1,6 +1,6 @@
 //! What becomes of a recipe: its surface, what is felt of it, and its figures.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::bench::latest::Computed;
 use selvedge_foundation::geometry::Velocity;
@@ -32,6 +32,8 @@ pub(crate) struct Felt {
     pub levels: Levels,
     /// Amplitudes over [`speeds_mm_per_s`], by [`Direction::index`].
     pub(crate) over_speed: [Vec<PointSpread>; 4],
+    /// Its figures, in the order in which they are shown, once somebody looks.
+    figures: OnceLock<Vec<Shown>>,
 }
 
 impl Felt {
@@ -55,6 +57,7 @@ impl Felt {
             surface: Arc::clone(surface),
             levels: Levels::of(surface, filters),
             over_speed,
+            figures: OnceLock::new(),
         })
     }
 
@@ -69,7 +72,11 @@ impl Felt {
     }
 
     /// Its figures, in the order in which they are shown.
-    pub(crate) fn figures(&self) -> Vec<Shown> {
+    pub(crate) fn figures(&self) -> &[Shown] {
+        self.figures.get_or_init(|| self.worked_out())
+    }
+
+    fn worked_out(&self) -> Vec<Shown> {
         let surface = &self.surface;
         let mean = |of: &dyn Fn(&selvedge_textile::surface::Profile) -> f64| {
             let profiles = Direction::ALL.map(|direction| surface.profile(direction));
@@ -171,6 +178,7 @@ pub(crate) struct Preview {
     pub relief: HeightMap,
     /// The Hurst exponent that was asked for, the one found, and the error of that.
     pub hurst: Option<[f64; 3]>,
+    figures: OnceLock<Vec<Shown>>,
 }
 
 impl Preview {
@@ -201,12 +209,17 @@ impl Preview {
             felt,
             relief: trial.relief,
             hurst,
+            figures: OnceLock::new(),
         })
     }
 
     /// Its figures, in the order in which they are shown.
-    pub(crate) fn figures(&self) -> Vec<Shown> {
-        let mut figures = self.felt.figures();
+    pub(crate) fn figures(&self) -> &[Shown] {
+        self.figures.get_or_init(|| self.worked_out())
+    }
+
+    fn worked_out(&self) -> Vec<Shown> {
+        let mut figures = self.felt.figures().to_vec();
         let relief = [
             Shown::of("Sa", self.relief.sa_um(), 2, "µm").said(
                 "Mean absolute deviation of the heights themselves, over the area, without a probe",

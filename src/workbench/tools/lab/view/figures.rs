@@ -33,7 +33,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
     area.show(ui, |ui| {
         ui.set_max_width(ui.available_width().min(380.0));
         for shown in preview.figures() {
-            let others = others.as_ref().map_or(&[][..], Vec::as_slice);
+            let others = others.unwrap_or_default();
             let other = others.iter().find(|other| other.name == shown.name);
             let other = compared.map(|_| other.map(|other| other.value));
             // Of a Brownian surface: the exponent that was asked for.
@@ -42,7 +42,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
                 let [asked, error] = [asked, error].map(|value| quantity::fixed(value, 2));
                 format!("asked {asked} · ± {error}")
             });
-            row(ui, &shown, (other, note));
+            row(ui, shown, (other, note));
         }
         ui.add_space(STEP);
     });
