@@ -64,6 +64,22 @@ pub struct Series {
     pub faintness: f32,
 }
 
+impl Series {
+    /// A line or dots by name, in the ink of its place.
+    pub fn of(
+        name: impl Into<String>,
+        style: Style,
+        points: impl IntoIterator<Item = [f64; 2]>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            points: points.into_iter().collect(),
+            style,
+            ..Self::default()
+        }
+    }
+}
+
 /// An area between a lower and an upper line: a range, an interval.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Band {

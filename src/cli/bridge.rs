@@ -136,16 +136,16 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     let n_columns = usize::from(model.cols);
     let mut emulator = selvedge_device::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
-    let tell = |link: &Path, path: &str| {
+    let describe = |link: &Path, path: &str| {
         drop(output::print(&format!("{} -> {path}\n", link.display())));
     };
-    tell(&args.link, emulator.device_path());
+    describe(&args.link, emulator.device_path());
     let view = if args.plant.is_shown() {
         Some(PlantView::start(emulator.watch(contactors), n_columns)?)
     } else {
         None
     };
-    let ended = emulator.run_telling(&stop, tell);
+    let ended = emulator.run_telling(&stop, describe);
     drop(view);
     Ok(ended?)
 }

@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn what_is_not_understood_says_what_is() {
-        for (words, told) in [
+        for (words, described) in [
             ("--drop 3", "0 to 1"),
             ("--latency slow", "5ms~2ms"),
             ("--reboot-at soon", "300ms"),
@@ -155,7 +155,7 @@ mod tests {
             ("--swap 3", "two channels"),
         ] {
             let error = read(words).unwrap_err();
-            assert!(error.contains(told), "{error}");
+            assert!(error.contains(described), "{error}");
         }
         let check = |words| read(words).unwrap().check(24).unwrap_err();
         assert!(check("--dead 24").contains("channels 0 to 23"));

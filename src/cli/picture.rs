@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::picture_relief::{Origin, ReliefArgs, tell_none};
+use super::picture_relief::{Origin, ReliefArgs, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output};
 use selvedge_foundation::files;
@@ -139,14 +139,14 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     };
     let (analysis, felt) = with_meter("picture", work)??;
     let mut about = args.about();
-    let mut told = summary(&analysis, px_per_mm, &args.out);
+    let mut described = summary(&analysis, px_per_mm, &args.out);
     match felt {
         Some(Ok(felt)) => {
-            told.push_str(&args.relief.finish(&felt, &args.out)?);
+            described.push_str(&args.relief.finish(&felt, &args.out)?);
             about.relief = Some((felt.relief, felt.relief_um));
         }
         Some(Err(reason)) => {
-            tell_none(&args.image, &reason);
+            describe_none(&args.image, &reason);
             about.no_relief = Some(reason);
         }
         None => {}
@@ -155,7 +155,7 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     for line in warnings(&analysis) {
         terminal::notice(&format!("{}: {line}", args.image.display()));
     }
-    output::print(&told)
+    output::print(&described)
 }
 
 fn write(made: &[(&'static str, Vec<u8>)], out: &Path) -> Result<(), CliError> {

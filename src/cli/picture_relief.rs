@@ -207,18 +207,18 @@ impl ReliefArgs {
         };
         let (out, words) = (out.display(), &felt.relief.shape.reliability);
         let first = format!("{out}: heights by {by} under light of slant {slant}°, tilt {tilt}°");
-        let mut told =
+        let mut described =
             format!("{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
         if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
             selvedge_textile::write(files, folder)?;
             let line = format!("{}: the textile\n", folder.display());
-            told.push_str(&line);
+            described.push_str(&line);
         }
-        Ok(told)
+        Ok(described)
     }
 }
 
 /// Tells why there are no heights.
-pub(super) fn tell_none(path: &Path, reason: &str) {
+pub(super) fn describe_none(path: &Path, reason: &str) {
     terminal::notice(&format!("{}: no heights: {reason}", path.display()));
 }

@@ -233,7 +233,7 @@ impl Player {
     }
 
     fn heed(&mut self, event: BridgeEvent) -> Result<(), CliError> {
-        let tell = |what: &str| terminal::notice(&self.of_target(what));
+        let describe = |what: &str| terminal::notice(&self.of_target(what));
         match event {
             BridgeEvent::Refused(reason)
             | BridgeEvent::Lost(reason)
@@ -258,15 +258,15 @@ impl Player {
             }
             BridgeEvent::Fault(fault) => {
                 let names = fault_bit::names(fault.faults);
-                tell(&format!("the device reports a fault: {names}"));
+                describe(&format!("the device reports a fault: {names}"));
             }
             BridgeEvent::DepthRaised(depth) => {
                 let what = "frames came late: now sent";
-                tell(&format!(
+                describe(&format!(
                     "{what} {depth} ticks ahead, felt more than 40 ms late"
                 ));
             }
-            BridgeEvent::Log(text) => tell(&format!("the device says: {text}")),
+            BridgeEvent::Log(text) => describe(&format!("the device says: {text}")),
             BridgeEvent::Armed => self.started = Some(Instant::now()),
             _ => {}
         }
@@ -292,13 +292,13 @@ impl Player {
                 log.frame(&sent, &self.moving.core.pose(), felt_um)?;
             }
         }
-        self.moving.tell();
-        self.tell_bad_lines();
+        self.moving.write_tick();
+        self.describe_bad_lines();
         Ok(())
     }
 
     /// Lines that were no position are dropped; the first is told at once, all at the end.
-    fn tell_bad_lines(&mut self) {
+    fn describe_bad_lines(&mut self) {
         let n_bad = self.moving.core.losses().bad_lines;
         if n_bad > 0 && self.n_bad_lines == 0 {
             terminal::notice(

@@ -53,7 +53,7 @@ pub(super) fn play(
             break;
         }
         card.push(moving.core.felt_um());
-        moving.tell();
+        moving.write_tick();
         n_frames += 1;
     }
     card.stop();

@@ -92,7 +92,7 @@ impl Moving {
     }
 
     /// Tells the programs the tick that was just done.
-    pub(super) fn tell(&mut self) {
+    pub(super) fn write_tick(&mut self) {
         if let Some(tap) = &mut self.tap {
             self.core.write_to(tap);
         }

@@ -282,8 +282,8 @@ mod tests {
         };
         let played = header_of(&[Some(77), None]);
         assert_eq!(played[0], ["tick", "t_s", "apply_tick"]);
-        let told: Vec<&str> = played[1..].iter().map(|row| row[2].as_str()).collect();
-        assert_eq!(told, ["77", "", ""]);
+        let described: Vec<&str> = played[1..].iter().map(|row| row[2].as_str()).collect();
+        assert_eq!(described, ["77", "", ""]);
         let unplayed = header_of(&[None, None, None]);
         assert_eq!(unplayed[0], ["tick", "t_s", "code40_0"]);
     }

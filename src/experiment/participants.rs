@@ -61,17 +61,18 @@ impl Participant {
     ///
     /// # Errors
     /// The pseudonym is no name of a file, or a particular is none that is known.
-    pub fn new(pseudonym: &str, told: Particulars<'_>) -> Result<Self, ExperimentError> {
-        let text = |told: Option<&str>| told.unwrap_or_default().to_owned();
+    pub fn new(pseudonym: &str, described: Particulars<'_>) -> Result<Self, ExperimentError> {
+        let text = |described: Option<&str>| described.unwrap_or_default().to_owned();
         let participant = Self {
             pseudonym: pseudonym.to_owned(),
             particulars: [
-                told.age_years
+                described
+                    .age_years
                     .map_or_else(String::new, |age| age.to_string()),
-                text(told.sex),
-                text(told.handedness),
-                text(told.experience),
-                text(told.room),
+                text(described.sex),
+                text(described.handedness),
+                text(described.experience),
+                text(described.room),
             ],
         };
         match participant.flaw() {
@@ -92,10 +93,10 @@ impl Participant {
 
     /// What is wrong, and how to mend it.
     fn flaw(&self) -> Option<(String, String)> {
-        let told = |name: &str, value: &str| format!("{name} is {value:?}");
+        let described = |name: &str, value: &str| format!("{name} is {value:?}");
         if !is_name(&self.pseudonym) {
             let mend = "give 1 to 64 letters, digits, - and _, and no real name";
-            return Some((told("pseudonym", &self.pseudonym), mend.to_owned()));
+            return Some((described("pseudonym", &self.pseudonym), mend.to_owned()));
         }
         let [age, sex, hand, experience, room] = &self.particulars;
         let is_age = |text: &str| {
@@ -104,34 +105,34 @@ impl Participant {
         };
         if !age.is_empty() && !is_age(age) {
             let mend = format!("give 1 to {OLDEST_YEARS} whole years, or leave it out");
-            return Some((told("age_years", age), mend));
+            return Some((described("age_years", age), mend));
         }
         for (name, value, known) in [("sex", sex, SEXES), ("handedness", hand, HANDS)] {
             if !value.is_empty() && !known.contains(&value.as_str()) {
                 let [first, second, third] = known;
                 let mend = format!("give {first}, {second} or {third}, or leave it out");
-                return Some((told(name, value), mend));
+                return Some((described(name, value), mend));
             }
         }
         let mut words = [("experience", experience), ("room", room)].into_iter();
         let (name, value) = words.find(|(_, value)| !value.is_empty() && !is_name(value))?;
         let mend = "give one word of letters, digits, - and _, or leave it out";
-        Some((told(name, value), mend.to_owned()))
+        Some((described(name, value), mend.to_owned()))
     }
 
     /// The first particular that was told of `self` and is another of `known`, in one line.
     fn difference(&self, known: &Self) -> Option<String> {
         let pairs = self.particulars.iter().zip(&known.particulars);
         let mut pairs = COLUMNS[1..].iter().zip(pairs);
-        let (column, (told, known)) =
-            pairs.find(|(_, (told, known))| !told.is_empty() && told != known)?;
+        let (column, (described, known)) =
+            pairs.find(|(_, (described, known))| !described.is_empty() && described != known)?;
         let then = match known.as_str() {
             "" => "was not told".to_owned(),
             known => format!("was {known}"),
         };
         let who = &self.pseudonym;
         Some(format!(
-            "{who} took part already: {column} {then} then, and is {told} now"
+            "{who} took part already: {column} {then} then, and is {described} now"
         ))
     }
 }
@@ -280,8 +281,13 @@ mod tests {
         folder
     }
 
-    fn enrol(folder: &Folder, pseudonym: &str, told: Particulars<'_>) -> Result<usize, String> {
-        let participant = Participant::new(pseudonym, told).map_err(|error| error.to_string())?;
+    fn enrol(
+        folder: &Folder,
+        pseudonym: &str,
+        described: Particulars<'_>,
+    ) -> Result<usize, String> {
+        let participant =
+            Participant::new(pseudonym, described).map_err(|error| error.to_string())?;
         let nth = Participants::enrol(&folder.0, &participant, UNIX_EPOCH);
         nth.map_err(|error| error.to_string())
     }
@@ -312,19 +318,19 @@ mod tests {
             handedness: Some("left"),
             ..TOLD
         };
-        let told = enrol(&folder, "p01", left).unwrap_err();
+        let described = enrol(&folder, "p01", left).unwrap_err();
         assert!(
-            told.contains("handedness was not told then, and is left now"),
-            "{told}"
+            described.contains("handedness was not told then, and is left now"),
+            "{described}"
         );
         let older = Particulars {
             age_years: Some(32),
             ..TOLD
         };
-        let told = enrol(&folder, "p01", older).unwrap_err();
+        let described = enrol(&folder, "p01", older).unwrap_err();
         assert!(
-            told.contains("age_years was 31 then, and is 32 now"),
-            "{told}"
+            described.contains("age_years was 31 then, and is 32 now"),
+            "{described}"
         );
         assert_eq!(fs::read(table_path(&folder.0)).unwrap(), before);
     }
@@ -332,7 +338,7 @@ mod tests {
     #[test]
     fn names_of_people_and_words_that_are_not_known_are_refused() {
         let folder = folder("words");
-        for (pseudonym, told, expected) in [
+        for (pseudonym, described, expected) in [
             ("Ada Lovelace", TOLD, "no real name"),
             (
                 "p01",
@@ -359,7 +365,7 @@ mod tests {
                 "one word",
             ),
         ] {
-            let error = enrol(&folder, pseudonym, told).unwrap_err();
+            let error = enrol(&folder, pseudonym, described).unwrap_err();
             assert!(error.contains(expected), "{error}");
         }
         assert!(!table_path(&folder.0).exists());
@@ -385,13 +391,16 @@ mod tests {
         let header = COLUMNS.join(",");
         let path = table_path(&folder.0);
         fs::write(&path, format!("{header}\np01,,,,,,\np01,,,,,,\n")).unwrap();
-        let told = Participants::read(&folder.0).unwrap_err().to_string();
+        let described = Participants::read(&folder.0).unwrap_err().to_string();
         assert!(
-            told.contains("participants.csv:3: p01 is there twice"),
-            "{told}"
+            described.contains("participants.csv:3: p01 is there twice"),
+            "{described}"
         );
         fs::write(&path, format!("{header}\np01,old,,,,,\n")).unwrap();
-        let told = Participants::read(&folder.0).unwrap_err().to_string();
-        assert!(told.contains(":2: age_years is \"old\""), "{told}");
+        let described = Participants::read(&folder.0).unwrap_err().to_string();
+        assert!(
+            described.contains(":2: age_years is \"old\""),
+            "{described}"
+        );
     }
 }

@@ -291,8 +291,8 @@ mod tests {
     fn ranks_that_are_tied_are_refused_with_what_to_give() {
         let error = RANK.verdict(&Answer::Ranks([1, 1, 3, 4]));
         let text = error.map_err(|error| error.to_string());
-        let told = "the ranks are [1, 1, 3, 4]; give each of 1, 2, 3 and 4 once";
-        assert_eq!(text, Err(told.to_owned()));
+        let described = "the ranks are [1, 1, 3, 4]; give each of 1, 2, 3 and 4 once";
+        assert_eq!(text, Err(described.to_owned()));
     }
 
     #[test]

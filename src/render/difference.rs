@@ -144,7 +144,7 @@ pub struct LevelDifference {
     pub in_all: [Tally; 2],
     /// How far the first run lay above the threshold of each channel on average while it sounded,
     /// dB, by the model of [`Perception`]; `None` when it never did.
-    pub sensation_db: [Option<f64>; 2],
+    pub perceptual_level_db: [Option<f64>; 2],
 }
 
 impl LevelDifference {
@@ -185,7 +185,7 @@ impl DifferenceMeter {
                 by_contactor: Vec::new(),
                 over_time: Vec::new(),
                 in_all: [Tally::default(); 2],
-                sensation_db: [None; 2],
+                perceptual_level_db: [None; 2],
             },
             sensation_sum_db: [0.0; 2],
             n_sounding: [0; 2],
@@ -228,8 +228,8 @@ impl DifferenceMeter {
         let (n_vibrating, mean_um) = vibrating_mean_um(pairs_um.map(|[a, _]| a));
         let felt = Perception::of(mean_um, n_vibrating);
         for band in 0..2 {
-            if felt.sensation_db[band].is_finite() {
-                self.sensation_sum_db[band] += felt.sensation_db[band];
+            if felt.perceptual_level_db[band].is_finite() {
+                self.sensation_sum_db[band] += felt.perceptual_level_db[band];
                 self.n_sounding[band] += 1;
             }
         }
@@ -237,7 +237,7 @@ impl DifferenceMeter {
 
     /// What was found.
     pub fn finish(mut self) -> LevelDifference {
-        self.found.sensation_db = [0, 1].map(|band| {
+        self.found.perceptual_level_db = [0, 1].map(|band| {
             let n = self.n_sounding[band];
             (n > 0).then(|| self.sensation_sum_db[band] / n as f64)
         });
@@ -315,7 +315,10 @@ mod tests {
         for db in ranges.flatten() {
             assert!((db - 6.0).abs() < 1e-9, "{db}");
         }
-        assert!(found.sensation_db.iter().all(Option::is_some), "it is felt");
+        assert!(
+            found.perceptual_level_db.iter().all(Option::is_some),
+            "it is felt"
+        );
     }
 
     #[test]
@@ -331,7 +334,10 @@ mod tests {
         }
         let back = compared((&without, Method::Table), (&scene, Method::Table));
         assert!(back.in_all[1].n_only[1] > 0 && back.in_all[1].n_both == 0);
-        assert_eq!(back.sensation_db[1], None, "the first never sounded there");
+        assert_eq!(
+            back.perceptual_level_db[1], None,
+            "the first never sounded there"
+        );
         let column = back.columns(1)[0][1];
         assert_eq!((column.range_db, column.is_only), (None, [false, true]));
     }

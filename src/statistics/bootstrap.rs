@@ -252,10 +252,10 @@ mod tests {
         assert!((found[1] / found[0] - 10.0).abs() < 1e-9, "{found:?}");
         assert!(bootstrap_errors(1, both, (200, 4)).is_err(), "one alone");
         let never = |_: &[usize]| Err(Undefined::because("apart"));
-        let told = bootstrap_errors(5, never, (50, 4)).unwrap_err().reason;
+        let described = bootstrap_errors(5, never, (50, 4)).unwrap_err().reason;
         assert!(
-            told.contains("50 of 50") && told.contains("apart"),
-            "{told}"
+            described.contains("50 of 50") && described.contains("apart"),
+            "{described}"
         );
         Ok(())
     }

@@ -27,20 +27,6 @@ pub(super) fn chart(
     }
 }
 
-/// A series of points.
-pub(super) fn series(
-    name: impl Into<String>,
-    style: Style,
-    points: impl IntoIterator<Item = [f64; 2]>,
-) -> Series {
-    Series {
-        name: name.into(),
-        points: points.into_iter().collect(),
-        style,
-        ..Series::default()
-    }
-}
-
 /// Lines and dots, one for every name among rows in the order in which names come: a dot a row that
 /// has a point.
 pub(super) fn lines_by<'a>(
@@ -60,7 +46,7 @@ pub(super) fn lines_by<'a>(
 pub(super) fn place(all: &mut Vec<Series>, name: &str, style: Style) -> usize {
     let known = all.iter().position(|series| series.name == name);
     known.unwrap_or_else(|| {
-        all.push(series(name, style, []));
+        all.push(Series::of(name, style, []));
         all.len() - 1
     })
 }
@@ -115,7 +101,7 @@ fn promises(rows: &[Row], ends_s: [f64; 2], unit: &str) -> Vec<Series> {
     }
     let line = |promise: f64| {
         let name = format!("promised: {} {unit}", readable::number(promise));
-        series(name.trim(), Style::Dashed, ends_s.map(|x| [x, promise]))
+        Series::of(name.trim(), Style::Dashed, ends_s.map(|x| [x, promise]))
     };
     promised.into_iter().map(line).collect()
 }

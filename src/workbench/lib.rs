@@ -29,15 +29,9 @@ pub(crate) mod shell;
 pub(crate) mod tools;
 
 pub use crate::bench::Drive;
-pub use crate::bench::applied_gains::AppliedGains;
-pub use crate::bench::document::Document;
 pub use crate::bench::error::AppError;
-pub use crate::bench::recording::Recording;
-pub use crate::bench::rendering::Rendering;
-pub use crate::bench::settings::Settings;
 pub use crate::bench::settings::build_cache;
 pub use crate::bench::settings::own_arrays;
-pub use crate::bench::settings::preferences::Preferences;
 pub use crate::shell::native::EndSwitch;
 pub use crate::shell::native::run;
 pub use crate::shell::raster::Picture;

@@ -35,13 +35,13 @@ fn answers(trials: std::ops::Range<usize>) -> String {
 }
 
 /// A session that waits for lines.
-struct Desk {
+struct PaneHost {
     child: Child,
     typed: ChildStdin,
     said: BufReader<ChildStdout>,
 }
 
-impl Desk {
+impl PaneHost {
     fn of(mut command: Command) -> Self {
         let command = command
             .stdin(Stdio::piped())
@@ -118,7 +118,7 @@ fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not()
     assert!(outcome.out.contains("10 rows in"), "{outcome:?}");
 
     let lab = lab();
-    let mut desk = Desk::sit(&lab, &[]);
+    let mut desk = PaneHost::sit(&lab, &[]);
     desk.types(&answers(0..4));
     desk.hears("trial 5, block 1: 4 of 10 done");
     desk.types("\n");
@@ -128,12 +128,15 @@ fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not()
     let before = fs::read(lab.path(LOG)).unwrap();
     fs::write(lab.path(LOG), [&before[..], b"1,cloth,od"].concat()).unwrap();
 
-    let told = lab.refuse(&RUN);
+    let described = lab.refuse(&RUN);
     assert!(
-        told.contains("session 1 of p01 has 4 of 10 trials done"),
-        "{told}"
+        described.contains("session 1 of p01 has 4 of 10 trials done"),
+        "{described}"
     );
-    assert!(told.contains("the last 0 min ago; give --resume"), "{told}");
+    assert!(
+        described.contains("the last 0 min ago; give --resume"),
+        "{described}"
+    );
     let outcome = held(
         &lab,
         &[&RUN[..], &["--resume"]].concat(),
@@ -144,8 +147,8 @@ fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not()
     assert!(outcome.err.contains("p01_1.csv.torn-1"), "{outcome:?}");
     assert!(fs::read(lab.path(LOG)).unwrap().starts_with(&before));
     assert_eq!(timeless(&lab.path(LOG)), timeless(&whole.path(LOG)));
-    let told = lab.refuse(&[&RUN[..], &["--session", "1"]].concat());
-    assert!(told.contains("it is finished"), "{told}");
+    let described = lab.refuse(&[&RUN[..], &["--session", "1"]].concat());
+    assert!(described.contains("it is finished"), "{described}");
 }
 
 #[test]
@@ -168,7 +171,7 @@ fn a_session_that_ran_out_of_lines_fails_and_one_that_was_quit_does_not() {
 #[test]
 fn two_programs_cannot_hold_one_session() {
     let lab = lab();
-    let mut desk = Desk::sit(&lab, &[]);
+    let mut desk = PaneHost::sit(&lab, &[]);
     desk.types(&answers(0..1));
     desk.hears("trial 2");
     let outcome = lab.run(&[&RUN[..], &["--resume"]].concat());
@@ -207,8 +210,8 @@ fn restarting_begins_the_next_session_and_leaves_the_first() {
 #[test]
 fn participants_are_listed_once_and_sessions_go_by_their_number() {
     let lab = lab();
-    let told = ["--age", "31", "--sex", "female", "--room", "B-214"];
-    held(&lab, &[&RUN[..], &told].concat(), "quit\n");
+    let described = ["--age", "31", "--sex", "female", "--room", "B-214"];
+    held(&lab, &[&RUN[..], &described].concat(), "quit\n");
     let second = ["experiment", "run", "cloth.toml", "--subject", "p02"];
     held(&lab, &second, "quit\n");
     held(&lab, &[&RUN[..], &["--resume"]].concat(), "quit\n");
@@ -223,10 +226,10 @@ fn participants_are_listed_once_and_sessions_go_by_their_number() {
         );
     }
     let older = [&RUN[..], &["--restart", "--age", "32"]].concat();
-    let told = lab.refuse(&older);
+    let described = lab.refuse(&older);
     assert!(
-        told.contains("age_years was 31 then, and is 32 now"),
-        "{told}"
+        described.contains("age_years was 31 then, and is 32 now"),
+        "{described}"
     );
     assert!(!lab.path("cloth/cloth_odd_p01_2.csv").exists());
 }
@@ -238,19 +241,19 @@ fn what_cannot_be_held_is_told_in_one_line() {
         let args = ["experiment", "run", design, "--subject", subject];
         lab.refuse(&[&args[..], more].concat())
     };
-    let told = run("threshold-40", "p01", &[]);
-    assert!(told.contains("--presented-elsewhere"), "{told}");
-    let told = run("no-such", "p01", &[]);
-    assert!(told.contains("there is no design"), "{told}");
-    let told = run("cloth.toml", "Ada Lovelace", &[]);
-    assert!(told.contains("no real name"), "{told}");
-    let told = run("cloth.toml", "p01", &["--resume"]);
-    assert!(told.contains("no session 1 of p01"), "{told}");
-    let told = run("cloth.toml", "p01", &["--folder", "cloth.toml"]);
-    assert!(told.contains("--folder"), "{told}");
+    let described = run("threshold-40", "p01", &[]);
+    assert!(described.contains("--presented-elsewhere"), "{described}");
+    let described = run("no-such", "p01", &[]);
+    assert!(described.contains("there is no design"), "{described}");
+    let described = run("cloth.toml", "Ada Lovelace", &[]);
+    assert!(described.contains("no real name"), "{described}");
+    let described = run("cloth.toml", "p01", &["--resume"]);
+    assert!(described.contains("no session 1 of p01"), "{described}");
+    let described = run("cloth.toml", "p01", &["--folder", "cloth.toml"]);
+    assert!(described.contains("--folder"), "{described}");
     lab.write("bad.toml", CLOTH.replace("real-cloth", "stylus"));
-    let told = run("bad.toml", "p01", &[]);
-    assert!(told.contains("bad.toml:3"), "{told}");
+    let described = run("bad.toml", "p01", &[]);
+    assert!(described.contains("bad.toml:3"), "{described}");
     assert!(!lab.path("cloth").exists(), "nothing was begun");
 }
 
@@ -260,10 +263,10 @@ fn a_design_that_was_changed_in_between_is_refused() {
     held(&lab, &RUN, &answers(0..3));
     let before = fs::read(lab.path(LOG)).unwrap();
     lab.write("cloth.toml", CLOTH.replace("seed = 3", "seed = 4"));
-    let told = lab.refuse(&[&RUN[..], &["--resume"]].concat());
+    let described = lab.refuse(&[&RUN[..], &["--resume"]].concat());
     assert!(
-        told.contains("cloth.toml was changed since session 1"),
-        "{told}"
+        described.contains("cloth.toml was changed since session 1"),
+        "{described}"
     );
     assert_eq!(fs::read(lab.path(LOG)).unwrap(), before);
 }
@@ -295,8 +298,8 @@ fn the_designs_of_the_program_are_listed_and_shown_as_files() {
     assert_eq!(list.lines().count(), Design::shipped_names().count());
     let shown = lab.print(&["experiment", "designs", "--show", "rating"]);
     assert_eq!(Some(shown.as_str()), Design::shipped_text("rating"));
-    let told = lab.refuse(&["experiment", "designs", "--show", "ratings"]);
-    assert!(told.contains("rating"), "{told}");
+    let described = lab.refuse(&["experiment", "designs", "--show", "ratings"]);
+    assert!(described.contains("rating"), "{described}");
 }
 
 #[test]
@@ -307,10 +310,10 @@ fn a_masking_noise_is_a_sound_file_of_the_length_that_was_asked_for() {
     let bytes = fs::read(lab.path("noise.wav")).unwrap();
     assert_eq!(bytes.len(), 44 + 2 * 48_000 * 60);
     assert!(bytes.starts_with(b"RIFF") && &bytes[8..12] == b"WAVE");
-    let told = lab.refuse(&[&noise[..], &["1", "--fade-s", "-2"]].concat());
-    assert!(told.contains("fade"), "{told}");
-    let told = lab.refuse(&[&noise[..], &["0"]].concat());
-    assert!(told.contains("minutes"), "{told}");
+    let described = lab.refuse(&[&noise[..], &["1", "--fade-s", "-2"]].concat());
+    assert!(described.contains("fade"), "{described}");
+    let described = lab.refuse(&[&noise[..], &["0"]].concat());
+    assert!(described.contains("minutes"), "{described}");
     assert_eq!(
         fs::read(lab.path("noise.wav")).unwrap(),
         bytes,
@@ -320,7 +323,7 @@ fn a_masking_noise_is_a_sound_file_of_the_length_that_was_asked_for() {
 
 /// A session that may write no file longer than a few thousand bytes, as on a disk that is full.
 #[cfg(target_os = "linux")]
-fn on_a_small_disk(lab: &Lab) -> Desk {
+fn on_a_small_disk(lab: &Lab) -> PaneHost {
     let limited = "trap '' XFSZ; ulimit -S -f 40; exec \"$0\" \"$@\"";
     let program = lab.command(&[]).get_program().to_owned();
     let mut command = Command::new("sh");
@@ -329,14 +332,14 @@ fn on_a_small_disk(lab: &Lab) -> Desk {
         .arg(program)
         .args(RUN)
         .current_dir(lab.path(""));
-    let mut desk = Desk::of(command);
+    let mut desk = PaneHost::of(command);
     desk.types(&answers(0..2));
     desk.hears("trial 3");
     desk.types(&format!("note {}\n\n3 hard\n", "x".repeat(50_000)));
-    let told = desk.hears("cannot write");
+    let described = desk.hears("cannot write");
     assert!(
-        told.contains("Enter writes the same answer again"),
-        "{told}"
+        described.contains("Enter writes the same answer again"),
+        "{described}"
     );
     desk
 }
@@ -354,8 +357,8 @@ fn on_a_full_disk_nothing_is_lost_and_the_session_goes_on_elsewhen() {
     desk.types("\n");
     desk.hears("cannot write");
     desk.types("quit\n");
-    let told = desk.hears("your note was not kept");
-    assert!(told.contains("xxx"), "the note is told back");
+    let described = desk.hears("your note was not kept");
+    assert!(described.contains("xxx"), "the note is told back");
     assert_eq!(desk.ends().code, 0);
     let outcome = held(
         &lab,

@@ -81,11 +81,14 @@ fn a_log_of_a_later_version_is_left_out_with_a_line_and_the_rest_is_analysed() {
     fs::write(&sidecar, newer).unwrap();
     let outcome = lab.run(&ANALYSE);
     assert_eq!(outcome.code, 0, "{outcome:?}");
-    let told = outcome.one_line();
-    assert!(told.contains("cloth_odd_p02_1.csv is left out"), "{told}");
+    let described = outcome.one_line();
     assert!(
-        told.contains("version 2") && told.contains("use a later one"),
-        "{told}"
+        described.contains("cloth_odd_p02_1.csv is left out"),
+        "{described}"
+    );
+    assert!(
+        described.contains("version 2") && described.contains("use a later one"),
+        "{described}"
     );
     let index = lab.read("found/index.md");
     assert!(index.contains("Logs that cannot be read"), "{index}");
@@ -99,8 +102,8 @@ fn a_log_of_a_later_version_is_left_out_with_a_line_and_the_rest_is_analysed() {
         text.replacen("\"schema_version\": 1", "\"schema_version\": 2", 1),
     )
     .unwrap();
-    let told = lab.refuse(&["experiment", "analyse", "logs", "--out", "again"]);
-    assert!(told.contains("version 2"), "{told}");
+    let described = lab.refuse(&["experiment", "analyse", "logs", "--out", "again"]);
+    assert!(described.contains("version 2"), "{described}");
     assert!(!lab.path("again").exists(), "nothing was found");
 }
 
@@ -173,10 +176,10 @@ fn an_interrupted_analysis_writes_nothing_and_has_failed() {
 fn tables_are_never_written_among_the_logs() {
     let lab = Lab::new();
     on_disk(&lab, 0, 10, |number| number % 3 > 0);
-    let told = lab.refuse(&["experiment", "analyse", "logs", "--out", "logs"]);
+    let described = lab.refuse(&["experiment", "analyse", "logs", "--out", "logs"]);
     assert!(
-        told.contains("another folder, such as logs/analysis"),
-        "{told}"
+        described.contains("another folder, such as logs/analysis"),
+        "{described}"
     );
     assert!(!lab.path("logs/index.md").exists());
 }

@@ -232,13 +232,13 @@ const FELT: [&str; 14] = [
 fn a_lit_weave_becomes_a_textile_that_is_shown_and_rendered() {
     let lab = Lab::with_scene();
     lab.write("weave.png", lit_weave());
-    let told = lab.print(&FELT);
+    let described = lab.print(&FELT);
     for part in [
         "slant 45.0°, tilt 30.0°",
         "180.0 µm",
         "textiles/lit-weave: the textile",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(described.contains(part), "{described}");
     }
     let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
     let shading = &json["shading"];
@@ -320,10 +320,10 @@ fn all_bytes_are_the_same_whatever_the_threads_and_old_heights_go() {
 fn a_picture_alone_gives_heights_without_a_scale_and_says_so() {
     let lab = Lab::new();
     lab.write("weave.png", lit_weave());
-    let told = lab.print(&["picture", "weave.png", "--out", "made"]);
+    let described = lab.print(&["picture", "weave.png", "--out", "made"]);
     assert!(
-        told.contains("estimated: ") && told.contains("px, unscaled"),
-        "{told}"
+        described.contains("estimated: ") && described.contains("px, unscaled"),
+        "{described}"
     );
     let json: serde_json::Value = serde_json::from_str(&lab.read("made/periodicity.json")).unwrap();
     assert_eq!(json["shading"]["light_estimated"], true);

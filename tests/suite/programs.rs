@@ -23,8 +23,8 @@ fn a_program_says_positions_and_hears_amplitudes_while_the_device_plays_them() {
         .spawn()
         .unwrap();
     let mut line = String::new();
-    let mut told = BufReader::new(child.stderr.take().unwrap());
-    told.read_line(&mut line).unwrap();
+    let mut described = BufReader::new(child.stderr.take().unwrap());
+    described.read_line(&mut line).unwrap();
     let address = line.trim().rsplit(' ').next().unwrap();
     let mut program = TcpStream::connect(address).unwrap();
     program

@@ -41,7 +41,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
     #[command(flatten)]
-    told: ToldArgs,
+    described: ToldArgs,
     /// Go on with a session that was begun
     #[arg(long, conflicts_with = "restart")]
     resume: bool,
@@ -159,15 +159,15 @@ fn opened(
     device: &str,
     now: SystemTime,
 ) -> Result<Session, CliError> {
-    let told = &args.told;
+    let described = &args.described;
     let participant = Participant::new(
         &args.subject,
         Particulars {
-            age_years: told.age,
-            sex: told.sex.as_deref(),
-            handedness: told.handedness.as_deref(),
-            experience: told.experience.as_deref(),
-            room: told.room.as_deref(),
+            age_years: described.age,
+            sex: described.sex.as_deref(),
+            handedness: described.handedness.as_deref(),
+            experience: described.experience.as_deref(),
+            room: described.room.as_deref(),
         },
     )?;
     let folder = args
@@ -223,12 +223,12 @@ fn begun(
     let gap = last.and_then(|last| now.duration_since(last).ok());
     let gap = gap.map_or_else(String::new, |gap| format!(", the last {} ago", span(gap)));
     let (nth, who) = (found.subject.session, &found.subject.pseudonym);
-    let told = format!("session {nth} of {who} has {done} of {all} trials done{gap}");
+    let described = format!("session {nth} of {who} has {done} of {all} trials done{gap}");
     if !args.resume {
         let what = if done == all {
-            format!("{told}: it is finished; --restart begins another")
+            format!("{described}: it is finished; --restart begins another")
         } else {
-            format!("{told}; give --resume to go on, or --restart to begin another")
+            format!("{described}; give --resume to go on, or --restart to begin another")
         };
         return Err(CliError::Input(what));
     }
@@ -242,7 +242,7 @@ fn begun(
         return Err(CliError::Input(what));
     }
     let session = Session::resume(log, device)?;
-    terminal::notice(&told);
+    terminal::notice(&described);
     let aside = session.openings().last();
     if let Some(aside) = aside.and_then(|opening| opening.set_aside.as_ref()) {
         terminal::notice(&format!(
@@ -331,10 +331,10 @@ mod tests {
 
     #[test]
     fn a_gap_is_told_in_what_matters_of_it() {
-        let told = |minutes: u64| span(Duration::from_secs(60 * minutes));
-        assert_eq!(told(0), "0 min");
-        assert_eq!(told(59), "59 min");
-        assert_eq!(told(61), "1 h 1 min");
-        assert_eq!(told(24 * 60 * 3 + 125), "3 d 2 h");
+        let described = |minutes: u64| span(Duration::from_secs(60 * minutes));
+        assert_eq!(described(0), "0 min");
+        assert_eq!(described(59), "59 min");
+        assert_eq!(described(61), "1 h 1 min");
+        assert_eq!(described(24 * 60 * 3 + 125), "3 d 2 h");
     }
 }

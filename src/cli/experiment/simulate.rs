@@ -111,7 +111,7 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let logs = with_meter_until("simulating", &stop, |progress| {
         simulation.write(&args.out, numbers, progress)
     })?;
-    let told = format!(
+    let described = format!(
         "{} sessions of {} {} in {}; {}\n",
         logs.len(),
         design.study,
@@ -119,5 +119,5 @@ pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
         args.out.display(),
         observer.describe()
     );
-    output::print(&told)
+    output::print(&described)
 }

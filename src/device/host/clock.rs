@@ -248,9 +248,9 @@ mod tests {
             let (clock, start) = clock_after(60, ppm, ways);
             assert!((clock.fit_view().rate_ppm - ppm).abs() < 1.0, "{ppm}");
             let at = start + Duration::from_secs(70);
-            let told = clock.device_us(at).unwrap() as f64;
+            let described = clock.device_us(at).unwrap() as f64;
             let truth = 70e6 * (1.0 + ppm * 1e-6) + 5e6;
-            assert!((told - truth).abs() < 40.0, "{}", told - truth);
+            assert!((described - truth).abs() < 40.0, "{}", described - truth);
             let back = clock.at(clock.device_us(at).unwrap()).unwrap();
             assert!(since(at, back).abs() < 2.0);
         }

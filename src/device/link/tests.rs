@@ -30,13 +30,13 @@ impl Port for Notes {
     }
 }
 
-struct Desk {
+struct PaneHost {
     link: Link,
     writer: Writer,
     port: Notes,
 }
 
-fn desk() -> Desk {
+fn desk() -> PaneHost {
     let shared = Arc::new(Shared::new(Sequence::default(), Arc::new(|| {})));
     let (_, incoming) = RingBuffer::new(INCOMING);
     let (failed, failures) = RingBuffer::new(FRAMES);
@@ -45,7 +45,7 @@ fn desk() -> Desk {
     let (rings, rings_out) = RingBuffer::new(FRAMES);
     let outgoing = Outgoing::new(controls_out, frames_out, rings_out);
     let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
-    Desk {
+    PaneHost {
         link: Link {
             shared,
             incoming,
@@ -70,7 +70,7 @@ fn queued(tick: u32) -> QueuedFrame {
     }
 }
 
-impl Desk {
+impl PaneHost {
     fn write_all(&mut self) {
         while self.writer.step(&mut self.port).is_some() {}
     }

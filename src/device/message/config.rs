@@ -49,7 +49,7 @@ impl ChannelMask {
     }
 }
 
-/// Output settings. CONFIG carries wishes, CFG the clamped values that hold.
+/// Output settings. CONFIG carries what is asked, CFG the clamped values that hold.
 ///
 /// ```text
 /// 0 mode u8 | 1 flags u8 | 2 hold_ms u16 | 4 ramp_ms u16 | 6 slew u16 | 8 hv_dV u16

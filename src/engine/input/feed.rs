@@ -195,12 +195,12 @@ mod tests {
     #[test]
     fn an_angle_stays_until_another_is_told() {
         let (mut sender, mut input) = feed(SourceKind::Program);
-        let told = |angle_deg| match sample(0.0) {
+        let described = |angle_deg| match sample(0.0) {
             FeedItem::Sample(sample, _) => FeedItem::Sample(sample, angle_deg),
             lift @ FeedItem::Lift => lift,
         };
         for angle_deg in [Some(30.0), None, Some(f64::NAN)] {
-            sender.push(told(angle_deg));
+            sender.push(described(angle_deg));
         }
         poll(&mut input);
         assert_eq!(input.angle_deg(), Some(30.0));

@@ -125,14 +125,17 @@ fn the_first_who_says_a_position_moves_the_display_until_it_goes() {
     );
     eventually("bad", || input.losses().bad_lines == 1);
     second.write_all(b"5,6\n7,8\n").unwrap();
-    let mut told = String::new();
+    let mut described = String::new();
     // The header of no contactors comes first where nobody taps.
     let mut reader = BufReader::new(&second);
-    while !told.starts_with('#') {
-        told.clear();
-        reader.read_line(&mut told).unwrap();
+    while !described.starts_with('#') {
+        described.clear();
+        reader.read_line(&mut described).unwrap();
     }
-    assert!(told.contains("another program moves the display"), "{told}");
+    assert!(
+        described.contains("another program moves the display"),
+        "{described}"
+    );
     drop(first);
     eventually("the first is gone", || !link.counts().has_writer);
     let lifted = input.poll(Instant::now(), &mut |sample| panic!("{sample:?}"));

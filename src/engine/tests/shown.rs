@@ -55,9 +55,12 @@ fn a_snapshot_that_shows_all_commands_was_rendered_at_its_pose_with_their_gains(
 
 #[test]
 fn ticks_cost_time_where_a_clock_runs_and_none_where_time_is_told() {
-    let (mut told, _) = engine(Method::Auto);
-    told.advance_ticks(5).unwrap();
-    assert_eq!(told.snapshot().clock.costs, DurationHistogram::default());
+    let (mut described, _) = engine(Method::Auto);
+    described.advance_ticks(5).unwrap();
+    assert_eq!(
+        described.snapshot().clock.costs,
+        DurationHistogram::default()
+    );
     let mut running = Engine::start(config(Method::Auto)).unwrap();
     while running.snapshot().clock.costs.n() < 3 {
         std::thread::sleep(Duration::from_millis(5));

@@ -71,7 +71,7 @@ fn a_held_replay_leaves_none_and_a_step_leaves_one() {
 }
 
 #[test]
-fn a_glimpse_holds_the_mean_over_textiles_and_the_one_that_is_watched() {
+fn a_tick_sample_holds_the_mean_over_textiles_and_the_one_that_is_watched() {
     let mut engine = replay(Method::Table);
     engine.send(Command::Watch(7)).unwrap();
     engine.send(Command::Play).unwrap();

@@ -1,7 +1,7 @@
 //! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
-use super::draw::{Bar, bars, scatter, series};
+use super::draw::{Bar, bars, scatter};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
@@ -10,7 +10,7 @@ use super::tables::tests;
 use super::variance::{complete_rows, effects};
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::{Answer, Task};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::LineFit;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
@@ -282,14 +282,14 @@ fn kappas(
 
 fn gain_plot(experiment: &Experiment<'_>, points: &[[f64; 2]]) -> Drawn {
     let means = points.iter().copied();
-    let mut all = vec![series("mean over subjects", Style::Dots, means)];
+    let mut all = vec![Series::of("mean over subjects", Style::Dots, means)];
     if let Ok((line, _)) = slope(points) {
         let x = points.iter().map(|p| p[0]);
         let low = x.clone().fold(f64::INFINITY, f64::min);
         let high = x.fold(f64::NEG_INFINITY, f64::max);
         let ends = [low, high].map(|x| [x, line.offset + line.slope * x]);
         let name = format!("κ = {}", fixed(-line.slope, 2));
-        all.push(series(name, Style::Line, ends));
+        all.push(Series::of(name, Style::Line, ends));
     }
     let axes = [
         Axis::linear("level of the textile, dB re 1 µm"),

@@ -49,20 +49,6 @@ impl Bar {
     }
 }
 
-/// A line or dots by name.
-pub(crate) fn series(
-    name: impl Into<String>,
-    style: Style,
-    points: impl IntoIterator<Item = [f64; 2]>,
-) -> Series {
-    Series {
-        name: name.into(),
-        points: points.into_iter().collect(),
-        style,
-        ..Series::default()
-    }
-}
-
 /// Bars with error bars, groups side by side, and levels to compare with.
 pub(super) fn bars(
     key: &str,
@@ -123,7 +109,7 @@ fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec
             let at = place(bar);
             series.push(Series {
                 ink: Ink::Grey,
-                ..self::series("", Style::Line, [[low, at], [high, at]])
+                ..Series::of("", Style::Line, [[low, at], [high, at]])
             });
         }
     }
@@ -131,7 +117,7 @@ fn bar_series(bars: &[Bar], groups: &[&str], place: &dyn Fn(&Bar) -> f64) -> Vec
         let own = bars.iter().filter(|bar| bar.group == *group);
         let name = if groups.len() > 1 { group } else { "" };
         let points = own.map(|bar| [bar.value, place(bar)]);
-        series.push(self::series(name, Style::default(), points));
+        series.push(Series::of(name, Style::default(), points));
     }
     series
 }

@@ -1,6 +1,6 @@
 //! Maps of named points, and squares of colours.
 
-use super::draw::{self, figure, list};
+use super::draw::{figure, list};
 use super::model::{Cell, Drawn, Table, cells, known};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Ink, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
@@ -35,7 +35,7 @@ impl MapDrawing<'_> {
         for (name, direction) in self.directions {
             series.push(Series {
                 weight: Weight::Bold,
-                ..draw::series(name, Style::Line, [[0.0; 2], *direction])
+                ..Series::of(name, Style::Line, [[0.0; 2], *direction])
             });
         }
         series.push(Series {
@@ -120,7 +120,7 @@ fn outline(ellipse: &Ellipse) -> Series {
     Series {
         ink: Ink::Grey,
         weight: Weight::Thin,
-        ..draw::series("", Style::Line, (0..=N_CORNERS).map(corner))
+        ..Series::of("", Style::Line, (0..=N_CORNERS).map(corner))
     }
 }
 

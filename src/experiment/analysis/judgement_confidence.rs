@@ -1,12 +1,12 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
-use super::draw::{scatter, series};
+use super::draw::scatter;
 use super::included_trials::{Experiment, Subject};
 use super::judgement_answers::{Judgement, judgements};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::tables::tests;
 use crate::design::Judging;
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::detection::{Roc, roc};
 use selvedge_statistics::{Computed, Summary, one_sample_t};
 
@@ -79,8 +79,8 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
 
 fn curve(experiment: &Experiment<'_>, pooled: &Roc) -> Drawn {
     let all = vec![
-        series("all together", Style::LineAndDots, pooled.points.clone()),
-        series("guessing", Style::Dashed, [[0.0, 0.0], [1.0, 1.0]]),
+        Series::of("all together", Style::LineAndDots, pooled.points.clone()),
+        Series::of("guessing", Style::Dashed, [[0.0, 0.0], [1.0, 1.0]]),
     ];
     let axes = ["false alarms", "hits"].map(|label| Axis::linear(label).within([0.0, 1.0]));
     let title = experiment.titled("receiver operating characteristic");

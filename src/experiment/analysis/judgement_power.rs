@@ -1,10 +1,10 @@
 //! What a judgement that finds nothing does say: equivalence, and what would have been found.
 
-use super::draw::{scatter, series};
+use super::draw::scatter;
 use super::included_trials::{Experiment, Subject};
 use super::judgement_cells::differences_of_conditions;
 use super::model::{Drawn, Section, Table, cells, or_undefined};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::{Computed, Summary, Undefined, mean, power_of_t, tost};
 
@@ -165,7 +165,7 @@ impl Curve {
         let line = |name: &str, powers: &[Computed], style: Style| {
             let all = self.shares.iter().zip(powers);
             let points = all.filter_map(|(share, power)| Some([*share, *power.as_ref().ok()?]));
-            series(name, style, points)
+            Series::of(name, style, points)
         };
         let mut lines = vec![
             line("subjects spread as seen", &self.as_seen, Style::Line),

@@ -1,7 +1,7 @@
 //! Thresholds and just noticeable differences: the mean of the last reversals and a fit to all
 //! trials, track by track and subject by subject.
 
-use super::draw::{self, Bar, bars, scatter, series};
+use super::draw::{Bar, bars, scatter};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
@@ -156,7 +156,7 @@ fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) ->
     }
     let at = |i: u32| low + (high - low) * f64::from(i) / f64::from(N_DRAWN);
     let curve = |(name, fit): &(&str, Fit)| {
-        series(
+        Series::of(
             *name,
             Style::Line,
             (0..=N_DRAWN).map(|i| [at(i), fit.curve.at(at(i))]),
@@ -165,7 +165,7 @@ fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) ->
     let mut all: Vec<Series> = fits.iter().map(curve).collect();
     if let [(_, fit)] = fits {
         let share = |b: &Block| [b.x, f64::from(b.n_right) / f64::from(b.n)];
-        all.push(series(
+        all.push(Series::of(
             "share right",
             Style::Dots,
             fit.blocks.iter().map(share),
@@ -283,7 +283,7 @@ fn of_subject(
                 .iter()
                 .zip(1_u32..)
                 .map(|(t, i)| [f64::from(i), t.level_db]);
-            series.push(draw::series(name, Style::LineAndDots, at));
+            series.push(Series::of(name, Style::LineAndDots, at));
         }
     }
     thresholds

@@ -1,12 +1,12 @@
 //! Magnitude estimation: exponents of Stevens' law by condition and subject.
 
-use super::draw::{Bar, bars, scatter, series};
+use super::draw::{Bar, bars, scatter};
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, cells};
 use super::tables::{summaries, tests};
 use crate::design::Source;
 use crate::{Answer, Task};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::paired_t;
 use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
@@ -126,13 +126,13 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
             constant, exponent, ..
         } = law.group;
         let means = law.stimuli.iter().zip(&law.means).map(|(x, y)| [*x, *y]);
-        all.push(series(*condition, Style::Dots, means));
+        all.push(Series::of(*condition, Style::Dots, means));
         let name = format!("{condition}, exponent {}", fixed(exponent, 2));
         let line = law
             .stimuli
             .iter()
             .map(|x| [*x, constant * x.powf(exponent)]);
-        all.push(series(name, Style::Line, line));
+        all.push(Series::of(name, Style::Line, line));
         for (name, own) in &law.subjects {
             let interval = own.interval.as_ref().ok().map(|i| [i.low, i.high]);
             shown.push(Bar::of(name, condition, own.exponent, interval));

@@ -1,12 +1,12 @@
 //! Maps from dissimilarities: stress by dimensions, the elbow, Shepard's diagram, ellipses over
 //! subjects.
 
-use super::draw::{scatter, series};
+use super::draw::scatter;
 use super::model::{Drawn, Section, Table, cells, known};
 use super::options::Options;
 use super::properties::Measures;
 use super::tables::{matrix, tests};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use selvedge_statistics::properties::{Ellipse, bootstrap_ellipses};
@@ -124,7 +124,7 @@ impl Mapping<'_> {
         }
         let line = |name: &str, of: &dyn Fn(&Map) -> f64| {
             let points = maps.iter().map(|map| [map.dims as f64, of(map)]);
-            series(name, Style::LineAndDots, points)
+            Series::of(name, Style::LineAndDots, points)
         };
         let mut all = vec![
             line("S-stress", &|m| m.sstress),
@@ -132,7 +132,7 @@ impl Mapping<'_> {
         ];
         if !five.is_empty() {
             let points = maps.iter().zip(&five).map(|(m, v)| [m.dims as f64, *v]);
-            all.push(series("5 % of random ranks", Style::Dashed, points));
+            all.push(Series::of("5 % of random ranks", Style::Dashed, points));
         }
         let most = losses.iter().fold(0.1, |m: f64, (_, l)| m.max(*l));
         let dims = Axis::whole("dimensions");
@@ -282,8 +282,8 @@ fn shepard(map: &Map) -> Drawn {
     let distances = map.shepard.iter().map(|pair| [pair.delta, pair.distance]);
     let disparities = map.shepard.iter().map(|pair| [pair.delta, pair.disparity]);
     let all = vec![
-        series("distance", Style::Dots, distances),
-        series("disparity", Style::Line, disparities),
+        Series::of("distance", Style::Dots, distances),
+        Series::of("disparity", Style::Line, disparities),
     ];
     let axes = [Axis::linear("dissimilarity"), Axis::linear("distance")];
     scatter("shepard", "Shepard's diagram, two dimensions", axes, all)

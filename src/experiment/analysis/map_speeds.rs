@@ -36,9 +36,9 @@ impl Mapping<'_> {
             BANDS.map(of)
         };
         let reference = named("");
-        let all = |told: &str, measures: [Option<&Measure>; 2]| {
+        let all = |described: &str, measures: [Option<&Measure>; 2]| {
             let blank = vec![Cell::none("of every subject below"); 6];
-            cells![told, blank, correlations(turn, measures, reference)]
+            cells![described, blank, correlations(turn, measures, reference)]
         };
         table.push(all("all, at 100 mm/s", reference));
         table.push(all("all, mean of own", named("_own_speed")));

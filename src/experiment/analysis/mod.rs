@@ -47,7 +47,7 @@ mod write;
 
 use std::path::Path;
 
-pub(super) use draw::{scatter, series};
+pub(super) use draw::scatter;
 pub(super) use judgement_answers::judgements;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};

@@ -227,13 +227,18 @@ fn grades(experiment: &Experiment<'_>) -> Section {
     for (name, is_correct) in [("right", true), ("wrong", false)] {
         for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
             let (count, shares) = graded(experiment, is_correct, grade);
-            let told = crate::Grade::ALL[grade as usize].name();
+            let described = crate::Grade::ALL[grade as usize].name();
             let se = Summary::of(&shares).map(|s| s.se);
             let mean = mean(&shares);
-            table.push(cells![name, told, count, shares.len(), &mean, &se]);
+            table.push(cells![name, described, count, shares.len(), &mean, &se]);
             if let Ok(mean) = mean {
                 let interval = se.ok().map(|se| [mean - se, mean + se]);
-                shown.push(Bar::of(told, &format!("{name} answers"), mean, interval));
+                shown.push(Bar::of(
+                    described,
+                    &format!("{name} answers"),
+                    mean,
+                    interval,
+                ));
             }
         }
     }

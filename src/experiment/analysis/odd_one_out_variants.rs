@@ -19,7 +19,7 @@ const OTHER_WEIGHTS: [[f64; 3]; 2] = [[1.0, 0.6, 0.3], [1.0, 1.0, 1.0]];
 
 /// One way to take distances.
 struct Variant {
-    told: String,
+    described: String,
     n_ceiling: usize,
     n_floor: usize,
     values: Vec<Option<f64>>,
@@ -29,7 +29,7 @@ impl Variant {
     fn weighted(found: &OddOneOut) -> Self {
         let GradeWeights { easy, normal, hard } = found.weights;
         Self {
-            told: format!("weights {easy} / {normal} / {hard}"),
+            described: format!("weights {easy} / {normal} / {hard}"),
             n_ceiling: found.n_ceiling,
             n_floor: found.n_floor,
             values: if found.is_balanced() {
@@ -99,7 +99,7 @@ pub(super) fn section(
     let mut table = Table::new("variants", "Maps by other distances", &VARIANTS);
     let mut places = Table::new("coordinates", "Plane maps, laid over the design's", &PLACES);
     table.push(own.row(&own, (&own_maps, None), options));
-    enter(&mut places, &own.told, names, &plane(&own_maps));
+    enter(&mut places, &own.described, names, &plane(&own_maps));
     for variant in variants(names.len(), all, craven) {
         let maps = variant.maps(names, &mds, progress)?;
         table.push(variant.row(&own, (&maps, Some(&own_maps)), options));
@@ -107,7 +107,7 @@ pub(super) fn section(
             let over = plane(&own_maps)?;
             Ok(Procrustes::of(&map, &over)?.moved)
         });
-        enter(&mut places, &variant.told, names, &laid);
+        enter(&mut places, &variant.described, names, &laid);
     }
     section.table(table);
     if !places.rows.is_empty() {
@@ -121,7 +121,7 @@ fn variants(n_items: usize, all: &[TriadAnswer], craven: &Craven) -> Vec<Variant
     let others = OTHER_WEIGHTS.into_iter().filter_map(weighted);
     let mut variants: Vec<Variant> = others.map(|found| Variant::weighted(&found)).collect();
     variants.push(Variant {
-        told: "Craven's d′".to_owned(),
+        described: "Craven's d′".to_owned(),
         n_ceiling: craven.n_ceiling,
         n_floor: craven.n_floor,
         values: craven.distances.clone(),
@@ -168,7 +168,7 @@ impl Variant {
         };
         let (ceiling, floor) = (self.n_ceiling, self.n_floor);
         cells![
-            &self.told,
+            &self.described,
             ceiling,
             floor,
             n_pairs,
@@ -198,9 +198,9 @@ const PLACES: [(&str, &str); 4] = [
     ("x2", "x₂"),
 ];
 
-fn enter(table: &mut Table, told: &str, names: &[String], points: &Computed<Vec<Vec<f64>>>) {
+fn enter(table: &mut Table, described: &str, names: &[String], points: &Computed<Vec<Vec<f64>>>) {
     for (name, point) in names.iter().zip(points.iter().flatten()) {
         let place: Vec<Cell> = point.iter().map(|x| Cell::from(*x)).collect();
-        table.push(cells![told, name, place]);
+        table.push(cells![described, name, place]);
     }
 }

@@ -102,15 +102,15 @@ impl Measures {
     /// Measures that are defined for every textile; others are told.
     fn add(&mut self, measures: Vec<Measure>, suffix: &str, heading: &str) {
         for measure in measures {
-            let told = format!("{}{heading}", measure.heading);
+            let described = format!("{}{heading}", measure.heading);
             if measure.values.iter().all(|v| v.is_finite()) {
                 self.all.push(Measure {
                     name: format!("{}{suffix}", measure.name),
-                    heading: told,
+                    heading: described,
                     values: measure.values,
                 });
             } else {
-                let note = format!("{told}: a textile is silent, so it is left out.");
+                let note = format!("{described}: a textile is silent, so it is left out.");
                 self.notes.push(note);
             }
         }

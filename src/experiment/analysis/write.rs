@@ -87,9 +87,9 @@ fn table_text(table: &Table, stem: &str, page: &mut Vec<String>) {
     page.push(row(rules.collect()));
     let mut reasons: Vec<&str> = Vec::new();
     for cells in &table.rows {
-        let mut told = Vec::with_capacity(n_columns);
+        let mut described = Vec::with_capacity(n_columns);
         for cell in cells {
-            told.push(match cell {
+            described.push(match cell {
                 Cell::Number(value) => readable(*value),
                 Cell::Text(text) => plain(text),
                 Cell::Undefined(reason) => {
@@ -102,7 +102,7 @@ fn table_text(table: &Table, stem: &str, page: &mut Vec<String>) {
                 }
             });
         }
-        page.push(row(told));
+        page.push(row(described));
     }
     page.push(String::new());
     for (at, reason) in reasons.iter().enumerate() {
@@ -203,8 +203,8 @@ fn reasons_of(table: &Table, row: &[Cell]) -> Vec<String> {
             }
         }
     }
-    let told = |(names, reason): (Vec<&str>, &str)| format!("{}: {reason}", names.join(", "));
-    found.into_iter().map(told).collect()
+    let described = |(names, reason): (Vec<&str>, &str)| format!("{}: {reason}", names.join(", "));
+    found.into_iter().map(described).collect()
 }
 
 #[derive(Serialize)]

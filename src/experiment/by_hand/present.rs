@@ -136,7 +136,7 @@ fn named(design: &Design, item: usize) -> String {
 mod tests {
     use super::*;
 
-    fn told(name: &str, task: &Task) -> Vec<String> {
+    fn described(name: &str, task: &Task) -> Vec<String> {
         let design = Design::shipped(name).unwrap();
         let placed = to_present(&design, task).into_iter();
         placed
@@ -150,11 +150,11 @@ mod tests {
             target: 1,
             alternatives: [0, 1, 2, 3],
         };
-        let real = told("ranking-real-target", &task);
+        let real = described("ranking-real-target", &task);
         assert_eq!(real[0], "target: the real wool-twill");
         assert_eq!(real[2], "position 2: wool-twill");
         assert_eq!(real.len(), 5);
-        let virtually = told("ranking-virtual-target", &task);
+        let virtually = described("ranking-virtual-target", &task);
         assert_eq!(virtually[0], "target: wool-twill");
     }
 
@@ -165,13 +165,13 @@ mod tests {
             level_db: -1.5,
             signal: 1,
         };
-        let threshold = told("threshold-40", &task);
+        let threshold = described("threshold-40", &task);
         assert!(
             threshold[0].starts_with("interval 1: nothing for "),
             "{threshold:?}"
         );
         assert!(threshold[1].contains("40 Hz at −1.50"), "{threshold:?}");
-        let jnd = told("jnd-40", &task);
+        let jnd = described("jnd-40", &task);
         assert!(jnd[0].contains("40 Hz at "), "{jnd:?}");
         assert_ne!(
             jnd[0].replace("interval 1", ""),
@@ -191,7 +191,7 @@ mod tests {
             "begins at: gain_40_db = 20",
             "begins at: gain_320_db = -13",
         ];
-        assert_eq!(told("adjustment-two-gains", &task), expected);
+        assert_eq!(described("adjustment-two-gains", &task), expected);
     }
 
     #[test]

@@ -51,38 +51,38 @@ pub fn form(design: &Design, task: &Task) -> String {
 /// It answers another question, or none: what is wrong, and how it is typed.
 pub fn typed_answer(design: &Design, task: &Task, line: &str) -> Result<Answer, AnswerError> {
     let words: Vec<&str> = line.split_whitespace().collect();
-    let told = Told {
+    let described = Told {
         line: line.trim(),
         words: &words,
         form: form(design, task),
     };
     let answer = match (task, &design.method) {
-        (Task::Rank { .. }, _) => told.ranks()?,
-        (Task::OddOne { .. }, _) => told.odd()?,
-        (Task::Adjust { .. }, Method::Adjustment(adjusting)) => told.adjusted(adjusting)?,
+        (Task::Rank { .. }, _) => described.ranks()?,
+        (Task::OddOne { .. }, _) => described.odd()?,
+        (Task::Adjust { .. }, Method::Adjustment(adjusting)) => described.adjusted(adjusting)?,
         (Task::Judge { .. }, _) => {
-            let word = told.words.first().copied().unwrap_or_default();
+            let word = described.words.first().copied().unwrap_or_default();
             let known = ["real", "generated"];
             let said = known.iter().position(|known| is_short_for(word, known));
             Answer::Judged {
-                is_real: said.ok_or_else(|| told.wrong())? == 0,
-                confidence: told.confidence(grades(design))?,
+                is_real: said.ok_or_else(|| described.wrong())? == 0,
+                confidence: described.confidence(grades(design))?,
             }
         }
         (Task::JudgePair { .. }, _) => Answer::Chosen {
-            position: told.position(2)?,
-            confidence: told.confidence(grades(design))?,
+            position: described.position(2)?,
+            confidence: described.confidence(grades(design))?,
         },
         (Task::Interval { .. }, _) => Answer::Chosen {
-            position: told.position(intervals(design))?,
-            confidence: told.confidence(0)?,
+            position: described.position(intervals(design))?,
+            confidence: described.confidence(0)?,
         },
-        (Task::Estimate { .. }, _) => match told.numbers(1)?[..] {
+        (Task::Estimate { .. }, _) => match described.numbers(1)?[..] {
             [value] => Answer::Magnitude(value),
-            _ => return Err(told.wrong()),
+            _ => return Err(described.wrong()),
         },
-        (Task::Rate { .. }, Method::Rating(rating)) => told.ratings(rating)?,
-        _ => return Err(told.wrong()),
+        (Task::Rate { .. }, Method::Rating(rating)) => described.ratings(rating)?,
+        _ => return Err(described.wrong()),
     };
     task.verdict(&answer)?;
     Ok(answer)
@@ -225,22 +225,25 @@ fn intervals(design: &Design) -> usize {
 }
 
 fn adjusted_form(adjusting: &Adjusting) -> String {
-    let told = adjusting.parameters.iter().map(|parameter| {
+    let described = adjusting.parameters.iter().map(|parameter| {
         let name = parameter.what.name();
         format!("{name} ({} to {})", parameter.from, parameter.to)
     });
-    format!("type what was left: {}", told.collect::<Vec<_>>().join(" "))
+    format!(
+        "type what was left: {}",
+        described.collect::<Vec<_>>().join(" ")
+    )
 }
 
 fn rating_form(rating: &Rating) -> String {
-    let told = rating.scales.iter().map(|scale| {
+    let described = rating.scales.iter().map(|scale| {
         let [low, high] = scale.bounds();
         let (begin, end) = (&scale.low, &scale.high);
         format!("{} ({low} {begin} … {high} {end})", scale.key)
     });
     format!(
         "type a number for each: {}",
-        told.collect::<Vec<_>>().join(", ")
+        described.collect::<Vec<_>>().join(", ")
     )
 }
 
@@ -327,9 +330,9 @@ mod tests {
             ("rating", "0 50 99.5 101", "from 0 to 100"),
             ("rating", "0 50 NaN 1", "roughness (0 smooth … 100 rough)"),
         ] {
-            let told = typed(name, line).unwrap_err();
-            assert!(told.contains(expected), "{name} {line:?}: {told}");
-            assert!(!told.contains('\n'), "{told}");
+            let described = typed(name, line).unwrap_err();
+            assert!(described.contains(expected), "{name} {line:?}: {described}");
+            assert!(!described.contains('\n'), "{described}");
         }
     }
 

@@ -71,7 +71,7 @@ pub(super) fn check(design: &Design, n_named: usize) -> Checked {
         return Ok(());
     };
     let place = ("tuning", 0, error.key());
-    Err(Flaw::told(
+    Err(Flaw::described(
         place,
         &error.to_string(),
         "give a finite number",

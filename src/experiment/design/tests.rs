@@ -5,7 +5,7 @@ use std::path::Path;
 use super::*;
 
 /// The message of a text's first flaw.
-fn told(text: &str) -> String {
+fn described(text: &str) -> String {
     match Design::from_toml(text, Path::new("a.toml")) {
         Ok(design) => panic!("{} was taken", design.title),
         Err(error) => error.to_string(),
@@ -30,16 +30,19 @@ fn every_shipped_design_is_read_and_has_a_title() {
 #[test]
 fn an_unknown_medium_is_refused_with_those_that_are_known() {
     let text = HEAD.replace("array", "stylus");
-    let told = told(&format!("{text}[magnitude]\n"));
-    assert!(told.contains("a.toml:3:"), "{told}");
-    assert!(told.contains("\"array\" or \"real-cloth\""), "{told}");
+    let described = described(&format!("{text}[magnitude]\n"));
+    assert!(described.contains("a.toml:3:"), "{described}");
+    assert!(
+        described.contains("\"array\" or \"real-cloth\""),
+        "{described}"
+    );
 }
 
 #[test]
 fn a_design_asks_exactly_one_thing() {
-    let none = told(HEAD);
+    let none = described(HEAD);
     assert!(none.contains("nothing is asked"), "{none}");
-    let two = told(&format!(
+    let two = described(&format!(
         "{HEAD}[magnitude]\n[ranking]\ntarget = \"virtual\"\n"
     ));
     assert!(two.contains("2 tables say what is asked"), "{two}");
@@ -52,20 +55,20 @@ fn fifteen_textiles_cannot_be_ranked_in_fours() {
         "{HEAD}textiles = [{}]\n[ranking]\ntarget = \"virtual\"\n",
         ids.join(", ")
     );
-    let told = told(&text);
+    let described = described(&text);
     assert!(
-        told.contains("a.toml:7: 15 stimuli cannot be ranked"),
-        "{told}"
+        described.contains("a.toml:7: 15 stimuli cannot be ranked"),
+        "{described}"
     );
 }
 
 #[test]
 fn two_stimuli_of_one_name_are_refused_at_the_second() {
     let stimuli = "[[stimulus]]\nid = \"a\"\n[[stimulus]]\nid = \"a\"\n";
-    let told = told(&format!("{HEAD}{stimuli}[magnitude]\n"));
+    let described = described(&format!("{HEAD}{stimuli}[magnitude]\n"));
     assert!(
-        told.contains("a.toml:8: two stimuli are called \"a\""),
-        "{told}"
+        described.contains("a.toml:8: two stimuli are called \"a\""),
+        "{described}"
     );
 }
 
@@ -73,15 +76,15 @@ fn two_stimuli_of_one_name_are_refused_at_the_second() {
 fn a_series_that_nothing_ends_is_refused() {
     let levels = "[levels]\nband_hz = 40\nrange_db = [0, 20]\n[levels.staircase]\nup = 1\n\
                   down = 2\nsteps_db = [2.0]\nstarts_db = [10.0]\n";
-    let told = told(&format!("{HEAD}{levels}"));
-    assert!(told.contains("nothing ends a series"), "{told}");
+    let described = described(&format!("{HEAD}{levels}"));
+    assert!(described.contains("nothing ends a series"), "{described}");
 }
 
 #[test]
 fn a_misspelt_key_is_named_with_its_line() {
-    let told = told(&format!("{HEAD}[magnitude]\nrepeat = 3\n"));
+    let described = described(&format!("{HEAD}[magnitude]\nrepeat = 3\n"));
     assert!(
-        told.contains("a.toml:6:") && told.contains("`repeat`"),
-        "{told}"
+        described.contains("a.toml:6:") && described.contains("`repeat`"),
+        "{described}"
     );
 }

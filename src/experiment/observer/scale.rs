@@ -29,21 +29,21 @@ pub enum Jnd {
 
 impl Jnd {
     /// The just noticeable difference so far above threshold, dB.
-    pub(crate) fn at_db(self, band: Band, sensation_db: f64) -> f64 {
+    pub(crate) fn at_db(self, band: Band, perceptual_level_db: f64) -> f64 {
         match self {
-            Self::Published => just_noticeable_db(sensation_db),
+            Self::Published => just_noticeable_db(perceptual_level_db),
             Self::Fixed(db) => db[band.index()],
         }
     }
 
     /// How many just noticeable differences a level lies above nothing; 0 for what is not felt.
     pub fn steps(self, band: Band, level_db: f64) -> f64 {
-        let sensation_db = level_db - detection_threshold_db(band, N_ACTIVE);
+        let perceptual_level_db = level_db - detection_threshold_db(band, N_ACTIVE);
         let at_threshold_db = self.at_db(band, 0.0);
-        if sensation_db.is_nan() || sensation_db <= 0.0 {
-            return (1.0 + sensation_db / at_threshold_db).max(0.0);
+        if perceptual_level_db.is_nan() || perceptual_level_db <= 0.0 {
+            return (1.0 + perceptual_level_db / at_threshold_db).max(0.0);
         }
-        let above_db = sensation_db.min(MOST_DB);
+        let above_db = perceptual_level_db.min(MOST_DB);
         1.0 + match self {
             Self::Fixed(_) => above_db / at_threshold_db,
             Self::Published => self.sum(band, above_db),

@@ -2,7 +2,7 @@
 //! what is obtained.
 
 use crate::ExperimentError;
-use crate::analysis::{Analysis, series};
+use crate::analysis::Analysis;
 use crate::design::Design;
 use crate::observer::{Observer, Stimuli, Strategy, Weighting};
 use selvedge_chart::{Chart, Series, Style};
@@ -165,7 +165,7 @@ impl DesignWithStimuli {
 
 /// A printed number as a line across a plot.
 pub(super) fn printed_line(name: &str, value: f64, ends: [f64; 2]) -> Series {
-    series(name, Style::Dashed, ends.map(|at| [at, value]))
+    Series::of(name, Style::Dashed, ends.map(|at| [at, value]))
 }
 
 /// How a number is spread over studies.

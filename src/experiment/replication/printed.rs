@@ -166,7 +166,7 @@ fn ranking() -> Vec<Follows> {
     let t = |share: Share, of: fn(&Outcome) -> f64| {
         at_ends(share, |s| Ok(of(&one_sample_t(s, CHANCE.percent)?)))
     };
-    let told = |share: Share| {
+    let described = |share: Share| {
         let se = share.se.unwrap_or(0.0);
         format!("{} ± {} %, n = 8", fixed(share.percent, 1), fixed(se, 1))
     };
@@ -175,13 +175,13 @@ fn ranking() -> Vec<Follows> {
     };
     let mut all = Vec::new();
     for share in [REAL, VIRTUAL] {
-        let from = told(share);
+        let from = described(share);
         let value = |o: &Outcome| o.statistic.value;
         all.push(one(&from, "t(7) against 25 %", t(share, value), 2));
         all.push(one(&from, "its p", t(share, |o| o.p), 6));
         all.push(one(&from, "correct trials of 640", Ok(counts(share)), 0));
     }
-    let both = format!("{}; {}", told(VIRTUAL), told(REAL));
+    let both = format!("{}; {}", described(VIRTUAL), described(REAL));
     let p = Some((0.0012, 0.000_05));
     let student = "p of experiment 2 against 1, Student's t(14)";
     let found = between(|o| o.student.p);

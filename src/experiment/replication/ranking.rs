@@ -8,7 +8,7 @@ use super::comparison::{
 use super::printed;
 use super::studies::{Studies, Subjects, percent_right};
 use crate::ExperimentError;
-use crate::analysis::{Section, Table, cells, scatter, series};
+use crate::analysis::{Section, Table, cells, scatter};
 use crate::observer::{Observer, Strategy, Weighting};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::progress::{Progress, unheard};
@@ -239,7 +239,7 @@ fn what_it_takes(nearest: u32, errors: &[Swept]) -> String {
         .map(|one| [one.at, one.spread.mean])
         .collect();
     let error = crossing(&own, printed::REAL.percent);
-    let told = match error {
+    let described = match error {
         Ok(db) => format!(
             "then a difference of {} dB between real and virtual cloth gives experiment 1's {} %",
             fixed(db, 1),
@@ -254,7 +254,7 @@ fn what_it_takes(nearest: u32, errors: &[Swept]) -> String {
     };
     format!(
         "**What it would take, a fit and no replication**: experiment 2's {} % come nearest with \
-         {nearest} looks and levels alone; {told}.",
+         {nearest} looks and levels alone; {described}.",
         fixed(printed::VIRTUAL.percent, 1)
     )
 }
@@ -336,7 +336,7 @@ fn lines(swept: &[Swept]) -> Vec<Series> {
     let line = |name: &str| {
         let own = swept.iter().filter(|one| one.observer == name);
         let points = own.map(|one| [one.at, one.spread.mean]);
-        series(name, Style::LineAndDots, points)
+        Series::of(name, Style::LineAndDots, points)
     };
     names.into_iter().map(line).collect()
 }

@@ -139,17 +139,17 @@ fn a_sidecar_that_is_missing_or_garbled_is_named_and_the_log_stays() {
     let text = files_text(&path);
     let resumed = || Session::resume(&log, "none").unwrap_err().to_string();
     fs::write(&path, &text[..text.len() / 2]).unwrap();
-    let told = resumed();
-    assert!(told.contains("cloth_odd_p01_1.json:"), "{told}");
-    assert!(!told.contains('\n'), "{told}");
+    let described = resumed();
+    assert!(described.contains("cloth_odd_p01_1.json:"), "{described}");
+    assert!(!described.contains('\n'), "{described}");
     fs::write(&path, text.replace("\\\"a\\\"", "\\\"z\\\"")).unwrap();
-    let told = resumed();
-    assert!(told.contains("its design was changed"), "{told}");
+    let described = resumed();
+    assert!(described.contains("its design was changed"), "{described}");
     fs::remove_file(&path).unwrap();
-    let told = resumed();
+    let described = resumed();
     assert!(
-        told.contains("is missing; restore it from a copy"),
-        "{told}"
+        described.contains("is missing; restore it from a copy"),
+        "{described}"
     );
     assert_eq!(fs::read(&log).unwrap(), bytes);
     fs::write(&path, text).unwrap();
@@ -165,16 +165,16 @@ fn a_row_of_a_later_version_or_of_another_schedule_is_refused_with_its_line() {
     let later = lines[2].replacen("1,cloth", "2,cloth", 1);
     lines[2] = &later;
     fs::write(&log, lines.join("\n") + "\n").unwrap();
-    let told = Session::resume(&log, "none").unwrap_err().to_string();
-    assert!(told.contains("cloth_odd_p01_1.csv:3"), "{told}");
-    assert!(told.contains("knows up to 1"), "{told}");
+    let described = Session::resume(&log, "none").unwrap_err().to_string();
+    assert!(described.contains("cloth_odd_p01_1.csv:3"), "{described}");
+    assert!(described.contains("knows up to 1"), "{described}");
     let mut lines: Vec<&str> = text.lines().collect();
     lines.remove(2);
     fs::write(&log, lines.join("\n") + "\n").unwrap();
-    let told = Session::resume(&log, "none").unwrap_err().to_string();
+    let described = Session::resume(&log, "none").unwrap_err().to_string();
     assert!(
-        told.contains("row 2 of the log is not of this design"),
-        "{told}"
+        described.contains("row 2 of the log is not of this design"),
+        "{described}"
     );
 }
 
@@ -185,8 +185,8 @@ fn a_folder_that_cannot_be_written_is_told_before_the_first_trial() {
     let file = folder.0.join("a.csv");
     fs::write(&file, "").unwrap();
     let error = Session::create(&file, cloth(), subject(), "none").unwrap_err();
-    let told = error.to_string();
-    assert!(told.starts_with("cannot write "), "{told}");
+    let described = error.to_string();
+    assert!(described.starts_with("cannot write "), "{described}");
     assert_eq!(fs::read(&file).unwrap(), b"");
 }
 
@@ -218,8 +218,8 @@ fn the_path_of_a_trial_is_a_path_and_is_there_before_its_row() {
     let paths = file.parent().unwrap().to_owned();
     fs::remove_dir_all(&paths).unwrap();
     fs::write(&paths, "in the way").unwrap();
-    let told = session.answer(&answer, &about).unwrap_err().to_string();
-    assert!(told.contains("cannot write"), "{told}");
+    let described = session.answer(&answer, &about).unwrap_err().to_string();
+    assert!(described.contains("cannot write"), "{described}");
     assert_eq!(session.n_rows(), 1);
     fs::remove_file(&paths).unwrap();
     session.answer(&answer, &about).unwrap();

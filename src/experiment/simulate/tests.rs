@@ -128,9 +128,9 @@ fn a_textile_that_is_not_in_the_library_is_named_in_one_line() {
     let design = Design::from_toml(&text, Path::new("a.toml")).unwrap();
     let library = Library::shipped().unwrap();
     let error = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap_err();
-    let told = error.to_string();
-    assert!(told.contains("no textile \"felt-hat\""), "{told}");
-    assert_eq!(told.lines().count(), 1, "{told}");
+    let described = error.to_string();
+    assert!(described.contains("no textile \"felt-hat\""), "{described}");
+    assert_eq!(described.lines().count(), 1, "{described}");
 }
 
 /// Prints what the shipped ranking gives; nothing is tuned to it.

@@ -31,7 +31,7 @@ impl Flaw {
     }
 
     /// A flaw whose error reads `what; mend`; `mend` stands in where it says no more.
-    pub fn told(place: Place, error: &str, mend: &str) -> Self {
+    pub fn described(place: Place, error: &str, mend: &str) -> Self {
         let (what, mend) = error.split_once("; ").unwrap_or((error, mend));
         Self::new(place, what, mend)
     }

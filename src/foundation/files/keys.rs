@@ -59,7 +59,7 @@ pub fn known_keys_from_str<T: DeserializeOwned>(
             let alone = Table::from_iter([(name.to_owned(), entry.clone())]);
             is_known(key, Value::Table(alone))
         });
-        true
+        is_known(key, value.clone())
     });
     let known = T::deserialize(keys);
     let known = known.map_err(|error| FileError::content(path, 1, error.to_string(), "mend it"))?;
@@ -237,5 +237,22 @@ mod tests {
         assert_eq!(take_text(&mut keys, "id"), Some("x".to_owned()));
         assert_eq!(take_text(&mut keys, "a"), None);
         assert!(keys.contains_key("a"), "what is no text stays");
+    }
+
+    #[test]
+    fn what_is_not_understood_costs_itself_whatever_stands_in_its_place() {
+        #[derive(serde::Deserialize, Default, Debug, PartialEq)]
+        #[serde(default)]
+        struct Known {
+            theme: String,
+            zoom: f64,
+            areas: std::collections::BTreeMap<String, f64>,
+        }
+        let text =
+            "zoom = 2.0\n[theme]\ndark = 1\n[areas]\na = 1.0\nb = \"wide\"\n[sound]\nx = 1\n";
+        let read: Result<(Known, _), _> = known_keys_from_str(text, Path::new("f.toml"));
+        let (known, odd) = read.unwrap();
+        assert_eq!((known.theme.as_str(), known.zoom, odd), ("", 2.0, Some(2)));
+        assert_eq!(known.areas, [("a".to_owned(), 1.0)].into());
     }
 }

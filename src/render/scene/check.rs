@@ -127,13 +127,13 @@ fn tuning_flaw(tuning: &Tuning) -> Option<Flaw> {
     tuning
         .check()
         .err()
-        .map(|error| Flaw::told(("tuning", 0, error.key()), &error.to_string(), FINITE))
+        .map(|error| Flaw::described(("tuning", 0, error.key()), &error.to_string(), FINITE))
 }
 
 fn gain_flaw(place: Place, gain_db: f64) -> Option<Flaw> {
     check_gain(place.2, gain_db)
         .err()
-        .map(|error| Flaw::told(place, &error.to_string(), FINITE))
+        .map(|error| Flaw::described(place, &error.to_string(), FINITE))
 }
 
 fn sizes_flaw(place: Place, size_mm: [f64; 2]) -> Option<Flaw> {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use cases::Case;
 
-use super::chart::{chart, series};
+use super::chart::chart;
 use super::readable::{deviation, mean};
 use super::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_chart::{Axis, Series, Style};
@@ -178,7 +178,7 @@ impl Felt {
             let share = f64::from(percent) / 100.0;
             [quantile(&mut sizes, share), f64::from(percent)]
         };
-        series(name, Style::Dots, (0..=100).step_by(2).map(point))
+        Series::of(name, Style::Dots, (0..=100).step_by(2).map(point))
     }
 }
 

@@ -3,7 +3,7 @@
 //! They are read at their samples, where a line comes with the images that fold onto it.
 
 use super::cases::{CARRIERS_HZ, SAMPLE_S, held_response, propagator};
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::readable::{largest, whole};
 use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Chart, Ink, Series, Style};
@@ -81,7 +81,11 @@ pub(super) fn responses() -> Chart {
         };
         let line = |hz: f64| [hz, model.response_um_per_v(hz).norm()];
         let points = (0..=240).map(frequency).map(line);
-        all.push(series(format!("{name}, closed form"), Style::Line, points));
+        all.push(Series::of(
+            format!("{name}, closed form"),
+            Style::Line,
+            points,
+        ));
         let exact = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
         let dot = |hz: f64| {
             let found = exact?.response(std::f64::consts::TAU * hz * SAMPLE_S)?;
@@ -94,7 +98,7 @@ pub(super) fn responses() -> Chart {
     }
     all.push(Series {
         ink: Ink::Grey,
-        ..series("exact hold", Style::Dots, stepped)
+        ..Series::of("exact hold", Style::Dots, stepped)
     });
     chart(
         "Displacement of the pin for a volt, by load",

@@ -1,9 +1,9 @@
 //! The longest step that does not grow without end, by method and stiffness.
 
 use super::cases::{SAMPLE_S, propagator};
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::{Bench, Findings, Row};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_device::{ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 use selvedge_foundation::quantity::time_span;
@@ -32,11 +32,11 @@ pub(super) fn find(bench: &Bench<'_>, findings: &mut Findings) {
                 // Free skin has no place on a logarithmic axis; it stands in the table.
                 let placed = limits.into_iter().filter(|limit| limit[0] > 0.0);
                 let name = format!("{}, Q {quality}", method.name());
-                all.push(series(name, Style::Line, placed));
+                all.push(Series::of(name, Style::Line, placed));
             }
         }
     }
-    let flat = |name: &str, s: f64| series(name, Style::Dashed, [[1.0, s], [1e5, s]]);
+    let flat = |name: &str, s: f64| Series::of(name, Style::Dashed, [[1.0, s], [1e5, s]]);
     all.push(flat("a sample of the DAC", SAMPLE_S));
     all.push(flat("the others: every step", STEPS_S[1]));
     let longest = time_span(STEPS_S[1]);

@@ -8,13 +8,13 @@ mod amplitudes;
 mod spectrum;
 mod writer;
 
-use selvedge_chart::{Axis, Chart, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::{level_db, with_unit};
 use selvedge_render::RenderError;
 use selvedge_render::array::DriveSynth;
 
-use super::chart::{chart, series};
+use super::chart::chart;
 use super::readable::{largest, power_level_db, rms};
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use amplitudes::Case;
@@ -218,7 +218,7 @@ fn above_640_hz_db(row: &Row) -> f64 {
 
 fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Chart {
     let line = |(switching, spectrum): &(Switching, Spectrum)| {
-        series(switching.name(), Style::Line, spectrum.cells_db())
+        Series::of(switching.name(), Style::Line, spectrum.cells_db())
     };
     let level = Axis::linear("level of a twelfth of an octave, dB re the loudest");
     chart(
@@ -232,7 +232,7 @@ fn plot(case: &str, lines: &[(Switching, Spectrum)]) -> Chart {
 
 /// The worst case of each way, a sentence each.
 fn notes(rows: &[Row]) -> Vec<String> {
-    let told = |switching: &Switching| {
+    let described = |switching: &Switching| {
         let (label, setting) = switching.label_and_setting();
         let is_its = |row: &&Row| row.method == label && row.setting == setting;
         let energies = rows.iter().filter(is_its).filter_map(|row| row.error);
@@ -240,7 +240,7 @@ fn notes(rows: &[Row]) -> Vec<String> {
         let name = switching.name();
         format!("{name}: at worst {worst_db} of energy out of band re in band.")
     };
-    let mut notes: Vec<String> = SWITCHINGS.iter().map(told).collect();
+    let mut notes: Vec<String> = SWITCHINGS.iter().map(described).collect();
     let gains_db = rows.chunks_exact(SWITCHINGS.len()).map(|case| {
         let [zero_db, immediate_db] = [0, 1].map(|n| above_640_hz_db(&case[n]));
         immediate_db - zero_db

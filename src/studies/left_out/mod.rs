@@ -49,11 +49,11 @@ const NEVER_PLACED: Saving = Saving {
     what: "A textile that the scene does not place is never read.",
     unit: "textiles",
 };
-const UNASKED_GLIMPSES: Saving = Saving {
+const UNASKED_TICK_SAMPLES: Saving = Saving {
     floor: "engine",
-    name: "unasked glimpses",
-    what: "A tick leaves no glimpse for plots over time unless somebody asked for them.",
-    unit: "glimpses",
+    name: "unasked tick samples",
+    what: "A tick leaves no tick sample for plots over time unless somebody asked for them.",
+    unit: "tick samples",
 };
 const UNHEARD_FRAMES: Saving = Saving {
     floor: "engine",
@@ -85,7 +85,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     rows.extend(sinks::rows(bench)?);
     let of_rendering = Rule::ALL.map(|rule| format!("render, {}: {}", rule.name(), rule.what()));
     let note = |saving: Saving| format!("{}, {}: {}", saving.floor, saving.name, saving.what);
-    let beside = [NEVER_PLACED, UNASKED_GLIMPSES, UNHEARD_FRAMES].map(note);
+    let beside = [NEVER_PLACED, UNASKED_TICK_SAMPLES, UNHEARD_FRAMES].map(note);
     let notes = of_rendering.into_iter().chain(beside);
     Ok(Findings::new(rows, Vec::new(), notes))
 }

@@ -1,10 +1,10 @@
-//! What the engine leaves out where nobody listens: glimpses that nobody asked for, and frames that
-//! no armed device would play.
+//! What the engine leaves out where nobody listens: tick samples that nobody asked for, and frames
+//! that no armed device would play.
 
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{ALL, NONE, UNASKED_GLIMPSES, UNHEARD_FRAMES, largest_difference};
+use super::{ALL, NONE, UNASKED_TICK_SAMPLES, UNHEARD_FRAMES, largest_difference};
 use crate::{Bench, ReportError, Row};
 use selvedge_device::{BridgeEvent, Target};
 use selvedge_engine::{Command, Engine, EngineConfig, InputSource, Notice, PreparedScene};
@@ -40,7 +40,10 @@ pub(super) fn rows(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
             UNHEARD_FRAMES.row(snapshot.counters.frames_unheard, CASE),
             to(true, false),
         ),
-        (UNASKED_GLIMPSES.row(snapshot.tick, CASE), to(false, true)),
+        (
+            UNASKED_TICK_SAMPLES.row(snapshot.tick, CASE),
+            to(false, true),
+        ),
     ];
     let mut rows = Vec::new();
     for (row, listeners) in settings {

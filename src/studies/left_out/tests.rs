@@ -37,7 +37,7 @@ fn every_saving_is_counted_on_six_scenes_and_changes_nothing() {
         ("all", None),
         ("none", None),
         ("only unheard frames", Some("100")),
-        ("only unasked glimpses", Some("100")),
+        ("only unasked tick samples", Some("100")),
     ];
     assert_eq!(left_out, expected, "as many as there were ticks");
 }

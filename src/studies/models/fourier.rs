@@ -1,10 +1,10 @@
 //! Fourier templates: how many coefficients a profile takes, and how a drawn one stands beside the
 //! original (as in figure 7 of Wall & Harwin 1999).
 
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::readable::{apart_percent, rms};
 use crate::{Bench, Findings, ReportError, Row, Study, Timing};
-use selvedge_chart::{Axis, Chart, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, without_line};
 use selvedge_textile::surface::{Direction, Profile};
 use selvedge_textile::{FourierSeries, FourierTemplate, Library, Reading};
@@ -113,7 +113,7 @@ fn plot(id: &str, original: &[f64], drawn: &[f64]) -> Chart {
     let line = |name: &str, heights: &[f64]| {
         let points = heights.iter().enumerate();
         let points = points.map(|(i, &z)| [i as f64 / 230.0, z]);
-        series(name, Style::Line, points)
+        Series::of(name, Style::Line, points)
     };
     chart(
         format!("A drawn profile beside the original: {id}"),

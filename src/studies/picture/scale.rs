@@ -3,10 +3,10 @@
 use super::drawings::{BINDINGS, Binding};
 use super::spoilt::Spoilt;
 use super::{RIGHT, analysed, share_off};
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::readable::whole;
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::{Axis, Style};
+use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::Random;
 
 /// Periods that a side of the picture holds, however small it is.
@@ -41,7 +41,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             findings.rows.push(row);
         }
         findings.notes.push(least(weave.name, &points));
-        lines.push(series(weave.name, Style::LineAndDots, points));
+        lines.push(Series::of(weave.name, Style::LineAndDots, points));
     }
     findings.notes.push(
         "The period is the shorter lattice vector, from a crossing to the next one like it; \

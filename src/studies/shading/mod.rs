@@ -5,7 +5,7 @@ pub(super) mod reliefs;
 #[cfg(test)]
 mod tests;
 
-use super::chart::{chart, series};
+use super::chart::chart;
 use super::readable::mean;
 use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use reliefs::{Relief, Truth};
@@ -247,7 +247,7 @@ fn of_sweep(
                 rows.push(Row::of(method.label(), setting, case));
             }
         }
-        curves.push(series(method.label(), Style::Line, points));
+        curves.push(Series::of(method.label(), Style::Line, points));
     }
     curves
 }

@@ -2,7 +2,7 @@
 //! a sum of waves and against the whole profile of a textile.
 
 use crate::{Bench, Row, Timing};
-use selvedge_chart::{Axis, Chart, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Random, quantile};
 use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::tactile::Filters;
@@ -10,7 +10,7 @@ use selvedge_textile::tactile::Filters;
 use super::PRODUCT;
 use super::surfaces::Surface;
 use super::window::Model;
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::readable::{deviation, mean, power_level_db};
 
 /// Speeds that errors are taken over, mm/s.
@@ -169,7 +169,7 @@ pub(super) fn plot() -> Chart {
             Style::Line
         };
         let points = speeds.map(|speed| [speed, low_at_40_hz_db(window_mm, speed)]);
-        series(format!("{window_mm:.2} mm"), style, points)
+        Series::of(format!("{window_mm:.2} mm"), style, points)
     };
     chart(
         "What the window costs a wave that sounds at 40 Hz",

@@ -74,13 +74,13 @@ fn host_stalls() -> Verdict {
     let reason = trial.disarmed_by().map(|(_, reason)| reason.to_owned());
     trial.run(5000);
     let is_kept = !trial.is_loud();
-    let told = reason.clone().unwrap_or_else(|| "nothing told".to_owned());
+    let described = reason.clone().unwrap_or_else(|| "nothing told".to_owned());
     let sound = if is_silent && is_kept {
         "silent"
     } else {
         "still loud"
     };
-    let came_back = format!("{sound}; host: {told}");
+    let came_back = format!("{sound}; host: {described}");
     verdict(is_silent && is_kept && reason.is_some(), came_back)
 }
 

@@ -24,12 +24,12 @@ fn what_comes_out_otherwise_or_panics_is_broken_and_harms_no_other() {
     let findings = unheard(|progress| run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
     let kept: Vec<Option<bool>> = findings.rows.iter().map(Row::is_kept).collect();
     assert_eq!(kept, [Some(false), Some(false), Some(true)]);
-    let told: Vec<&str> = findings
+    let described: Vec<&str> = findings
         .rows
         .iter()
         .map(|row| row.more[0].1.as_str())
         .collect();
-    assert_eq!(told, ["4 µm", "it panicked: at 7", "0 µm"]);
+    assert_eq!(described, ["4 µm", "it panicked: at 7", "0 µm"]);
     assert_eq!(findings.n_broken(), 2);
 }
 
@@ -40,7 +40,7 @@ fn what_hangs_is_given_up() {
         let is_over = ended.recv().is_err();
         Ok(format!("over: {is_over}"))
     };
-    let told = alone(Box::new(hangs), Duration::from_millis(20)).unwrap_err();
-    assert_eq!(told, "nothing came back within 20.00 ms");
+    let described = alone(Box::new(hangs), Duration::from_millis(20)).unwrap_err();
+    assert_eq!(described, "nothing came back within 20.00 ms");
     drop(end);
 }

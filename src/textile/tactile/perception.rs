@@ -32,7 +32,7 @@ const JND_AT_THRESHOLD_DB: f64 = 6.0;
 pub struct Perception {
     /// Levels of both bands above the threshold of the channel that each speaks to, dB; −∞ for
     /// silence.
-    pub sensation_db: [f64; 2],
+    pub perceptual_level_db: [f64; 2],
     /// Loudness of the two channels; 0 below threshold, 1 at it.
     pub(crate) loudness: [f64; 2],
 }
@@ -50,10 +50,10 @@ pub fn detection_threshold_db(band: Band, n_active: usize) -> f64 {
 }
 
 /// The difference of level that is just noticed at a level above threshold, dB.
-pub fn just_noticeable_db(sensation_db: f64) -> f64 {
+pub fn just_noticeable_db(perceptual_level_db: f64) -> f64 {
     let [[low_at, low], [high_at, high]] = JND_DB;
     let points = [[0.0, JND_AT_THRESHOLD_DB], [low_at, low], [high_at, high]];
-    let at = sensation_db.clamp(0.0, high_at).max(0.0);
+    let at = perceptual_level_db.clamp(0.0, high_at).max(0.0);
     let (from, to) = if at < low_at {
         (points[0], points[1])
     } else {
@@ -79,7 +79,7 @@ pub fn vibrating_mean_um(amplitudes_um: impl Iterator<Item = [f64; 2]>) -> (usiz
 impl Perception {
     /// Of mean amplitudes [A40, A320] over `n_active` contactors, µm. What is no number is silence.
     pub fn of(mean_um: [f64; 2], n_active: usize) -> Self {
-        let sensation_db = Band::ALL.map(|band| {
+        let perceptual_level_db = Band::ALL.map(|band| {
             let um = mean_um[band.index()];
             let level = if um > 0.0 {
                 level_db(um)
@@ -89,7 +89,7 @@ impl Perception {
             level - detection_threshold_db(band, n_active)
         });
         let loudness = [0, 1].map(|band| {
-            let above_db = sensation_db[band];
+            let above_db = perceptual_level_db[band];
             if above_db < 0.0 || above_db.is_nan() {
                 0.0
             } else {
@@ -97,7 +97,7 @@ impl Perception {
             }
         });
         Self {
-            sensation_db,
+            perceptual_level_db,
             loudness,
         }
     }

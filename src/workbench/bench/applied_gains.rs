@@ -10,7 +10,7 @@ use selvedge_textile::tactile::Tuning;
 
 /// Gains in force.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct AppliedGains {
+pub(crate) struct AppliedGains {
     tuning: Tuning,
     cloth_gains_db: Vec<f64>,
     contactor_mask: Vec<bool>,
@@ -64,7 +64,7 @@ impl AppliedGains {
 
     /// What the engine must be told when it knows `self` and `new` is to be felt; both are of the
     /// same textiles.
-    pub fn changes(&self, new: &Self) -> Vec<Command> {
+    pub(crate) fn changes(&self, new: &Self) -> Vec<Command> {
         let mut commands = Vec::new();
         if self.tuning != new.tuning {
             commands.push(Command::SetTuning(new.tuning));

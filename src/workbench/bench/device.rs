@@ -1,13 +1,11 @@
 //! The link to the device: what is connected, and what goes wrong with the emulator.
 
-use eframe::egui;
-
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::{Bench, query};
 use selvedge_device::{FaultWords, Target};
 
 impl Bench {
-    pub(crate) fn dispatch_device(&mut self, ctx: &egui::Context, command: DeviceCommand) {
+    pub(crate) fn dispatch_device(&mut self, command: DeviceCommand) {
         match command {
             DeviceCommand::Arm => self.send(selvedge_engine::Command::Arm),
             DeviceCommand::GoOn => {
@@ -29,7 +27,7 @@ impl Bench {
             DeviceCommand::CopyLogPath => {
                 let log = self.engine.session_log();
                 let path = log.map(|log| log.path().display().to_string());
-                ctx.copy_text(path.unwrap_or_default());
+                self.ctx.copy_text(path.unwrap_or_default());
             }
             DeviceCommand::OpenLogFolder => {
                 let log = self.engine.session_log();
@@ -87,39 +85,40 @@ mod tests {
     use eframe::egui;
 
     use super::*;
+    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
-    use crate::bench::{Bench, Drive};
+    use crate::shell::window::Workbench;
 
     #[test]
     fn faults_last_until_something_else_is_connected() {
         let ctx = egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        assert_eq!(bench.device.faults, None);
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        assert_eq!(window.bench.device.faults, None);
         let words = FaultWords::of(&[("seed", "7"), ("drop", "0.1%")]);
-        bench.dispatch(DeviceCommand::StartFaults(words.clone()).into());
-        assert_eq!(bench.device.faults.as_ref(), Some(&words));
-        let name = bench.device.target.as_deref();
+        window.dispatch(DeviceCommand::StartFaults(words.clone()).into());
+        assert_eq!(window.bench.device.faults.as_ref(), Some(&words));
+        let name = window.bench.device.target.as_deref();
         assert_eq!(name, Some("Emulator with faults"));
-        bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        assert_eq!(bench.device.faults, Some(FaultWords::default()));
-        bench.dispatch(DeviceCommand::Disconnect.into());
-        assert_eq!(bench.device.faults, None);
+        window.dispatch(DeviceCommand::ConnectEmulator.into());
+        assert_eq!(window.bench.device.faults, Some(FaultWords::default()));
+        window.dispatch(DeviceCommand::Disconnect.into());
+        assert_eq!(window.bench.device.faults, None);
     }
 
     #[test]
     fn what_cannot_be_had_is_a_notice_and_nothing_is_started() {
         let ctx = egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        for (option, text, told) in [
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        for (option, text, described) in [
             ("dead", "24", "Channel 24: this array has channels 0 to 23"),
             ("drop", "often", "Drop: \"often\" is no share"),
         ] {
             let words = FaultWords::of(&[(option, text)]);
-            bench.dispatch(DeviceCommand::StartFaults(words).into());
-            let shown = bench.notices.shown();
+            window.dispatch(DeviceCommand::StartFaults(words).into());
+            let shown = window.bench.notices.shown();
             let last = &shown.last().unwrap().text;
-            assert!(last.starts_with(told), "{last}");
-            assert_eq!(bench.device.faults, None);
+            assert!(last.starts_with(described), "{last}");
+            assert_eq!(window.bench.device.faults, None);
         }
     }
 }

@@ -14,7 +14,7 @@ use selvedge_textile::tactile::Tuning;
 
 /// A scene that is being edited.
 #[derive(Debug, Clone)]
-pub struct Document {
+pub(crate) struct Document {
     scene: Scene,
     saved: Scene,
     path: Option<PathBuf>,
@@ -24,7 +24,7 @@ pub struct Document {
 
 impl Document {
     /// A scene as it was opened; without a path it is one that the program ships.
-    pub fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
+    pub(crate) fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
         Self {
             saved: scene.clone(),
             scene,
@@ -35,27 +35,27 @@ impl Document {
     }
 
     /// The scene.
-    pub fn scene(&self) -> &Scene {
+    pub(crate) fn scene(&self) -> &Scene {
         &self.scene
     }
 
     /// Where it was opened or saved.
-    pub fn path(&self) -> Option<&PathBuf> {
+    pub(crate) fn path(&self) -> Option<&PathBuf> {
         self.path.as_ref()
     }
 
     /// Whether it differs from its file.
-    pub fn is_edited(&self) -> bool {
+    pub(crate) fn is_edited(&self) -> bool {
         self.scene != self.saved
     }
 
     /// The tuning of a scene that states none.
-    pub fn default_tuning(&self) -> Tuning {
+    pub(crate) fn default_tuning(&self) -> Tuning {
         self.default_tuning
     }
 
     /// The tuning in force.
-    pub fn tuning(&self) -> Tuning {
+    pub(crate) fn tuning(&self) -> Tuning {
         self.scene.tuning.unwrap_or(self.default_tuning)
     }
 
@@ -104,7 +104,7 @@ impl Document {
 
     /// Takes textiles from the library in `folder`, which has all that there were before: in every
     /// state that undo and redo can bring back as well.
-    pub fn use_library(&mut self, folder: &Path) {
+    pub(crate) fn use_library(&mut self, folder: &Path) {
         self.scene.library = Some(folder.to_owned());
         self.history
             .change_all(|scene| scene.library = Some(folder.to_owned()));

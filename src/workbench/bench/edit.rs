@@ -44,12 +44,12 @@ impl Bench {
         {
             self.prepare(&after);
         } else {
-            self.tell_gains();
+            self.send_gains();
         }
     }
 
     fn prepare(&mut self, scene: &Scene) {
-        let scene = self.felt_now(scene).in_scene(scene);
+        let scene = self.gains_now(scene).in_scene(scene);
         let what = (scene, self.settings.preferences.rendering);
         let asked =
             self.engine_scene
@@ -104,7 +104,7 @@ impl Bench {
                     .after_scene(self.engine_scene.loaded.scene());
                 self.scene_has_changed();
                 // Gains may have moved on while a thread was at work.
-                self.tell_gains();
+                self.send_gains();
             }
             Err(line) => {
                 // The last good scene stays, in the engine and in the document.
@@ -130,7 +130,7 @@ impl Bench {
     }
 
     /// What is to be felt of a scene now.
-    fn felt_now(&self, scene: &Scene) -> AppliedGains {
+    fn gains_now(&self, scene: &Scene) -> AppliedGains {
         let tuning = scene
             .tuning
             .unwrap_or_else(|| self.document.default_tuning());
@@ -143,8 +143,8 @@ impl Bench {
     }
 
     /// Tells the engine which gains changed, if any.
-    pub(crate) fn tell_gains(&mut self) {
-        let new = self.felt_now(self.document.scene());
+    pub(crate) fn send_gains(&mut self) {
+        let new = self.gains_now(self.document.scene());
         let changes = self.engine_scene.applied_gains.changes(&new);
         if !changes.is_empty() {
             new.put_into(&mut self.inspection.scene);

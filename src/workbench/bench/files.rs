@@ -19,7 +19,7 @@ impl Bench {
             self.take_opened(outcome);
         }
         if let Some(outcome) = finished(&mut self.files.reading) {
-            self.take_take(outcome);
+            self.take_read(outcome);
         }
         if let Some(outcome) = finished(&mut self.files.saving) {
             self.take_saved(outcome);
@@ -38,7 +38,7 @@ impl Bench {
     }
 
     /// Takes a scene that was opened; when it was not, says why and keeps the last one.
-    pub(crate) fn take_opened(&mut self, outcome: Result<Box<Opened>, String>) {
+    fn take_opened(&mut self, outcome: Result<Box<Opened>, String>) {
         match outcome {
             Ok(opened) => {
                 if let Some(path) = &opened.path {
@@ -62,7 +62,7 @@ impl Bench {
     }
 
     /// Takes an exploration that was read: it is replayed next.
-    pub(crate) fn take_take(&mut self, outcome: Result<Recording, String>) {
+    fn take_read(&mut self, outcome: Result<Recording, String>) {
         match outcome {
             Ok(take) => {
                 self.exploration.at_hand = Some(take);
@@ -88,7 +88,7 @@ impl Bench {
     }
 
     /// Takes the news that a recording was saved.
-    pub(crate) fn take_saved(&mut self, outcome: Result<Recording, String>) {
+    fn take_saved(&mut self, outcome: Result<Recording, String>) {
         match outcome {
             Ok(saved) => {
                 // Another exploration may have been recorded meanwhile.

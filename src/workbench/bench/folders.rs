@@ -67,9 +67,9 @@ mod tests {
     fn outcome(opener: &'static str, folder: &Path) -> Option<String> {
         let mut folders = Folders::default();
         folders.open_by(&Executor::InLine, opener, folder.to_owned());
-        let told = folders.poll();
+        let described = folders.poll();
         assert!(folders.opening.is_none());
-        told
+        described
     }
 
     #[cfg(unix)]

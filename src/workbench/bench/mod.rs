@@ -278,7 +278,7 @@ impl Bench {
         self.engine_scene.applied_gains = mask_alone.after_scene(self.engine_scene.loaded.scene());
         self.send(Command::SetContactorMask(Vec::new()));
         self.scene_has_changed();
-        self.tell_gains();
+        self.send_gains();
     }
 
     /// What depends on the textiles and where they lie is made anew.

@@ -119,7 +119,7 @@ pub(crate) fn noticed_db(felt: &Perception, band: Option<Band>) -> Option<f64> {
     let bands = Band::ALL
         .into_iter()
         .filter(|b| band.is_none_or(|band| band == *b));
-    let heard = bands.map(|band| felt.sensation_db[band.index()]);
+    let heard = bands.map(|band| felt.perceptual_level_db[band.index()]);
     let heard = heard.filter(|above_db| above_db.is_finite());
     heard.map(just_noticeable_db).min_by(f64::total_cmp)
 }

@@ -11,7 +11,7 @@ pub(crate) const MOST_BUDGET_DB: f64 = 1.0;
 /// How scenes are rendered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Rendering {
+pub(crate) struct Rendering {
     /// The method; `auto` chooses by bounds known before the first tick.
     #[serde(rename = "rendering_method")]
     pub method: Method,
@@ -32,7 +32,7 @@ impl Default for Rendering {
 
 impl Rendering {
     /// What renderers are told.
-    pub fn accuracy(self) -> Accuracy {
+    pub(crate) fn accuracy(self) -> Accuracy {
         Accuracy::within_db(self.budget_db)
     }
 

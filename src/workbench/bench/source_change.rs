@@ -149,15 +149,16 @@ mod tests {
 
     use super::*;
     use crate::bench::Drive;
+    use crate::shell::window::Workbench;
     use selvedge_engine::{AxisRange, InputDevice};
 
     #[test]
     fn a_program_that_joins_moves_the_display_and_hears_what_is_felt() {
         let ctx = eframe::egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(SourceCommand::Listen.into());
-        bench.dispatch(SourceCommand::Program.into());
-        let (address, _) = bench.exploration.sources.view().programs.unwrap();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        window.dispatch(SourceCommand::Listen.into());
+        window.dispatch(SourceCommand::Program.into());
+        let (address, _) = window.bench.exploration.sources.view().programs.unwrap();
         let mut program = TcpStream::connect(address).unwrap();
         program
             .set_read_timeout(Some(Duration::from_secs(20)))
@@ -171,19 +172,19 @@ mod tests {
         program.write_all(b"61.5,70.25\n").unwrap();
         let deadline = Instant::now() + Duration::from_secs(20);
         loop {
-            bench.engine.advance_ticks(1).unwrap();
+            window.bench.engine.advance_ticks(1).unwrap();
             let line = lines.next().unwrap().unwrap();
             if line.contains(",61.5,70.25,0,") {
                 break;
             }
             assert!(Instant::now() < deadline, "{line}");
         }
-        bench.take_news(&ctx);
-        assert_eq!(bench.live.play.source, Source::Lines);
-        let counts = bench.exploration.sources.view().programs.unwrap().1;
+        window.bench.take_news(&ctx);
+        assert_eq!(window.bench.live.play.source, Source::Lines);
+        let counts = window.bench.exploration.sources.view().programs.unwrap().1;
         assert!(counts.has_writer && counts.connected == 1, "{counts:?}");
-        bench.dispatch(SourceCommand::EndListening.into());
-        assert!(bench.exploration.sources.view().programs.is_none());
+        window.dispatch(SourceCommand::EndListening.into());
+        assert!(window.bench.exploration.sources.view().programs.is_none());
         while let Some(Ok(_)) = lines.next() {
             // What was on its way; then the connection ends.
         }
@@ -206,49 +207,50 @@ mod tests {
     #[test]
     fn the_area_of_a_tablet_is_kept_by_its_name_and_nonsense_is_refused_in_a_line() {
         let ctx = eframe::egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        window
+            .bench
             .exploration
             .sources
             .take_listed(Ok(vec![Ok(tablet())]));
-        assert_eq!(bench.sources_view().surface, None, "none was chosen");
-        bench.dispatch(SourceCommand::Device("/nowhere/event7".into()).into());
-        let usual = bench.sources_view().surface.unwrap();
+        assert_eq!(window.bench.sources_view().surface, None, "none was chosen");
+        window.dispatch(SourceCommand::Device("/nowhere/event7".into()).into());
+        let usual = window.bench.sources_view().surface.unwrap();
         assert_eq!((usual.area_mm[2], usual.is_own), (216.0, false));
         let area = |text: &str| {
             let text = Some(text.to_owned());
             SourceCommand::Area("Pen tablet".to_owned(), text).into()
         };
-        bench.dispatch(area("10,20,100,62.5"));
-        let own = bench.sources_view().surface.unwrap();
+        window.dispatch(area("10,20,100,62.5"));
+        let own = window.bench.sources_view().surface.unwrap();
         assert_eq!((own.area_mm, own.is_own), ([10.0, 20.0, 100.0, 62.5], true));
         for wrong in ["10,20,0,62.5", "10,20,-4,62.5", "10,20,wide,62.5"] {
-            bench.dispatch(area(wrong));
-            let shown = bench.notices.shown();
+            window.dispatch(area(wrong));
+            let shown = window.bench.notices.shown();
             let last = &shown.last().unwrap().text;
             assert!(
                 last.contains(wrong) && last.contains("is no area"),
                 "{last}"
             );
-            assert_eq!(bench.sources_view().surface.as_ref(), Some(&own));
+            assert_eq!(window.bench.sources_view().surface.as_ref(), Some(&own));
         }
-        bench.dispatch(SourceCommand::Area("Pen tablet".to_owned(), None).into());
-        assert_eq!(bench.sources_view().surface, Some(usual));
-        assert!(bench.settings.preferences.tablet_areas.is_empty());
+        window.dispatch(SourceCommand::Area("Pen tablet".to_owned(), None).into());
+        assert_eq!(window.bench.sources_view().surface, Some(usual));
+        assert!(window.bench.settings.preferences.tablet_areas.is_empty());
     }
 
     #[test]
     fn a_device_that_is_not_there_is_a_notice() {
         let ctx = eframe::egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(SourceCommand::Device("/nowhere/event1".into()).into());
-        let shown = bench.notices.shown();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        window.dispatch(SourceCommand::Device("/nowhere/event1".into()).into());
+        let shown = window.bench.notices.shown();
         assert!(
             shown[0].text.starts_with("/nowhere/event1"),
             "{}",
             shown[0].text
         );
-        bench.dispatch(SourceCommand::List.into());
-        assert!(bench.exploration.sources.view().is_known);
+        window.dispatch(SourceCommand::List.into());
+        assert!(window.bench.exploration.sources.view().is_known);
     }
 }

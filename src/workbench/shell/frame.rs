@@ -15,7 +15,7 @@ use crate::kit::pane::frame_as_armed;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
-use crate::shell::desk::Desk;
+use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::state::After;
 use crate::shell::tab_row::TabRow;
@@ -119,7 +119,7 @@ fn show_panes(
     window.arrange(ui.max_rect().size());
     let mut tree = std::mem::replace(&mut window.shell.tree, Tree::empty(Id::NULL));
     let mut ground = None;
-    let mut desk = Desk {
+    let mut desk = PaneHost {
         context: PaneContext {
             bench: &mut window.bench,
             scene,

@@ -23,6 +23,9 @@ pub(crate) struct Headless {
     size: Vec2,
     pixels_per_point: f32,
     n_ticks: u32,
+    /// What the user does in the next frame.
+    #[cfg(test)]
+    pub(crate) events: Vec<eframe::egui::Event>,
 }
 
 impl Headless {
@@ -44,6 +47,8 @@ impl Headless {
             size,
             pixels_per_point,
             n_ticks: 0,
+            #[cfg(test)]
+            events: Vec::new(),
         })
     }
 
@@ -90,7 +95,7 @@ impl Headless {
         }
     }
 
-    fn input(&self) -> RawInput {
+    fn input(&mut self) -> RawInput {
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
             time: Some(f64::from(self.n_ticks) / 40.0),
@@ -98,6 +103,8 @@ impl Headless {
             focused: true,
             ..RawInput::default()
         };
+        #[cfg(test)]
+        input.events.append(&mut self.events);
         input
             .viewports
             .entry(input.viewport_id)

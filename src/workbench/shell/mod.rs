@@ -6,7 +6,6 @@
 pub(crate) mod arrangement;
 pub(crate) mod ask;
 pub(crate) mod completion;
-pub(crate) mod desk;
 pub(crate) mod dialogs;
 pub(crate) mod dispatch;
 pub(crate) mod export;
@@ -18,6 +17,7 @@ pub(crate) mod inbox;
 pub(crate) mod inspect;
 pub(crate) mod menu;
 pub(crate) mod native;
+pub(crate) mod pane_host;
 pub(crate) mod pending_motion;
 pub(crate) mod perspective;
 pub(crate) mod pointer;

@@ -19,13 +19,13 @@ pub(super) fn condensed(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let apart = lines.len().div_ceil(N_SPREAD).max(1);
     let is_told = |nth: &usize| *nth < N_FIRST || nth.is_multiple_of(apart);
-    let told = (0..lines.len()).filter(is_told);
-    let told = told.map(|nth| format!("{}: {}", nth + 1, shortened(lines[nth])));
-    let told: Vec<String> = told.collect();
+    let described = (0..lines.len()).filter(is_told);
+    let described = described.map(|nth| format!("{}: {}", nth + 1, shortened(lines[nth])));
+    let described: Vec<String> = described.collect();
     let n = lines.len();
     format!(
         "{}\n… of {n} lines, {}",
-        told.join("\n"),
+        described.join("\n"),
         hash(text.as_bytes())
     )
 }

@@ -90,7 +90,7 @@ fn on_device(script: &mut Script, options: &[&str], line: &str) {
         out: steady(&outcome.out),
         err: steady(&outcome.err),
     };
-    script.tell(line, &outcome);
+    script.describe(line, &outcome);
 }
 
 #[test]

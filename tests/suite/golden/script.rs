@@ -14,7 +14,7 @@ use crate::program::{Lab, Outcome};
 /// Commands and what came of them.
 pub(super) struct Script {
     pub(super) lab: Lab,
-    told: String,
+    described: String,
     unsteady: fn(&str) -> String,
 }
 
@@ -23,7 +23,7 @@ impl Script {
     pub(super) fn in_lab(lab: Lab) -> Self {
         Self {
             lab,
-            told: String::new(),
+            described: String::new(),
             unsteady: str::to_owned,
         }
     }
@@ -51,12 +51,12 @@ impl Script {
         // A command that reads nothing may have ended before.
         drop(child.stdin.take().unwrap().write_all(typed.as_bytes()));
         let outcome = Outcome::of(&child.wait_with_output().unwrap());
-        self.tell(&words.join(" "), &outcome);
+        self.describe(&words.join(" "), &outcome);
         self
     }
 
     /// Tells what came of a command.
-    pub(super) fn tell(&mut self, line: &str, outcome: &Outcome) {
+    pub(super) fn describe(&mut self, line: &str, outcome: &Outcome) {
         let Outcome { code, out, err } = outcome;
         let mut text = format!("exit {code}\n");
         if !err.is_empty() {
@@ -89,7 +89,7 @@ impl Script {
 
     /// Compares all that was told.
     pub(super) fn compare(&self, golden: &mut Golden, name: &str) {
-        golden.text(name, &self.told);
+        golden.text(name, &self.described);
     }
 
     /// A part of what is told, without what depends on place, version and clock.
@@ -100,13 +100,13 @@ impl Script {
             .replace(env!("CARGO_PKG_VERSION"), "VERSION");
         let steady: Vec<String> = text.lines().map(self.unsteady).collect();
         let mut head = format!("{PART}{head}\n");
-        while self.told.contains(&head) {
+        while self.described.contains(&head) {
             head.insert_str(head.len() - 1, " (again)");
         }
-        self.told.push_str(&head);
+        self.described.push_str(&head);
         for line in steady {
             // A line of the text may look as the beginning of a part.
-            writeln!(self.told, "{}", line.replace(PART.trim_end(), "= = =")).unwrap();
+            writeln!(self.described, "{}", line.replace(PART.trim_end(), "= = =")).unwrap();
         }
     }
 }

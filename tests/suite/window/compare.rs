@@ -178,11 +178,11 @@ fn gains_are_marked_with_what_is_just_noticed() {
     let mut harness = window(&folder.scene());
     harness.run();
     stroke(&mut harness, 20);
-    let told = |harness: &Harness<'_, Workbench>| {
+    let described = |harness: &Harness<'_, Workbench>| {
         let slider = harness.get_by_role_and_label(Role::Slider, "Master");
         slider.accesskit_node().description().unwrap_or_default()
     };
-    let resting = told(&harness);
+    let resting = described(&harness);
     assert!(
         resting.starts_with("Just noticeable difference 2."),
         "{resting}"
@@ -191,14 +191,18 @@ fn gains_are_marked_with_what_is_just_noticed() {
     let slider = harness.get_by_role_and_label(Role::Slider, "Master").rect();
     harness.hover_at(slider.center());
     harness.run_steps(2);
-    let began = told(&harness);
+    let began = described(&harness);
     assert!(began.contains(", marked around "), "{began}");
     harness.drag_at(slider.center());
     harness.step();
     harness.hover_at(slider.center() + vec2(30.0, 0.0));
     harness.run_steps(3);
-    assert_eq!(told(&harness), began, "marks stay where the gesture began");
+    assert_eq!(
+        described(&harness),
+        began,
+        "marks stay where the gesture began"
+    );
     harness.drop_at(slider.center() + vec2(30.0, 0.0));
     harness.run_steps(3);
-    assert_ne!(told(&harness), began, "and move on when it ends");
+    assert_ne!(described(&harness), began, "and move on when it ends");
 }

@@ -88,13 +88,13 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             let went_on = match self.session.step() {
                 Step::Finished => {
                     let (n, log) = (self.session.n_rows(), self.session.log().display());
-                    let told = format!("finished: {n} rows in {log}; thank you");
-                    self.say(&told)?;
+                    let described = format!("finished: {n} rows in {log}; thank you");
+                    self.say(&described)?;
                     return Ok(Ended::Finished);
                 }
                 Step::Instructions(text) => {
-                    let told = format!("read out:\n  {text}\nEnter goes on");
-                    self.asked(&told)
+                    let described = format!("read out:\n  {text}\nEnter goes on");
+                    self.asked(&described)
                 }
                 Step::Familiarisation(movement) => self.practise(movement),
                 Step::Break {
@@ -172,11 +172,11 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             speed_mm_per_s,
             ..
         } = movement;
-        let told = format!(
+        let described = format!(
             "the participant practises moving {course} at {speed_mm_per_s} mm/s for {for_s} s: \
              Enter begins"
         );
-        self.asked(&told)?;
+        self.asked(&described)?;
         Ok(self.bench.count_down(for_s)?)
     }
 
@@ -223,9 +223,9 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
     /// Says what to lay; the moment at which the participant begins, or none for a trial that was
     /// given up before.
     fn begun(&mut self, trial: &Trial) -> Result<Option<Moment>, Stopped> {
-        let told = self.told(trial);
+        let described = self.described(trial);
         loop {
-            self.say(&told)?;
+            self.say(&described)?;
             match self.line()? {
                 Line::Empty => return Ok(Some(self.bench.now())),
                 Line::Abort => {
@@ -242,7 +242,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
         }
     }
 
-    fn told(&self, trial: &Trial) -> String {
+    fn described(&self, trial: &Trial) -> String {
         let (done, all) = self.session.progress();
         let kind = if trial.is_practice {
             "practice"
@@ -287,8 +287,8 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
                 self.notes.clear();
                 return Ok(());
             };
-            let told = format!("{error}; nothing is lost: Enter writes the same answer again");
-            self.asked(&told)?;
+            let described = format!("{error}; nothing is lost: Enter writes the same answer again");
+            self.asked(&described)?;
         }
     }
 

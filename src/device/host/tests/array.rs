@@ -108,8 +108,8 @@ fn one_channel_at_a_time_is_driven_and_ends_by_itself() {
     run_unheard(&mut pair, 5);
     assert_eq!(pair.host.state(), BridgeState::Armed);
     assert_eq!(pair.host.identify(pair.now(), 3, (10.0, 300)), Ok(()));
-    let told = run_unheard(&mut pair, 100);
-    assert_eq!(told, [BridgeEvent::Identified { channel: 3 }]);
+    let described = run_unheard(&mut pair, 100);
+    assert_eq!(described, [BridgeEvent::Identified { channel: 3 }]);
     assert_eq!(channels(&pair), [(3, [0, 13107])]);
     assert_eq!(pair.host.identify(pair.now(), 7, (80.0, 9999)), Ok(()));
     run_unheard(&mut pair, 100);
@@ -175,9 +175,12 @@ fn a_device_that_cannot_or_does_not_answer_is_told_of() {
     run_unheard(&mut pair, 5);
     pair.cut = true;
     assert_eq!(pair.host.identify(pair.now(), 9, (10.0, 300)), Ok(()));
-    let told = run_unheard(&mut pair, 300);
+    let described = run_unheard(&mut pair, 300);
     let reason = String::from("the device did not answer");
-    assert_eq!(told, [BridgeEvent::NotIdentified { channel: 9, reason }]);
+    assert_eq!(
+        described,
+        [BridgeEvent::NotIdentified { channel: 9, reason }]
+    );
 }
 
 #[test]
@@ -215,7 +218,7 @@ fn told_of_another(profile: ArrayProfile, before: [u8; 12]) -> Option<String> {
     host.opened(now);
     let caps = DeviceModel::default().caps(NONCE, 1);
     host.on_message(now, &DeviceMessage::Caps(caps));
-    let told = std::iter::from_fn(|| host.next_event()).find_map(|event| match event {
+    let described = std::iter::from_fn(|| host.next_event()).find_map(|event| match event {
         BridgeEvent::OtherDevice(words) => Some(words),
         _ => None,
     });
@@ -223,8 +226,8 @@ fn told_of_another(profile: ArrayProfile, before: [u8; 12]) -> Option<String> {
         Note::Said("other-device", words) => Some(words),
         _ => None,
     });
-    assert_eq!(told, noted, "the log says what people are told");
-    told
+    assert_eq!(described, noted, "the log says what people are told");
+    described
 }
 
 #[test]

@@ -271,7 +271,7 @@ fn an_hour_over_usb_at_100_ppm_is_young_and_loses_nothing() {
         assert!((rate + ppm).abs() < 20.0, "{rate}");
         let wrong = wired.aheads_us[400..]
             .iter()
-            .map(|[told, is]| (told - is).abs());
+            .map(|[described, is]| (described - is).abs());
         assert!(
             wrong.fold(0.0, f64::max) < 2000.0,
             "the age shown is the age"

@@ -117,7 +117,7 @@ fn a_fault_disarms_is_shown_and_can_be_cleared() {
     pair.run(100);
     assert_eq!(pair.host.state(), BridgeState::Faulted);
     assert!(pair.disarmed_by().unwrap().1.contains("over-temperature"));
-    let told = pair.events.iter().any(|event| {
+    let described = pair.events.iter().any(|event| {
         matches!(
             event,
             BridgeEvent::Fault(Fault {
@@ -127,7 +127,7 @@ fn a_fault_disarms_is_shown_and_can_be_cleared() {
             })
         )
     });
-    assert!(told);
+    assert!(described);
     assert!(!pair.host.arm(pair.now()));
     pair.device
         .core_mut()

@@ -129,8 +129,8 @@ fn swapped(wiring: &mut Miswiring, text: &str) -> Result<(), String> {
 }
 
 fn lies(lies: &mut Vec<Lie>, text: &str) -> Result<(), String> {
-    let told: Result<Vec<Lie>, String> = text.split_whitespace().map(parse::lie).collect();
-    lies.extend(told?);
+    let described: Result<Vec<Lie>, String> = text.split_whitespace().map(parse::lie).collect();
+    lies.extend(described?);
     Ok(())
 }
 

@@ -26,8 +26,8 @@ fn after_each_fault_nothing_is_armed_until_a_person_does_it() {
         assert!(trial.is_at_rest(), "{name}");
         assert!(trial.loudest_age_us <= 100_000, "{name}");
         assert!(!trial.host.state().is_live(), "{name}");
-        let told = trial.lost().is_some() || trial.disarmed_by().is_some();
-        assert!(told, "{name}: the host says so");
+        let described = trial.lost().is_some() || trial.disarmed_by().is_some();
+        assert!(described, "{name}: the host says so");
         // And then a person does it.
         if trial.host.state() == BridgeState::Lost {
             trial.open_anew();
@@ -68,11 +68,11 @@ fn a_device_that_breaks_says_what_and_how_bad_it_is() {
             trial.open_anew();
         }
         trial.run(500);
-        let told = trial.events.iter().any(|event| match event {
+        let described = trial.events.iter().any(|event| match event {
             crate::BridgeEvent::Fault(fault) => fault.faults == bit && fault.value == value,
             _ => false,
         });
-        assert!(told, "{}: {:?}", kind.name(), trial.events);
+        assert!(described, "{}: {:?}", kind.name(), trial.events);
         assert!(fault_bit::names(bit).contains(word));
     }
 }

@@ -24,14 +24,14 @@ fn on_disk(folder: &Scratch, n_trials: &[usize]) -> Vec<PathBuf> {
                 panic!("a trial waits");
             };
             let answer = odd(&trial.task, trial.number % 3 > 0, Grade::Normal);
-            let told = Circumstances {
+            let described = Circumstances {
                 timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 5_000_000_000]),
                 apparatus: Apparatus::default(),
                 note: "",
                 path: None,
                 samples: &[],
             };
-            session.answer(&answer, &told).unwrap();
+            session.answer(&answer, &described).unwrap();
         }
         session.log().to_owned()
     };
@@ -63,10 +63,10 @@ fn a_log_of_a_later_version_is_listed_and_the_others_are_analysed() {
         Some(Cell::Text(why)) => why.clone(),
         other => panic!("{other:?}"),
     };
-    for told in [why(0), why(1)] {
+    for described in [why(0), why(1)] {
         assert!(
-            !told.contains('\n') && told.contains("cloth_odd_o0"),
-            "{told}"
+            !described.contains('\n') && described.contains("cloth_odd_o0"),
+            "{described}"
         );
     }
     assert!(
@@ -85,10 +85,10 @@ fn a_folder_of_nothing_but_later_logs_is_refused_in_one_line() {
     for log in &logs {
         made_newer(log);
     }
-    let told = of_folder(&folder).unwrap_err().to_string();
+    let described = of_folder(&folder).unwrap_err().to_string();
     assert!(
-        told.contains("version 99") && !told.contains('\n'),
-        "{told}"
+        described.contains("version 99") && !described.contains('\n'),
+        "{described}"
     );
 }
 
@@ -121,9 +121,9 @@ fn comparisons_that_nothing_joins_give_no_map_and_say_between_what() {
         .iter()
         .find(|s| s.key == "odd-map")
         .unwrap();
-    let told = map.notes.iter().find(|n| n.contains("No map"));
+    let described = map.notes.iter().find(|n| n.contains("No map"));
     assert!(
-        told.is_some_and(|n| n.contains("no chain of pairs joins")),
+        described.is_some_and(|n| n.contains("no chain of pairs joins")),
         "{:?}",
         map.notes
     );

@@ -57,10 +57,10 @@ fn a_folder_without_sessions_is_refused_in_one_line() {
     let folder = Scratch::new("empty");
     fs::create_dir_all(&folder.0).unwrap();
     let error = unheard(|progress| analyse_folder(&folder.0, &few(), progress)).unwrap_err();
-    let told = error.to_string();
+    let described = error.to_string();
     assert!(
-        told.contains("holds no session") && !told.contains('\n'),
-        "{told}"
+        described.contains("holds no session") && !described.contains('\n'),
+        "{described}"
     );
 }
 

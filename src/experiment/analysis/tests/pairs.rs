@@ -53,13 +53,14 @@ fn materials_that_no_pair_joins_are_named_and_have_no_scale() {
     let analysis = analysed(&found);
     let key = "single-judgements-pairs";
     let section = analysis.sections.iter().find(|s| s.key == key).unwrap();
-    let told = section
+    let described = section
         .notes
         .iter()
         .find(|n| n.contains("No scale of stimuli"));
-    let told = told.unwrap_or_else(|| panic!("{:?}", section.notes));
-    let is_named = told.contains("no chain of comparisons joins") && told.contains("jute-plain");
-    assert!(is_named, "{told}");
+    let described = described.unwrap_or_else(|| panic!("{:?}", section.notes));
+    let is_named =
+        described.contains("no chain of comparisons joins") && described.contains("jute-plain");
+    assert!(is_named, "{described}");
     let scales = table(&analysis, key, "stimuli-scales");
     let never = |row: usize| matches!(scales.cell(row, "thurstone"), Some(Cell::Undefined(_)));
     assert!((0..scales.rows.len()).all(never), "{scales:?}");
@@ -87,9 +88,9 @@ fn an_order_without_exception_has_no_finite_scale_no_circle_and_much_agreement()
     let analysis = analysed(&found);
     let key = "ranking-virtual-target-pairs";
     let section = analysis.sections.iter().find(|s| s.key == key).unwrap();
-    let told = section.notes.iter().find(|n| n.contains("No scale of"));
+    let described = section.notes.iter().find(|n| n.contains("No scale of"));
     assert!(
-        told.is_some_and(|told| told.contains("over")),
+        described.is_some_and(|described| described.contains("over")),
         "{:?}",
         section.notes
     );

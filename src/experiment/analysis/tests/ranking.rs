@@ -126,11 +126,11 @@ fn what_the_rules_leave_out_is_listed_and_not_counted() {
     found[1].has_torn_row = true;
     let analysis = analysed(&found);
     let out = table(&analysis, "ranking-virtual-target-sessions", "left-out");
-    let told = |row: usize, column: &str| out.cell(row, column).cloned();
+    let described = |row: usize, column: &str| out.cell(row, column).cloned();
     assert_eq!(out.rows.len(), 2);
-    assert_eq!(told(0, "trials"), Some(Cell::Text("10".to_owned())));
-    assert_eq!(told(1, "trials"), Some(Cell::Text("1–79".to_owned())));
-    let why = told(1, "why");
+    assert_eq!(described(0, "trials"), Some(Cell::Text("10".to_owned())));
+    assert_eq!(described(1, "trials"), Some(Cell::Text("1–79".to_owned())));
+    let why = described(1, "why");
     assert_eq!(why, Some(Cell::Text("79 trials, fewer than 80".to_owned())));
     let sessions = table(&analysis, "ranking-virtual-target-sessions", "held");
     let state = sessions.cell(1, "state");

@@ -2,7 +2,7 @@
 
 use super::felt::Felt;
 use super::ways::{Subject, Way};
-use crate::chart::{chart, series};
+use crate::chart::chart;
 use crate::{Bench, Findings, Row, Timing};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::median;
@@ -262,7 +262,7 @@ fn levels(results: &[Tried], band: usize, name: &str) -> Chart {
     let mut all: Vec<Series> = Way::ALL
         .map(|way| {
             let dot = |tried: &Tried| Some([truth(tried), tried.felt_by(way)?.levels_db[band]]);
-            series(way.name(), Style::Dots, results.iter().filter_map(dot))
+            Series::of(way.name(), Style::Dots, results.iter().filter_map(dot))
         })
         .into();
     let of_all = || results.iter().map(truth);
@@ -270,7 +270,11 @@ fn levels(results: &[Tried], band: usize, name: &str) -> Chart {
         of_all().fold(f64::INFINITY, f64::min),
         of_all().fold(f64::NEG_INFINITY, f64::max),
     ];
-    all.push(series("as in truth", Style::Dashed, ends.map(|x| [x, x])));
+    all.push(Series::of(
+        "as in truth",
+        Style::Dashed,
+        ends.map(|x| [x, x]),
+    ));
     chart(
         format!("Level at {name} Hz by every route against the relief's own"),
         Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
@@ -285,7 +289,7 @@ fn spectra(fine: &Tried) -> Chart {
         let half = felt.spectrum_um.len() / 2;
         let bins = felt.spectrum_um.iter().take(half).enumerate();
         let points = bins.map(|(k, um)| [(k + 1) as f64 * BIN_SPACING_PER_MM, *um]);
-        series(
+        Series::of(
             name,
             style,
             points.filter(|[per_mm, _]| *per_mm <= MOST_PER_MM),

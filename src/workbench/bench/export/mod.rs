@@ -1,15 +1,14 @@
 //! Export: what a pane shows, as a table and as a figure, with where it comes from.
 //!
 //! ```text
-//! button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ gather: the pane's own view
-//!      ─▶ one function a pane: view ─▶ Exported { sheet, figure, origin }, kept while the path
-//!      is asked for ─▶ .csv, .svg or .png by the name's ending, written whole by a job
+//! button ─▶ FileCommand::Ask(Purpose::Export(what)) ─▶ Tool::export of the pane's tool
+//!      ─▶ Exported { sheet, figure, origin }, kept while the path is asked for
+//!      ─▶ .csv, .svg or .png by the name's ending, written whole in the background
 //! ```
 //!
-//! A pane that shows a chart exports that chart: `exported` in the pane's own files joins it with a
-//! note and its origin. What a pane paints by hand is described in a file here. To export another
-//! pane, give `gather_of` (gather.rs) an arm that fetches its view and calls such a function.
-//! Button, menu, dialog, notices, kinds of files and provenance come with that.
+//! A pane that shows a chart exports that chart: `exported` in the tool's own files joins it with a
+//! note and its origin. To export another pane, write its tool's `Tool::export`. Button, menu,
+//! dialog, notices, kinds of files and provenance come with that.
 //!
 //! # Tables
 //! UTF-8, comma, decimal point, one header line with units in the names, one row an observation,

@@ -15,7 +15,7 @@ use selvedge_render::scene::{ExplorationPath, SceneError};
 
 /// A finished exploration. Cheap to clone.
 #[derive(Debug, Clone)]
-pub struct Recording {
+pub(crate) struct Recording {
     path: Arc<ExplorationPath>,
     /// At which of its ticks a device played each row.
     apply_ticks: ApplyTicks,
@@ -58,12 +58,12 @@ impl Recording {
     }
 
     /// The exploration to replay.
-    pub fn path(&self) -> &Arc<ExplorationPath> {
+    pub(crate) fn path(&self) -> &Arc<ExplorationPath> {
         &self.path
     }
 
     /// At which of its ticks a device played each row, as long as this program knows.
-    pub fn apply_ticks(&self) -> &ApplyTicks {
+    pub(crate) fn apply_ticks(&self) -> &ApplyTicks {
         &self.apply_ticks
     }
 
@@ -73,12 +73,12 @@ impl Recording {
     }
 
     /// What people call it.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// The file that holds it.
-    pub fn file(&self) -> Option<&Path> {
+    pub(crate) fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
 
@@ -101,8 +101,9 @@ fn name_of(file: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Drive;
     use crate::bench::command::PlayCommand;
-    use crate::bench::{Bench, Drive};
+    use crate::shell::window::Workbench;
     use selvedge_engine::Command;
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::PathRow;
@@ -110,14 +111,14 @@ mod tests {
     #[test]
     fn a_recording_replays_what_was_felt() {
         let ctx = eframe::egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
-        bench.dispatch(PlayCommand::Toggle.into());
-        bench.engine.advance_ticks(3).unwrap();
-        bench.engine.send(Command::StartRecording).unwrap();
-        bench.engine.advance_ticks(60).unwrap();
-        bench.engine.send(Command::StopRecording).unwrap();
-        bench.engine.advance_ticks(1).unwrap();
-        let recording = bench.engine.take_recording().unwrap();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        window.dispatch(PlayCommand::Toggle.into());
+        window.bench.engine.advance_ticks(3).unwrap();
+        window.bench.engine.send(Command::StartRecording).unwrap();
+        window.bench.engine.advance_ticks(60).unwrap();
+        window.bench.engine.send(Command::StopRecording).unwrap();
+        window.bench.engine.advance_ticks(1).unwrap();
+        let recording = window.bench.engine.take_recording().unwrap();
         let take = Recording::from_recording(&recording).unwrap();
         assert!(take.file().is_none() && take.strips().has_levels());
         assert_eq!(take.strips().n_ticks(), 60);

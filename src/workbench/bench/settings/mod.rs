@@ -2,12 +2,11 @@
 //!
 //! A file that is missing or broken never stops the program: it starts as at first, and a broken
 //! file is set aside under another name, so that nothing is lost. Knows where the file is and when
-//! it is written; what is in it is in `kept.rs` and `text.rs`.
+//! it is written; what is in it is in `preferences.rs`.
 
 pub(crate) mod preferences;
 #[cfg(test)]
 mod tests;
-pub(crate) mod text;
 
 use std::path::{Path, PathBuf};
 use std::thread::{self, JoinHandle};
@@ -23,7 +22,7 @@ const PAUSE_S: f64 = 1.0;
 
 /// The settings of this run, and the file that keeps them.
 #[derive(Debug, Default)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// The values. Whoever changes them need do nothing else.
     pub preferences: Preferences,
     file: Option<Keeper>,
@@ -102,7 +101,7 @@ impl Settings {
             }
             Err(error) => return Self::set_aside(path, Preferences::default(), &error.to_string()),
         };
-        match text::read(&text, &path) {
+        match Preferences::from_text(&text, &path) {
             Ok((preferences, None)) => (Self::preferences_at(path, preferences, true), None),
             Ok((preferences, Some(line))) => {
                 let what = format!("{}:{line}: this value is not known", path.display());
@@ -211,7 +210,7 @@ impl Settings {
 
 /// Writes the file and, when need be, its folder.
 fn write(preferences: &Preferences, path: &Path) -> Result<(), FileError> {
-    let text = text::write(preferences, path)?;
+    let text = preferences.to_text(path)?;
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(|source| FileError::Write {
             path: path.to_owned(),

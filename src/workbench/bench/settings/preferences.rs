@@ -13,6 +13,7 @@ use crate::bench::rendering::Rendering;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
+use selvedge_foundation::files::{FileError, keys_to_string, known_keys_from_str};
 
 /// Most scenes that are remembered.
 const MAX_RECENT: usize = 10;
@@ -28,7 +29,7 @@ const HEIGHT: [f32; 2] = [600.0, 16_384.0];
 /// What is kept between two runs. A key that a file does not state is as at first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Preferences {
+pub(crate) struct Preferences {
     /// Dark, light, or as the system.
     #[serde(with = "ThemeWord")]
     pub theme: ThemePreference,
@@ -116,6 +117,23 @@ impl Default for Preferences {
 }
 
 impl Preferences {
+    /// The preferences that a TOML text states, and the first line of it that was not understood.
+    ///
+    /// A key that is unknown is passed over, a value that is not understood leaves only its own
+    /// setting as at first: a file of a newer version, or one edited by hand, spoils nothing else.
+    ///
+    /// # Errors
+    /// This is not TOML at all.
+    pub(crate) fn from_text(text: &str, path: &Path) -> Result<(Self, Option<usize>), FileError> {
+        let (known, odd): (Self, _) = known_keys_from_str(text, path)?;
+        Ok((known.in_bounds(), odd))
+    }
+
+    /// The same as the text of a file. Scenes whose paths are no text are left out.
+    pub(crate) fn to_text(&self, path: &Path) -> Result<String, FileError> {
+        keys_to_string(self, path)
+    }
+
     /// The same with every value at the nearest bound; what is no number is as at first.
     pub(crate) fn in_bounds(self) -> Self {
         let within = |value: f32, [least, most]: [f32; 2]| {

@@ -22,13 +22,13 @@ pub(crate) fn fold(
 ) {
     let id = ui.scope_id().with(("fold", title));
     let is_open = ui.data(|data| data.get_temp(id)).unwrap_or(is_open_first);
-    if told_fold(ui, (title, is_open), summary, content).clicked() {
+    if described_fold(ui, (title, is_open), summary, content).clicked() {
         ui.data_mut(|data| data.insert_temp(id, !is_open));
     }
 }
 
 /// The same where somebody else knows whether it is open, and takes a click on its name.
-pub(crate) fn told_fold(
+pub(crate) fn described_fold(
     ui: &mut Ui,
     (title, is_open): (&'static str, bool),
     summary: &str,

@@ -38,20 +38,18 @@ impl Workbench {
     }
 
     fn act(&mut self, command: Command) {
+        if command == Command::AllOff {
+            // At once: before any tool hears of it, whatever waits in the engine's queue.
+            self.bench.engine.stop_switch().press();
+        }
         if self.bench.has_session() && !leaves_session(&command) {
-            let words = "A session is held: end it first, in the Experimenter pane";
-            return self.bench.notices.give(words);
+            return self.bench.refuse_in_session();
         }
         for tool in self.tools.iter_mut() {
             tool.command(&command, &mut self.bench);
         }
         match command {
-            Command::AllOff => {
-                // The switch works at once, whatever waits in the engine's queue.
-                self.bench.engine.stop_switch().press();
-                self.dismiss();
-            }
-            Command::Dismiss => self.dismiss(),
+            Command::AllOff | Command::Dismiss => self.dismiss(),
             Command::File(command) => self.dispatch_file(command),
             Command::Show(command) => self.dispatch_show(&command),
             command => self.bench.act(command),
@@ -92,12 +90,11 @@ fn leaves_session(command: &Command) -> bool {
 impl Bench {
     /// Does what concerns the document, the device and what is felt.
     fn act(&mut self, command: Command) {
-        let ctx = &self.ctx.clone();
         match command {
             Command::Edit(edit) => self.edit(&edit),
             Command::Undo => self.step_history(Document::undo),
             Command::Redo => self.step_history(Document::redo),
-            Command::Device(command) => self.dispatch_device(ctx, command),
+            Command::Device(command) => self.dispatch_device(command),
             Command::Play(PlayCommand::Source(PlaySource::Input)) => self.choose_input(),
             Command::Play(command) => self.dispatch_play(command),
             Command::Source(command) => self.dispatch_source(command),
@@ -117,21 +114,6 @@ impl Bench {
         }
     }
 
-    /// Does what concerns the bench, without a window.
-    #[cfg(test)]
-    pub(crate) fn dispatch(&mut self, command: Command) {
-        self.commands.push(command);
-        while !self.commands.is_empty() {
-            match self.commands.remove(0) {
-                Command::Show(command) => {
-                    self.dispatch_show(&command);
-                    self.tell_gains();
-                }
-                command => self.act(command),
-            }
-        }
-    }
-
     fn act_on_chosen(&mut self, act: Chosen) {
         let Some(index) = self.selection.cloth else {
             return;
@@ -143,6 +125,12 @@ impl Bench {
             Chosen::Mute => ShowCommand::Mute(part).into(),
             Chosen::Solo => ShowCommand::Solo(part).into(),
         });
+    }
+
+    /// Says that what is shown and felt is the session's alone.
+    pub(crate) fn refuse_in_session(&mut self) {
+        let words = "A session is held: end it first, in the Experimenter pane";
+        self.notices.give(words);
     }
 
     /// Tells the engine what is wanted of it.

@@ -29,7 +29,7 @@ impl Workbench {
             ShowCommand::Help => self.shell.is_help_shown = !self.shell.is_help_shown,
             _ => self.bench.dispatch_show(command),
         }
-        self.bench.tell_gains();
+        self.bench.send_gains();
     }
 
     /// Keeps the arrangement as it is now.
@@ -41,7 +41,7 @@ impl Workbench {
 }
 
 impl Bench {
-    pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
+    fn dispatch_show(&mut self, command: &ShowCommand) {
         let ctx = self.ctx.clone();
         self.selection.take(command);
         match *command {

@@ -125,7 +125,7 @@ fn interim(found: &[Found]) -> Vec<String> {
             .or_insert_with(|| (one, BTreeSet::new()));
         of_design.1.insert(&one.subject.pseudonym);
     }
-    let told = |(one, subjects): &(&Found, BTreeSet<&str>)| {
+    let described = |(one, subjects): &(&Found, BTreeSet<&str>)| {
         let (n, n_planned) = (subjects.len(), one.design.rules.subjects);
         let title = title_of(&one.design);
         (n < n_planned).then(|| {
@@ -135,7 +135,7 @@ fn interim(found: &[Found]) -> Vec<String> {
             )
         })
     };
-    subjects.values().filter_map(told).collect()
+    subjects.values().filter_map(described).collect()
 }
 
 /// The same table by its columns; a cell is empty where there is no number.

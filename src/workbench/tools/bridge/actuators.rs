@@ -146,45 +146,50 @@ fn cells(reading: &ActuatorReading, full_scale_um: [f64; 2]) -> impl Iterator<It
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Drive;
     use crate::bench::command::device::DeviceCommand;
-    use crate::bench::{Bench, Drive};
+    use crate::shell::window::Workbench;
 
     #[test]
     fn contactors_are_modelled_only_while_the_open_section_is_drawn() {
         let ctx = egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
         let mut peek = ActuatorPeek::default();
-        let none = peek.look(&ctx, &mut bench.engine);
+        let none = peek.look(&ctx, &mut window.bench.engine);
         assert!(none.is_none(), "no emulator yet");
-        bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        assert!(!peek.look(&ctx, &mut bench.engine).unwrap().is_open);
-        let is_looking = |bench: &mut Bench| bench.engine.actuators().unwrap().is_looking();
-        assert!(!is_looking(&mut bench), "the section is closed");
+        window.dispatch(DeviceCommand::ConnectEmulator.into());
+        assert!(!peek.look(&ctx, &mut window.bench.engine).unwrap().is_open);
+        let is_looking =
+            |window: &mut Workbench| window.bench.engine.actuators().unwrap().is_looking();
+        assert!(!is_looking(&mut window), "the section is closed");
         peek.is_open = true;
-        assert!(peek.look(&ctx, &mut bench.engine).unwrap().is_open);
-        peek.rest(&mut bench.engine, true);
-        assert!(is_looking(&mut bench), "it was drawn in the last frame");
-        peek.rest(&mut bench.engine, true);
-        assert!(!is_looking(&mut bench), "it was not drawn in the next");
-        peek.look(&ctx, &mut bench.engine);
-        peek.rest(&mut bench.engine, false);
-        assert!(!is_looking(&mut bench), "its pane is out of sight");
+        assert!(peek.look(&ctx, &mut window.bench.engine).unwrap().is_open);
+        peek.rest(&mut window.bench.engine, true);
+        assert!(is_looking(&mut window), "it was drawn in the last frame");
+        peek.rest(&mut window.bench.engine, true);
+        assert!(!is_looking(&mut window), "it was not drawn in the next");
+        peek.look(&ctx, &mut window.bench.engine);
+        peek.rest(&mut window.bench.engine, false);
+        assert!(!is_looking(&mut window), "its pane is out of sight");
     }
 
     #[test]
     fn the_finger_that_is_chosen_outlasts_the_link() {
         let ctx = egui::Context::default();
-        let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
         let mut peek = ActuatorPeek::default();
-        bench.dispatch(DeviceCommand::ConnectEmulator.into());
+        window.dispatch(DeviceCommand::ConnectEmulator.into());
         peek.skin = Skin::FIRM;
-        let shown = peek.look(&ctx, &mut bench.engine).unwrap().skin;
+        let shown = peek.look(&ctx, &mut window.bench.engine).unwrap().skin;
         assert_eq!(shown, Skin::FIRM);
-        assert_eq!(bench.engine.actuators().unwrap().model().skin, Skin::FIRM);
-        bench.dispatch(DeviceCommand::Disconnect.into());
-        assert!(peek.look(&ctx, &mut bench.engine).is_none());
-        bench.dispatch(DeviceCommand::ConnectEmulator.into());
-        let shown = peek.look(&ctx, &mut bench.engine).unwrap().skin;
+        assert_eq!(
+            window.bench.engine.actuators().unwrap().model().skin,
+            Skin::FIRM
+        );
+        window.dispatch(DeviceCommand::Disconnect.into());
+        assert!(peek.look(&ctx, &mut window.bench.engine).is_none());
+        window.dispatch(DeviceCommand::ConnectEmulator.into());
+        let shown = peek.look(&ctx, &mut window.bench.engine).unwrap().skin;
         assert_eq!(shown, Skin::FIRM);
     }
 

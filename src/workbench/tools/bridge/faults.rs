@@ -50,11 +50,11 @@ pub(crate) fn summary(running: &FaultWords, chosen: &FaultWords) -> String {
     } else {
         "; others chosen"
     };
-    format!("{}{waits}", told(running))
+    format!("{}{waits}", described(running))
 }
 
 /// How many faults, and where chance begins.
-fn told(words: &FaultWords) -> String {
+fn described(words: &FaultWords) -> String {
     let n = words.n_faults();
     let seed = words.faults().map_or(0, |faults| faults.seed);
     match n {

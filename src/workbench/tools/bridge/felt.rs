@@ -7,7 +7,7 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::fold::told_fold;
+use crate::kit::widgets::fold::described_fold;
 use crate::kit::widgets::text::row;
 use crate::tools::bridge::actuators::{ActuatorPeek, PlantCell, PlantView};
 use selvedge_device::Skin;
@@ -33,7 +33,7 @@ pub(crate) fn show(ui: &mut Ui, peek: &mut ActuatorPeek) {
     } = peek;
     let tip = "What the emulator’s contactors would do under a finger, beside what they are told";
     let part = ("Displacement by a model", view.is_open);
-    let head = told_fold(ui, part, "", |ui| show_open(ui, view, skin));
+    let head = described_fold(ui, part, "", |ui| show_open(ui, view, skin));
     if head.on_hover_text(tip).clicked() {
         *is_open = !view.is_open;
         ui.ctx().request_repaint();
@@ -128,7 +128,7 @@ fn show_grids(ui: &mut Ui, view: &PlantView) {
         let text = quantity::fixed(one.current_ma[0], 2);
         paint_text(painter, corner, 0.0, &text, palette.text);
     }
-    tell(&response, view, |index| {
+    describe(&response, view, |index| {
         let sizes = [2.0 * LINE + STEP, 2.0 * LINE + STEP, line];
         sizes.into_iter().enumerate().any(|(nth, line)| {
             let at = cell_at(place(nth), index, n_columns, vec2(cell, line));
@@ -173,7 +173,7 @@ fn paint_text(painter: &Painter, cell: Rect, down: f32, text: &str, ink: egui::C
 }
 
 /// The contactor under the pointer in words.
-fn tell(response: &Response, view: &PlantView, is_under: impl Fn(usize) -> bool) {
+fn describe(response: &Response, view: &PlantView, is_under: impl Fn(usize) -> bool) {
     let found = (0..view.contactors.len()).find(|index| is_under(*index));
     if let Some(index) = found {
         let words = contactor_words(index, &view.contactors[index]);
@@ -185,8 +185,11 @@ fn contactor_words(index: usize, one: &PlantCell) -> String {
     let um = |um: f64| quantity::with_unit(um, 1, "µm");
     let percent = |share: f64| quantity::with_unit(100.0 * share, 0, "%");
     let lines = Band::ALL.into_iter().enumerate().map(|(nth, band)| {
-        let (moved, told) = (um(one.moved_um[nth]), um(one.told_um[nth]));
-        format!("{} Hz: moves {moved}, told {told}\n", band.carrier_hz())
+        let (moved, described) = (um(one.moved_um[nth]), um(one.told_um[nth]));
+        format!(
+            "{} Hz: moves {moved}, told {described}\n",
+            band.carrier_hz()
+        )
     });
     let lines: String = lines.collect();
     let [rms, peak] = one.current_ma.map(|ma| quantity::with_unit(ma, 2, "mA"));
@@ -219,9 +222,9 @@ fn in_words(view: &PlantView) -> String {
     let most = |of: &dyn Fn(&PlantCell) -> f64| view.contactors.iter().map(of).fold(0.0, f64::max);
     let bands = [0, 1].map(|nth| {
         let moved = quantity::with_unit(most(&|one| one.moved_um[nth]), 1, "µm");
-        let told = quantity::with_unit(most(&|one| one.told_um[nth]), 1, "µm");
+        let described = quantity::with_unit(most(&|one| one.told_um[nth]), 1, "µm");
         format!(
-            "at {} Hz up to {moved} moved and {told} told",
+            "at {} Hz up to {moved} moved and {described} told",
             Band::ALL[nth].carrier_hz()
         )
     });

@@ -285,8 +285,8 @@ impl Draft {
                 None => String::new(),
             },
             Self::Adjust { values, .. } => {
-                let told = values.iter().map(|value| quantity::fixed(*value, 2));
-                told.collect::<Vec<_>>().join(", ")
+                let described = values.iter().map(|value| quantity::fixed(*value, 2));
+                described.collect::<Vec<_>>().join(", ")
             }
             Self::Magnitude(text) => text.clone(),
             Self::Ratings { values, .. } => {

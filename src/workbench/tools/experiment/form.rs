@@ -156,8 +156,8 @@ impl Form {
         }
         match self.who.participant() {
             Err(line) => return Some(line),
-            Ok(told) => {
-                let contradiction = self.participants.contradiction(&told);
+            Ok(described) => {
+                let contradiction = self.participants.contradiction(&described);
                 if contradiction.is_some() {
                     return contradiction;
                 }
@@ -283,12 +283,12 @@ pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
         let folder = folder.display();
         return Err(format!("there is no folder {folder}; check the path"));
     }
-    let told = |error: selvedge_experiment::ExperimentError| error.to_string();
-    let (found, unread) = find_sessions(folder).map_err(told)?;
+    let described = |error: selvedge_experiment::ExperimentError| error.to_string();
+    let (found, unread) = find_sessions(folder).map_err(described)?;
     Ok(Listed {
         found: found.into_iter().map(row).collect(),
-        unread: unread.into_iter().map(|one| told(one.error)).collect(),
-        participants: Participants::read(folder).map_err(told)?,
+        unread: unread.into_iter().map(|one| described(one.error)).collect(),
+        participants: Participants::read(folder).map_err(described)?,
         has_noise: folder.join(NOISE_FILE).is_file(),
     })
 }

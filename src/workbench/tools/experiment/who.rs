@@ -26,16 +26,16 @@ impl Who {
     /// Fills in what is known of the pseudonym that was typed; takes it out again once another is
     /// typed. What was typed since stays.
     pub(crate) fn follow(&mut self, known: &Participants) {
-        let told = self.pseudonym.trim();
+        let described = self.pseudonym.trim();
         if self
             .filled
             .as_ref()
-            .is_some_and(|filled| filled.pseudonym() == told)
+            .is_some_and(|filled| filled.pseudonym() == described)
         {
             return;
         }
         let before = self.filled.take();
-        let now = known.nth(told).map(|nth| known.rows()[nth].clone());
+        let now = known.nth(described).map(|nth| known.rows()[nth].clone());
         if let Some(before) = before {
             for (field, value) in self.fields().into_iter().zip(before.particulars()) {
                 if field == value {
@@ -108,12 +108,12 @@ mod tests {
     fn known(name: &str) -> Participants {
         let folder = ScratchFolder::new(name);
         std::fs::create_dir_all(&folder.0).unwrap();
-        let told = Particulars {
+        let described = Particulars {
             age_years: Some(31),
             handedness: Some("left"),
             ..Particulars::default()
         };
-        let participant = Participant::new("p01", told).unwrap();
+        let participant = Participant::new("p01", described).unwrap();
         Participants::enrol(&folder.0, &participant, UNIX_EPOCH).unwrap();
         Participants::read(&folder.0).unwrap()
     }

@@ -121,7 +121,7 @@ pub(crate) struct WordsDraft {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Draft {
     /// What the readers are told.
-    pub told: Told,
+    pub described: Told,
     /// What is looked at.
     pub looked: Looked,
     /// What is said of the textile.

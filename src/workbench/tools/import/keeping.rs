@@ -42,7 +42,7 @@ pub(crate) fn textiles(found: &Found, said: &WordsDraft) -> Result<Vec<NewTextil
         }
         Body::Heights(heights) => {
             let n = heights.places.len();
-            let bytes = found.inputs.told.files.first();
+            let bytes = found.inputs.described.files.first();
             let bytes = bytes.and_then(|file| file.source.bytes().ok());
             let textile = |nth: usize| {
                 let place = heights.places[nth].as_ref();

@@ -64,7 +64,7 @@ impl Tool for Import {
     }
 
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
-        let last = self.draft.told.files.last();
+        let last = self.draft.described.files.last();
         let last = last.filter(|_| purpose == Purpose::ImportFiles);
         last.map(|file| file.source.path().to_owned())
     }

@@ -59,14 +59,14 @@ impl Import {
 
     pub(super) fn inputs(&self) -> Inputs {
         Inputs {
-            told: self.draft.told.clone(),
+            described: self.draft.described.clone(),
             looked: self.draft.looked.clone(),
         }
     }
 
     /// How what was found stands to what is chosen.
     pub(crate) fn standing(&self) -> Standing {
-        if self.draft.told.files.is_empty() {
+        if self.draft.described.files.is_empty() {
             return Standing::Empty;
         }
         self.reading.standing(&self.inputs())
@@ -75,18 +75,18 @@ impl Import {
     /// Takes files to those that are there; says why not, in one line.
     pub(crate) fn add(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
         let mut draft = self.draft.clone();
-        let is_first = draft.told.files.is_empty();
+        let is_first = draft.described.files.is_empty();
         for path in paths {
             let is_there = |file: &DraftFile| file.source.path() == path;
-            if !draft.told.files.iter().any(is_there) {
-                draft.told.files.push(DraftFile {
+            if !draft.described.files.iter().any(is_there) {
+                draft.described.files.push(DraftFile {
                     source: Arc::new(SourceFile::new(path)),
                     place: None,
                     is_friction: false,
                 });
             }
         }
-        let n = draft.told.files.len();
+        let n = draft.described.files.len();
         if n > MOST_FILES {
             return Err(format!(
                 "{n} files where an import takes {MOST_FILES}; leave some out"
@@ -94,8 +94,8 @@ impl Import {
         }
         if is_first {
             // What was typed for other files does not hold for these.
-            draft.told.strokes = StrokesDraft::default();
-            draft.told.heights = HeightsDraft::default();
+            draft.described.strokes = StrokesDraft::default();
+            draft.described.heights = HeightsDraft::default();
         }
         draft.looked = Looked {
             is_official: draft.looked.is_official,
@@ -123,7 +123,7 @@ impl Import {
 
     /// Forgets what came of a draft that reads otherwise.
     pub(super) fn forget_after(&mut self, before: &Draft) {
-        if before.told != self.draft.told {
+        if before.described != self.draft.described {
             self.kept = None;
             self.picture = ReliefPicture::default();
         }
@@ -131,7 +131,7 @@ impl Import {
 
     /// Reads the files anew from the disk.
     pub(crate) fn read_again(&mut self) {
-        for file in &mut self.draft.told.files {
+        for file in &mut self.draft.described.files {
             file.source = Arc::new(SourceFile::new(file.source.path().to_owned()));
         }
         self.reading.go_on();

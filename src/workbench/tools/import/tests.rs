@@ -128,7 +128,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
         (found.step, found.ask),
         (Step::Meaning, Some(KesAsk::UmPerVolt))
     );
-    importing.draft.told.strokes.um_per_volt = "zwölf".to_owned();
+    importing.draft.described.strokes.um_per_volt = "zwölf".to_owned();
     read(&mut importing);
     assert!(failure(&importing).line.starts_with("“zwölf” is no number"));
     assert!(
@@ -141,8 +141,8 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
             .is_empty()
     );
     // Columns in µm and in V do not go together: both are said.
-    importing.draft.told.strokes.um_per_volt = "12,5".to_owned();
-    importing.draft.told.strokes.columns = Some(vec![
+    importing.draft.described.strokes.um_per_volt = "12,5".to_owned();
+    importing.draft.described.strokes.columns = Some(vec![
         ColumnRole::Distance,
         ColumnRole::from_word("forward").unwrap(),
         ColumnRole::Skip,
@@ -153,7 +153,7 @@ fn what_is_asked_for_names_its_field_and_an_answer_ends_it() {
     let bare = folder.write("bare.txt", "1.5\n2.5\n1.0\n".repeat(500));
     let mut importing = import_of(&[bare]);
     assert_eq!(failure(&importing).ask, Some(KesAsk::Step));
-    importing.draft.told.strokes.step_mm = "0.02".to_owned();
+    importing.draft.described.strokes.step_mm = "0.02".to_owned();
     read(&mut importing);
     assert_eq!(importing.found().unwrap().failure, None);
 }
@@ -168,14 +168,14 @@ fn a_map_becomes_a_textile_for_every_place() {
     assert_eq!(asked.step, Step::Meaning);
     assert!(asked.line.contains("--height-unit"), "{asked:?}");
     let unit = selvedge_textile::LengthUnit::Micrometre;
-    importing.draft.told.heights.height_unit = Some(unit);
-    importing.draft.told.heights.step_mm = "0.05".to_owned();
+    importing.draft.described.heights.height_unit = Some(unit);
+    importing.draft.described.heights.step_mm = "0.05".to_owned();
     importing.draft.looked.places = vec![[5.0, 4.0], [9.0, 6.0]];
     importing.draft.words.name = "Ripple".to_owned();
     read(&mut importing);
     assert_eq!(importing.found().unwrap().failure, None);
     let options = ImportOptions {
-        asked: importing.draft.told.height_options().unwrap().asked,
+        asked: importing.draft.described.height_options().unwrap().asked,
         ..ImportOptions::default()
     };
     let bytes = fs::read(&path).unwrap();
@@ -203,7 +203,7 @@ fn a_map_that_is_felt_at_every_point_brings_its_file_along() {
     let folder = ScratchFolder::made("areal");
     let path = folder.write("cloth.txt", matrix());
     let mut importing = import_of(std::slice::from_ref(&path));
-    let heights = &mut importing.draft.told.heights;
+    let heights = &mut importing.draft.described.heights;
     heights.height_unit = Some(selvedge_textile::LengthUnit::Micrometre);
     heights.step_mm = "0.05".to_owned();
     heights.representation = Representation::Areal;
@@ -259,7 +259,7 @@ fn only_what_has_changed_is_read_anew() {
         Arc::ptr_eq(&before, &reading(&importing)),
         "the strokes are the same"
     );
-    importing.draft.told.strokes.return_order = Some(selvedge_textile::ReturnOrder::Travel);
+    importing.draft.described.strokes.return_order = Some(selvedge_textile::ReturnOrder::Travel);
     read(&mut importing);
     assert!(!Arc::ptr_eq(&before, &reading(&importing)));
     importing.draft.words.name = "Another".to_owned();
@@ -335,7 +335,7 @@ fn real_height_maps_are_read_when_they_are_there() {
                 "{:?}",
                 failure(&importing)
             );
-            importing.draft.told.heights.is_periodic = true;
+            importing.draft.described.heights.is_periodic = true;
             read(&mut importing);
         }
         assert_eq!(importing.found().unwrap().failure, None, "{name}");

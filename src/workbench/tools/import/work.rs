@@ -21,7 +21,7 @@ use selvedge_textile::{
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Inputs {
     /// What the readers are told.
-    pub told: Told,
+    pub described: Told,
     /// What is looked at.
     pub looked: Looked,
 }
@@ -125,7 +125,7 @@ impl Found {
         if let Some(heights) = self.heights() {
             return heights.import.own_name();
         }
-        let first = self.inputs.told.files.first();
+        let first = self.inputs.described.files.first();
         let stem = first.and_then(|file| file.source.path().file_stem());
         stem.unwrap_or_default().to_string_lossy().into_owned()
     }
@@ -148,7 +148,7 @@ impl Computed<Inputs> for Found {
     }
 
     fn serves(under_way: &Inputs, now: &Inputs) -> bool {
-        under_way.told == now.told
+        under_way.described == now.described
     }
 }
 
@@ -159,21 +159,21 @@ pub(crate) fn read(
     progress: &mut Progress<'_>,
 ) -> Result<Found, Cancelled> {
     progress.step(0.0, "reading")?;
-    let n = inputs.told.files.len().max(1) as f64;
-    for (nth, file) in inputs.told.files.iter().enumerate() {
+    let n = inputs.described.files.len().max(1) as f64;
+    for (nth, file) in inputs.described.files.iter().enumerate() {
         if let Err(line) = file.source.bytes() {
             let mut failure = Failure::at(Step::Files, line);
             failure.file = Some(nth);
-            let kind = inputs.told.kind.unwrap_or(Measurement::Strokes);
+            let kind = inputs.described.kind.unwrap_or(Measurement::Strokes);
             return Ok(Found::failed(inputs, kind, failure));
         }
         progress.step(0.2 * (nth + 1) as f64 / n, "reading")?;
     }
-    let first = inputs.told.files.first();
+    let first = inputs.described.files.first();
     let content = first.and_then(|file| file.source.bytes().ok());
-    let kind = inputs.told.kind;
+    let kind = inputs.described.kind;
     let kind = kind.unwrap_or_else(|| Measurement::of(content.unwrap_or_default()));
-    let prior = prior.filter(|prior| prior.inputs.told == inputs.told);
+    let prior = prior.filter(|prior| prior.inputs.described == inputs.described);
     match kind {
         Measurement::Strokes => strokes(inputs, prior, progress),
         Measurement::Heights => heights(inputs, prior, progress),
@@ -193,10 +193,10 @@ fn strokes(
     progress: &mut Progress<'_>,
 ) -> Result<Found, Cancelled> {
     let kind = Measurement::Strokes;
-    let options = match inputs.told.kes_options() {
+    let options = match inputs.described.kes_options() {
         Ok(options) => options,
         Err(failure) => {
-            let looks = looks(&inputs.told.files, &KesOptions::default());
+            let looks = looks(&inputs.described.files, &KesOptions::default());
             let body = Body::Strokes(Box::new(Strokes::only(looks)));
             let failure = Some(failure);
             return Ok(Found {
@@ -212,7 +212,7 @@ fn strokes(
         .filter(|strokes| strokes.reading.is_some());
     let (mut strokes, mut failure) = match again {
         Some(strokes) => (strokes.clone(), None),
-        None => read_strokes(&inputs.told.files, &options, progress)?,
+        None => read_strokes(&inputs.described.files, &options, progress)?,
     };
     progress.step(0.8, "evaluating")?;
     if let Some(reading) = &strokes.reading {
@@ -308,13 +308,13 @@ fn heights(
     progress: &mut Progress<'_>,
 ) -> Result<Found, Cancelled> {
     let kind = Measurement::Heights;
-    if inputs.told.files.len() > 1 {
+    if inputs.described.files.len() > 1 {
         let line = "one file of heights makes an import; leave the others out";
         return Ok(Found::failed(inputs, kind, Failure::at(Step::Files, line)));
     }
     let mut heights = match prior.and_then(Found::heights) {
         Some(heights) => heights.clone(),
-        None => match read_heights(&inputs.told, progress)? {
+        None => match read_heights(&inputs.described, progress)? {
             Ok(heights) => heights,
             Err(failure) => return Ok(Found::failed(inputs, kind, failure)),
         },
@@ -353,14 +353,14 @@ fn heights(
 }
 
 fn read_heights(
-    told: &Told,
+    described: &Told,
     progress: &mut Progress<'_>,
 ) -> Result<Result<Heights, Failure>, Cancelled> {
-    let options = match told.height_options() {
+    let options = match described.height_options() {
         Ok(options) => options,
         Err(failure) => return Ok(Err(failure)),
     };
-    let Some(file) = told.files.first() else {
+    let Some(file) = described.files.first() else {
         return Ok(Err(Failure::at(Step::Files, "no file; add one")));
     };
     let bytes = file.source.bytes().unwrap_or_default();

@@ -103,7 +103,7 @@ impl ContactSpectrum {
         if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
             response.on_hover_text_at_pointer(filter_words(layout.strip, at, filters));
         } else if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
-            waterfall::tell(ui, response, &layout, || words_of(&under));
+            waterfall::describe(ui, response, &layout, || words_of(&under));
         }
     }
 }

@@ -83,7 +83,7 @@ impl DriveSpectrum {
         }
         let pointer = response.hover_pos();
         if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
-            waterfall::tell(ui, response, &layout, || words_of(&under));
+            waterfall::describe(ui, response, &layout, || words_of(&under));
         }
     }
 }

@@ -358,7 +358,12 @@ fn read(layout: &Layout, ring: &ColumnRing, at: Pos2) -> Option<Under> {
 }
 
 /// Says what is under the pointer, with a cross there.
-pub(crate) fn tell(ui: &Ui, response: Response, layout: &Layout, words: impl FnOnce() -> String) {
+pub(crate) fn describe(
+    ui: &Ui,
+    response: Response,
+    layout: &Layout,
+    words: impl FnOnce() -> String,
+) {
     let Some(at) = response.hover_pos() else {
         return;
     };

@@ -161,7 +161,7 @@ impl Act {
         }
     }
 
-    /// Shows it; wishes for the command when it is pressed.
+    /// Shows it; gives the command when it is pressed.
     fn show(self, ui: &mut Ui, command: PlayCommand, is_on: Option<bool>, commands: &mut Commands) {
         let command: Command = command.into();
         let face = Face {

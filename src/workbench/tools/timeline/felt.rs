@@ -8,7 +8,7 @@ use crate::kit::theme::Palette;
 use crate::tools::timeline::live::{N_TICKS, Placed};
 use crate::tools::timeline::picture::speed_shapes;
 use crate::tools::timeline::plot::Plot;
-use crate::tools::timeline::strips_view::{paint_title, tell, told};
+use crate::tools::timeline::strips_view::{describe, described, paint_title};
 use crate::tools::timeline::transport::{TICK_MS, TransportView};
 use crate::tools::timeline::{live, plot};
 use selvedge_foundation::quantity;
@@ -53,7 +53,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
     }
     let clipped = ui.painter().with_clip_rect(plot.area.expand(1.0));
     clipped.extend(live_shapes(&plot, &placed, palette));
-    tell_live(ui, &response, &plot, &placed);
+    describe_live(ui, &response, &plot, &placed);
 }
 
 fn live_x(plot: &Plot, placed: &Placed) -> f32 {
@@ -83,7 +83,7 @@ fn live_shapes(plot: &Plot, placed: &[Placed], palette: &Palette) -> Vec<Shape> 
     shapes
 }
 
-fn tell_live(ui: &Ui, response: &Response, plot: &Plot, placed: &[Placed]) {
+fn describe_live(ui: &Ui, response: &Response, plot: &Plot, placed: &[Placed]) {
     let Some(pointer) = response.hover_pos() else {
         return;
     };
@@ -98,11 +98,11 @@ fn tell_live(ui: &Ui, response: &Response, plot: &Plot, placed: &[Placed]) {
         "{seconds} before the newest   tick {}",
         one.tick_sample.tick
     );
-    tell(
+    describe(
         ui,
         response,
         plot,
         live_x(plot, one),
-        &told(&head, one.felt(), "of the contactors on a textile"),
+        &described(&head, one.felt(), "of the contactors on a textile"),
     );
 }

@@ -68,12 +68,12 @@ fn show_take(
         if let Some(felt) = strips.at(at) {
             let x = plot.x_at(share_of(at, strips.n_ticks()));
             let head = format!("{}   tick {at}", quantity::clock(at * TICK_MS));
-            tell(
+            describe(
                 ui,
                 &response,
                 &plot,
                 x,
-                &told(&head, felt, "of the contactors that vibrate"),
+                &described(&head, felt, "of the contactors that vibrate"),
             );
         }
     }
@@ -132,7 +132,7 @@ fn take_title(take: &Recording) -> String {
 }
 
 /// What there is to say of a place of the timeline; `over` says which contactors count.
-pub(crate) fn told(head: &str, felt: Felt, over: &str) -> String {
+pub(crate) fn described(head: &str, felt: Felt, over: &str) -> String {
     let speed = quantity::with_unit(felt.speed_mm_per_s, 1, "mm/s");
     let Some(mean_um) = felt.mean_um else {
         return format!(
@@ -160,7 +160,7 @@ pub(crate) fn told(head: &str, felt: Felt, over: &str) -> String {
 }
 
 /// A line at the place that is read, and the words.
-pub(crate) fn tell(ui: &Ui, response: &Response, plot: &Plot, x: f32, words: &str) {
+pub(crate) fn describe(ui: &Ui, response: &Response, plot: &Plot, x: f32, words: &str) {
     let palette = Palette::in_ui(ui);
     let line = Stroke::new(1.0, palette.line);
     let x = ui.painter().round_to_pixel_center(x);

@@ -9,7 +9,7 @@ use crate::bench::command::{Command, PlayCommand};
 use crate::bench::recording::Recording;
 use crate::bench::recording::strips::Felt;
 use crate::bench::signals::history::History;
-use crate::tools::timeline::strips_view::{share_of, tick_at, told};
+use crate::tools::timeline::strips_view::{described, share_of, tick_at};
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow};
@@ -246,7 +246,7 @@ fn hovering_reads_both_levels_or_says_why_there_are_none() {
         speed_mm_per_s: 80.0,
         mean_um: Some([0.1, 0.0]),
     };
-    let words = told("00:01.000", felt, "of some");
+    let words = described("00:01.000", felt, "of some");
     for part in [
         "80.0 mm/s",
         "40 Hz  −20.0 dB   0.10 µm",
@@ -259,7 +259,7 @@ fn hovering_reads_both_levels_or_says_why_there_are_none() {
         mean_um: None,
         ..felt
     };
-    let words = told("00:01.000", unknown, "of some");
+    let words = described("00:01.000", unknown, "of some");
     assert!(
         words.contains("depends on the scene") && !words.contains("dB"),
         "{words}"

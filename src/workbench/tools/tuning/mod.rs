@@ -171,13 +171,13 @@ fn show_felt(ui: &mut Ui, felt: Option<&Perception>) {
         ui.label(small("int."));
         ui.label(small("dB SL"));
         for band in [Band::High, Band::Low] {
-            let above_db = quantity::fixed(felt.sensation_db[band.index()], 1);
+            let above_db = quantity::fixed(felt.perceptual_level_db[band.index()], 1);
             let words = number(format!("{above_db:>5}"));
             ui.label(words.color(palette.band(band)));
         }
     });
     let words = felt.map_or_else(String::new, |felt| {
-        let [low, high] = felt.sensation_db.map(above_words);
+        let [low, high] = felt.perceptual_level_db.map(above_words);
         format!("40 Hz  {low}\n320 Hz  {high}\n{}\n", felt_words(felt))
     });
     response.on_hover_text(format!(

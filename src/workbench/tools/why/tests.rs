@@ -195,11 +195,14 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     // Half of 50 µm at 40 Hz is the device's; at 320 Hz it would take more than the profile.
     let half = Some([32_768, 32_768]);
-    let told = Output::of((&profile, 0), [30.0, 30.0], (Some(1.0), half), false);
-    assert_eq!(told.limits.map(|limit| limit.is_of_device), [true, false]);
-    assert_eq!(told.limiter.by_device, [true, false]);
-    assert_eq!(told.limiter.limited, [true, true]);
-    explained.output = told;
+    let described = Output::of((&profile, 0), [30.0, 30.0], (Some(1.0), half), false);
+    assert_eq!(
+        described.limits.map(|limit| limit.is_of_device),
+        [true, false]
+    );
+    assert_eq!(described.limiter.by_device, [true, false]);
+    assert_eq!(described.limiter.limited, [true, true]);
+    explained.output = described;
     let text = to_text(&explained);
     assert!(
         text.contains("25.0 (device) / 20.0 µm, both are held"),
@@ -207,7 +210,7 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     );
     // What the device was asked for because of the profile is the profile's.
     let asked = Coder::new(&profile, 24).comp_limit();
-    let told = Output::of((&profile, 0), [60.0, 60.0], (Some(1.0), Some(asked)), false);
-    assert_eq!(told.limiter.by_device, [false, false]);
-    assert_eq!(told.limits.map(|limit| limit.um), profile.limit_um);
+    let described = Output::of((&profile, 0), [60.0, 60.0], (Some(1.0), Some(asked)), false);
+    assert_eq!(described.limiter.by_device, [false, false]);
+    assert_eq!(described.limits.map(|limit| limit.um), profile.limit_um);
 }

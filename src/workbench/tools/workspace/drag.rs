@@ -86,8 +86,8 @@ fn held(ui: &Ui, id: Id) -> Option<Grab> {
 
 /// The contactor under the pointer, if there is a display to be seen.
 pub(crate) fn dot_at(stage: &Stage<'_>, at: Pos2) -> Option<usize> {
-    stage.live.centre?;
-    display::hit(&stage.view, &stage.live.dots, at)
+    stage.sight.live.centre?;
+    display::hit(&stage.view, &stage.sight.live.dots, at)
 }
 
 /// What a press gets hold of; a textile is chosen by it, empty ground chooses none.
@@ -105,12 +105,12 @@ fn take_hold(stage: &Stage<'_>, at: Pos2, commands: &mut Commands) -> Grab {
             None => {}
         }
     }
-    let hit = arrange::topmost(&stage.scene.cloths, place);
+    let hit = arrange::topmost(&stage.sight.scene.cloths, place);
     // A click on a dot means the contactor, not the textile below it; a drag means the textile.
-    if stage.selection.cloth != hit && dot_at(stage, at).is_none() {
+    if stage.sight.selection.cloth != hit && dot_at(stage, at).is_none() {
         commands.push(ShowCommand::SelectCloth(hit).into());
     }
-    let cloth = hit.and_then(|index| Some((index, stage.scene.cloths.get(index)?)));
+    let cloth = hit.and_then(|index| Some((index, stage.sight.scene.cloths.get(index)?)));
     cloth.map_or(Grab::Ground, |(index, cloth)| {
         Grab::Cloth(index, place - cloth.workspace_from_textile.origin)
     })
@@ -127,10 +127,10 @@ fn follow(ui: &Ui, stage: &Stage<'_>, (grab, at): (Grab, Pos2), commands: &mut C
         Grab::Size(index, _) => (index, CursorIcon::ResizeNeSw),
     };
     ui.ctx().set_cursor_icon(icon);
-    let Some(cloth) = stage.scene.cloths.get(index) else {
+    let Some(cloth) = stage.sight.scene.cloths.get(index) else {
         return Guides::default();
     };
-    if stage.selection.cloth != Some(index) {
+    if stage.sight.selection.cloth != Some(index) {
         commands.push(ShowCommand::SelectCloth(Some(index)).into());
     }
     let modifiers = ui.input(|input| input.modifiers);
@@ -147,7 +147,7 @@ fn edit_of(
     modifiers: Modifiers,
 ) -> (Option<Edit>, Guides) {
     let reach_mm = SNAP_POINTS / stage.view.points_per_mm();
-    let lines = |index| Lines::of(stage.scene.size_mm, &stage.scene.cloths, index);
+    let lines = |index| Lines::of(stage.sight.scene.size_mm, &stage.sight.scene.cloths, index);
     match grab {
         Grab::Ground => (None, Guides::default()),
         Grab::Cloth(index, offset) => {
@@ -232,9 +232,10 @@ fn paint_hovered(ui: &Ui, painter: &Painter, stage: &Stage<'_>) {
         Some(Handle::Turn) => CursorIcon::Grab,
         None if dot_at(stage, at).is_some() => CursorIcon::PointingHand,
         None => {
-            let hit = arrange::topmost(&stage.scene.cloths, stage.view.workspace(at));
-            if let Some(index) = hit.filter(|index| stage.selection.cloth != Some(*index)) {
-                let corners = arrange::screen_corners(&stage.view, &stage.scene.cloths[index]);
+            let hit = arrange::topmost(&stage.sight.scene.cloths, stage.view.workspace(at));
+            if let Some(index) = hit.filter(|index| stage.sight.selection.cloth != Some(*index)) {
+                let corners =
+                    arrange::screen_corners(&stage.view, &stage.sight.scene.cloths[index]);
                 let edge = Stroke::new(1.0, Palette::in_ui(ui).dim);
                 paint_outline(painter, corners, edge);
             }

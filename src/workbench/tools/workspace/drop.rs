@@ -32,7 +32,7 @@ pub(crate) fn take(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
 fn paint_ghost(ui: &Ui, stage: &Stage<'_>, middle: Point) {
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(stage.ground);
-    let size_mm = new_size_mm(stage.scene.size_mm);
+    let size_mm = new_size_mm(stage.sight.scene.size_mm);
     let size = size_mm.map(|mm| stage.view.length(mm));
     let ghost = Rect::from_center_size(stage.view.screen(middle), vec2(size[0], size[1]));
     painter.rect_filled(ghost, 0, palette.selection.gamma_multiply(0.12));

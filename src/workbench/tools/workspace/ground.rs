@@ -13,10 +13,10 @@ use selvedge_foundation::geometry::Point;
 /// Draws what lies on the ground. Says whose tag is under the pointer.
 pub(crate) fn paint(ui: &Ui, stage: &Stage<'_>) -> Option<usize> {
     let painter = ui.painter_at(stage.ground);
-    paint_extent(&painter, &stage.view, stage.scene.size_mm);
+    paint_extent(&painter, &stage.view, stage.sight.scene.size_mm);
     paint_cloths(&painter, &stage.view, stage);
     let tag = paint_tags(&painter, stage);
-    if stage.scene.cloths.is_empty() {
+    if stage.sight.scene.cloths.is_empty() {
         cloth::paint_empty(&painter, stage.ground);
     }
     paint_marked(&painter, stage);
@@ -28,7 +28,7 @@ pub(crate) fn paint(ui: &Ui, stage: &Stage<'_>) -> Option<usize> {
 /// Draws the textiles through a view; the lens uses it too.
 pub(crate) fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
     let lifted = lifted(stage);
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+    for (index, cloth) in stage.sight.scene.cloths.iter().enumerate() {
         cloth::paint(painter, view, cloth, lifted == Some(index));
         overlay::paint_on_cloth(painter, view, stage, (index, cloth));
         if lifted == Some(index) {
@@ -40,27 +40,32 @@ pub(crate) fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stag
 /// The textile that is felt; where textiles are arranged, none is.
 fn lifted(stage: &Stage<'_>) -> Option<usize> {
     match stage.state.tool {
-        Tool::Explore => stage.live.cloth_under_display(),
+        Tool::Explore => stage.sight.live.cloth_under_display(),
         Tool::Arrange => None,
     }
 }
 
 /// Draws trail and contactors through a view; the lens uses it too.
 pub(crate) fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    display::paint_trail(painter, view, stage.trail.aged());
-    if stage.live.centre.is_some() {
-        let pointed = stage.scene.marks.hovered.contactor;
+    display::paint_trail(painter, view, stage.sight.trail.aged());
+    if stage.sight.live.centre.is_some() {
+        let pointed = stage.sight.scene.marks.hovered.contactor;
         overlay::paint_velocities(painter, view, stage);
-        display::paint(painter, view, stage.live, (stage.selection, pointed));
+        display::paint(
+            painter,
+            view,
+            stage.sight.live,
+            (stage.sight.selection, pointed),
+        );
         overlay::paint_readings(painter, view, stage);
     }
 }
 
 /// Marks the textile that the pointer rests on in another view.
 fn paint_marked(painter: &Painter, stage: &Stage<'_>) {
-    let hovered = stage.scene.marks.hovered.cloth;
+    let hovered = stage.sight.scene.marks.hovered.cloth;
     let elsewhere = hovered.filter(|_| stage.response.hover_pos().is_none());
-    if let Some(cloth) = elsewhere.and_then(|index| stage.scene.cloths.get(index)) {
+    if let Some(cloth) = elsewhere.and_then(|index| stage.sight.scene.cloths.get(index)) {
         let palette = Palette::of(painter.ctx().theme());
         let corners = arrange::screen_corners(&stage.view, cloth);
         let edge = Stroke::new(1.5, palette.selection.gamma_multiply(0.7));
@@ -72,8 +77,8 @@ fn paint_tags(painter: &Painter, stage: &Stage<'_>) -> Option<usize> {
     let lifted = lifted(stage);
     let pointer = stage.response.hover_pos();
     let mut hovered = None;
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
-        let is_lit = lifted == Some(index) || stage.scene.is_marked(index);
+    for (index, cloth) in stage.sight.scene.cloths.iter().enumerate() {
+        let is_lit = lifted == Some(index) || stage.sight.scene.is_marked(index);
         let tag = cloth::paint_tag(painter, &stage.view, cloth, is_lit);
         if let (Some(tag), Some(at)) = (tag, pointer)
             && tag.contains(at)
@@ -100,7 +105,7 @@ fn paint_extent(painter: &Painter, view: &ViewTransform, size_mm: [f64; 2]) {
 /// Declares every textile in sight to the accessibility tree: painted, they would not be there,
 /// with its place on the screen.
 fn declare(ui: &Ui, stage: &Stage<'_>) {
-    for (index, cloth) in stage.scene.cloths.iter().enumerate() {
+    for (index, cloth) in stage.sight.scene.cloths.iter().enumerate() {
         let bounds = arrange::screen_bounds(&stage.view, cloth).intersect(stage.ground);
         if !bounds.is_positive() {
             continue;

@@ -64,7 +64,7 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Comm
     let response = ui.interact(glass, ui.scope_id().with("lens"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, "Lens"));
     painter.rect_filled(glass, 4, palette.panel);
-    if let Some(centre) = stage.live.centre {
+    if let Some(centre) = stage.sight.live.centre {
         let view = ViewTransform::new(glass, centre, POINTS_PER_MM);
         let painter = ui.painter_at(glass);
         paint_cloths(&painter, &view, stage);
@@ -91,8 +91,8 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Comm
         ui,
         pos2(left, glass.bottom() + 20.0),
         side,
-        stage.scene,
-        stage.live,
+        stage.sight.scene,
+        stage.sight.live,
     );
 }
 
@@ -108,7 +108,7 @@ pub(crate) fn room_below(column: Rect) -> Option<Rect> {
 /// Tells of the contactor under the pointer, and chooses the one that is clicked.
 fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, commands: &mut Commands) {
     let at = response.hover_pos();
-    let Some(index) = at.and_then(|at| display::hit(view, &stage.live.dots, at)) else {
+    let Some(index) = at.and_then(|at| display::hit(view, &stage.sight.live.dots, at)) else {
         return;
     };
     response.ctx.set_cursor_icon(CursorIcon::PointingHand);
@@ -116,7 +116,7 @@ fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, commands
     if response.clicked() {
         commands.push(ShowCommand::SelectContactor(index).into());
     }
-    tips::tell_of_dot(response, stage, index);
+    tips::describe_dot(response, stage, index);
 }
 
 fn paint_scale_bar(painter: &egui::Painter, glass: Rect) {

@@ -13,7 +13,7 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     if stage.response.secondary_clicked()
         && let Some(at) = stage.response.interact_pointer_pos()
     {
-        let hit = arrange::topmost(&stage.scene.cloths, stage.view.workspace(at));
+        let hit = arrange::topmost(&stage.sight.scene.cloths, stage.view.workspace(at));
         ui.data_mut(|data| data.insert_temp(id, hit));
         if stage.arranges() && hit.is_some() {
             commands.push(ShowCommand::SelectCloth(hit).into());
@@ -21,7 +21,7 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     }
     stage.response.context_menu(|ui| {
         let about = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
-        match about.filter(|index| *index < stage.scene.cloths.len()) {
+        match about.filter(|index| *index < stage.sight.scene.cloths.len()) {
             Some(index) => show_cloth(ui, stage, index, commands),
             None => show_ground(ui, stage),
         }
@@ -29,13 +29,13 @@ pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
 }
 
 fn show_cloth(ui: &mut Ui, stage: &Stage<'_>, index: usize, commands: &mut Commands) {
-    let top = stage.scene.cloths.len().saturating_sub(1);
+    let top = stage.sight.scene.cloths.len().saturating_sub(1);
     let is_muted = |cloth: &crate::bench::view::Cloth| cloth.is_muted;
     let part = Part::Cloth(index);
     if entry(
         ui,
         "Mute",
-        stage.scene.cloths.get(index).is_some_and(is_muted),
+        stage.sight.scene.cloths.get(index).is_some_and(is_muted),
         &mute(part),
     ) {
         commands.push(mute(part));
@@ -43,7 +43,7 @@ fn show_cloth(ui: &mut Ui, stage: &Stage<'_>, index: usize, commands: &mut Comma
     if entry(ui, "Solo", false, &ShowCommand::Solo(part).into()) {
         commands.push(ShowCommand::Solo(part).into());
     }
-    if stage.scene.cloths.iter().any(is_muted)
+    if stage.sight.scene.cloths.iter().any(is_muted)
         && entry(ui, "Feel everything", false, &ShowCommand::HearAll.into())
     {
         commands.push(ShowCommand::HearAll.into());

@@ -2,7 +2,7 @@
 //! shows what lies under the finger.
 //!
 //! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
-//! Draws, says where the pointer feels, and wishes; what is done about it is decided elsewhere.
+//! Draws, says where the pointer feels, and gives commands; what is done about it is decided elsewhere.
 
 pub(crate) mod arrange;
 pub(crate) mod calibration;
@@ -204,12 +204,7 @@ fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
     let stage = Stage {
-        scene,
-        live: sight.live,
-        trail: sight.trail,
-        selection: sight.selection,
-        layers: sight.layers,
-        next: sight.next,
+        sight,
         state,
         ground,
         view: state.camera.view(ground, scene.size_mm),
@@ -225,7 +220,7 @@ fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround
         let beside = lens.and_then(lens::room_below);
         overlay::paint_legend(ui.painter(), &stage, (beside, band));
     }
-    if stage.live.is_stopped {
+    if stage.sight.live.is_stopped {
         paint_all_off(&ui.painter_at(ground), ground);
     }
     PointerGround {
@@ -257,7 +252,7 @@ fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, commands: &mut Com
     }
     drop::take(ui, stage, commands);
     menu::show(ui, stage, commands);
-    tips::tell(ui, stage, tag);
+    tips::describe(ui, stage, tag);
     say_hovered(stage, commands);
     let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
     stage.state.tool == Tool::Explore && !(is_panning || is_busy)
@@ -269,7 +264,7 @@ fn say_hovered(stage: &Stage<'_>, commands: &mut Commands) {
         return;
     };
     let place = stage.view.workspace(at);
-    if let Some(index) = arrange::topmost(&stage.scene.cloths, place) {
+    if let Some(index) = arrange::topmost(&stage.sight.scene.cloths, place) {
         commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
     }
     if stage.arranges()
@@ -286,11 +281,17 @@ fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
         .or_else(|| stage.response.interact_pointer_pos())
         .filter(|_| stage.arranges());
     let pointed = ruler::Pointed {
-        display: stage.live.centre,
+        display: stage.sight.live.centre,
         pointer: pointer.map(|at| stage.view.workspace(at)),
     };
     let painter = ui.painter_at(Rect::from_min_max(frame.min, stage.ground.max));
-    ruler::paint(&painter, frame, &stage.view, stage.scene.size_mm, pointed);
+    ruler::paint(
+        &painter,
+        frame,
+        &stage.view,
+        stage.sight.scene.size_mm,
+        pointed,
+    );
 }
 
 /// Says that everything is off, and what ends that.

@@ -22,7 +22,7 @@ pub(crate) fn navigate(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) -> b
     }
     if stage.response.double_clicked()
         && let Some(at) = stage.response.interact_pointer_pos()
-        && arrange::topmost(&stage.scene.cloths, stage.view.workspace(at)).is_none()
+        && arrange::topmost(&stage.sight.scene.cloths, stage.view.workspace(at)).is_none()
     {
         stage.look(Look::Fit);
     }

@@ -42,12 +42,7 @@ pub(crate) struct Sight<'a> {
 
 /// What the parts of the pane share during one frame.
 pub(crate) struct Stage<'a> {
-    pub(crate) scene: &'a SceneView,
-    pub(crate) live: &'a EngineView,
-    pub(crate) trail: &'a Trail,
-    pub(crate) selection: &'a Selection,
-    pub(crate) layers: Layers<'a>,
-    pub(crate) next: &'a Cell<WorkspaceView>,
+    pub(crate) sight: Sight<'a>,
     /// How it is looked at in this frame.
     pub(crate) state: WorkspaceView,
     /// The part of the screen where mm are.
@@ -65,14 +60,14 @@ impl Stage<'_> {
 
     /// Changes how the workspace is looked at from the next frame on.
     pub(crate) fn change(&self, change: impl FnOnce(&mut WorkspaceView, Place)) {
-        let mut next = self.next.get();
+        let mut next = self.sight.next.get();
         let place = Place {
             pane: self.ground,
-            size_mm: self.scene.size_mm,
+            size_mm: self.sight.scene.size_mm,
             pixels_per_point: self.response.ctx.pixels_per_point(),
         };
         change(&mut next, place);
-        self.next.set(next);
+        self.sight.next.set(next);
     }
 
     /// Looks at another part of the workspace from the next frame on.
@@ -82,7 +77,7 @@ impl Stage<'_> {
 
     /// The chosen textile, if there still is one at its place.
     pub(crate) fn selected(&self) -> Option<(usize, &Cloth)> {
-        let index = self.selection.cloth?;
-        Some((index, self.scene.cloths.get(index)?))
+        let index = self.sight.selection.cloth?;
+        Some((index, self.sight.scene.cloths.get(index)?))
     }
 }

@@ -1,4 +1,4 @@
-//! What the pane wishes for when it is clicked, dragged, scrolled and typed at.
+//! What the pane commands when it is clicked, dragged, scrolled and typed at.
 
 use eframe::egui::{
     Context, DragAndDrop, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton,

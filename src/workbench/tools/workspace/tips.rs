@@ -12,7 +12,7 @@ use crate::tools::workspace::{arrange, drag, overlay};
 use selvedge_foundation::quantity;
 
 /// Tells what is under the resting pointer; `tag` is the textile whose tag is.
-pub(crate) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
+pub(crate) fn describe(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
     let Some(at) = stage.response.hover_pos() else {
         return;
     };
@@ -22,11 +22,11 @@ pub(crate) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
     if stage.arranges()
         && let Some(index) = drag::dot_at(stage, at)
     {
-        return tell_of_dot(&stage.response, stage, index);
+        return describe_dot(&stage.response, stage, index);
     }
     let covered = || covered_by(stage, at);
     if let Some(index) = tag.or_else(covered)
-        && let Some(cloth) = stage.scene.cloths.get(index)
+        && let Some(cloth) = stage.sight.scene.cloths.get(index)
     {
         let response = stage.response.clone();
         let place = stage.view.workspace(at);
@@ -38,10 +38,15 @@ pub(crate) fn tell(ui: &Ui, stage: &Stage<'_>, tag: Option<usize>) {
 }
 
 /// Tells of a contactor; the lens does too.
-pub(crate) fn tell_of_dot(response: &Response, stage: &Stage<'_>, index: usize) {
-    if let Some(dot) = stage.live.dots.get(index) {
+pub(crate) fn describe_dot(response: &Response, stage: &Stage<'_>, index: usize) {
+    if let Some(dot) = stage.sight.live.dots.get(index) {
         response.clone().on_hover_ui_at_pointer(|ui| {
-            let words = of_dot(index, dot, stage.scene, &stage.live.perceptual_level);
+            let words = of_dot(
+                index,
+                dot,
+                stage.sight.scene,
+                &stage.sight.live.perceptual_level,
+            );
             ui.add(Label::new(words).extend());
         });
     }
@@ -51,7 +56,7 @@ fn covered_by(stage: &Stage<'_>, at: Pos2) -> Option<usize> {
     let place = stage.view.workspace(at);
     stage
         .arranges()
-        .then(|| arrange::topmost(&stage.scene.cloths, place))?
+        .then(|| arrange::topmost(&stage.sight.scene.cloths, place))?
 }
 
 fn of_cloth(cloth: &Cloth) -> String {

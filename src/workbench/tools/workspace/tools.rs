@@ -108,7 +108,7 @@ pub(crate) fn show_beside_selection(ui: &mut Ui, stage: &Stage<'_>, commands: &m
     }
     let corner = pos2(bounds.right() - BESIDE.x, bounds.bottom() + AWAY);
     let corner = corner.clamp(room.min, room.max - BESIDE);
-    let top = stage.scene.cloths.len().saturating_sub(1);
+    let top = stage.sight.scene.cloths.len().saturating_sub(1);
     let rect = Rect::from_min_size(corner, BESIDE);
     show_strip(ui, rect, "Chosen textile", |ui| {
         ui.horizontal(|ui| {

@@ -115,7 +115,9 @@ impl ColumnLook {
             digits.or(Some(0))
         };
         let (heading, unit) = headed(column);
-        let mut texts: Vec<String> = cells().map(|cell| told(cell, column, decimals)).collect();
+        let mut texts: Vec<String> = cells()
+            .map(|cell| described(cell, column, decimals))
+            .collect();
         texts.sort_by_key(|text| std::cmp::Reverse(text.chars().count()));
         let font = match decimals {
             Some(_) => theme::number(),
@@ -193,7 +195,7 @@ fn is_probability(name: &str) -> bool {
 }
 
 /// What stands in a cell.
-pub(crate) fn told(cell: &Cell, column: &Column, decimals: Option<usize>) -> String {
+pub(crate) fn described(cell: &Cell, column: &Column, decimals: Option<usize>) -> String {
     match cell {
         Cell::Number(value) => number(*value, decimals.unwrap_or(0), &column.name),
         Cell::Text(text) => plain(text),
@@ -283,7 +285,7 @@ mod tests {
     fn an_empty_cell_says_why() {
         let p = column("p", "p");
         let cell = Cell::Undefined("one subject has no spread".to_owned());
-        assert_eq!(told(&cell, &p, Some(4)), "–");
+        assert_eq!(described(&cell, &p, Some(4)), "–");
         assert_eq!(
             tip(&cell, &p),
             "p: not computable: one subject has no spread"

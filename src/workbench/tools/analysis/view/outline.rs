@@ -56,7 +56,7 @@ fn entry(ui: &mut Ui, section: &Section, about: &str, is_chosen: bool) -> bool {
     let ink = if is_chosen { palette.text } else { palette.dim };
     let counts = counts(section);
     let right = pos2(row.right() - 6.0, row.center().y);
-    let told = ui.painter().text(
+    let described = ui.painter().text(
         right,
         Align2::RIGHT_CENTER,
         counts,
@@ -64,7 +64,7 @@ fn entry(ui: &mut Ui, section: &Section, about: &str, is_chosen: bool) -> bool {
         palette.dim,
     );
     let left = pos2(row.left() + 6.0, row.center().y);
-    let room = told.left() - left.x - 2.0 * STEP;
+    let room = described.left() - left.x - 2.0 * STEP;
     paint_line(ui, left, room, RichText::new(about).color(ink));
     response.on_hover_text(tip(section)).clicked()
 }

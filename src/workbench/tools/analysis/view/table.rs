@@ -12,7 +12,7 @@ use eframe::egui::{
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::toggle;
-use crate::tools::analysis::view::columns::{ColumnLook, GAP, TableLook, tip, told};
+use crate::tools::analysis::view::columns::{ColumnLook, GAP, TableLook, described, tip};
 use selvedge_experiment::analysis::{Cell, Table};
 
 /// Height of a row, points.
@@ -210,7 +210,7 @@ impl Sheet<'_> {
         }
         let palette = Palette::in_ui(ui);
         let (value, column) = (&self.table.rows[row][at], &self.table.columns[at]);
-        let text = told(value, column, look.decimals);
+        let text = described(value, column, look.decimals);
         let ink = match value {
             Cell::Undefined(_) => palette.dim,
             Cell::Number(_) | Cell::Text(_) => palette.text,
@@ -268,8 +268,8 @@ impl Sheet<'_> {
         let said = |((cell, column), look): ((&Cell, _), &ColumnLook)| match cell {
             Cell::Undefined(_) => tip(cell, column),
             Cell::Number(_) | Cell::Text(_) => {
-                let told = told(cell, column, look.decimals);
-                format!("{} {told} {}", look.heading, look.unit)
+                let described = described(cell, column, look.decimals);
+                format!("{} {described} {}", look.heading, look.unit)
                     .trim()
                     .to_owned()
             }

@@ -115,7 +115,12 @@ fn with_noticed(found: &LevelDifference) -> Chart {
 
 /// Just noticeable differences of the bands that A sounds in, dB.
 fn noticed_db(found: &LevelDifference) -> impl Iterator<Item = (Band, f64)> {
-    let of = |band: Band| Some((band, just_noticeable_db(found.sensation_db[band.index()]?)));
+    let of = |band: Band| {
+        Some((
+            band,
+            just_noticeable_db(found.perceptual_level_db[band.index()]?),
+        ))
+    };
     Band::ALL.into_iter().filter_map(of)
 }
 

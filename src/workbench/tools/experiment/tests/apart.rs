@@ -1,6 +1,9 @@
 //! The participant's window: the view goes there and comes back, and the session goes on.
 
+use eframe::egui::{Event, Modifiers, PointerButton, Shape};
+
 use super::*;
+use crate::bench::command::ShowCommand;
 use crate::kit::view_transform::Pointed;
 
 fn open(window: &mut Headless, is_open: bool) {
@@ -98,4 +101,37 @@ fn a_movement_over_the_other_window_is_not_felt() {
     assert!(before.is_some());
     assert_eq!(moved_to(Pointed::Participant, [420.0, 340.0]), before);
     assert_ne!(moved_to(Pointed::Workbench, [420.0, 340.0]), before);
+}
+
+#[test]
+fn a_corner_of_a_covered_pane_changes_nothing_and_says_why() {
+    let folder = Folder::new("corner");
+    let mut window = begun(&folder, "odd-one-out", "p01");
+    window.dispatch(ShowCommand::Reveal(Pane::Heatmaps));
+    window.pass(2);
+    let mut output = window.run();
+    output.textures_delta.clear();
+    let numbers = output
+        .shapes
+        .iter()
+        .find_map(|clipped| match &clipped.shape {
+            Shape::Text(text) if text.galley.text() == "123" => Some(text.visual_bounding_rect()),
+            _ => None,
+        });
+    let at = numbers.expect("the corner is drawn").center();
+    assert!(window.workbench.notices().is_empty());
+    let press = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    for event in [Event::PointerMoved(at), press(true), press(false)] {
+        window.events.push(event);
+        window.pass(1);
+    }
+    let preferences = &window.workbench.bench.settings.preferences;
+    assert!(!preferences.has_numbers);
+    let notices = window.workbench.notices();
+    assert!(notices[0].contains("A session is held"), "{notices:?}");
 }

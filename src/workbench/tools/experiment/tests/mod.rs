@@ -222,10 +222,10 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
         window.workbench.bench.document.undo_name(),
         Some("removed textile")
     );
-    let told = window.workbench.notices();
+    let described = window.workbench.notices();
     assert!(
-        told.iter().any(|line| line.contains("end it first")),
-        "{told:?}"
+        described.iter().any(|line| line.contains("end it first")),
+        "{described:?}"
     );
     end(&mut window);
     window.pass(3);
@@ -280,12 +280,12 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
             panic!("a ranking")
         };
         let link = Link::of(&window.workbench.bench);
-        let told = format!("{:?}", session(&window).view(link, 0.0));
+        let described = format!("{:?}", session(&window).view(link, 0.0));
         let view = experiment(&window).participant(&EngineView::default(), 0.0);
         let words = format!("{view:?}");
         for stimulus in &design.stimuli {
             assert!(!words.contains(&stimulus.id), "{words}");
-            assert!(!told.contains(&stimulus.id), "{told}");
+            assert!(!described.contains(&stimulus.id), "{described}");
         }
         let ParticipantView::Trial(trial) = view else {
             panic!("a trial")

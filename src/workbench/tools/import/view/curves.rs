@@ -288,18 +288,18 @@ fn paint_figures(ui: &Ui, area: Rect, of: &str, figures: &[(&'static str, String
         );
         y += 15.0;
     }
-    let told: Vec<String> = figures
+    let described: Vec<String> = figures
         .iter()
         .map(|(name, value)| format!("{name} {value}"))
         .collect();
-    let told = format!("{of}: {}", told.join(", "));
+    let described = format!("{of}: {}", described.join(", "));
     let response = ui.interact(
         Rect::from_x_y_ranges(area.right()..=right, area.y_range()),
         ui.scope_id().with((of, "figures")),
         eframe::egui::Sense::hover(),
     );
     response.widget_info(|| {
-        eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Label, true, told.clone())
+        eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Label, true, described.clone())
     });
 }
 

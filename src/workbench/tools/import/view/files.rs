@@ -60,7 +60,7 @@ pub(crate) fn show(
     found: Option<&Found>,
     commands: &mut Commands,
 ) {
-    let n = importing.draft.told.files.len();
+    let n = importing.draft.described.files.len();
     let state = if n == 1 {
         "1 file".to_owned()
     } else {
@@ -69,15 +69,15 @@ pub(crate) fn show(
     step_title(ui, 1, "Files", &state);
     let is_strokes = found.is_some_and(|found| found.kind == Measurement::Strokes);
     let mut gone = None;
-    for (nth, file) in importing.draft.told.files.iter_mut().enumerate() {
+    for (nth, file) in importing.draft.described.files.iter_mut().enumerate() {
         if show_file(ui, nth, file, is_strokes) {
             gone = Some(nth);
         }
     }
     if let Some(nth) = gone {
-        importing.draft.told.files.remove(nth);
+        importing.draft.described.files.remove(nth);
     }
-    show_kind(ui, &mut importing.draft.told.kind);
+    show_kind(ui, &mut importing.draft.described.kind);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         if button(ui, "Add…", "Choose more files", None) {

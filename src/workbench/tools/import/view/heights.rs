@@ -38,7 +38,7 @@ pub(crate) fn show(
     // A reader of heights names the option that mends it.
     let asks =
         |option: &str| Need::of(failure.is_some_and(|failure| failure.line.contains(option)));
-    let typed = &mut importing.draft.told.heights;
+    let typed = &mut importing.draft.described.heights;
     row(ui, "unit of heights", "", |ui, _| {
         let need = asks("--height-unit");
         let name = "Unit of heights";

@@ -62,7 +62,8 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: 
         ),
     );
     paint_height_bar(ui.painter(), bar, relief, map);
-    let is_felt_along = importing.draft.told.heights.representation == Representation::Economical;
+    let is_felt_along =
+        importing.draft.described.heights.representation == Representation::Economical;
     show_places(ui, rect, relief, &mut importing.draft.looked, is_felt_along);
     let mut child = ui.new_child(UiBuilder::new().max_rect(lower));
     show_list(
@@ -321,9 +322,9 @@ fn show_place(
                 ui.label(quiet("SMD".to_owned()));
                 let smd = with_unit(place.smd_um(), 2, "µm");
                 let label = ui.label(RichText::new(smd.clone()).font(theme::number()));
-                let told = format!("Place {} SMD {smd}", nth + 1);
+                let described = format!("Place {} SMD {smd}", nth + 1);
                 ui.ctx()
-                    .accesskit_node_builder(label.id, |node| node.set_label(told));
+                    .accesskit_node_builder(label.id, |node| node.set_label(described));
             }
             Some(Err(words)) => {
                 ui.add(Label::new(quiet(words.clone())).truncate())

@@ -27,20 +27,20 @@ pub(crate) fn show(
         return;
     };
     let ask = failure.and_then(|failure| failure.ask);
-    let told = &mut importing.draft.told;
+    let described = &mut importing.draft.described;
     // The file that something is asked about, or else the first.
     let shown = failure.and_then(|failure| failure.file).unwrap_or(0);
     match strokes.looks.get(shown) {
         Some(Ok(look)) => {
             if strokes.looks.len() > 1 {
-                let name = told.files.get(shown).map(|file| file.source.name());
+                let name = described.files.get(shown).map(|file| file.source.name());
                 note(ui, &format!("{}:", name.unwrap_or_default()), Tone::Quiet);
             }
             let is_asked = ask == Some(KesAsk::Columns);
             if let Some(roles) = table::show(ui, look, is_asked) {
-                told.strokes.columns = Some(roles);
+                described.strokes.columns = Some(roles);
             }
-            show_fields(ui, &mut told.strokes, (look, strokes), ask);
+            show_fields(ui, &mut described.strokes, (look, strokes), ask);
         }
         Some(Err(line)) if failure.is_none_or(|failure| failure.line != *line) => {
             note(ui, line, Tone::Wrong);

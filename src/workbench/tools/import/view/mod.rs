@@ -44,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContex
     }
     let whole = ui.available_rect_before_wrap();
     let before = importing.draft.clone();
-    if importing.draft.told.files.is_empty() {
+    if importing.draft.described.files.is_empty() {
         files::show_empty(ui, context.commands);
         return;
     }

@@ -53,7 +53,7 @@ pub(crate) fn show(ui: &mut Ui, look: &KesLook, is_asked: bool) -> Option<Vec<Co
         let size = vec2(whole.max(ui.available_width()), height);
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         ui.ctx().accesskit_node_builder(response.id, |node| {
-            node.set_label(format!("First lines: {}", told(look)));
+            node.set_label(format!("First lines: {}", described(look)));
         });
         paint_grounds(ui, rect, look, &widths);
         chosen = show_roles(ui, rect, look, (&widths, is_asked));
@@ -63,7 +63,7 @@ pub(crate) fn show(ui: &mut Ui, look: &KesLook, is_asked: bool) -> Option<Vec<Co
 }
 
 /// What the columns hold, for those who do not see the table.
-fn told(look: &KesLook) -> String {
+fn described(look: &KesLook) -> String {
     let column = |(nth, column): (usize, &selvedge_textile::KesColumn)| {
         format!("column {} {}", nth + 1, column.role.label())
     };

@@ -130,7 +130,7 @@ pub(crate) fn show_spectra(
     ui.painter().add(Shape::mesh(mesh));
     paint_axes(ui.painter(), area, spectra);
     paint_bar(ui.painter(), (area, below), map);
-    tell(response, area, direction, spectra);
+    describe(response, area, direction, spectra);
 }
 
 /// Places are 1 mm apart, one for each window.
@@ -158,7 +158,7 @@ fn paint_bar(painter: &Painter, (area, whole): (Rect, Rect), map: ColourMap) {
     paint_unit(painter, corner, Align2::RIGHT_BOTTOM, "dB");
 }
 
-fn tell(response: egui::Response, area: Rect, direction: Direction, spectra: &LocalSpectra) {
+fn describe(response: egui::Response, area: Rect, direction: Direction, spectra: &LocalSpectra) {
     let Some(at) = response.hover_pos().filter(|at| area.contains(*at)) else {
         return;
     };

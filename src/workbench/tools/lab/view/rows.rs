@@ -62,7 +62,7 @@ pub(crate) fn number(
         takes_any: true,
     };
     let (new, response) = slider_row_as(ui, (parameter.name, ink), (shape, scale), value);
-    tell(&response, parameter, Some((first, scale)));
+    describe(&response, parameter, Some((first, scale)));
     new.map(|value| key_value(value, range.is_whole))
 }
 
@@ -107,7 +107,7 @@ fn decimals(value: f64) -> usize {
     (0..4).find(is_enough).unwrap_or(4)
 }
 
-fn tell(response: &Response, parameter: &Parameter, first: Option<(f64, Scale)>) {
+fn describe(response: &Response, parameter: &Parameter, first: Option<(f64, Scale)>) {
     let begins = first.map_or_else(String::new, |(first, scale)| {
         let value = selvedge_foundation::quantity::with_unit(first, decimals(first), scale.unit);
         let ends = [scale.least, scale.most]
@@ -143,7 +143,7 @@ pub(crate) fn optional(
         let label = format!("{words} {}", parameter.name);
         is_wanted = toggle(ui, words, false, &label);
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     let other = Place {
         key: instead_of,
         ..parameter.place
@@ -186,7 +186,7 @@ pub(crate) fn combo<'a>(
         ui.ctx()
             .accesskit_node_builder(list.response.id, |node| node.set_label(label));
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     chosen
 }
 
@@ -199,7 +199,7 @@ pub(crate) fn flag(ui: &mut Ui, draft: &Draft, parameter: &Parameter) -> Option<
         let words = if is_on { "yes" } else { "no" };
         is_pressed = toggle(ui, words, is_on, parameter.name);
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     is_pressed.then_some((!is_on).into())
 }
 
@@ -216,7 +216,7 @@ pub(crate) fn seed(ui: &mut Ui, draft: &Draft, parameter: &Parameter) -> Option<
         let typed = field(ui, parameter, (&now.to_string(), 72.0));
         chosen = chosen.or_else(|| typed?.trim().parse().ok());
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     chosen
         .filter(|chosen| *chosen != now)
         .map(KeyValue::Integer)
@@ -237,7 +237,7 @@ pub(crate) fn list(
     let response = row(ui, &head, |ui| {
         ui.label(parts::small(unit, palette.dim));
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     let typed = field(ui, parameter, (&text, f32::INFINITY))?;
     let read = |word: &str| -> Option<KeyValue> {
         if is_whole {
@@ -265,7 +265,7 @@ pub(crate) fn colour(ui: &mut Ui, draft: &Draft, parameter: &Parameter) -> Optio
             ui.painter().rect_filled(rect, 3, ink);
         }
     });
-    tell(&response, parameter, None);
+    describe(&response, parameter, None);
     let typed = typed?.trim().to_owned();
     (typed != now).then(|| typed.into())
 }

@@ -77,7 +77,7 @@ pub(crate) fn paint_legend(
         theme::body(),
         palette.band(band),
     );
-    let probe = stage.selection.probe;
+    let probe = stage.sight.selection.probe;
     let at = pos2(left, card.top() + 31.0);
     let words = velocity_words(probe);
     let font = theme::small_number();
@@ -88,7 +88,12 @@ pub(crate) fn paint_legend(
         pos2(left, card.top() + 58.0),
         pos2(left + 8.0, card.bottom() - 10.0),
     );
-    amplitude_bar(painter, bar, stage.layers.colours, stage.selection.scale);
+    amplitude_bar(
+        painter,
+        bar,
+        stage.sight.layers.colours,
+        stage.sight.selection.scale,
+    );
 }
 
 /// How a chosen velocity is written: `100 mm/s, 35°`.
@@ -108,7 +113,11 @@ fn paint_heading(painter: &Painter, middle: Pos2, probe: Probe, ink: Color32) {
 /// What a map shows at a place of the workspace on a textile, in words; empty without a map.
 pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Point) -> String {
     let own = cloth.workspace_from_textile.into_point(place);
-    let found = stage.layers.maps.amplitude_um(index, [own.x_mm, own.y_mm]);
+    let found = stage
+        .sight
+        .layers
+        .maps
+        .amplitude_um(index, [own.x_mm, own.y_mm]);
     let Some((band, amplitude_um)) = stage.state.overlays.map().zip(found) else {
         return String::new();
     };
@@ -116,6 +125,6 @@ pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Po
         "\n{} Hz here {} at {}",
         quantity::fixed(band.carrier_hz(), 0),
         quantity::with_unit(amplitude_um, 2, "µm"),
-        velocity_words(stage.selection.probe)
+        velocity_words(stage.sight.selection.probe)
     )
 }

@@ -35,12 +35,12 @@ pub(crate) fn paint_on_cloth(
 ) {
     let overlays = stage.state.overlays;
     if overlays.map().is_some()
-        && let Some(picture) = stage.layers.maps.picture(index)
+        && let Some(picture) = stage.sight.layers.maps.picture(index)
     {
         map::paint(painter, view, cloth, picture);
     }
     if overlays.shows(Overlay::Points) {
-        stage.layers.lattice.paint(painter, view, cloth);
+        stage.sight.layers.lattice.paint(painter, view, cloth);
     }
 }
 

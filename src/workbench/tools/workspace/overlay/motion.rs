@@ -63,7 +63,7 @@ fn for_each_in_sight(
     act: impl Fn(&Brush<'_>, &ContactorReading, Option<(Reading, Rotation)>),
 ) {
     let sight = painter.clip_rect().expand(view.length(3.0));
-    for (contactor, moving) in stage.layers.readings.iter().enumerate() {
+    for (contactor, moving) in stage.sight.layers.readings.iter().enumerate() {
         if !sight.contains(view.screen(moving.position)) {
             continue;
         }
@@ -71,10 +71,10 @@ fn for_each_in_sight(
             painter,
             palette: Palette::of(painter.ctx().theme()),
             view,
-            is_chosen: stage.selection.contactor == Some(contactor),
+            is_chosen: stage.sight.selection.contactor == Some(contactor),
         };
         let axes = moving.reading.and_then(|reading| {
-            let cloth = stage.scene.cloths.get(reading.textile)?;
+            let cloth = stage.sight.scene.cloths.get(reading.textile)?;
             Some((reading, cloth.workspace_from_textile.rotation))
         });
         act(&brush, moving, axes);

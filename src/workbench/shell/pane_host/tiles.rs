@@ -9,13 +9,13 @@ use egui_tiles::{
 use crate::bench::pane::Pane;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::shell::desk::Desk;
+use crate::shell::pane_host::PaneHost;
 use crate::shell::tab_row::{TITLE_SPACING, TabRow, corner_width};
 
 /// Height of a row of tabs, points.
 const TABS: f32 = 24.0;
 
-impl Behavior<Pane> for Desk<'_> {
+impl Behavior<Pane> for PaneHost<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let ground = Palette::in_ui(ui).panel;
         ui.painter().rect_filled(ui.max_rect(), 0, ground);

@@ -14,7 +14,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::shell::tab_row::TabRow;
 
 /// Everything that panes are drawn from, and what came of drawing them.
-pub(crate) struct Desk<'a> {
+pub(crate) struct PaneHost<'a> {
     /// What panes are drawn with.
     pub(crate) context: PaneContext<'a>,
     /// The tools.
@@ -27,7 +27,7 @@ pub(crate) struct Desk<'a> {
     pub row: TabRow,
 }
 
-impl Desk<'_> {
+impl PaneHost<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
         self.n_drawn[pane.index()] += 1;
         if self.context.bench.is_veiled(pane) {
@@ -48,7 +48,7 @@ fn show_veil(ui: &mut Ui) {
 }
 
 /// The right end of a row of tabs: what belongs to the pane in front.
-impl Desk<'_> {
+impl PaneHost<'_> {
     fn show_corner(&mut self, ui: &mut Ui, pane: Pane) {
         if pane.has_export() {
             crate::bench::export::button::show(ui, Exportable::Pane(pane), self.context.commands);
@@ -58,11 +58,15 @@ impl Desk<'_> {
                 return tool.corner(pane, ui, &mut self.context);
             }
             // It looks as ever, and a session goes on as it is.
-            ui.scope(|ui| {
+            let corner = ui.scope(|ui| {
                 ui.visuals_mut().disabled_alpha = 1.0;
                 ui.disable();
                 tool.corner(pane, ui, &mut self.context);
             });
+            let rect = corner.response.rect;
+            if ui.input(|input| input.pointer.any_click()) && ui.rect_contains_pointer(rect) {
+                self.context.bench.refuse_in_session();
+            }
         }
     }
 }
