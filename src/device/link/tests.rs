@@ -30,13 +30,13 @@ impl Port for Notes {
     }
 }
 
-struct PaneHost {
+struct Desk {
     link: Link,
     writer: Writer,
     port: Notes,
 }
 
-fn desk() -> PaneHost {
+fn desk() -> Desk {
     let shared = Arc::new(Shared::new(Sequence::default(), Arc::new(|| {})));
     let (_, incoming) = RingBuffer::new(INCOMING);
     let (failed, failures) = RingBuffer::new(FRAMES);
@@ -45,7 +45,7 @@ fn desk() -> PaneHost {
     let (rings, rings_out) = RingBuffer::new(FRAMES);
     let outgoing = Outgoing::new(controls_out, frames_out, rings_out);
     let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
-    PaneHost {
+    Desk {
         link: Link {
             shared,
             incoming,
@@ -70,7 +70,7 @@ fn queued(tick: u32) -> QueuedFrame {
     }
 }
 
-impl PaneHost {
+impl Desk {
     fn write_all(&mut self) {
         while self.writer.step(&mut self.port).is_some() {}
     }
