@@ -74,11 +74,10 @@ pub struct Driver {
 }
 
 impl Driver {
-    /// Starts to open a device for a display with as many contactors as the profile, on the thread
-    /// that will run it. A panic of any thread stops the device before it is reported.
-    pub fn open(target: Target, profile: ArrayProfile) -> Self {
+    /// Starts to open a device for a display of `n_contactors` contactors, on the thread that will
+    /// run it. A panic of any thread stops the device before it is reported.
+    pub fn open(target: Target, profile: ArrayProfile, n_contactors: usize) -> Self {
         let waiting = thread::current();
-        let n_contactors = profile.n_contactors();
         let bridge = Bridge::open(target, profile, n_contactors, move || waiting.unpark());
         let handle = bridge.stop_handle();
         Self {

@@ -161,9 +161,7 @@ impl Pacer {
     pub(super) fn due(&mut self, now: Instant, present: Option<u32>) -> Option<Instant> {
         let present = present.filter(|_| self.last_news.is_some());
         if let Some(due) = self.put_off.take_if(|due| *due <= now) {
-            let is_early = self
-                .earliest
-                .is_some_and(|earliest| now + TICK < earliest);
+            let is_early = self.earliest.is_some_and(|earliest| now + TICK < earliest);
             if !is_early && self.is_new(present) {
                 self.ticks(now, present);
                 return Some(due);
@@ -426,7 +424,10 @@ mod tests {
         bench.pacer.forget_device();
         assert_eq!(bench.at(TICK), Some(TICK));
         let fallbacks = bench.pacer.fallbacks();
-        assert_eq!(fallbacks, 0, "the device was let go, it did not fall silent");
+        assert_eq!(
+            fallbacks, 0,
+            "the device was let go, it did not fall silent"
+        );
     }
 
     #[test]
@@ -459,6 +460,10 @@ mod tests {
         assert_eq!(bench.pacer.missed(), 1);
         assert_eq!(bench.news(next + TICK, 17 * MS), None);
         bench.pacer.forget_device();
-        assert_eq!(bench.deadline(), next + 2 * TICK, "nothing is to be answered");
+        assert_eq!(
+            bench.deadline(),
+            next + 2 * TICK,
+            "nothing is to be answered"
+        );
     }
 }

@@ -5,9 +5,7 @@ use super::*;
 use crate::device::DeviceModel;
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::host::{HostSession, SentFrame, Sequence};
-use crate::message::{
-    Ack, AckCode, Config, DeviceMessage, DeviceState, Pong, Status, kind,
-};
+use crate::message::{Ack, AckCode, Config, DeviceMessage, DeviceState, Pong, Status, kind};
 
 const NONCE: u32 = 0x1234_5678;
 
@@ -186,7 +184,10 @@ fn a_lost_stretch_makes_no_two_frames_for_one_tick() {
             script.assert_one_frame_a_tick();
             let n_frames = script.sent.len();
             let least = if has_own_clock { 59 } else { 57 };
-            assert!((least..=61).contains(&n_frames), "{n_frames} at {held_us} µs");
+            assert!(
+                (least..=61).contains(&n_frames),
+                "{n_frames} at {held_us} µs"
+            );
         }
     }
 }
@@ -259,7 +260,7 @@ impl FrameSource for Frames {
 fn session(frames: impl Fn() -> Frames) -> (Result<Ended, BridgeError>, Frames, BridgeState) {
     let attempt = || {
         let mut source = frames();
-        let mut driver = Driver::open(Target::Emulator, ArrayProfile::default());
+        let mut driver = Driver::open(Target::Emulator, ArrayProfile::default(), 24);
         let ended = driver.run(&mut source, &AtomicBool::new(false));
         let state = driver.bridge().state();
         assert!(driver.missed() < 1000, "{}", driver.missed());
@@ -299,7 +300,7 @@ fn a_source_that_fails_is_the_reason_and_the_device_is_at_rest_all_the_same() {
 
 #[test]
 fn a_session_that_is_asked_to_end_does_so_before_it_began() {
-    let mut driver = Driver::open(Target::Emulator, ArrayProfile::default());
+    let mut driver = Driver::open(Target::Emulator, ArrayProfile::default(), 24);
     let mut source = Frames {
         n_left: 1,
         fails: false,
@@ -314,13 +315,15 @@ fn a_session_that_is_asked_to_end_does_so_before_it_began() {
 fn a_port_that_cannot_be_opened_is_told_apart_from_a_link_that_breaks() {
     let path = std::env::temp_dir().join("no-such-port");
     let name = path.display().to_string();
-    let mut driver = Driver::open(Target::Port(path), ArrayProfile::default());
+    let mut driver = Driver::open(Target::Port(path), ArrayProfile::default(), 24);
     let mut source = Frames {
         n_left: 1,
         fails: false,
         n_sent: 0,
     };
-    let error = driver.run(&mut source, &AtomicBool::new(false)).unwrap_err();
+    let error = driver
+        .run(&mut source, &AtomicBool::new(false))
+        .unwrap_err();
     assert!(matches!(error, BridgeError::Open { .. }), "{error:?}");
     let text = error.to_string();
     assert!(text.starts_with(&format!("{name}: ")), "{text}");
