@@ -12,9 +12,6 @@ impl DeviceCore {
     pub(super) fn step_ms(&mut self, sink: &mut impl DeviceSink) {
         self.lie_for_a_ms(sink);
         self.check_lease(sink);
-        if self.state.is_live() && self.plays_samples() {
-            self.play_samples(sink);
-        }
         if self
             .output
             .ident
@@ -102,7 +99,6 @@ impl DeviceCore {
     /// Zero output, empty queue, disarmed, high voltage off, and on to `state`.
     pub(super) fn silence(&mut self, state: DeviceState) {
         self.output.reset(self.config.ramp_ms);
-        self.samples.reset(self.now_us);
         if !self.breaks(Rule::StopKeepsQueue) {
             self.queue.clear();
         }
@@ -122,14 +118,9 @@ impl DeviceCore {
         self.output.settle();
         let early = self.breaks(Rule::StatusBeforeFrame).then(|| self.status());
         if self.state.is_live() && self.descent.is_none() {
-            if self.plays_samples() {
-                self.count_missing_samples();
-            } else {
-                self.apply_frame(sink);
-            }
+            self.apply_frame(sink);
         }
         self.check_current(sink);
-        self.report_samples(sink);
         self.report_change(sink);
         self.lie_for_a_tick(sink);
         let wants_status = self.session.as_ref().map(|session| session.wants_status);

@@ -3,7 +3,7 @@
 
 use super::lie::{self, Rule};
 use super::output::{IdentDrive, allow};
-use super::{CoreCounters, DeviceCore, DeviceSink, MS_US, Session, sample_ring};
+use super::{CoreCounters, DeviceCore, DeviceSink, MS_US, Session};
 use crate::fields::wrapped_u32;
 use crate::framing::Received;
 use crate::message::{
@@ -11,8 +11,9 @@ use crate::message::{
     Message as _, NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, fault_bit, frame, kind,
 };
 
-const DEFAULT_LEASE_MS: u16 = 1000;
 const LONGEST_IDENT_MS: u16 = 1000;
+/// Bytes of a SAMPLES payload before its samples.
+const SAMPLES_HEAD_LEN: usize = 8;
 
 /// What a packet leads to, beside its effect.
 pub(super) enum Answer {
@@ -74,7 +75,7 @@ impl DeviceCore {
     }
 
     /// The seq of the last accepted FRAME of this session.
-    fn last_seq(&self) -> Option<u16> {
+    pub(super) fn last_seq(&self) -> Option<u16> {
         self.session.as_ref().and_then(|session| session.last_seq)
     }
 
@@ -94,10 +95,7 @@ impl DeviceCore {
             kind::STOP => Stop::decode(payload).map(|stop| Answer::Ack(self.stop(stop))),
             kind::PING => Ping::decode(payload).map(|ping| self.pong(ping, sink)),
             kind::CLEAR => Clear::decode(payload).map(|clear| Answer::Ack(self.clear(clear))),
-            kind::SAMPLES if payload.len() < sample_ring::HEAD_LEN => None,
-            kind::SAMPLES if self.model.modes & Caps::MODE_B != 0 => {
-                Some(self.take_samples(payload))
-            }
+            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
             kind::IDENT => Ident::decode(payload).map(|ident| Answer::Ack(self.ident(ident))),
             kind::SAMPLES if self.breaks(Rule::SamplesAccepted) => Some(Answer::Ack(AckCode::Ok)),
             _ => self.unknown(sink),
@@ -112,106 +110,6 @@ impl DeviceCore {
         }
         let is_bad = self.breaks(Rule::UnknownBad);
         (!is_bad).then_some(Answer::Ack(AckCode::UnknownType))
-    }
-
-    /// A new session from any state; a HELLO that is not one of ours (`None`) changes nothing.
-    fn hello(&mut self, payload: &[u8], sink: &mut impl DeviceSink) -> Option<Answer> {
-        let hello = Hello::decode(payload)?;
-        let is_ours = hello.magic == MAGIC || self.breaks(Rule::AnyMagic);
-        if !is_ours || hello.session == 0 && !self.breaks(Rule::SessionZero) {
-            return None;
-        }
-        let ignores = match self.state {
-            DeviceState::Fault => self.breaks(Rule::FaultBlocksHello),
-            state => state.is_live() && self.breaks(Rule::HelloIgnoredLive),
-        };
-        if ignores {
-            return Some(Answer::Silence);
-        }
-        let offered = (hello.ver_min..=hello.ver_max).contains(&VERSION);
-        let common = offered || self.breaks(Rule::VersionAny);
-        if common || !self.breaks(Rule::VersionKeepsSession) {
-            self.begin_session(&hello, common);
-        }
-        let caps = self
-            .model
-            .caps(hello.session, if common { VERSION } else { 0 });
-        self.send(&caps, sink);
-        Some(Answer::Silence)
-    }
-
-    /// Ends what was and, if there is a common version, begins what comes.
-    fn begin_session(&mut self, hello: &Hello, common: bool) {
-        let (configured, last_seq) = self.kept_through_hello();
-        let armed = self.breaks(Rule::ArmedByHello)
-            || self.session.is_none()
-                && self.state == DeviceState::Armed
-                && self.breaks(Rule::ArmedAtStart);
-        let goes_on = self.state.is_live() && self.breaks(Rule::HelloKeepsOutput);
-        let faulted = self.state == DeviceState::Fault;
-        self.session = None;
-        if !goes_on {
-            let queue = self
-                .breaks(Rule::HelloKeepsQueue)
-                .then(|| self.queue.clone());
-            self.last_frame_us = None;
-            self.silence(match (faulted, common) {
-                (true, _) => DeviceState::Fault,
-                (false, true) if armed => DeviceState::Armed,
-                (false, true) => DeviceState::Ready,
-                (false, false) => DeviceState::Idle,
-            });
-            if let Some(queue) = queue {
-                self.queue = queue;
-            }
-        }
-        if common {
-            self.session = Some(Session {
-                id: hello.session,
-                wants_status: hello.host_flags & Hello::WANT_STATUS != 0,
-                wants_log: hello.host_flags & Hello::WANT_LOG != 0,
-                lease_us: self.lease_us(hello.lease_ms),
-                last_valid_us: self.now_us,
-                last_seq,
-                configured,
-            });
-        }
-    }
-
-    /// Whether there is a CONFIG, and the seq of the last frame, in a new session; what else a
-    /// HELLO does to a device that lies.
-    fn kept_through_hello(&mut self) -> (bool, Option<u16>) {
-        let last_seq = self.last_seq();
-        let was_configured = self.session.as_ref().is_some_and(|it| it.configured);
-        if self.breaks(Rule::HelloResetsCounters) {
-            self.counters = CoreCounters::default();
-        }
-        if self.breaks(Rule::HelloResetsClock) {
-            self.lie_memory.first_tick = self.tick();
-        }
-        if self.breaks(Rule::HelloClearsFault) && self.state == DeviceState::Fault {
-            self.faults = 0;
-            self.silence(DeviceState::Ready);
-        }
-        let keeps_config = self.breaks(Rule::HelloKeepsConfig);
-        let keeps_seq = self.breaks(Rule::HelloKeepsSeq);
-        (
-            was_configured && keeps_config,
-            last_seq.filter(|_| keeps_seq),
-        )
-    }
-
-    /// How long a session lasts without a packet, µs.
-    fn lease_us(&self, asked_ms: u16) -> u64 {
-        let is_usual = asked_ms == 0 && !self.breaks(Rule::LeaseZero);
-        let lease_ms = if is_usual || self.breaks(Rule::LeaseFixed) {
-            DEFAULT_LEASE_MS
-        } else {
-            asked_ms
-        };
-        let later_ms = self.broken_by(Rule::LeaseLonger).unwrap_or(0);
-        let earlier_ms = self.broken_by(Rule::LeaseShorter).unwrap_or(0);
-        (u64::from(lease_ms) + later_ms).saturating_sub(earlier_ms) * MS_US
     }
 
     fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Answer {
@@ -287,138 +185,9 @@ impl DeviceCore {
         AckCode::Ok
     }
 
-    fn become_armed(&mut self) {
+    pub(super) fn become_armed(&mut self) {
         self.silence(DeviceState::Armed);
         self.lie_memory.armed_us = Some(self.now_us);
-    }
-
-    /// An accepted FRAME has no ACK: STATUS names the last one.
-    fn frame(&mut self, seq: u16, payload: &[u8]) -> Answer {
-        if payload.len() < frame::payload_len(self.model.n_channels()) {
-            return Answer::Bad;
-        }
-        let Some(apply_tick) = frame::decode_into(payload, &mut self.scratch) else {
-            return Answer::Ack(AckCode::OutOfRange);
-        };
-        self.misread_frame();
-        if self.state == DeviceState::Fault {
-            return Answer::Ack(AckCode::Faulted);
-        }
-        if self.plays_samples() {
-            return Answer::Ack(AckCode::WrongState);
-        }
-        let Some(session) = self.session.as_ref().filter(|_| self.takes_frames()) else {
-            return Answer::Ack(AckCode::WrongState);
-        };
-        if session.last_seq == Some(seq) && !self.breaks(Rule::DupApplied) {
-            return self.repeated_frame();
-        }
-        let present = wrapped_u32(self.now_us / super::TICK);
-        let next = present.wrapping_add(1);
-        let ahead = apply_tick.wrapping_sub(present).cast_signed();
-        let late = apply_tick != NEXT_TICK && ahead <= 0;
-        let tick = if late || apply_tick == NEXT_TICK {
-            next
-        } else {
-            apply_tick
-        };
-        let is_full = tick.wrapping_sub(next) >= self.n_ticks_ahead()
-            || late && self.breaks(Rule::LateRefused)
-            || apply_tick == NEXT_TICK && self.breaks(Rule::NextRefused);
-        let is_named = if is_full {
-            self.breaks(Rule::LastSeqRefused)
-        } else {
-            !late || !self.breaks(Rule::LastSeqNotLate)
-        };
-        if let Some(session) = self.session.as_mut().filter(|_| is_named) {
-            session.last_seq = Some(seq);
-        }
-        if is_full {
-            return Answer::Ack(AckCode::QueueFull);
-        }
-        self.accept_frame(seq, tick, late);
-        Answer::Silence
-    }
-
-    /// Whether the state is one in which frames are played.
-    fn takes_frames(&self) -> bool {
-        let in_ready = self.state == DeviceState::Ready && self.breaks(Rule::FrameWithoutArm);
-        let in_ramp = self.state == DeviceState::Ramp && self.breaks(Rule::RampRefusesFrames);
-        let is_stopped = self.descent.is_some() && !self.breaks(Rule::StopTurnedBack);
-        in_ready || self.state.is_live() && !is_stopped && !in_ramp
-    }
-
-    /// How many ticks ahead a frame may be, this one not counted.
-    fn n_ticks_ahead(&self) -> u32 {
-        let by = |rule| u32::try_from(self.broken_by(rule).unwrap_or(0)).unwrap_or(0);
-        let more = u32::from(self.model.queue).saturating_add(by(Rule::QueueDeep));
-        more.saturating_sub(by(Rule::QueueShallow))
-    }
-
-    /// A FRAME with the seq of the last accepted one.
-    fn repeated_frame(&mut self) -> Answer {
-        self.counters.dup = self.counters.dup.wrapping_add(1);
-        if self.breaks(Rule::DupRenewsAge) {
-            self.last_frame_us = Some(self.now_us);
-        }
-        if self.breaks(Rule::DupRefused) {
-            return Answer::Ack(AckCode::WrongState);
-        }
-        Answer::Silence
-    }
-
-    fn accept_frame(&mut self, seq: u16, tick: u32, late: bool) {
-        self.counters.late = self.counters.late.wrapping_add(u16::from(late));
-        if self.state == DeviceState::Ready {
-            self.become_armed();
-        }
-        self.store_frame(seq, tick, late);
-        if !self.breaks(Rule::IdentOutlastsFrame) {
-            self.output.ident = None;
-        }
-        self.last_frame_us = Some(if self.breaks(Rule::AgeFromApply) {
-            let n_ticks = tick.wrapping_sub(self.tick());
-            (self.now_us / super::TICK + u64::from(n_ticks)) * super::TICK
-        } else {
-            self.now_us
-        });
-        self.descent = None;
-        if self.state == DeviceState::Ramp && self.breaks(Rule::GainJumps) {
-            self.output.fill_gain();
-        }
-        if matches!(self.state, DeviceState::Armed | DeviceState::Ramp) {
-            self.state = DeviceState::Run;
-        }
-    }
-
-    /// Keeps what was received, and what is allowed of it, for its tick.
-    fn store_frame(&mut self, seq: u16, tick: u32, late: bool) {
-        let tick = if self.breaks(Rule::FramesEarly) {
-            self.tick().wrapping_add(1)
-        } else {
-            tick.wrapping_add(u32::from(self.breaks(Rule::FramesDelayed)))
-        };
-        let is_first = !self.queue.holds(tick);
-        if late && self.breaks(Rule::LateDropped) || !is_first && self.breaks(Rule::FirstWriterWins)
-        {
-            return;
-        }
-        let at_tick = self.breaks(Rule::ClippedAtTick);
-        let in_order = self.breaks(Rule::QueueOrder);
-        let (lies, now) = (&self.model.lies, wrapped_u32(self.now_us / super::TICK));
-        let breaks = |rule| lie::value(lies, now, rule).is_some();
-        if let Some(slot) = self.queue.slot(tick, seq) {
-            slot.received.copy_from_slice(&self.scratch);
-            let clipped = allow(&slot.received, &self.config, breaks, &mut slot.allowed);
-            if at_tick {
-                slot.clipped = clipped;
-            } else {
-                self.counters.clipped = self.counters.clipped.wrapping_add(clipped);
-            }
-        }
-        if in_order {
-            self.queue.order_by_seq();
-        }
     }
 
     /// Disarms at once; a ramp only where there is output to ramp.
@@ -433,7 +202,6 @@ impl DeviceCore {
         if !self.breaks(Rule::StopKeepsQueue) {
             self.queue.clear();
         }
-        self.samples.clear();
         let after = self.descent.unwrap_or_else(|| self.after_stop());
         let ramps = match stop.how {
             StopHow::Ramp => !self.breaks(Rule::StopRampAtOnce),

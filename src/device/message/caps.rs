@@ -1,5 +1,6 @@
 //! CAPS: what a device says of itself in answer to HELLO.
 
+use super::device::escaped;
 use super::{FieldReader, FieldWriter, Message, kind};
 use crate::fields::{read_fields, write_fields};
 use crate::framing::Packet;
@@ -40,7 +41,7 @@ pub struct Caps {
     pub queue: u8,
     /// Resolution of its converters.
     pub dac_bits: u8,
-    /// Bit 0 mode A, bit 1 mode B, bit 2 IDENT, bit 3 interpolation.
+    /// Bit 0 mode A, bit 1 reserved, bit 2 IDENT, bit 3 interpolation.
     pub modes: u16,
     /// Drive peak in mV at code 65535.
     pub fs_mv: u32,
@@ -67,8 +68,6 @@ pub struct Caps {
 impl Caps {
     /// Bit of `modes`: amplitudes.
     pub const MODE_A: u16 = 1;
-    /// Bit of `modes`: samples.
-    pub const MODE_B: u16 = 1 << 1;
     /// Bit of `modes`: IDENT.
     pub const MODE_IDENT: u16 = 1 << 2;
     /// Bit of `modes`: amplitudes may move linearly inside a tick.
@@ -86,6 +85,13 @@ impl Caps {
             Ok(name) => name,
             Err(error) => std::str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or(""),
         }
+    }
+
+    /// The name for people, in one line: control characters are shown escaped, what is no UTF-8
+    /// replaced.
+    pub fn shown_name(&self) -> String {
+        let used = self.name.iter().position(|&byte| byte == 0);
+        escaped(&self.name[..used.unwrap_or(self.name.len())])
     }
 
     /// Pads or cuts `name` to the field.

@@ -82,7 +82,6 @@ fn words(note: &Note) -> (&'static str, String) {
             let lead_ms = lead.as_secs_f64() * 1e3;
             ("depth", format!("ticks={depth} lead_ms={lead_ms:.2}"))
         }
-        Note::Delays(source) => ("delays", format!("source={}", source.name())),
         Note::Said(event, text) => (event, one_line(text)),
         Note::Missing(n) => ("entries-lost", format!("n={n}")),
     }
@@ -106,7 +105,7 @@ fn caps_words(caps: &Caps) -> String {
         "name={:?} firmware={major}.{minor}.{patch} uid={uid} version={} channels={} rows={} \
          cols={} queue={} modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} \
          sample_hz={} comp_limit={}/{}",
-        one_line(caps.name()),
+        caps.shown_name(),
         caps.version,
         caps.n_ch,
         caps.rows,

@@ -196,7 +196,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         state: link.state.label(),
         phase: phase(link.state),
         uid: link.caps.map(|caps| DeviceUid(caps.uid)),
-        comp_limit: link.comp_limit,
+        scale: link.scale,
         can_identify: link
             .caps
             .is_some_and(|caps| caps.modes & Caps::MODE_IDENT != 0),

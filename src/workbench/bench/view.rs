@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 pub(crate) use crate::kit::swatch::ClothPicture;
-use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
+use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState, LinkScale};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
 use selvedge_render::scene::Pose;
@@ -296,8 +296,8 @@ pub(crate) struct BridgeView {
     pub phase: BridgePhase,
     /// The device's own number.
     pub uid: Option<DeviceUid>,
-    /// The largest codes that it takes now.
-    pub comp_limit: Option<[u16; 2]>,
+    /// What it makes of codes.
+    pub scale: Option<LinkScale>,
     /// Whether it can drive one channel alone.
     pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.

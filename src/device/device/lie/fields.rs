@@ -60,7 +60,8 @@ pub(super) const FIELDS: &[Declared] = &[
     field!("caps.uid", CAPS, 48, 4, ["0", "+1"], "beginning of its number"),
     field!("caps.firmware", CAPS, 60, 1, ["0", "+1"], "main version of its firmware"),
     field!("caps.name-length", CAPS, 63, 1, ["0", "255"], "length of its name"),
-    field!("caps.name", CAPS, 64, 1, ["27", "255"], "first letter of its name, control characters and what is no UTF-8 too"),
+    field!("caps.name", CAPS, 64, 1, ["27", "255"],
+        "first letter of its name, control characters and what is no UTF-8 too"),
     length!("caps.cut", Cut, CAPS, ["1", "40", "77"], "ends after so many bytes"),
     length!("caps.extra", Extra, CAPS, ["1", "8"], "has so many bytes too many"),
 
@@ -99,8 +100,10 @@ pub(super) const FIELDS: &[Declared] = &[
     field!("status.temp", STATUS, 26, 2, ["-4000", "8500", "32767"], "temperature in 0.01 °C"),
     field!("status.faults", STATUS, 28, 2,
         ["1", "2", "4", "8", "16", "32", "64", "128", "256", "64@120"], "set of fault bits"),
-    field!("status.age-ms", STATUS, 30, 2, ["0", "-1", "+1", "65535"], "age of the last frame in ms"),
-    field!("status.amp-sum", STATUS, 32, 4, ["0", "+1", "+100000", "4294967295"], "sum of amplitudes"),
+    field!("status.age-ms", STATUS, 30, 2, ["0", "-1", "+1", "65535"],
+        "age of the last frame in ms"),
+    field!("status.amp-sum", STATUS, 32, 4, ["0", "+1", "+100000", "4294967295"],
+        "sum of amplitudes"),
     length!("status.cut", Cut, STATUS, ["1", "35"], "ends after so many bytes"),
     length!("status.extra", Extra, STATUS, ["1"], "has so many bytes too many"),
 
@@ -113,7 +116,8 @@ pub(super) const FIELDS: &[Declared] = &[
     field!("pong.token", PONG, 0, 4, ["0", "-1", "+1"], "token than that of PING"),
     field!("pong.dev-us", PONG, 4, 4, ["0", "-1000", "+1000"], "clock in µs"),
     field!("pong.tick", PONG, 8, 4, ["0", "-1", "+1"], "tick"),
-    field!("pong.phase-us", PONG, 12, 2, ["0", "-1000", "+1000", "25000"], "time since the tick began in µs"),
+    field!("pong.phase-us", PONG, 12, 2, ["0", "-1000", "+1000", "25000"],
+        "time since the tick began in µs"),
     length!("pong.cut", Cut, PONG, ["13"], "ends after so many bytes"),
     length!("pong.extra", Extra, PONG, ["1"], "has so many bytes too many"),
 ];

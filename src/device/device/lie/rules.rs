@@ -37,7 +37,8 @@ rules! {
     FullBlockRefused "full-block-refused" "2.8: refuses the 01 behind a final block of 254 bytes";
     LosesNext "loses-next-after-bad" "2.1: loses the packet behind a text that is none";
     OversizeAccepted "oversize-accepted" "2.1: takes bodies that are larger than its CAPS allow";
-    ShorterBody "shorter-body" (200: "1", "40") "2.1: takes bodies only so many bytes smaller than its CAPS allow";
+    ShorterBody "shorter-body" (200: "1", "40")
+        "2.1: takes bodies only so many bytes smaller than its CAPS allow";
     BadTwice "bad-counted-twice" "2.8: counts each text that is no packet twice";
     Echo "echo" "2.8: sends back what it gets, as a terminal does";
     SeqStuck "seq-stuck" "2.1: sends the same seq in every packet";
@@ -53,12 +54,14 @@ rules! {
     AnyMagic "hello-any-magic" "2.8: takes HELLO with another magic";
     SessionZero "hello-session-zero" "2.8: takes HELLO with session 0";
     VersionAny "version-any" "2.6: chooses version 1 though none is common";
-    VersionKeepsSession "version-keeps-session" "2.8: keeps the session though no version is common";
+    VersionKeepsSession "version-keeps-session"
+        "2.8: keeps the session though no version is common";
     HelloIgnoredLive "hello-ignored-live" "2.6: does not answer HELLO while armed";
     HelloKeepsOutput "hello-keeps-output" "2.8: goes on with its output through HELLO";
     HelloKeepsConfig "hello-keeps-config" "2.8: needs no CONFIG in a new session";
     HelloKeepsQueue "hello-keeps-queue" "2.6: keeps waiting frames through HELLO";
-    HelloKeepsSeq "dup-seq-kept-over-hello" "2.8: keeps last_seq, and so the duplicate, through HELLO";
+    HelloKeepsSeq "dup-seq-kept-over-hello"
+        "2.8: keeps last_seq, and so the duplicate, through HELLO";
     HelloResetsCounters "hello-resets-counters" "2.8: begins its counters anew at HELLO";
     HelloResetsClock "hello-resets-clock" "2.8: begins its ticks anew at HELLO";
     HelloClearsFault "hello-clears-fault" "2.8: clears faults at HELLO";
@@ -73,8 +76,10 @@ rules! {
     StatusFlood "status-flood" (20: "1", "10") "2.5: sends every STATUS so many times more";
     StatusOld "status-old" (60: "1", "20") "2.5: sends after each STATUS that of so many ticks ago";
     StatusLate "status-late" (24: "5", "20") "2.5: sends STATUS so many ms after its tick began";
-    TickJumps "tick-jumps" (1_000_000: "3", "41") "2.8: tells ticks that jump by so many every 40 ticks";
-    StatusBeforeFrame "status-before-frame" "2.8: tells in STATUS what was before the frame of the tick";
+    TickJumps "tick-jumps" (1_000_000: "3", "41")
+        "2.8: tells ticks that jump by so many every 40 ticks";
+    StatusBeforeFrame "status-before-frame"
+        "2.8: tells in STATUS what was before the frame of the tick";
     SumBeforeGain "amp-sum-before-gain" "2.2: tells the sum without the gain of hold and ramp";
     SumOfTarget "amp-sum-of-target" "2.8: tells the sum where slew is to lead, not where it is";
     AgeZero "age-zero-without-frame" "2.2: tells an age of 0 ms before the first frame";
@@ -95,8 +100,10 @@ rules! {
     AnswersDeviceTypes "answers-device-types" "2.8: answers types from 80 on";
     ShortAccepted "short-payload-accepted" "2.6: takes zeros for what a payload lacks";
     ShortAnswered "short-payload-answered" "2.8: answers a payload that is too short with code 5";
-    ShortRenewsLease "short-payload-renews-lease" "2.8: a payload that is too short renews the lease";
-    TrailingRefused "trailing-bytes-refused" "2.6: counts payloads with more bytes than it knows as bad";
+    ShortRenewsLease "short-payload-renews-lease"
+        "2.8: a payload that is too short renews the lease";
+    TrailingRefused "trailing-bytes-refused"
+        "2.6: counts payloads with more bytes than it knows as bad";
     LongFrameAccepted "long-frame-accepted" "2.8: takes FRAME with bytes too many";
     LongFrameBad "long-frame-bad" "2.8: counts FRAME with bytes too many as bad, without ACK";
 
@@ -135,7 +142,8 @@ rules! {
     ArmIgnored "arm-ignored" "2.2: acknowledges ARM and stays in READY";
     ArmedAtStart "armed-at-start" "2.7: boots armed, with high voltage";
     ArmedByConfig "armed-by-config" "2.7: is armed by CONFIG alone";
-    ArmedTimesOut "armed-times-out" (10000: "100", "500") "2.8: goes from ARMED to READY after so many ms without a frame";
+    ArmedTimesOut "armed-times-out" (10000: "100", "500")
+        "2.8: goes from ARMED to READY after so many ms without a frame";
     FrameWithoutArm "frame-without-arm" "2.7: plays frames in READY";
     RearmsItself "rearms-itself" "2.7: is armed again after its silence";
     NoHv "no-hv" "2.8: makes no high voltage";
@@ -143,7 +151,8 @@ rules! {
     HvInReady "hv-in-ready" "2.8: makes high voltage from READY on";
 
     BandsSwapped "bands-swapped" "2.2: takes A40 for A320 in FRAME";
-    ChannelsReversed "channels-reversed" "2.2: takes the channels of FRAME from the last to the first";
+    ChannelsReversed "channels-reversed"
+        "2.2: takes the channels of FRAME from the last to the first";
     BigEndian "frame-big-endian" "2.1: reads the codes of FRAME big-endian";
     NextRefused "next-refused" "2.8: does not know tick FFFFFFFF";
     LateDropped "late-dropped" "2.5: counts late frames and forgets them";
@@ -152,8 +161,10 @@ rules! {
     FramesDelayed "frames-delayed" "2.5: plays frames a tick after theirs";
     QueueOrder "queue-order" "2.5: plays frames in the order in which they came";
     FirstWriterWins "first-writer-wins" "2.5: keeps the first frame of a tick";
-    QueueShallow "queue-shallow" (255: "1", "3") "2.8: takes so many frames fewer ahead than CAPS say";
-    QueueDeep "queue-deep" (200: "1", "100") "2.8: takes frames so many ticks further ahead than CAPS say";
+    QueueShallow "queue-shallow" (255: "1", "3")
+        "2.8: takes so many frames fewer ahead than CAPS say";
+    QueueDeep "queue-deep" (200: "1", "100")
+        "2.8: takes frames so many ticks further ahead than CAPS say";
     LastSeqRefused "last-seq-counts-refused" "2.8: tells a refused frame as the last accepted";
     LastSeqNotLate "last-seq-not-late" "2.8: does not tell a late frame as the last accepted";
     DupApplied "dup-applied" "2.6: plays a frame with the seq of the last accepted one";
@@ -168,10 +179,12 @@ rules! {
     SlewOnlyFrames "slew-only-on-frames" "2.8: does not slew in HOLD";
     InterpolatesUnasked "interpolates-unasked" "2.4: moves linearly inside a tick, unasked";
     NoSumGuard "no-sum-guard" "2.4: puts out A40 + A320 above full drive";
-    SumGuardUncounted "sum-guard-uncounted" "2.8: scales channels above full drive without counting them";
+    SumGuardUncounted "sum-guard-uncounted"
+        "2.8: scales channels above full drive without counting them";
     SumGuardCuts "sum-guard-cuts" "2.4: lowers A320 alone where the sum is above full drive";
     ClippedOnce "clipped-once-a-frame" "2.8: counts one clipped value a frame";
-    ClippedAtTick "clipped-at-tick" "2.8: counts clipped values when their frame is played, not when it comes";
+    ClippedAtTick "clipped-at-tick"
+        "2.8: counts clipped values when their frame is played, not when it comes";
     MaskClips "mask-clips" "2.8: counts values of masked channels as clipped";
 
     NoRamp "no-ramp" "2.7: never ramps when the host falls silent";
@@ -181,7 +194,8 @@ rules! {
     RampShorter "ramp-shorter" (100: "1", "20") "2.8: ramps so many ms less than it says";
     RampZeroNever "ramp-zero-never" "2.8: takes a ramp of 0 ms as no ramp at all";
     TickClock "silence-at-ticks" "2.7: holds and ramps by ticks instead of ms";
-    AgeFromApply "age-from-apply" "2.8: counts the age from the tick of a frame, not from when it came";
+    AgeFromApply "age-from-apply"
+        "2.8: counts the age from the tick of a frame, not from when it came";
     GainJumps "gain-jumps" "2.7: jumps to full gain at a frame in RAMP";
     GainStays "gain-stays" "2.8: keeps the gain that it had at a frame in RAMP";
     RampRefusesFrames "ramp-refuses-frames" "2.8: refuses frames in a RAMP of silence";
@@ -201,8 +215,10 @@ rules! {
     HangUpIgnored "hang-up-ignored" "2.7: does not ramp when the cable is pulled";
 
     NoLease "no-lease" "2.6: never ends a session of a host that is silent";
-    LeaseLonger "lease-longer" (60000: "50", "1000") "2.6: ends a session so many ms after its lease";
-    LeaseShorter "lease-shorter" (60000: "50", "400") "2.6: ends a session so many ms before its lease";
+    LeaseLonger "lease-longer" (60000: "50", "1000")
+        "2.6: ends a session so many ms after its lease";
+    LeaseShorter "lease-shorter" (60000: "50", "400")
+        "2.6: ends a session so many ms before its lease";
     LeaseNoRamp "lease-no-ramp" "2.8: is silent at once when the lease ends";
     LeaseKeepsStatus "lease-keeps-status" "2.6: goes on with STATUS when the lease ends";
     LeaseEndsReady "lease-ends-ready" "2.6: goes to READY when the lease ends";
@@ -210,7 +226,8 @@ rules! {
     PingNoRenewal "ping-no-renewal" "2.8: PING does not renew the lease";
     BadRenewsLease "bad-renews-lease" "2.8: what is no packet renews the lease";
 
-    FaultAt "fault-at" (100_000_000: "8", "120") "2.2: is over its temperature at this tick since boot, for 2 s";
+    FaultAt "fault-at" (100_000_000: "8", "120")
+        "2.2: is over its temperature at this tick since boot, for 2 s";
     FaultFlood "fault-flood" "2.2: sends FAULT every ms, without a fault";
     FaultToldOnce "fault-told-once" "2.2: sends FAULT only once";
     FaultOutsideSession "fault-outside-session" "2.8: sends FAULT without a session";
@@ -219,7 +236,8 @@ rules! {
     ClearClearsCause "clear-clears-cause" "2.2: clears a fault whose cause persists";
     ClearAny "clear-any" "2.2: clears all faults whatever CLEAR names";
     ClearStays "clear-stays" "2.8: stays in FAULT when all faults are cleared";
-    ClearEndsSession "clear-ends-session" "2.8: goes to IDLE when all faults are cleared in a session";
+    ClearEndsSession "clear-ends-session"
+        "2.8: goes to IDLE when all faults are cleared in a session";
     ClearRefused "clear-refused" "2.2: refuses CLEAR of a fault whose cause is gone";
 
     IdentAnywhere "ident-anywhere" "2.8: drives a contactor in every state of a session";

@@ -4,7 +4,6 @@ mod frames;
 mod lies;
 mod random;
 mod requests;
-mod samples;
 mod silence;
 
 use super::*;
