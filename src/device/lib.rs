@@ -58,8 +58,8 @@ pub use actuator_model::{
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, FirmwareLie, Load, Miswiring,
+    Moment, Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
