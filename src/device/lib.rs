@@ -33,6 +33,7 @@ mod actuator_model;
 mod array;
 mod codes;
 mod device;
+mod driver;
 mod emulator;
 mod error;
 mod fields;
@@ -61,6 +62,7 @@ pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, FirmwareLie, Load, Miswiring,
     Moment, Sense,
 };
+pub use driver::{Driver, Ended, FrameSource, Pacer};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use error::{BridgeError, SinkError};

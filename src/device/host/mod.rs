@@ -277,6 +277,11 @@ impl HostSession {
         self.prediction.last_bound()
     }
 
+    /// The device's tick now, by its last STATUS and the time since; `None` before the first.
+    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
+        self.device.status.map(|_| self.device.present_tick(now))
+    }
+
     /// How many ticks ahead frames are sent, 1…3.
     pub fn depth(&self) -> u8 {
         self.latching.depth()
