@@ -36,6 +36,8 @@ pub(super) struct IdentifyArgs {
     #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
           value_parser = array::profile)]
     array: Box<ArrayProfile>,
+    #[command(flatten)]
+    baud: array::BaudArgs,
     /// The profile with the wiring that was found
     #[arg(long, value_name = "PROFILE.toml")]
     out: PathBuf,
@@ -49,7 +51,9 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     play::check_port(&args.port)?;
     let answers = Answers::open(args.answers.as_deref())?;
     let stop = signals::stop_flag()?;
-    let mut bench = Bench::open(args, answers, &stop);
+    let mut array = (*args.array).clone();
+    args.baud.set(&mut array);
+    let mut bench = Bench::open(&args.port, array.clone(), answers, &stop);
     let found = bench.walk();
     // Whatever happened, the device is told to stop and its answer is waited for.
     let uid = bench.uid();
@@ -57,7 +61,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     let found = found?;
     closed?;
     let uid = uid.ok_or_else(|| CliError::Failed("the device has no number".to_owned()))?;
-    let profile = found.in_profile(&args.array, uid);
+    let profile = found.in_profile(&array, uid);
     profile.write(&args.out)?;
     let mut lines = found.lines();
     let place = args.out.display();
@@ -145,10 +149,9 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn open(args: &IdentifyArgs, answers: Answers, stop: &'a AtomicBool) -> Self {
-        let profile = (*args.array).clone();
+    fn open(port: &Path, profile: ArrayProfile, answers: Answers, stop: &'a AtomicBool) -> Self {
         let n = profile.n_contactors();
-        let target = Target::Port(args.port.clone());
+        let target = Target::Port(port.to_owned());
         Self {
             bridge: Bridge::open(target, profile.clone(), n, || {}),
             walk: WiringWalk::new(n),

@@ -134,6 +134,7 @@ impl ArrayProfile {
                 .calibration
                 .map_or_else(|| Ok(Vec::new()), |keys| calibration_from(&keys, n))?,
             wiring: keys.wiring.map(wiring_from).transpose()?,
+            baud: Self::default().baud,
         })
     }
 

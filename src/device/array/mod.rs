@@ -45,6 +45,8 @@ pub struct ArrayProfile {
     pub calibration: Vec<Calibration>,
     /// Which channel drives which contactor; `None`: channel 0 drives contactor 0, and so on.
     pub wiring: Option<Wiring>,
+    /// Rate of a bridge with a real UART, baud; USB and pseudo-terminals ignore it.
+    pub baud: u32,
 }
 
 /// How one contactor answers its drive.
@@ -120,6 +122,8 @@ impl ArrayProfile {
     pub const LONGEST_SILENCING_MS: u16 = 100;
     /// Largest high voltage to ask for, 0.1 V.
     pub const LARGEST_HV_DV: u16 = 5000;
+    /// Slowest and fastest rate of a UART, baud: a slower one has no time for frames.
+    pub const BAUD: [u32; 2] = [115_200, 12_000_000];
 
     /// `rows · cols`.
     pub fn n_contactors(&self) -> usize {
@@ -242,6 +246,7 @@ impl Default for ArrayProfile {
             hv_dv: 600,
             calibration: Vec::new(),
             wiring: None,
+            baud: 1_000_000,
         }
     }
 }

@@ -80,6 +80,8 @@ mod behind_a_pty {
     use crate::port::SerialLink;
     use selvedge_scratch::ScratchFolder;
 
+    const BAUD: u32 = 1_000_000;
+
     type Running = (Arc<AtomicBool>, JoinHandle<Result<(), BridgeError>>);
 
     fn run(emulator: PtyEmulator) -> Running {
@@ -96,7 +98,7 @@ mod behind_a_pty {
         let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
         let (stop, thread) = run(emulator);
         for session in [7, 8] {
-            let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+            let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
             greet(&mut port, session);
         }
         stop.store(true, Ordering::Release);
@@ -125,7 +127,7 @@ mod behind_a_pty {
         };
         let model = DeviceModel::default();
         let emulator = PtyEmulator::with_faults(model, &faults, &link, Some(&log)).unwrap();
-        let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+        let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
         let (stop, thread) = run(emulator);
         let mut buffer = [0; 256];
         while port.read(&mut buffer, Duration::from_millis(50)).is_ok() {}
@@ -135,7 +137,7 @@ mod behind_a_pty {
             std::thread::sleep(Duration::from_millis(10));
         }
         assert!(fs::symlink_metadata(&link).is_err(), "the old name is gone");
-        let mut port = SerialLink::open(&again.display().to_string()).unwrap();
+        let mut port = SerialLink::open(&again.display().to_string(), BAUD).unwrap();
         greet(&mut port, 9);
         stop.store(true, Ordering::Release);
         thread.join().unwrap().unwrap();
