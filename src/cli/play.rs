@@ -50,8 +50,8 @@ pub(super) struct PlayArgs {
     /// Sound card to play on instead, one channel a contactor: its name or a part of it
     #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "baud", "log", "session_log"])]
     audio: Option<String>,
-    /// The card's channel of each contactor in order, counted from 1, such as 1,2,5-8; without it the
-    /// first ones
+    /// The card's channel of each contactor in order, counted from 1, such as 1,2,5-8; without it
+    /// the first ones
     #[arg(long, value_name = "CHANNELS", requires = "audio")]
     channels: Option<CardChannels>,
     #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]

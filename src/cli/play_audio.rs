@@ -1,8 +1,8 @@
 //! `selvedge play --audio`: an exploration in real time on a sound card with many channels.
 //!
 //! The card paces: it wakes this thread at every tick that it begins, and three frames are kept
-//! waiting for it. However it ends, the sound falls to silence first, and the card is given the time
-//! to play that.
+//! waiting for it. However it ends, the sound falls to silence first, and the card is given the
+//! time to play that.
 
 use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};

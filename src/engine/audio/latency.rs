@@ -2,9 +2,9 @@
 //! samples.
 //!
 //! A frame that is handed over when the card has taken `p` samples, and taken at sample `s` by a
-//! card that plays a block `d` samples after it asked for it, is felt `s − p + d` samples later: the
-//! card consumes a sample in the time of a sample, so that it asks for the block that begins at `b`
-//! `b − p` samples after the handing over, and plays sample `s` of it `d + s − b` samples after that.
+//! card that plays a block `d` samples after it asked for it, is felt `s − p + d` samples later:
+//! the card plays a sample in the time of a sample, so that it asks for the block that begins at
+//! `b` `b − p` samples after the handing over, and plays its sample `s` another `d + s − b` later.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;

@@ -87,8 +87,8 @@ pub(super) struct Wave {
     mute: f64,
 }
 
-/// Both ends, at `rate_hz` for the contactors of arrays like `profile` on these channels; `maker` is
-/// woken at every tick. The wiring of a profile is that of a bridge and has no say here.
+/// Both ends, at `rate_hz` for the contactors of arrays like `profile` on these channels; `maker`
+/// is woken at every tick. The wiring of a profile is that of a bridge and has no say here.
 ///
 /// # Errors
 /// The rate makes no waveform.
@@ -182,7 +182,7 @@ impl Wave {
         latency.block_taken(next, n_samples, self.delay);
     }
 
-    /// Writes whole frames of `n_outputs` channels: the contactors on theirs, silence in the others.
+    /// Writes whole frames of `n_outputs` channels: contactors on theirs, silence in the others.
     /// Neither allocates, locks nor fails.
     pub(super) fn fill(&mut self, out: &mut [f32], n_outputs: usize) {
         let n_channels = self.shares.len();
