@@ -29,6 +29,8 @@ pub(super) enum BridgeCommand {
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
               value_parser = array::profile)]
         array: Box<ArrayProfile>,
+        #[command(flatten)]
+        baud: array::BaudArgs,
         #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
         session_log: Option<PathBuf>,
     },
@@ -73,8 +75,13 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::Test {
             port,
             array,
+            baud,
             session_log,
-        } => test(port, array, session_log.as_deref()),
+        } => {
+            let mut array = (**array).clone();
+            baud.set(&mut array);
+            test(port, &array, session_log.as_deref())
+        }
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
     }

@@ -105,6 +105,35 @@ fn faults_that_cannot_be_are_refused_before_anything_starts() {
 }
 
 #[test]
+fn a_second_emulator_does_not_take_the_link_of_a_running_one() {
+    let lab = Lab::with_scene();
+    let first = Device::start(&lab, &[]);
+    let terminal = std::fs::read_link(lab.path("array")).unwrap();
+    let outcome = lab.run(&["bridge", "emulate", "--link", "array"]);
+    assert_eq!(outcome.code, 2, "{outcome:?}");
+    let held = format!("held by another emulator, process {}", first.id());
+    assert!(outcome.one_line().contains(&held), "{outcome:?}");
+    assert_eq!(std::fs::read_link(lab.path("array")).unwrap(), terminal);
+    let outcome = lab.run(&["bridge", "test", "--port", "array"]);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    drop(first.end(&lab));
+    assert!(!lab.path("array.lock").exists(), "nothing is left");
+}
+
+#[test]
+fn the_link_of_a_killed_emulator_is_taken_over() {
+    let lab = Lab::with_scene();
+    let mut killed = Device::start(&lab, &[]);
+    killed.vanish();
+    assert!(lab.path("array").is_symlink(), "it could not clean up");
+    let device = Device::start(&lab, &[]);
+    let outcome = lab.run(&["bridge", "test", "--port", "array"]);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    drop(device.end(&lab));
+    assert!(!lab.path("array.lock").exists(), "nothing is left");
+}
+
+#[test]
 fn the_udev_rule_is_printed_as_it_is_shipped() {
     let lab = Lab::with_scene();
     let printed = lab.print(&["bridge", "list", "--udev-rule"]);

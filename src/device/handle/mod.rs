@@ -73,7 +73,7 @@ impl Target {
             Self::Emulator => emulate(&Faults::default()),
             Self::FaultyEmulator(faults) => emulate(faults),
             Self::Port(path) => {
-                let port = open_patiently(&path.display().to_string())?;
+                let port = open_patiently(&path.display().to_string(), profile.baud)?;
                 Ok((Box::new(port.try_clone()?), Box::new(port)))
             }
         }
@@ -386,10 +386,10 @@ impl Drop for Bridge {
 }
 
 /// Opens a port that an earlier link of this program may still be letting go.
-fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
+fn open_patiently(path: &str, baud: u32) -> Result<SerialLink, BridgeError> {
     let deadline = Instant::now() + BUSY_PATIENCE;
     loop {
-        match SerialLink::open(path) {
+        match SerialLink::open(path, baud) {
             Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
                 std::thread::sleep(BUSY_NAP);
             }
