@@ -32,11 +32,8 @@ fn a_right_device_passes_ten_times_of_ten() {
 
 /// Faults from their options, as `bridge emulate` reads them.
 fn faults(options: &[(&str, &str)], seed: u64) -> Faults {
-    let mut words = FaultWords::default();
-    for (name, text) in options {
-        words.set(name, text);
-    }
-    Faults { seed, ..words.faults().unwrap() }
+    let faults = FaultWords::of(options).faults().unwrap();
+    Faults { seed, ..faults }
 }
 
 #[test]

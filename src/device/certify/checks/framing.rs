@@ -22,8 +22,14 @@ checks! { "framing":
     FULL "trailing bytes" trailing, "extra payload bytes are ignored, but not in FRAME: ACK 5";
 }
 
-/// Packets that are said at once: a port need not have room for more.
-const BURST: usize = 12;
+/// Bytes that are said at once: a port need not have room for more.
+const BURST: usize = 1500;
+
+/// Says these in bursts.
+fn tell_all(c: &mut Client<'_>, says: &[Say]) -> Verdict {
+    let longest = says.iter().map(|say| say.bytes.len()).max().unwrap_or(1);
+    says.chunks((BURST / longest).max(1)).try_for_each(|burst| c.tell(burst).map(drop))
+}
 
 fn empties(c: &mut Client<'_>) -> Verdict {
     c.tell(&[Client::noise(&[0; 40])]).map(drop)
@@ -63,9 +69,7 @@ fn truncations(c: &mut Client<'_>) -> Verdict {
             says.push(broken(say.bytes[..length].to_vec()));
             says.push(c.ping());
         }
-        for part in says.chunks(BURST) {
-            c.tell(part)?;
-        }
+        tell_all(c, &says)?;
     }
     Ok(())
 }
@@ -87,9 +91,8 @@ fn flipped(c: &mut Client<'_>, say: &Say, step: usize) -> Vec<Say> {
 fn flips(c: &mut Client<'_>) -> Verdict {
     let (codes, config) = (c.faint(0), c.usual());
     for (say, step) in [(c.ping(), 1), (c.config(&config), 5), (c.frame_next(&codes), 11)] {
-        for part in flipped(c, &say, step).chunks(BURST) {
-            c.tell(part)?;
-        }
+        let says = flipped(c, &say, step);
+        tell_all(c, &says)?;
     }
     Ok(())
 }
@@ -99,9 +102,8 @@ fn flipped_arm(c: &mut Client<'_>) -> Verdict {
     let says = [c.hello(), c.config(&config)];
     c.tell(&says)?;
     let arm = c.arm();
-    for part in flipped(c, &arm, 1).chunks(BURST) {
-        c.tell(part)?;
-    }
+    let says = flipped(c, &arm, 1);
+    tell_all(c, &says)?;
     let status = c.status()?;
     expect(&status, DeviceState::Ready, 0)
 }
