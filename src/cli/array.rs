@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{CliError, terminal};
 
-use selvedge_device::{ArrayProfile, BridgeError, Caps, DeviceUid, ProfileFolder};
+use selvedge_device::{ArrayProfile, BridgeError, Caps, Certificate, DeviceUid, ProfileFolder};
 use selvedge_foundation::quantity;
 use selvedge_render::scene::LoadedScene;
 
@@ -35,6 +35,11 @@ pub(super) fn profile(word: &str) -> Result<Box<ArrayProfile>, String> {
 /// What is to be said when a device with these CAPS is connected for a profile.
 pub(super) fn doubt(profile: &ArrayProfile, caps: &Caps) -> Option<String> {
     profile.wiring_doubt(DeviceUid(caps.uid))
+}
+
+/// The same of a device that was tried.
+pub(super) fn certified_doubt(profile: &ArrayProfile, found: &Certificate) -> Option<String> {
+    profile.wiring_doubt(DeviceUid::parse(&found.uid)?)
 }
 
 /// Refuses an array with another number of contactors than the scene's first display, and says when

@@ -45,7 +45,6 @@ mod host;
 mod link;
 mod message;
 mod port;
-mod self_test;
 mod session_log;
 mod wav;
 mod wav_parts;
@@ -88,8 +87,6 @@ pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
-pub use self_test::SelfTestStep;
-pub use self_test::{SelfTestReport, self_test};
 pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
 pub use wav::{SampleFormat, WavSpec};

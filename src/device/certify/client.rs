@@ -299,18 +299,27 @@ impl<'a> Client<'a> {
         self.hear_until("no PONG comes to a PING", |heard| {
             matches!(heard, Heard::Pong(pong) if pong.token == last)
         })?;
+        // Whether it was late is known whatever else is wrong.
+        let between = [&before, &after].map(|ping| self.pong_since(first, ping));
+        if let [Some(from_us), Some(to_us)] = between {
+            self.learn(Between { from_us, to_us }, sent_us);
+        }
         let asked = written.iter().chain([&before]).chain(says).chain([&after]);
-        let pongs = self.compare(first, &asked.collect::<Vec<_>>())?;
-        let is_first = |pong: &&Pong| matches!(before.want, Want::Pong(token) if token == pong.token);
-        let (Some(first), Some(last)) = (pongs.iter().find(is_first), pongs.last()) else {
-            return Err(Trouble::Late);
-        };
-        let between = Between {
-            from_us: time_us(first),
-            to_us: time_us(last),
-        };
-        self.learn(between, sent_us);
-        Ok(between)
+        self.compare(first, &asked.collect::<Vec<_>>())?;
+        self.watch.settle();
+        match between {
+            [Some(from_us), Some(to_us)] => Ok(Between { from_us, to_us }),
+            _ => Err(Trouble::Late),
+        }
+    }
+
+    /// When the PONG of a PING was said, if it came since, µs of the device.
+    fn pong_since(&self, first: usize, ping: &Say) -> Option<u64> {
+        let news = self.heard.get(first..self.read)?;
+        news.iter().find_map(|heard| match (heard, ping.want) {
+            (Heard::Pong(pong), Want::Pong(token)) if pong.token == token => Some(time_us(pong)),
+            _ => None,
+        })
     }
 
     /// Says a PING that is half said already, and waits for its PONG.
@@ -323,12 +332,11 @@ impl<'a> Client<'a> {
         self.hear_until("no PONG comes to a PING in pieces", |heard| {
             matches!(heard, Heard::Pong(pong) if pong.token == last)
         })?;
-        self.compare(first, &[end]).map(drop)
+        self.compare(first, &[end])
     }
 
-    /// Compares what came since `first` with what must come; gives the PONGs.
-    fn compare(&mut self, first: usize, asked: &[&Say]) -> Result<Vec<Pong>, Trouble> {
-        let mut pongs = Vec::new();
+    /// Compares what came since `first` with what must come.
+    fn compare(&mut self, first: usize, asked: &[&Say]) -> Verdict {
         let news: Vec<Heard> = self.heard.get(first..self.read).unwrap_or(&[]).to_vec();
         let mut answers = news
             .iter()
@@ -343,7 +351,6 @@ impl<'a> Client<'a> {
             if let (Want::Pong(token), Some(Heard::Pong(pong))) = (say.want, answer)
                 && pong.token == token
             {
-                pongs.push(*pong);
                 continue;
             }
             let is_right = match answer {
@@ -361,8 +368,7 @@ impl<'a> Client<'a> {
         let surplus = answers.next().map(Heard::describe);
         ensure(surplus.is_none(), || {
             format!("{} came unasked", surplus.unwrap_or_default())
-        })?;
-        Ok(pongs)
+        })
     }
 
     fn is_answer(&self, say: &Say, kind: u8, payload: &[u8]) -> bool {
@@ -525,8 +531,8 @@ impl<'a> Client<'a> {
     }
 
     pub(super) fn write(&mut self, say: &Say) -> Verdict {
-        if say.kind == kind::HELLO || say.kind == kind::STOP {
-            self.watch.may_pause = true;
+        if say.kind == kind::HELLO {
+            self.watch.pause();
         }
         for &byte in &say.bytes {
             self.mirror.push(byte);
@@ -596,7 +602,7 @@ impl<'a> Client<'a> {
                     self.pass(100_000)?;
                     self.forget();
                     self.watch = Watch::default();
-                    self.watch.may_pause = true;
+                    self.watch.pause();
                     return Ok(());
                 }
             }
@@ -693,6 +699,11 @@ impl<'a> Client<'a> {
     /// Whether host or link were later than usual since the check began.
     pub(super) fn is_late(&self) -> bool {
         self.is_late
+    }
+
+    /// The same, and forgets it.
+    pub(super) fn take_late(&mut self) -> bool {
+        std::mem::take(&mut self.is_late)
     }
 
     /// The present device time as the link is known, ms.

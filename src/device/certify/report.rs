@@ -89,6 +89,17 @@ impl Certificate {
         self.checks.iter().all(|check| check.outcome == CheckOutcome::Passed)
     }
 
+    /// The first check that did not pass, in one line.
+    pub fn first_trouble(&self) -> Option<String> {
+        let is_trouble = |check: &&CheckResult| check.outcome != CheckOutcome::Passed;
+        let first = self.checks.iter().find(is_trouble)?;
+        let outcome = match first.outcome {
+            CheckOutcome::NotTested => "was not tested",
+            _ => "failed",
+        };
+        Some(format!("{} \"{}\" {outcome}: {}", first.section, first.name, first.came))
+    }
+
     /// Whether it lets a device with this number and firmware be used without a mark: everything
     /// was tried, and all of it passed.
     pub fn covers(&self, uid: DeviceUid, firmware: [u8; 3]) -> bool {

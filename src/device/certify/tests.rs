@@ -46,11 +46,10 @@ fn a_right_device_passes_over_a_link_that_is_late() {
         &[("latency", "ftdi"), ("clock-ppm", "100")],
         &[("clock-ppm", "-100"), ("tick-jitter", "2ms")],
     ] {
-        for seed in 1..4 {
+        for seed in 1..9 {
             let faults = faults(options, seed);
             let certificate = tried(DeviceModel::default(), &faults, Extent::Full, 9_900 + seed);
-            eprintln!("{options:?} {seed}: {}", certificate.verdict());
-            for check in &certificate.checks { if check.outcome != CheckOutcome::Passed { eprintln!("   {} {} {}", check.section, check.name, check.came); } }
+            assert!(certificate.passed(), "{options:?}, seed {seed}:\n{certificate}");
         }
     }
 }

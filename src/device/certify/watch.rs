@@ -14,8 +14,10 @@ const HV_SLACK_DV: u32 = 20;
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     last: Option<Status>,
-    /// STATUS may pause: a session began or ended.
-    pub(super) may_pause: bool,
+    /// STATUS may pause: a session begins or ends, or did since STATUS came last.
+    may_pause: bool,
+    /// What made it pause is over.
+    is_settled: bool,
     /// An IDENT may be sounding.
     pub(super) may_ident: bool,
     /// The settings in effect.
@@ -65,7 +67,17 @@ impl Watch {
         if let Some(last) = self.last.replace(*status) {
             self.follows(&last, status);
         }
-        self.may_pause = false;
+        self.may_pause &= !self.is_settled;
+    }
+
+    /// A session begins or ends now.
+    pub(super) fn pause(&mut self) {
+        (self.may_pause, self.is_settled) = (true, false);
+    }
+
+    /// What was said last has been heard.
+    pub(super) fn settle(&mut self) {
+        self.is_settled = true;
     }
 
     pub(super) fn pong(&mut self, pong: &Pong) {

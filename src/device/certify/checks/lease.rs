@@ -40,7 +40,7 @@ fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
     // The last PING of what was said renewed it last.
     let ends_us = heard.to_us + lease_ms * 1000;
     c.pass(lease_ms * 1000 + 90_000)?;
-    c.watch.may_pause = true;
+    c.watch.pause();
     let codes = c.faint(1);
     let config = c.usual();
     let says = [
@@ -65,31 +65,44 @@ fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
 
 fn renewed(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let hello = [c.hello_with([1, 1], 1, 120, 1)];
-    c.tell(&hello)?;
     let codes = c.faint(0);
-    let signs: Vec<Say> = vec![
-        c.ping(),
-        c.arm().wants(Want::Ack(2)),
-        c.frame_next(&codes).wants(Want::Ack(2)),
-        c.say(0x22, &[]).wants(Want::Ack(4)),
-        c.stop(0),
-        c.config(&config),
+    let signs: [fn(&mut Client<'_>, &Config, &[[u16; 2]]) -> Say; 6] = [
+        |c, _, _| c.ping(),
+        |c, _, _| c.arm().wants(Want::Ack(2)),
+        |c, _, codes| c.frame_next(codes).wants(Want::Ack(2)),
+        |c, _, _| c.say(0x22, &[]).wants(Want::Ack(4)),
+        |c, _, _| c.stop(0),
+        |c, config, _| c.config(config),
     ];
     for sign in signs {
-        // Alone, so that nothing else renews it, and each within the lease of the one before.
-        let before = c.mark();
-        c.pass(80_000)?;
-        c.write(&sign)?;
-        c.pass(80_000)?;
-        let says = [c.ping()];
-        c.tell_after(&[sign.clone()], &says)?;
-        let n_ticks = c.statuses_since(before).len();
-        ensure(n_ticks >= 5, || {
-            format!("the session ended although type {:02X} came", sign.kind)
-        })?;
+        // What is said alone has no PONG that tells when it was heard, so it is tried again.
+        let mut verdict = Err(Trouble::Late);
+        for _ in 0..3 {
+            let hello = [c.hello_with([1, 1], 1, 120, 1)];
+            c.tell(&hello)?;
+            let say = sign(c, &config, &codes);
+            verdict = renews(c, say);
+            if verdict.is_ok() {
+                break;
+            }
+        }
+        verdict?;
     }
     Ok(())
+}
+
+/// Whether a session of 120 ms outlasts 160 ms with this in the middle.
+fn renews(c: &mut Client<'_>, sign: Say) -> Verdict {
+    let before = c.mark();
+    c.pass(80_000)?;
+    c.write(&sign)?;
+    c.pass(80_000)?;
+    let kind = sign.kind;
+    c.tell_after(&[sign], &[])?;
+    let n_ticks = c.statuses_since(before).len();
+    ensure(n_ticks >= 5, || {
+        format!("the session ended although type {kind:02X} came")
+    })
 }
 
 fn not_renewed(c: &mut Client<'_>) -> Verdict {
@@ -121,7 +134,7 @@ fn running(c: &mut Client<'_>) -> Verdict {
     let sum = crate::certify::predict::Allowed::of(&codes, &config).sum();
     let mark = c.mark();
     c.pass(150_000)?;
-    c.watch.may_pause = true;
+    c.watch.pause();
     let says = [c.frame_next(&codes).wants(Want::Ack(2)), c.arm().wants(Want::Ack(2))];
     c.tell(&says)?;
     // Its last PING renewed the lease.

@@ -1,7 +1,7 @@
 //! Hold and ramp by the age of the last FRAME, at every phase of a tick.
 
 use super::checks;
-use super::steps::{follow_silence, play_at, status_of};
+use super::steps::{follow_silence, play_at};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 use crate::certify::predict::Allowed;
 use crate::certify::say::Want;
@@ -76,22 +76,22 @@ fn disarmed(c: &mut Client<'_>) -> Verdict {
 
 fn revived(c: &mut Client<'_>) -> Verdict {
     let mut config = c.usual();
-    (config.hold_ms, config.ramp_ms) = (25, 75);
+    (config.hold_ms, config.ramp_ms) = (40, 60);
     let codes = c.faint(4);
     let played = super::steps::play(c, &config, &codes)?;
-    // Heard at 6 ms, so RAMP begins at 31 ms and has some way to go at 6 ms of the third tick.
+    // Heard at 6 ms, so RAMP begins 46 ms later and is half over at 6 ms of the third tick.
     let again = c.frame_next(&codes);
     let back = c.tell_at(played.tick + 3, 6000, &[again])?;
     let full = u64::from(config.ramp_ms);
     let fallen = played.heard.steps_until(config.hold_ms, back.from_us)[0]
         ..=played.heard.steps_until(config.hold_ms, back.to_us)[1];
-    for n_later in 1..=6_u32 {
-        let tick = played.tick + 3 + n_later;
-        if n_later > 1 {
-            let frame = c.frame_next(&codes);
-            c.tell_at(tick - 1, 6000, &[frame])?;
-        }
-        let status = status_of(c, tick)?;
+    let mark = c.mark();
+    for n_later in 1..=4 {
+        let frame = c.frame_next(&codes);
+        c.tell_at(played.tick + 3 + n_later, 6000, &[frame])?;
+    }
+    for status in c.statuses_since(mark) {
+        let tick = status.tick;
         let [least, most] = back.steps_until(0, u64::from(tick) * 25_000);
         let gain = |fallen: u64, risen: u64| (full - fallen.min(full) + risen).min(full);
         let sums = [gain(*fallen.end(), least), gain(*fallen.start(), most)]

@@ -31,15 +31,14 @@ fn ramps(c: &mut Client<'_>) -> Verdict {
 fn ramp_in(c: &mut Client<'_>, place: Place, reason: u8) -> Verdict {
     let there = go(c, place)?;
     let codes = c.faint(2);
-    let says = [
+    let mut says = vec![
         c.say(crate::message::kind::STOP, &[reason, 0]).wants(Want::Ack(0)),
         c.frame_next(&codes).wants(Want::Ack(2)),
     ];
-    let stopped = c.tell_at(there.tick, there.phase_us, &says)?;
-    if !matches!(place, Place::Ready | Place::Armed) {
-        let arm = c.arm().wants(Want::Ack(2));
-        c.tell(&[arm])?;
+    if there.played.is_some() {
+        says.push(c.arm().wants(Want::Ack(2)));
     }
+    let stopped = c.tell_at(there.tick, there.phase_us, &says)?;
     let Some(played) = &there.played else {
         return expect(&c.status()?, DeviceState::Ready, 0);
     };
