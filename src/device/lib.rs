@@ -62,8 +62,8 @@ pub use certify::{
 };
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    SampleCount, SampledTick, Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, FirmwareLie, Load, Miswiring,
+    Moment, SampleCount, SampledTick, Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::*;
-use crate::device::DeviceModel;
+use crate::device::{DeviceModel, FirmwareLie};
 use crate::wire::{Faults, FaultWords, WiredDevice};
 
 /// Tries a device in virtual time, `at_us` after its boot.
@@ -52,4 +52,24 @@ fn a_right_device_passes_over_a_link_that_is_late() {
             assert!(certificate.passed(), "{options:?}, seed {seed}:\n{certificate}");
         }
     }
+}
+
+/// Lies that nobody at the other end of the cable can tell from a right device, and why.
+const UNSEEN: &[(&str, &str)] = &[];
+
+#[test]
+fn a_device_with_one_lie_does_not_pass() {
+    let mut unseen = Vec::new();
+    for lie in FirmwareLie::examples() {
+        let faults = Faults { lies: vec![lie], ..Faults::default() };
+        let certificate = tried(DeviceModel::default(), &faults, Extent::Full, 12_345);
+        if certificate.passed() {
+            unseen.push(format!("{lie}: {}", lie.help()));
+        } else {
+            let first = certificate.first_trouble().unwrap_or_default();
+            eprintln!("{lie}: {first}");
+        }
+    }
+    for lie in &unseen { eprintln!("UNSEEN {lie}"); }
+    assert!(unseen.is_empty(), "{}", unseen.join("\n"));
 }

@@ -1,14 +1,14 @@
 //! What a device does with each packet. Every refusal has its ACK code; nothing here panics on any
 //! bytes.
 
-use super::lie::caps_packet;
+use super::lie::{self, Rule};
 use super::output::{IdentDrive, allow};
-use super::{DeviceCore, DeviceSink, MS_US, Session, sample_ring};
+use super::{CoreCounters, DeviceCore, DeviceSink, MS_US, Session, sample_ring};
 use crate::fields::wrapped_u32;
 use crate::framing::Received;
 use crate::message::{
     ARM_KEY, Ack, AckCode, Arm, Caps, Clear, Config, DeviceState, Hello, Ident, MAGIC,
-    Message as _, NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, frame, kind,
+    Message as _, NEXT_TICK, Ping, Pong, Stop, StopHow, VERSION, fault_bit, frame, kind,
 };
 
 const DEFAULT_LEASE_MS: u16 = 1000;
@@ -27,15 +27,33 @@ impl DeviceCore {
     /// Acts on one packet. False: it is not a valid packet, so it counts as `bad` and does not
     /// renew the lease.
     pub(super) fn handle(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> bool {
+        let repeats = self.last_seq() == Some(packet.seq);
+        if repeats && self.breaks(Rule::DupAnyType) {
+            return true;
+        }
         let answer = match self.answer(packet, sink) {
+            Answer::Bad
+                if packet.kind < kind::FIRST_DEVICE && self.breaks(Rule::ShortRenewsLease) =>
+            {
+                self.renew_lease();
+                return false;
+            }
             Answer::Bad => return false,
             Answer::Ack(code) => Some(code),
+            Answer::Silence if packet.kind == kind::FRAME && self.breaks(Rule::FrameAcked) => {
+                Some(AckCode::Ok)
+            }
             Answer::Silence => None,
         };
-        if let Some(session) = &mut self.session {
-            session.last_valid_us = self.now_us;
+        let not_renewed = match packet.kind {
+            kind::PING => self.breaks(Rule::PingNoRenewal),
+            kind::FRAME => repeats && self.breaks(Rule::DupNotLease),
+            _ => false,
+        };
+        if !not_renewed {
+            self.renew_lease();
         }
-        if let Some(code) = answer {
+        if let Some(code) = answer.filter(|code| !self.withholds(packet.kind, *code)) {
             self.send(
                 &Ack {
                     kind: packet.kind,
@@ -48,10 +66,26 @@ impl DeviceCore {
         true
     }
 
+    /// A valid packet came.
+    pub(super) fn renew_lease(&mut self) {
+        if let Some(session) = &mut self.session {
+            session.last_valid_us = self.now_us;
+        }
+    }
+
+    /// The seq of the last accepted FRAME of this session.
+    fn last_seq(&self) -> Option<u16> {
+        self.session.as_ref().and_then(|session| session.last_seq)
+    }
+
     fn answer(&mut self, packet: Received<'_>, sink: &mut impl DeviceSink) -> Answer {
-        let payload = packet.payload;
+        if let Some(answer) = self.lie_about_length(packet.kind, packet.payload) {
+            return answer;
+        }
+        let other = self.payload_of_any_length(packet.kind, packet.payload);
+        let payload = other.as_deref().unwrap_or(packet.payload);
         let decoded = match packet.kind {
-            kind::FIRST_DEVICE.. => None,
+            kind::FIRST_DEVICE.. if !self.breaks(Rule::AnswersDeviceTypes) => None,
             kind::HELLO => self.hello(payload, sink),
             kind::CONFIG => Config::decode(payload, self.model.n_channels())
                 .map(|wish| self.configure(&wish, sink)),
@@ -65,82 +99,197 @@ impl DeviceCore {
                 Some(self.take_samples(payload))
             }
             kind::IDENT => Ident::decode(payload).map(|ident| Answer::Ack(self.ident(ident))),
-            _ => Some(Answer::Ack(AckCode::UnknownType)),
+            kind::SAMPLES if self.breaks(Rule::SamplesAccepted) => Some(Answer::Ack(AckCode::Ok)),
+            _ => self.unknown(sink),
         };
         decoded.unwrap_or(Answer::Bad)
+    }
+
+    fn unknown(&mut self, sink: &mut impl DeviceSink) -> Option<Answer> {
+        if self.breaks(Rule::UnknownFaults) {
+            self.raise_fault(fault_bit::SELF_TEST, u16::MAX, 0, sink);
+            self.end_fault_cause(fault_bit::SELF_TEST);
+        }
+        let is_bad = self.breaks(Rule::UnknownBad);
+        (!is_bad).then_some(Answer::Ack(AckCode::UnknownType))
     }
 
     /// A new session from any state; a HELLO that is not one of ours (`None`) changes nothing.
     fn hello(&mut self, payload: &[u8], sink: &mut impl DeviceSink) -> Option<Answer> {
         let hello = Hello::decode(payload)?;
-        if hello.magic != MAGIC || hello.session == 0 {
+        let is_ours = hello.magic == MAGIC || self.breaks(Rule::AnyMagic);
+        if !is_ours || hello.session == 0 && !self.breaks(Rule::SessionZero) {
             return None;
         }
-        let common = (hello.ver_min..=hello.ver_max).contains(&VERSION);
-        let faulted = self.state == DeviceState::Fault;
-        self.session = None;
-        self.last_frame_us = None;
-        self.silence(match (faulted, common) {
-            (true, _) => DeviceState::Fault,
-            (false, true) => DeviceState::Ready,
-            (false, false) => DeviceState::Idle,
-        });
-        if common {
-            let lease_ms = if hello.lease_ms == 0 {
-                DEFAULT_LEASE_MS
-            } else {
-                hello.lease_ms
-            };
-            self.session = Some(Session {
-                id: hello.session,
-                wants_status: hello.host_flags & Hello::WANT_STATUS != 0,
-                wants_log: hello.host_flags & Hello::WANT_LOG != 0,
-                lease_us: u64::from(lease_ms) * MS_US,
-                last_valid_us: self.now_us,
-                last_seq: None,
-                configured: false,
-            });
+        let ignores = match self.state {
+            DeviceState::Fault => self.breaks(Rule::FaultBlocksHello),
+            state => state.is_live() && self.breaks(Rule::HelloIgnoredLive),
+        };
+        if ignores {
+            return Some(Answer::Silence);
+        }
+        let offered = (hello.ver_min..=hello.ver_max).contains(&VERSION);
+        let common = offered || self.breaks(Rule::VersionAny);
+        if common || !self.breaks(Rule::VersionKeepsSession) {
+            self.begin_session(&hello, common);
         }
         let caps = self
             .model
             .caps(hello.session, if common { VERSION } else { 0 });
-        let caps = caps_packet(caps, &self.model.lies, self.next_seq);
-        self.send_packet(caps.as_ref(), sink);
+        self.send(&caps, sink);
         Some(Answer::Silence)
     }
 
-    fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Answer {
-        match self.state {
-            DeviceState::Ready => {}
-            DeviceState::Fault => return Answer::Ack(AckCode::Faulted),
-            _ => return Answer::Ack(AckCode::WrongState),
+    /// Ends what was and, if there is a common version, begins what comes.
+    fn begin_session(&mut self, hello: &Hello, common: bool) {
+        let (configured, last_seq) = self.kept_through_hello();
+        let armed = self.breaks(Rule::ArmedByHello)
+            || self.session.is_none()
+                && self.state == DeviceState::Armed
+                && self.breaks(Rule::ArmedAtStart);
+        let goes_on = self.state.is_live() && self.breaks(Rule::HelloKeepsOutput);
+        let faulted = self.state == DeviceState::Fault;
+        self.session = None;
+        if !goes_on {
+            let queue = self
+                .breaks(Rule::HelloKeepsQueue)
+                .then(|| self.queue.clone());
+            self.last_frame_us = None;
+            self.silence(match (faulted, common) {
+                (true, _) => DeviceState::Fault,
+                (false, true) if armed => DeviceState::Armed,
+                (false, true) => DeviceState::Ready,
+                (false, false) => DeviceState::Idle,
+            });
+            if let Some(queue) = queue {
+                self.queue = queue;
+            }
         }
-        self.config = self.model.clamp(wish);
-        self.output.is_interpolated = self.config.flags & Config::INTERPOLATE != 0;
+        if common {
+            self.session = Some(Session {
+                id: hello.session,
+                wants_status: hello.host_flags & Hello::WANT_STATUS != 0,
+                wants_log: hello.host_flags & Hello::WANT_LOG != 0,
+                lease_us: self.lease_us(hello.lease_ms),
+                last_valid_us: self.now_us,
+                last_seq,
+                configured,
+            });
+        }
+    }
+
+    /// Whether there is a CONFIG, and the seq of the last frame, in a new session; what else a
+    /// HELLO does to a device that lies.
+    fn kept_through_hello(&mut self) -> (bool, Option<u16>) {
+        let last_seq = self.last_seq();
+        let was_configured = self.session.as_ref().is_some_and(|it| it.configured);
+        if self.breaks(Rule::HelloResetsCounters) {
+            self.counters = CoreCounters::default();
+        }
+        if self.breaks(Rule::HelloResetsClock) {
+            self.lie_memory.first_tick = self.tick();
+        }
+        if self.breaks(Rule::HelloClearsFault) && self.state == DeviceState::Fault {
+            self.faults = 0;
+            self.silence(DeviceState::Ready);
+        }
+        let keeps_config = self.breaks(Rule::HelloKeepsConfig);
+        let keeps_seq = self.breaks(Rule::HelloKeepsSeq);
+        (
+            was_configured && keeps_config,
+            last_seq.filter(|_| keeps_seq),
+        )
+    }
+
+    /// How long a session lasts without a packet, µs.
+    fn lease_us(&self, asked_ms: u16) -> u64 {
+        let is_usual = asked_ms == 0 && !self.breaks(Rule::LeaseZero);
+        let lease_ms = if is_usual || self.breaks(Rule::LeaseFixed) {
+            DEFAULT_LEASE_MS
+        } else {
+            asked_ms
+        };
+        let later_ms = self.broken_by(Rule::LeaseLonger).unwrap_or(0);
+        let earlier_ms = self.broken_by(Rule::LeaseShorter).unwrap_or(0);
+        (u64::from(lease_ms) + later_ms).saturating_sub(earlier_ms) * MS_US
+    }
+
+    fn configure(&mut self, wish: &Config, sink: &mut impl DeviceSink) -> Answer {
+        let (refusal, takes) = match self.state {
+            DeviceState::Ready => (AckCode::WrongState, !self.breaks(Rule::ConfigRefused)),
+            DeviceState::Fault => (AckCode::Faulted, self.breaks(Rule::ConfigFault)),
+            DeviceState::Idle => (AckCode::WrongState, self.breaks(Rule::ConfigIdle)),
+            _ => (AckCode::WrongState, self.breaks(Rule::ConfigLive)),
+        };
+        let breaks = |rule| self.breaks(rule);
+        let granted = lie::granted(breaks, wish, self.model.clamp(wish));
+        if takes || self.breaks(Rule::RefusedConfigHolds) {
+            self.keep_config(&granted);
+        }
+        if !takes {
+            return Answer::Ack(refusal);
+        }
+        let reply = granted.reply(self.next_seq, self.model.n_channels());
+        self.send_packet(reply.as_ref(), sink);
+        if self.breaks(Rule::ArmedByConfig) && self.state == DeviceState::Ready {
+            self.become_armed();
+        }
+        Answer::Silence
+    }
+
+    /// These settings hold from now on.
+    fn keep_config(&mut self, granted: &Config) {
+        let had_one = self.session.as_ref().is_some_and(|it| it.configured);
+        if had_one && self.breaks(Rule::ConfigIgnored) {
+            return;
+        }
+        let value = |rule| self.broken_by(rule);
+        self.config = lie::in_effect(value, granted, self.model.n_channels());
+        self.output.is_interpolated =
+            self.config.flags & Config::INTERPOLATE != 0 || self.breaks(Rule::InterpolatesUnasked);
         if let Some(session) = &mut self.session {
             session.configured = true;
         }
-        let reply = self.config.reply(self.next_seq, self.model.n_channels());
-        self.send_packet(reply.as_ref(), sink);
-        Answer::Silence
     }
 
     fn arm(&mut self, arm: Arm) -> AckCode {
         match self.state {
+            DeviceState::Fault if self.breaks(Rule::ArmFault) => {}
             DeviceState::Fault => return AckCode::Faulted,
+            DeviceState::Armed if self.breaks(Rule::ArmRepeatRefused) => {
+                return AckCode::WrongState;
+            }
             DeviceState::Ready | DeviceState::Armed => {}
+            DeviceState::Idle if self.breaks(Rule::ArmIdle) => {
+                self.become_armed();
+                return AckCode::Ok;
+            }
+            state if state.is_live() && self.breaks(Rule::ArmWhileRunning) => return AckCode::Ok,
             _ => return AckCode::WrongState,
         }
-        let Some(session) = self.session.as_ref().filter(|session| session.configured) else {
+        let needs_config = !self.breaks(Rule::ArmWithoutConfig);
+        let session = self.session.as_ref();
+        let Some(session) = session.filter(|session| session.configured || !needs_config) else {
             return AckCode::WrongState;
         };
-        if arm.session != session.id || arm.key != session.id ^ ARM_KEY {
+        let id = if self.breaks(Rule::AnySession) {
+            arm.session
+        } else {
+            session.id
+        };
+        let is_key = arm.key == id ^ ARM_KEY || self.breaks(Rule::AnyKey);
+        if arm.session != id || !is_key {
             return AckCode::BadSession;
         }
-        if self.state == DeviceState::Ready {
-            self.silence(DeviceState::Armed);
+        if self.state != DeviceState::Armed && !self.breaks(Rule::ArmIgnored) {
+            self.become_armed();
         }
         AckCode::Ok
+    }
+
+    fn become_armed(&mut self) {
+        self.silence(DeviceState::Armed);
+        self.lie_memory.armed_us = Some(self.now_us);
     }
 
     /// An accepted FRAME has no ACK: STATUS names the last one.
@@ -151,19 +300,18 @@ impl DeviceCore {
         let Some(apply_tick) = frame::decode_into(payload, &mut self.scratch) else {
             return Answer::Ack(AckCode::OutOfRange);
         };
+        self.misread_frame();
         if self.state == DeviceState::Fault {
             return Answer::Ack(AckCode::Faulted);
         }
         if self.plays_samples() {
             return Answer::Ack(AckCode::WrongState);
         }
-        let live = self.state.is_live() && self.descent.is_none();
-        let Some(session) = self.session.as_mut().filter(|_| live) else {
+        let Some(session) = self.session.as_ref().filter(|_| self.takes_frames()) else {
             return Answer::Ack(AckCode::WrongState);
         };
-        if session.last_seq == Some(seq) {
-            self.counters.dup = self.counters.dup.wrapping_add(1);
-            return Answer::Silence;
+        if session.last_seq == Some(seq) && !self.breaks(Rule::DupApplied) {
+            return self.repeated_frame();
         }
         let present = wrapped_u32(self.now_us / super::TICK);
         let next = present.wrapping_add(1);
@@ -174,38 +322,130 @@ impl DeviceCore {
         } else {
             apply_tick
         };
-        if tick.wrapping_sub(next) >= u32::from(self.model.queue) {
+        let is_full = tick.wrapping_sub(next) >= self.n_ticks_ahead()
+            || late && self.breaks(Rule::LateRefused)
+            || apply_tick == NEXT_TICK && self.breaks(Rule::NextRefused);
+        let is_named = if is_full {
+            self.breaks(Rule::LastSeqRefused)
+        } else {
+            !late || !self.breaks(Rule::LastSeqNotLate)
+        };
+        if let Some(session) = self.session.as_mut().filter(|_| is_named) {
+            session.last_seq = Some(seq);
+        }
+        if is_full {
             return Answer::Ack(AckCode::QueueFull);
         }
-        session.last_seq = Some(seq);
         self.accept_frame(seq, tick, late);
+        Answer::Silence
+    }
+
+    /// Whether the state is one in which frames are played.
+    fn takes_frames(&self) -> bool {
+        let in_ready = self.state == DeviceState::Ready && self.breaks(Rule::FrameWithoutArm);
+        let in_ramp = self.state == DeviceState::Ramp && self.breaks(Rule::RampRefusesFrames);
+        let is_stopped = self.descent.is_some() && !self.breaks(Rule::StopTurnedBack);
+        in_ready || self.state.is_live() && !is_stopped && !in_ramp
+    }
+
+    /// How many ticks ahead a frame may be, this one not counted.
+    fn n_ticks_ahead(&self) -> u32 {
+        let by = |rule| u32::try_from(self.broken_by(rule).unwrap_or(0)).unwrap_or(0);
+        let more = u32::from(self.model.queue).saturating_add(by(Rule::QueueDeep));
+        more.saturating_sub(by(Rule::QueueShallow))
+    }
+
+    /// A FRAME with the seq of the last accepted one.
+    fn repeated_frame(&mut self) -> Answer {
+        self.counters.dup = self.counters.dup.wrapping_add(1);
+        if self.breaks(Rule::DupRenewsAge) {
+            self.last_frame_us = Some(self.now_us);
+        }
+        if self.breaks(Rule::DupRefused) {
+            return Answer::Ack(AckCode::WrongState);
+        }
         Answer::Silence
     }
 
     fn accept_frame(&mut self, seq: u16, tick: u32, late: bool) {
         self.counters.late = self.counters.late.wrapping_add(u16::from(late));
-        if let Some(slot) = self.queue.slot(tick, seq) {
-            slot.received.copy_from_slice(&self.scratch);
-            let clipped = allow(&slot.received, &self.config, &mut slot.allowed);
-            self.counters.clipped = self.counters.clipped.wrapping_add(clipped);
+        if self.state == DeviceState::Ready {
+            self.become_armed();
         }
-        self.output.ident = None;
-        self.last_frame_us = Some(self.now_us);
+        self.store_frame(seq, tick, late);
+        if !self.breaks(Rule::IdentOutlastsFrame) {
+            self.output.ident = None;
+        }
+        self.last_frame_us = Some(if self.breaks(Rule::AgeFromApply) {
+            let n_ticks = tick.wrapping_sub(self.tick());
+            (self.now_us / super::TICK + u64::from(n_ticks)) * super::TICK
+        } else {
+            self.now_us
+        });
+        self.descent = None;
+        if self.state == DeviceState::Ramp && self.breaks(Rule::GainJumps) {
+            self.output.fill_gain();
+        }
         if matches!(self.state, DeviceState::Armed | DeviceState::Ramp) {
             self.state = DeviceState::Run;
         }
     }
 
+    /// Keeps what was received, and what is allowed of it, for its tick.
+    fn store_frame(&mut self, seq: u16, tick: u32, late: bool) {
+        let tick = if self.breaks(Rule::FramesEarly) {
+            self.tick().wrapping_add(1)
+        } else {
+            tick.wrapping_add(u32::from(self.breaks(Rule::FramesDelayed)))
+        };
+        let is_first = !self.queue.holds(tick);
+        if late && self.breaks(Rule::LateDropped) || !is_first && self.breaks(Rule::FirstWriterWins)
+        {
+            return;
+        }
+        let at_tick = self.breaks(Rule::ClippedAtTick);
+        let in_order = self.breaks(Rule::QueueOrder);
+        let (lies, now) = (&self.model.lies, wrapped_u32(self.now_us / super::TICK));
+        let breaks = |rule| lie::value(lies, now, rule).is_some();
+        if let Some(slot) = self.queue.slot(tick, seq) {
+            slot.received.copy_from_slice(&self.scratch);
+            let clipped = allow(&slot.received, &self.config, breaks, &mut slot.allowed);
+            if at_tick {
+                slot.clipped = clipped;
+            } else {
+                self.counters.clipped = self.counters.clipped.wrapping_add(clipped);
+            }
+        }
+        if in_order {
+            self.queue.order_by_seq();
+        }
+    }
+
     /// Disarms at once; a ramp only where there is output to ramp.
     fn stop(&mut self, stop: Stop) -> AckCode {
-        self.queue.clear();
+        if self.breaks(Rule::IgnoreStop) {
+            return AckCode::Ok;
+        }
+        let is_idle = self.state == DeviceState::Idle;
+        if self.breaks(Rule::StopRefused) || is_idle && self.breaks(Rule::StopIdleRefused) {
+            return AckCode::WrongState;
+        }
+        if !self.breaks(Rule::StopKeepsQueue) {
+            self.queue.clear();
+        }
         self.samples.clear();
-        let after = self.descent.unwrap_or(DeviceState::Ready);
+        let after = self.descent.unwrap_or_else(|| self.after_stop());
+        let ramps = match stop.how {
+            StopHow::Ramp => !self.breaks(Rule::StopRampAtOnce),
+            StopHow::Now => self.breaks(Rule::StopNowRamps),
+        };
         match self.state {
-            DeviceState::Idle | DeviceState::Fault => {}
-            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp
-                if stop.how == StopHow::Ramp =>
-            {
+            DeviceState::Idle if !self.breaks(Rule::StopWakesIdle) => {}
+            DeviceState::Fault if !self.breaks(Rule::StopLeavesFault) => {}
+            DeviceState::Run | DeviceState::Hold | DeviceState::Ramp if ramps => {
+                if self.breaks(Rule::StopRampRestarts) {
+                    self.output.fill_gain();
+                }
                 self.descent = Some(after);
                 self.state = DeviceState::Ramp;
             }
@@ -214,47 +454,79 @@ impl DeviceCore {
         AckCode::Ok
     }
 
+    /// Where STOP leads to.
+    fn after_stop(&self) -> DeviceState {
+        if self.breaks(Rule::StopKeepsArmed) {
+            DeviceState::Armed
+        } else if self.breaks(Rule::StopEndsSession) {
+            DeviceState::Idle
+        } else {
+            DeviceState::Ready
+        }
+    }
+
     fn clear(&mut self, clear: Clear) -> AckCode {
-        if self.fault_causes & self.faults & clear.bits != 0 {
+        let bits = if self.breaks(Rule::ClearAny) {
+            u16::MAX
+        } else {
+            clear.bits
+        };
+        let persists = self.fault_causes & self.faults & bits != 0;
+        if persists && !self.breaks(Rule::ClearClearsCause)
+            || self.faults & bits != 0 && self.breaks(Rule::ClearRefused)
+        {
             return AckCode::Faulted;
         }
-        self.faults &= !clear.bits;
-        if self.state == DeviceState::Fault && self.faults == 0 {
-            let session = self.session.is_some();
-            self.silence(if session {
-                DeviceState::Ready
-            } else {
-                DeviceState::Idle
-            });
+        self.faults &= !bits;
+        if self.state == DeviceState::Fault && self.faults == 0 && !self.breaks(Rule::ClearStays) {
+            self.silence(self.after_faults());
         }
         AckCode::Ok
     }
 
+    /// Where a device goes when its faults are cleared.
+    pub(super) fn after_faults(&self) -> DeviceState {
+        if self.session.is_some() && !self.breaks(Rule::ClearEndsSession) {
+            DeviceState::Ready
+        } else {
+            DeviceState::Idle
+        }
+    }
+
     fn ident(&mut self, ident: Ident) -> AckCode {
-        if self.model.modes & Caps::MODE_IDENT == 0 {
+        if self.model.modes & Caps::MODE_IDENT == 0 || self.breaks(Rule::IdentUnknown) {
             return AckCode::UnknownType;
         }
-        if self.state != DeviceState::Armed {
+        let anywhere = self.session.is_some() && self.breaks(Rule::IdentAnywhere);
+        if self.state != DeviceState::Armed && !anywhere {
             return AckCode::WrongState;
         }
         let channel = usize::from(ident.channel);
-        if channel >= self.model.n_channels() || ident.ms > LONGEST_IDENT_MS {
+        let is_there = channel < self.model.n_channels() || self.breaks(Rule::IdentBadChannel);
+        if !is_there || ident.ms > LONGEST_IDENT_MS && !self.breaks(Rule::IdentTooLong) {
             return AckCode::OutOfRange;
         }
         let sounds = self.config.mask.contains(channel);
+        let limit = if self.breaks(Rule::IdentOverLimit) {
+            u16::MAX
+        } else {
+            self.config.comp_limit[1]
+        };
+        let longer_ms = self.broken_by(Rule::IdentLonger).unwrap_or(0);
         self.output.ident = Some(IdentDrive {
             channel,
-            amp: if sounds {
-                ident.amp.min(self.config.comp_limit[1])
-            } else {
-                0
-            },
-            until_us: self.now_us + u64::from(ident.ms) * MS_US,
+            amp: if sounds { ident.amp.min(limit) } else { 0 },
+            until_us: self.now_us + (u64::from(ident.ms) + longer_ms) * MS_US,
+            band: usize::from(!self.breaks(Rule::IdentLow)),
         });
         AckCode::Ok
     }
 
     fn pong(&mut self, ping: Ping, sink: &mut impl DeviceSink) -> Answer {
+        let is_idle = self.session.is_none();
+        if self.breaks(Rule::NoPong) || is_idle && self.breaks(Rule::PingSilentIdle) {
+            return Answer::Silence;
+        }
         let pong = Pong {
             token: ping.token,
             dev_us: wrapped_u32(self.now_us),

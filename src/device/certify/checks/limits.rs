@@ -150,8 +150,7 @@ fn mask(c: &mut Client<'_>) -> Verdict {
     let limits = codes.first().map_or([1; 2], |code| code.map(|code| code.saturating_sub(1)));
     let n_bits = usize::BITS - (n_ch - 1).leading_zeros();
     for bit in 0..n_bits {
-        let chosen = (0..n_ch).filter(|channel| channel >> bit & 1 == 1);
-        let mask = ChannelMask::of(chosen);
+        let mask = ChannelMask::of(n_ch, |channel| channel >> bit & 1 == 1);
         play_is(c, &Config { mask, ..usual }, &codes)?;
         play_is(c, &Config { mask, comp_limit: limits, ..usual }, &codes)?;
     }

@@ -1,12 +1,17 @@
 //! Devices that are not what they say: refused with a line, and never armed.
 
 use super::*;
-use crate::device::{Lie, Miswiring};
+use crate::device::{FirmwareLie, Miswiring};
 use crate::message::{Ident, Message as _};
 
-fn liar(lies: &[Lie]) -> Simulation {
+fn read(lies: &[&str]) -> Vec<FirmwareLie> {
+    let read = lies.iter().map(|lie| FirmwareLie::read(lie));
+    read.collect::<Result<_, _>>().unwrap()
+}
+
+fn liar(lies: &[&str]) -> Simulation {
     let faults = Faults {
-        lies: lies.to_vec(),
+        lies: read(lies),
         ..Faults::default()
     };
     let mut trial = Simulation::of(DeviceModel::default(), &faults);
@@ -21,16 +26,16 @@ fn liar(lies: &[Lie]) -> Simulation {
 #[test]
 fn every_lie_is_refused_with_its_reason() {
     for (lie, words) in [
-        (Lie::Version(0), "version"),
-        (Lie::Version(2), "version"),
-        (Lie::Rows(5), "5 rows"),
-        (Lie::Columns(5), "5 columns"),
-        (Lie::Channels(25), "25 channels"),
-        (Lie::Components(1), "components"),
-        (Lie::TickUs(20_000), "20000 µs"),
-        (Lie::LowMhz(50_000), "50"),
-        (Lie::HighMhz(250_000), "250"),
-        (Lie::MaxBody(107), "107 bytes"),
+        ("caps.version=0", "version"),
+        ("caps.version=2", "version"),
+        ("caps.rows=5", "5 rows"),
+        ("caps.cols=5", "5 columns"),
+        ("caps.channels=25", "25 channels"),
+        ("caps.components=1", "components"),
+        ("caps.tick-us=20000", "20000 µs"),
+        ("caps.low-mhz=50000", "50"),
+        ("caps.high-mhz=250000", "250"),
+        ("caps.max-body=107", "107 bytes"),
     ] {
         let trial = liar(&[lie]);
         let reason = trial.refused().unwrap_or_default();
@@ -42,21 +47,21 @@ fn every_lie_is_refused_with_its_reason() {
 
 #[test]
 fn a_device_of_another_shape_that_agrees_with_itself_is_refused_too() {
-    let trial = liar(&[Lie::Rows(5), Lie::Columns(5), Lie::Channels(25)]);
+    let trial = liar(&["caps.rows=5", "caps.cols=5", "caps.channels=25"]);
     assert!(trial.refused().unwrap().contains("24 contactors"));
 }
 
 #[test]
 fn caps_that_are_cut_short_at_any_byte_are_no_answer() {
-    for length in (0..78).step_by(13) {
-        let trial = liar(&[Lie::Cut(length)]);
+    for length in (1..78).step_by(13) {
+        let trial = liar(&[&format!("caps.cut={length}")]);
         assert_eq!(trial.host.state(), BridgeState::Lost, "{length}");
         assert!(trial.lost().unwrap().contains("no answer"), "{length}");
         assert!(trial.bad_texts_received() >= 19, "one for each HELLO");
     }
     let trial = Simulation::streaming_over(
         &Faults {
-            lies: vec![Lie::Cut(78), Lie::Cut(1000)],
+            lies: read(&["caps.cut=78", "caps.cut=255"]),
             ..Faults::default()
         },
         500,
