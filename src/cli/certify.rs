@@ -43,8 +43,10 @@ pub(super) fn certify(args: &CertifyArgs) -> Result<(), CliError> {
     let certificate = tried(&args.port, Extent::Full)?;
     let report = CertificateFolder::new(&args.out).write(&certificate)?;
     // The workbench looks here; a system without such a place has no workbench that does.
-    if let Some(folder) = selvedge_workbench::own_certificates() {
-        CertificateFolder::new(&folder).write(&certificate)?;
+    if let Some(folder) = selvedge_workbench::own_certificates()
+        && let Err(error) = CertificateFolder::new(&folder).write(&certificate)
+    {
+        terminal::notice(&format!("{error}; the workbench will not know of this certificate"));
     }
     output::print(&format!("{certificate}\n{}\n", report.display()))?;
     judged(&args.port, &certificate)

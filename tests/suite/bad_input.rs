@@ -185,6 +185,7 @@ fn wrong_ports_are_refused_before_anything_moves() {
         for args in [
             [&play[..], &[port]].concat(),
             vec!["bridge", "test", "--port", port],
+            vec!["bridge", "certify", "--out", "new", "--port", port],
         ] {
             let line = lab.refuse(&args);
             assert!(
@@ -214,7 +215,7 @@ fn wrong_ports_are_refused_before_anything_moves() {
     }
 }
 
-const USAGE: [&str; 18] = [
+const USAGE: [&str; 19] = [
     "render",
     "render a.scene.toml",
     "render a.scene.toml --path a.csv --speed 3",
@@ -227,6 +228,7 @@ const USAGE: [&str; 18] = [
     "textile",
     "bridge",
     "bridge test",
+    "bridge certify --port /dev/none",
     "bridge emulate",
     "screenshot",
     "screenshot --out a.png --width 1",

@@ -13,6 +13,7 @@ mod bridge_device;
 mod bridge_end_to_end;
 mod bridge_faults;
 mod bridge_samples;
+mod certify;
 mod commands;
 mod experiment;
 mod experiment_analyse;

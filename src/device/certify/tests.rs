@@ -13,7 +13,8 @@ fn tried(model: DeviceModel, faults: &Faults, extent: Extent, at_us: u64) -> Cer
     let nonce = 0x1357_0001 + u32::try_from(at_us).unwrap();
     let certificate = certify(&mut line, Trial { extent, nonce }, &AtomicBool::new(false), &mut |_| {});
     assert!(line.now_us() - at_us < 60_000_000, "{} ms", line.now_us() / 1000);
-    assert!(!line.device().state().is_live(), "it ends at rest");
+    let is_at_rest = !line.device().state().is_live();
+    assert!(is_at_rest || !certificate.passed(), "it ends at rest");
     certificate
 }
 
