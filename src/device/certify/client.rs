@@ -25,6 +25,10 @@ const GLANCE_US: u64 = 20_000;
 const FLOOD: usize = 20_000;
 /// A time of the link that differs by more from the usual tells of a host or link that was late.
 const LATE_US: u64 = 4000;
+/// Nothing waits longer, µs.
+const LONGEST_WAIT_US: u64 = 2_000_000;
+/// Ticks beyond this are years after boot, and about to wrap.
+const LAST_TICK: u64 = 0xf000_0000;
 /// PONGs by which the link is known.
 const N_PONGS: usize = 15;
 const TICK: u64 = TICK_US as u64;
@@ -308,6 +312,10 @@ impl<'a> Client<'a> {
         self.compare(first, &asked.collect::<Vec<_>>())?;
         self.watch.settle();
         match between {
+            [Some(from_us), Some(to_us)] if from_us.max(to_us) / TICK > LAST_TICK => {
+                let what = "its clock is about to wrap: start the device anew";
+                Err(Trouble::Wrong(what.to_owned()))
+            }
             [Some(from_us), Some(to_us)] => Ok(Between { from_us, to_us }),
             _ => Err(Trouble::Late),
         }
@@ -386,7 +394,9 @@ impl<'a> Client<'a> {
                 kind == kind::CAPS && payload == expected
             }
             Want::Cfg(held) => {
-                kind == kind::CFG && Config::decode(payload, self.n_ch()) == Some(held)
+                let is_reserved_zero = payload.get(14..16) == Some(&[0, 0]);
+                let cfg = Config::decode(payload, self.n_ch());
+                kind == kind::CFG && is_reserved_zero && cfg == Some(held)
             }
             Want::Nothing | Want::Bad | Want::NoPacket | Want::Pong(_) => false,
         }
@@ -499,6 +509,10 @@ impl<'a> Client<'a> {
     }
 
     fn pass_until(&mut self, until_us: u64) -> Verdict {
+        if until_us > self.line.now_us() + LONGEST_WAIT_US {
+            // Its clock jumps: nothing can be told by it.
+            return Err(Trouble::Late);
+        }
         while self.line.now_us() < until_us {
             self.pump(until_us)?;
         }
@@ -563,6 +577,7 @@ impl<'a> Client<'a> {
                 self.watch.packet(packet.kind, packet.seq);
                 self.hear(packet.kind, packet.payload);
             }
+            self.watch.byte(byte);
         }
         self.decoder = decoder;
         ensure(self.heard.len() < FLOOD, || {

@@ -92,7 +92,7 @@ pub fn certify(
             |reason| not_tested(check, reason),
         );
         if result.ends {
-            over = Some(result.result.came.clone());
+            over = Some(format!("nothing more was tried: {}", result.result.came));
         }
         results.push(result.result);
     }
@@ -150,7 +150,9 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
         }
     }
     Tried {
-        ends: matches!(verdict, Err(Trouble::Over(_))),
+        // No host would go on with a device that is refused by its CAPS.
+        ends: matches!(verdict, Err(Trouble::Over(_)))
+            || (check.ends_all && matches!(verdict, Err(Trouble::Wrong(_)))),
         result: CheckResult {
             outcome: outcome_of(&verdict),
             came: came_of(&verdict),

@@ -10,6 +10,14 @@ const BLEED_TICKS: u32 = 40;
 /// 2 V, in 0.1 V.
 const HV_SLACK_DV: u32 = 20;
 
+/// How the present text between zeros opened: zeros before it, its first byte.
+#[derive(Debug, Default)]
+struct Opening {
+    n_zeros: u32,
+    first: u8,
+    is_later: bool,
+}
+
 /// Remembers what was said last, and the first thing that was wrong.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
@@ -24,6 +32,7 @@ pub(super) struct Watch {
     pub(super) config: Config,
     next_seq: Option<u16>,
     n_quiet: u32,
+    opening: Opening,
     wrong: Option<String>,
 }
 
@@ -40,8 +49,25 @@ impl Watch {
         }
     }
 
-    /// A whole packet came.
+    /// A byte came.
+    pub(super) fn byte(&mut self, byte: u8) {
+        let opening = &mut self.opening;
+        if byte == 0 {
+            opening.n_zeros = if opening.first == 0 { opening.n_zeros + 1 } else { 1 };
+            opening.first = 0;
+        } else if opening.first == 0 {
+            opening.first = byte;
+        }
+    }
+
+    /// A whole packet came; its last zero is the present byte.
     pub(super) fn packet(&mut self, packet_kind: u8, seq: u16) {
+        // The first block of a body ends behind its type where the flags are 0.
+        let is_plain = self.opening.first == 2 || packet_kind == 0;
+        self.note(is_plain, || String::from("a packet has flags in its header"));
+        let has_zero = self.opening.n_zeros >= 2 || !self.opening.is_later;
+        self.note(has_zero, || String::from("a packet has no zero before it"));
+        self.opening.is_later = true;
         let expected = self.next_seq.unwrap_or(seq);
         self.note(seq == expected, || {
             format!("its packets count {expected}, then {seq}")
@@ -139,6 +165,11 @@ impl Watch {
         self.note(faults == 0, || {
             let names = fault_bit::names(faults);
             format!("STATUS has fault bits: {names}; send CLEAR when the cause is gone")
+        });
+        // Bit 5 tells why output ramps and is latched nowhere.
+        let is_told = status.faults & fault_bit::LEASE_LOST != 0;
+        self.note(!is_told || status.state == DeviceState::Ramp.code(), || {
+            String::from("STATUS has fault bit 5 outside the ramp of a lost lease")
         });
         let temp = status.temp_cdeg;
         self.note((-1000..=7000).contains(&temp), || {

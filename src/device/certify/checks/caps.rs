@@ -5,9 +5,9 @@ use crate::certify::client::{Client, Verdict, ensure};
 use crate::message::{Caps, MAGIC, TICK_US};
 
 checks! { "handshake":
-    QUICK "CAPS" bounds, "CAPS keep the bounds of the protocol and agree with themselves";
-    QUICK "CAPS again" again, "every HELLO of this opening and of another gets the same CAPS";
-    QUICK "STATUS at READY" ready, "after HELLO: READY, no amplitude, no faults, nothing queued";
+    First "CAPS" bounds, "CAPS keep the bounds of the protocol and agree with themselves";
+    Quick "CAPS again" again, "every HELLO of this opening and of another gets the same CAPS";
+    Quick "STATUS at READY" ready, "after HELLO: READY, no amplitude, no faults, age_ms 65535";
 }
 
 /// One bound of CAPS.
@@ -73,5 +73,8 @@ fn ready(c: &mut Client<'_>) -> Verdict {
     super::steps::expect(&status, crate::message::DeviceState::Ready, 0)?;
     ensure(status.last_seq == 0, || {
         format!("last_seq {} before the first FRAME", status.last_seq)
+    })?;
+    ensure(status.age_ms == u16::MAX, || {
+        format!("age_ms {} before the first FRAME", status.age_ms)
     })
 }

@@ -9,16 +9,16 @@ use crate::certify::say::{Say, Want, packet};
 use crate::message::{Config, DeviceState, NEXT_TICK, kind};
 
 checks! { "frames":
-    QUICK "a second of faint frames" stream, "each is played in the next tick: amp_sum as sent";
-    FULL "the queue" queue, "1…queue ticks ahead are stored and played in order; more: ACK 3";
-    FULL "last writer wins" last_writer, "of two FRAMEs for a tick the later is played, once";
-    FULL "late" late, "a FRAME for a tick that began is counted and played in the next";
-    FULL "far away" far, "ticks are compared as signed differences: behind is late, ahead ACK 3";
-    FULL "duplicates" duplicates, "the last seq again: dup, not played, the age runs on";
-    FULL "refused" refused, "a refused FRAME changes neither last_seq nor age nor output";
-    FULL "a missing FRAME" missing, "HOLD with the same output, underrun + 1, RUN with the next";
-    FULL "start at depth" depth, "ticks between the first FRAME and its tick are underruns";
-    FULL "one ARM, one start" start, "after ARM output begins at zero, whatever was before";
+    Quick "a second of faint frames" stream, "each is played in the next tick: amp_sum as sent";
+    Full "the queue" queue, "1…queue ticks ahead are stored and played in order; more: ACK 3";
+    Full "last writer wins" last_writer, "of two FRAMEs for a tick the later is played, once";
+    Full "late" late, "a FRAME for a tick that began is counted and played in the next";
+    Full "far away" far, "ticks are compared as signed differences: behind is late, ahead ACK 3";
+    Full "duplicates" duplicates, "the last seq again: dup, not played, the age runs on";
+    Full "refused" refused, "a refused FRAME changes neither last_seq nor age nor output";
+    Full "a missing FRAME" missing, "HOLD with the same output, underrun + 1, RUN with the next";
+    Full "start at depth" depth, "ticks between the first FRAME and its tick are underruns";
+    Full "one ARM, one start" start, "after ARM output begins at zero, whatever was before";
 }
 
 fn armed(c: &mut Client<'_>) -> Verdict {
@@ -166,7 +166,7 @@ fn far(c: &mut Client<'_>) -> Verdict {
 }
 
 /// A FRAME for the next tick with a seq of our choice.
-fn with_seq(codes: &[[u16; 2]], seq: u16) -> Say {
+pub(super) fn with_seq(codes: &[[u16; 2]], seq: u16) -> Say {
     let payload = [&NEXT_TICK.to_le_bytes()[..], &frame_codes(codes)].concat();
     Say {
         kind: kind::FRAME,
@@ -198,9 +198,16 @@ fn duplicates(c: &mut Client<'_>) -> Verdict {
     ensure((ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)), || {
         format!("age_ms {} after a duplicate, {} is right", status.age_ms, ages_ms[0])
     })?;
+    // Only a FRAME is a duplicate by its seq.
+    let mut ping = c.ping();
+    if let Want::Pong(token) = ping.want {
+        ping.seq = seq;
+        ping.bytes = packet(kind::PING, 0, seq, &token.to_le_bytes());
+    }
+    c.tell_at(tick + 2, 2000, &[ping])?;
     // The seq of one before the last is no duplicate.
     let between = c.frame_next(&second);
-    c.tell_at(tick + 2, 6000, &[between, with_seq(&first, seq)])?;
+    c.tell_at(tick + 2, 10_000, &[between, with_seq(&first, seq)])?;
     expect(&status_of(c, tick + 3)?, DeviceState::Run, expected)
 }
 

@@ -7,19 +7,19 @@ use crate::certify::say::{Say, Want, packet};
 use crate::message::{DeviceState, NEXT_TICK, kind};
 
 checks! { "framing":
-    QUICK "empties" empties, "empty texts are ignored and not counted";
-    FULL "texts that are no packet" garbage, "each counts bad once; the packet behind it is heard";
-    FULL "truncations" truncations, "a packet cut anywhere costs only itself";
-    FULL "bit flips" flips, "no flipped bit passes; the packet behind it is heard";
-    FULL "flipped ARM" flipped_arm, "no flipped bit arms";
-    FULL "oversize" oversize, "bodies up to max_body are heard, longer texts count bad once";
-    FULL "a full block" full_block, "254 bytes without a zero, with and without the last 01";
-    FULL "echoes" echoes, "types 80…FF count bad and are not answered";
-    FULL "unknown types" unknown, "ACK 4 with type and seq, in READY and ARMED, never a fault";
-    FULL "flags" flags, "bits of the header's flags are ignored";
-    FULL "pieces" pieces, "a packet may come byte by byte";
-    FULL "short payloads" short, "each counts bad, has no answer and changes nothing";
-    FULL "trailing bytes" trailing, "extra payload bytes are ignored, but not in FRAME: ACK 5";
+    Quick "empties" empties, "empty texts are ignored and not counted";
+    Full "texts that are no packet" garbage, "each counts bad once; the packet behind it is heard";
+    Full "truncations" truncations, "a packet cut anywhere costs only itself";
+    Full "bit flips" flips, "no flipped bit passes; the packet behind it is heard";
+    Full "flipped ARM" flipped_arm, "no flipped bit arms";
+    Full "oversize" oversize, "bodies up to max_body are heard, longer texts count bad once";
+    Full "a full block" full_block, "254 bytes without a zero, with and without the last 01";
+    Full "echoes" echoes, "types 80…FF count bad and are not answered";
+    Full "unknown types" unknown, "ACK 4 with type and seq, in READY and ARMED, never a fault";
+    Full "flags" flags, "bits of the header's flags are ignored";
+    Full "pieces" pieces, "a packet may come byte by byte";
+    Full "short payloads" short, "each counts bad, has no answer and changes nothing";
+    Full "trailing bytes" trailing, "extra payload bytes are ignored, but not in FRAME: ACK 5";
 }
 
 /// Bytes that are said at once: a port need not have room for more.

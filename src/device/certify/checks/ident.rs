@@ -7,9 +7,9 @@ use crate::certify::say::{Say, Want};
 use crate::message::{Caps, ChannelMask, Config, DeviceState, TICK_US, kind};
 
 checks! { "IDENT":
-    FULL "what sounds" sounds, "amp_sum is amp for ms, at most the limit, then 0; ARMED stays";
-    FULL "what is refused" refused, "no such channel or more than 1000 ms: ACK 5; without it ACK 4";
-    FULL "what ends it" ends, "STOP, FRAME and HELLO end it at once";
+    Full "what sounds" sounds, "amp_sum is amp for ms, at most the limit, then 0; ARMED stays";
+    Full "what is refused" refused, "no such channel or more than 1000 ms: ACK 5; without it ACK 4";
+    Full "what ends it" ends, "STOP, FRAME and HELLO end it at once";
 }
 
 const AMP: u16 = 300;
@@ -38,6 +38,10 @@ fn sounds(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     sound(c, &config, 0, 60, u32::from(amp))?;
     sound(c, &config, last, 30, u32::from(amp))?;
+    // Some of these end just before a STATUS.
+    for ms in [58, 63, 68] {
+        sound(c, &config, 0, ms, u32::from(amp))?;
+    }
     let limited = Config { comp_limit: [0, amp / 2], ..config };
     sound(c, &limited, last, 30, u32::from(amp / 2))?;
     let masked = Config { mask: ChannelMask::first(usize::from(last)), ..config };

@@ -8,13 +8,14 @@ use crate::certify::say::Say;
 use crate::message::{ChannelMask, Config, DeviceState, Status};
 
 checks! { "limits":
-    QUICK "CFG" usual, "CFG is what was asked where CAPS allow it";
-    FULL "clamps" clamps, "hold + ramp ≤ 100 ms, the rest within CAPS; slew 0 is slew_max";
-    FULL "the last CONFIG holds" last_config, "a second CONFIG in READY replaces the first";
-    FULL "comp_limit" comp_limit, "values above it are lowered and counted, one each";
-    FULL "the mask" mask, "masked channels are 0 and not counted; bit and place agree";
-    FULL "slew" slew, "at most slew a tick, towards the newest target, in HOLD too";
-    FULL "sum guard" guard, "A40 + A320 above 65535: both scaled alike, counted once a channel";
+    Quick "CFG" usual, "CFG is what was asked where CAPS allow it";
+    Full "clamps" clamps, "hold + ramp ≤ 100 ms, the rest within CAPS; slew 0 is slew_max";
+    Full "the last CONFIG holds" last_config, "a second CONFIG in READY replaces the first";
+    Full "comp_limit" comp_limit, "values above it are lowered and counted, one each";
+    Full "clipped at reception" clipped, "values are counted when their FRAME comes, not when played";
+    Full "the mask" mask, "masked channels are 0 and not counted; bit and place agree";
+    Full "slew" slew, "at most slew a tick, towards the newest target, in HOLD too";
+    Full "sum guard" guard, "A40 + A320 above 65535: both scaled alike, counted once a channel";
 }
 
 /// Everything as asked, at 0 V: a device that does not grant that gets no large codes.
@@ -129,8 +130,8 @@ fn comp_limit(c: &mut Client<'_>) -> Verdict {
     let most = [0, 1].map(|band| codes.iter().map(|code| code[band]).max().unwrap_or(0));
     for limits in [
         most,
-        [most[0] - 1, most[1]],
-        [most[0], most[1] - 1],
+        [most[0].saturating_sub(1), most[1]],
+        [most[0], most[1].saturating_sub(1)],
         [most[0] / 2, most[1] / 3],
         [0, most[1]],
         [most[0], 0],
@@ -140,6 +141,20 @@ fn comp_limit(c: &mut Client<'_>) -> Verdict {
         play_is(c, &config, &codes)?;
     }
     Ok(())
+}
+
+fn clipped(c: &mut Client<'_>) -> Verdict {
+    if c.caps.queue < 2 {
+        return Err(Trouble::Untested(String::from("the queue holds no FRAME for later")));
+    }
+    let codes = c.faint(3);
+    let config = Config { comp_limit: [1, 1], ..c.usual() };
+    let says = c.arming(&config);
+    c.tell(&says)?;
+    let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
+    c.due.clipped = c.due.clipped.wrapping_add(Allowed::of(&codes, &config).clipped);
+    let status = status_of(c, tick + 1)?;
+    c.count(&status)
 }
 
 /// Masks by the bits of a channel's number: every channel has its own pattern of them.
@@ -203,6 +218,7 @@ fn guard(c: &mut Client<'_>) -> Verdict {
         vec![[32_768, 32_768]; n_ch],
         vec![[1, u16::MAX]; n_ch],
     ];
+    shares(c, &config)?;
     for codes in full {
         let says = c.arming(&config);
         c.tell(&says)?;
@@ -220,6 +236,27 @@ fn guard(c: &mut Client<'_>) -> Verdict {
             format!("amp_sum {} where {sum} is right", status.amp_sum)
         })?;
         c.count(&status)?;
+    }
+    Ok(())
+}
+
+/// That both components are scaled alike: the sum cannot tell, but the way down by slew can.
+fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
+    let config = Config { slew: 10_000.min(c.caps.slew_max), ..*config };
+    let codes = vec![[60_000, 30_000]; c.n_ch()];
+    let says = c.arming(&config);
+    c.tell(&says)?;
+    let allowed = Allowed::of(&codes, &config);
+    let n_up = allowed.codes.iter().flatten().max().map_or(0, |code| code.div_ceil(config.slew));
+    let mut reached = vec![[0; 2]; c.n_ch()];
+    for nth in 0..n_up + 2 {
+        let is_up = nth < n_up;
+        let codes = if is_up { codes.clone() } else { vec![[0; 2]; c.n_ch()] };
+        let aim = Allowed::of(&codes, &config);
+        c.due.clipped = c.due.clipped.wrapping_add(aim.clipped);
+        reached = aim.slewed(&reached, config.slew);
+        let sum = reached.iter().flatten().map(|code| u32::from(*code)).sum();
+        frame_is(c, &codes, sum, 2 * allowed.n_scaled)?;
     }
     Ok(())
 }

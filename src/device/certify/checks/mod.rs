@@ -24,6 +24,8 @@ pub(super) struct Check {
     pub(super) expects: &'static str,
     /// Whether the quick half has it too.
     pub(super) is_quick: bool,
+    /// Whether nothing else can be tried without it.
+    pub(super) ends_all: bool,
     pub(super) run: fn(&mut Client<'_>) -> Verdict,
 }
 
@@ -36,7 +38,8 @@ macro_rules! checks {
                 section: $section,
                 name: $name,
                 expects: $expects,
-                is_quick: $crate::certify::checks::$speed,
+                is_quick: !matches!($crate::certify::checks::Speed::$speed, $crate::certify::checks::Speed::Full),
+                ends_all: matches!($crate::certify::checks::Speed::$speed, $crate::certify::checks::Speed::First),
                 run: $run,
             },)+
         ];
@@ -44,8 +47,15 @@ macro_rules! checks {
 }
 use checks;
 
-const QUICK: bool = true;
-const FULL: bool = false;
+/// When a check is tried.
+enum Speed {
+    /// Always, and nothing else without it.
+    First,
+    /// In the quick half too.
+    Quick,
+    /// Where everything is tried.
+    Full,
+}
 
 /// All checks in the order in which they are tried.
 pub(super) fn all() -> impl Iterator<Item = &'static Check> {

@@ -5,9 +5,9 @@ use super::steps::{Place, go};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 
 checks! { "clock":
-    QUICK "pacing" pacing, "a STATUS at every tick, 25 ms of dev_us apart";
-    QUICK "PONG at every phase" phases, "PONG echoes the token; dev_us = 25000 · tick + phase_us";
-    FULL "PONG in every state" states, "a PING is answered in every state and changes nothing";
+    Quick "pacing" pacing, "a STATUS at every tick, 25 ms of dev_us apart";
+    Quick "PONG at every phase" phases, "PONG echoes the token; dev_us = 25000 · tick + phase_us";
+    Full "PONG in every state" states, "a PING is answered in every state and changes nothing";
 }
 
 const N_TICKS: usize = 40;

@@ -7,15 +7,15 @@ use crate::certify::say::Want;
 use crate::message::{DeviceState, NEXT_TICK, kind};
 
 checks! { "sessions":
-    QUICK "arming" arming, "HELLO, CONFIG, ARM: ARMED; a repeated ARM gets ACK 0";
-    FULL "wrong HELLO" wrong_hello, "wrong magic, session 0 or too short: bad, the session is kept";
-    FULL "wrong ARM" wrong_arm, "another session or key gets ACK 1 and arms nothing";
-    FULL "ARM without CONFIG" unconfigured, "ACK 2, also when an earlier session had a CONFIG";
-    FULL "HELLO in every state" hello_anywhere, "zero at once, queue empty, READY, disarmed";
-    FULL "no common version" versions, "CAPS with version 0, IDLE, no STATUS; 1 where 1 is offered";
-    FULL "version 0 while running" version_running, "the session ends at once";
-    FULL "STATUS unless wanted" unwanted, "without host_flags b0 no STATUS comes";
-    FULL "counters survive HELLO" counters, "tick and counters run on over a new session";
+    Quick "arming" arming, "HELLO, CONFIG, ARM: ARMED; a repeated ARM gets ACK 0";
+    Full "wrong HELLO" wrong_hello, "wrong magic, session 0 or too short: bad, the session is kept";
+    Full "wrong ARM" wrong_arm, "another session or key gets ACK 1 and arms nothing";
+    Full "ARM without CONFIG" unconfigured, "ACK 2, also when an earlier session had a CONFIG";
+    Full "HELLO in every state" hello_anywhere, "zero at once, queue empty, READY, disarmed";
+    Full "no common version" versions, "CAPS with version 0, IDLE, no STATUS; 1 where 1 is offered";
+    Full "version 0 while running" version_running, "the session ends at once";
+    Full "STATUS unless wanted" unwanted, "without host_flags b0 no STATUS comes";
+    Full "counters survive HELLO" counters, "tick and counters run on over a new session";
 }
 
 fn arming(c: &mut Client<'_>) -> Verdict {

@@ -8,11 +8,11 @@ use crate::certify::say::Want;
 use crate::message::DeviceState;
 
 checks! { "hold and ramp":
-    QUICK "once" once, "hold 60 ms, ramp 40 ms: silent by age 100 ms, then READY";
-    FULL "at every phase" every_phase, "the same wherever in a tick the last FRAME came";
-    FULL "other times" other_times, "0 + 100, 25 + 75, 37 + 23, 40 + 0 and 100 + 0 ms alike";
-    FULL "disarmed after silence" disarmed, "FRAME gets ACK 2, ARM arms again";
-    FULL "FRAME in RAMP" revived, "RUN again; the gain rises by 1/ramp_ms a ms, without a jump";
+    Quick "once" once, "hold 60 ms, ramp 40 ms: silent by age 100 ms, then READY";
+    Full "at every phase" every_phase, "the same wherever in a tick the last FRAME came";
+    Full "other times" other_times, "0 + 100, 25 + 75, 37 + 23, 40 + 0 and 100 + 0 ms alike";
+    Full "disarmed after silence" disarmed, "FRAME gets ACK 2, ARM arms again";
+    Full "FRAME in RAMP" revived, "RUN again; the gain rises by 1/ramp_ms a ms, without a jump";
 }
 
 fn once(c: &mut Client<'_>) -> Verdict {

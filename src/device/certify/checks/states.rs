@@ -7,12 +7,13 @@ use crate::certify::say::{Say, Want};
 use crate::message::{Caps, DeviceState, kind};
 
 checks! { "types and states":
-    FULL "IDLE" idle, "CONFIG, ARM, FRAME, IDENT: ACK 2; STOP, CLEAR: ACK 0; no state change";
-    QUICK "READY" ready, "FRAME, IDENT: ACK 2; STOP, CLEAR: ACK 0; CONFIG: CFG";
-    FULL "ARMED" armed, "CONFIG: ACK 2; CLEAR: ACK 0; the state stays";
-    FULL "RUN" run, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
-    FULL "HOLD" hold, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
-    FULL "RAMP" ramp, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
+    Full "IDLE" idle, "CONFIG, ARM, FRAME, IDENT: ACK 2; STOP, CLEAR: ACK 0; no state change";
+    Quick "READY" ready, "FRAME, IDENT: ACK 2; STOP, CLEAR: ACK 0; CONFIG: CFG";
+    Full "ARMED" armed, "CONFIG: ACK 2; CLEAR: ACK 0; the state stays";
+    Full "ARMED for a while" armed_long, "ARMED has no time-out but the lease";
+    Full "RUN" run, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
+    Full "HOLD" hold, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
+    Full "RAMP" ramp, "CONFIG, ARM, IDENT: ACK 2; CLEAR: ACK 0; output goes on as it would";
 }
 
 /// Whatever is refused in a state, and what is answered in all.
@@ -70,6 +71,19 @@ fn ready(c: &mut Client<'_>) -> Verdict {
 
 fn armed(c: &mut Client<'_>) -> Verdict {
     stays(c, Place::Armed)
+}
+
+fn armed_long(c: &mut Client<'_>) -> Verdict {
+    let config = c.usual();
+    let says = c.arming(&config);
+    c.tell(&says)?;
+    for _ in 0..8 {
+        c.tell(&[])?;
+        for status in c.statuses(4)? {
+            super::steps::expect(&status, DeviceState::Armed, 0)?;
+        }
+    }
+    Ok(())
 }
 
 fn run(c: &mut Client<'_>) -> Verdict {

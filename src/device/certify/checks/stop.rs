@@ -7,13 +7,13 @@ use crate::certify::say::Want;
 use crate::message::{DeviceState, TICK_US};
 
 checks! { "STOP":
-    QUICK "how 0 in RUN" ramp_in_run, "ACK 0, a ramp over ramp_ms, FRAMEs get ACK 2, then READY";
-    FULL "how 0 in every state" ramps, "a ramp from the present gain; READY stays, ARMED ends";
-    QUICK "how 1 in RUN" now_in_run, "ACK 0, zero at once, READY";
-    FULL "how 1, 2, 255 in every state" nows, "zero at once, READY";
-    FULL "a second STOP" second, "how 0 in a ramp changes nothing, how 1 ends it";
-    FULL "the queue" queue, "what waited is forgotten, and not played after the next ARM";
-    QUICK "high voltage" voltage, "on from ARM, off after STOP within a second";
+    Quick "how 0 in RUN" ramp_in_run, "ACK 0, a ramp over ramp_ms, FRAMEs get ACK 2, then READY";
+    Full "how 0 in every state" ramps, "a ramp from the present gain; READY stays, ARMED ends";
+    Quick "how 1 in RUN" now_in_run, "ACK 0, zero at once, READY";
+    Full "how 1, 2, 255 in every state" nows, "zero at once, READY";
+    Full "a second STOP" second, "how 0 in a ramp changes nothing, how 1 ends it";
+    Full "the queue" queue, "what waited is forgotten, and not played after the next ARM";
+    Quick "high voltage" voltage, "on from ARM, off after STOP within a second";
 }
 
 fn ramp_in_run(c: &mut Client<'_>) -> Verdict {
