@@ -185,6 +185,7 @@ fn wrong_ports_are_refused_before_anything_moves() {
         for args in [
             [&play[..], &[port]].concat(),
             vec!["bridge", "test", "--port", port],
+            vec!["bridge", "certify", "--out", "new", "--port", port],
         ] {
             let line = lab.refuse(&args);
             assert!(
@@ -256,6 +257,7 @@ const USAGE: [&str; 20] = [
     "textile",
     "bridge",
     "bridge test",
+    "bridge certify --port /dev/none",
     "bridge emulate",
     "screenshot",
     "screenshot --out a.png --width 1",
