@@ -23,6 +23,7 @@ const SHIPPED: &[KitFile] = shipped![
     "firmware/hbp_config.h",
     "firmware/hbp_core.c",
     "firmware/hbp_core.h",
+    "firmware/hbp_defects.h",
     "firmware/host/Makefile",
     "firmware/host/hbp_host.c",
     "firmware/lm3s6965evb/Makefile",

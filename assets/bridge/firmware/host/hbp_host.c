@@ -8,6 +8,7 @@
  * Lines: boot | at US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes
  *        | samples N
  * An answer is STATE AMP_SUM BYTES, the bytes in hex or "-"; of codes and samples, the numbers.
+ * Only `samples` calls hbp_sample, and it makes no step: time passes by `at`.
  * Sessions add what must hold: out HEX... | state NAME AMP_SUM | drive CHANNEL A40 A320.
  */
 #include <stdio.h>
@@ -52,7 +53,7 @@ static void measure(void *context, hbp_measured *measured)
 
 static void boot(void)
 {
-    static const hbp_port port = { 0, take, high_voltage, measure };
+    static const hbp_port port = { 0, take, high_voltage, measure, 0 };
     now_ms = 0;
     phase_us = 0;
     n_sent = 0;
