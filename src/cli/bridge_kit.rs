@@ -29,6 +29,7 @@ const SHIPPED: &[KitFile] = shipped![
     "firmware/lm3s6965evb/Makefile",
     "firmware/lm3s6965evb/board.c",
     "firmware/lm3s6965evb/lm3s6965evb.ld",
+    "firmware/lm3s6965evb/restart.h",
     "firmware/lm3s6965evb/startup.c",
     "protocol.md",
     "vectors.txt",
@@ -90,7 +91,7 @@ mod tests {
         let mut found = Vec::new();
         files_below(&folder, &mut found);
         // What building the kit in place leaves there.
-        let built = ["hbp_host", "hbp.elf", ".gitignore"];
+        let built = ["hbp_host", "hbp.elf", "hbp_emulated.elf", ".gitignore"];
         let mut names: Vec<String> = found
             .iter()
             .filter(|path| !built.iter().any(|name| path.ends_with(name)))
