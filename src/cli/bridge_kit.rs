@@ -31,6 +31,13 @@ const SHIPPED: &[KitFile] = shipped![
     "firmware/lm3s6965evb/lm3s6965evb.ld",
     "firmware/lm3s6965evb/restart.h",
     "firmware/lm3s6965evb/startup.c",
+    "firmware/rp2040/CMakeLists.txt",
+    "firmware/rp2040/board.h",
+    "firmware/rp2040/converters.c",
+    "firmware/rp2040/converters.h",
+    "firmware/rp2040/main.c",
+    "firmware/rp2040/tusb_config.h",
+    "firmware/rp2040/usb_descriptors.c",
     "protocol.md",
     "vectors.txt",
 ];
