@@ -80,6 +80,8 @@ fn build(program: &std::path::Path) {
         "-Wextra",
         "-Werror",
         "-ffreestanding",
+        // A busy machine can keep an emulated board waiting for longer than a watchdog may.
+        "-DHBP_NO_WATCHDOG",
         "-fno-tree-loop-distribute-patterns",
         "-nostdlib",
         "-T",

@@ -5,9 +5,11 @@
 #![cfg(unix)]
 
 mod board;
+mod defects;
 mod differential;
 mod kit;
 mod layout;
+mod pico;
 mod reference;
 mod script;
 mod sessions;
