@@ -13,8 +13,6 @@ const SMALLEST_BODY: i64 = 256;
 enum Ability {
     /// Mode A: amplitudes
     A,
-    /// Mode B: samples
-    B,
     /// One channel alone
     Ident,
     /// Amplitudes that move linearly inside a tick
@@ -25,7 +23,6 @@ impl Ability {
     fn bit(self) -> u16 {
         match self {
             Self::A => Caps::MODE_A,
-            Self::B => Caps::MODE_B,
             Self::Ident => Caps::MODE_IDENT,
             Self::Interpolate => Caps::INTERPOLATES,
         }
@@ -35,7 +32,7 @@ impl Ability {
 /// What the device can. What every device can, and IDENT, unless more is asked for.
 #[derive(Debug, Args)]
 pub(super) struct AbilityArgs {
-    /// What the device offers: a, b (samples), ident, interpolate
+    /// What the device offers: a, ident, interpolate
     #[arg(
         long,
         value_name = "MODES",
@@ -85,8 +82,8 @@ mod tests {
     #[test]
     fn a_device_can_what_every_device_can_unless_more_is_asked_for() {
         assert_eq!(model(&[]).unwrap(), DeviceModel::default());
-        let able = model(&["--modes", "a,b,interpolate", "--max-body", "1024"]).unwrap();
-        let modes = Caps::MODE_A | Caps::MODE_B | Caps::INTERPOLATES;
+        let able = model(&["--modes", "a,interpolate", "--max-body", "1024"]).unwrap();
+        let modes = Caps::MODE_A | Caps::INTERPOLATES;
         assert_eq!((able.modes, able.max_body), (modes, 1024));
     }
 

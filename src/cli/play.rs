@@ -22,7 +22,7 @@ use selvedge_device::{
     ArrayProfile, Bridge, BridgeError, BridgeEvent, BridgeState, DisarmedBy, SessionLog,
     StopHandle, StopHow, Target, fault_bit,
 };
-use selvedge_engine::{DeviceWaveform, Notice, PreparedScene};
+use selvedge_engine::{Notice, PreparedScene};
 use selvedge_render::scene::LoadedScene;
 
 /// How long to wait for the device before something is said of it: it is polled this often.
@@ -50,9 +50,6 @@ pub(super) struct PlayArgs {
     /// Sound card to play on instead, one channel a contactor: its name or a part of it
     #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "log", "session_log"])]
     audio: Option<String>,
-    /// Send the drive waveform (mode B) instead of amplitudes, to a device that plays samples
-    #[arg(long, conflicts_with = "audio")]
-    samples: bool,
     #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]
     array: Option<Box<ArrayProfile>>,
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
@@ -92,9 +89,6 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         (port, None) => port.clone().unwrap_or_default(),
     };
     let mut player = Player::open(port, profile, moving, log);
-    if args.samples {
-        player.play_samples();
-    }
     if let Some(session_log) = &session_log {
         let feed = session_log.feed(player.bridge.target());
         player.bridge.log_to(feed);
@@ -146,8 +140,6 @@ struct Player {
     n_missed: u64,
     n_bad_lines: u64,
     has_ended: bool,
-    /// Whether the device must play samples.
-    wants_samples: bool,
 }
 
 impl Player {
@@ -170,15 +162,7 @@ impl Player {
             n_missed: 0,
             n_bad_lines: 0,
             has_ended: false,
-            wants_samples: false,
         }
-    }
-
-    /// Before anything is heard: mode B, or not at all.
-    fn play_samples(&mut self) {
-        self.wants_samples = true;
-        self.bridge
-            .prefer_samples(Box::new(DeviceWaveform::default()));
     }
 
     /// Handshake, arming, and the path to its end or until `stop` is set.
@@ -247,13 +231,6 @@ impl Player {
                 }
                 if let Some(doubt) = array::doubt(self.moving.core.scene().profile(), &caps) {
                     terminal::notice(&self.of_target(&doubt));
-                }
-            }
-            BridgeEvent::Ready(_) => {
-                let missing = self.bridge.no_samples();
-                if let Some(why) = missing.filter(|_| self.wants_samples) {
-                    let what = format!("{why}: play without --samples");
-                    return Err(CliError::Input(self.of_target(&what)));
                 }
             }
             BridgeEvent::Fault(fault) => {
@@ -336,7 +313,6 @@ impl Player {
                 .map_or(Duration::ZERO, |started| started.elapsed()),
             n_frames: self.n_frames,
             n_missed: self.n_missed,
-            stream: self.bridge.sample_stream(),
             n_bad_lines: self.n_bad_lines,
             input: (self.moving.core.input_rate(), self.moving.core.losses()),
             counters: self.bridge.counters(),

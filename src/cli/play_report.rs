@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use selvedge_device::{BridgeCounters, SampleStream, Spread, Timings};
+use selvedge_device::{BridgeCounters, Spread, Timings};
 use selvedge_engine::{InputLosses, InputRate};
 use selvedge_foundation::quantity::{fixed, time_span};
 
@@ -18,8 +18,6 @@ pub(super) struct PlayReport {
     pub(super) n_frames: u64,
     /// Device ticks that found no frame of ours because we came too late.
     pub(super) n_missed: u64,
-    /// How samples were sent; `None` where amplitudes were.
-    pub(super) stream: Option<SampleStream>,
     /// Lines of the stream that were no position.
     pub(super) n_bad_lines: u64,
     /// How steadily positions came, and what was lost of them.
@@ -56,18 +54,6 @@ impl fmt::Display for PlayReport {
             "ticks             missed {}, late {}, underruns {}",
             self.n_missed, device.late, device.underrun
         )?;
-        if let Some(stream) = &self.stream {
-            writeln!(
-                f,
-                "samples           {} Hz in {} packets of at most {}, ring {} ms here and {} ms in \
-                 the device",
-                stream.rate_hz,
-                self.counters.samples_sent,
-                stream.per_packet,
-                stream.ring_ms,
-                stream.device_ring_ms
-            )?;
-        }
         let codes = &self.counters.codes;
         let limited = codes.limited[0] + codes.limited[1];
         writeln!(
@@ -109,12 +95,6 @@ mod tests {
             duration: Duration::from_millis(2025),
             n_frames: 81,
             n_missed: 1,
-            stream: Some(SampleStream {
-                rate_hz: 8000,
-                per_packet: 21,
-                ring_ms: 75,
-                device_ring_ms: 100,
-            }),
             n_bad_lines: 2,
             input: (
                 InputRate {
@@ -133,9 +113,6 @@ mod tests {
         let text = report.to_string();
         assert!(text.starts_with("./array: 81 frames in 2.0"), "{text}");
         assert!(text.contains("missed 1, late 0, underruns 0"), "{text}");
-        let samples =
-            "samples           8000 Hz in 0 packets of at most 21, ring 75 ms here and 100";
-        assert!(text.contains(samples), "{text}");
         let positions = "positions         200.0 Hz, jitter 0.4 ms, gaps 3, dropped 4";
         assert!(text.contains(positions), "{text}");
         assert!(text.contains("lines dropped     2"), "{text}");

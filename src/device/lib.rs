@@ -59,25 +59,24 @@ pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wir
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    SampleCount, SampledTick, Sense,
+    Sense,
 };
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use error::{BridgeError, SinkError};
 pub use frames::FrameTable;
 pub use framing::{Decoder, LARGEST_BODY, Packet, Received};
-pub use handle::{Bridge, SampleStream, Target};
+pub use handle::{Bridge, Target};
 pub use hjif::{HjifSpec, HjifWriter};
 pub use host::HostSession;
 pub use host::{
     ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DisarmedBy, SentFrame,
-    Waveform,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, Arm, Caps, Clear, Config, DeviceCounters, DeviceMessage, DeviceState, Fault, Hello, Ident,
     LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable,
-    fault_bit, frame, kind, samples,
+    fault_bit, frame, kind,
 };
 pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,

@@ -41,7 +41,6 @@ mod sample;
 mod snapshot;
 mod snapshot_summary;
 mod stop;
-mod synth;
 mod tap;
 mod tick_sample;
 mod track;
@@ -70,7 +69,6 @@ pub use snapshot::{
     RenderingView, Snapshot,
 };
 pub use stop::StopSwitch;
-pub use synth::DeviceWaveform;
 pub use tap::Tap;
 pub use tick_sample::TickSample;
 pub use velocity::{Estimate, VelocityEstimator, VelocityMethod};

@@ -12,7 +12,6 @@ mod bridge_arrays;
 mod bridge_device;
 mod bridge_end_to_end;
 mod bridge_faults;
-mod bridge_samples;
 mod commands;
 mod experiment;
 mod experiment_analyse;

@@ -9,9 +9,6 @@ impl DeviceCore {
     /// One step of the safety clock.
     pub(super) fn step_ms(&mut self, sink: &mut impl DeviceSink) {
         self.check_lease(sink);
-        if self.state.is_live() && self.plays_samples() {
-            self.play_samples(sink);
-        }
         if self
             .output
             .ident
@@ -68,7 +65,6 @@ impl DeviceCore {
     /// Zero output, empty queue, disarmed, high voltage off, and on to `state`.
     pub(super) fn silence(&mut self, state: DeviceState) {
         self.output.reset(self.config.ramp_ms);
-        self.samples.reset(self.now_us);
         self.queue.clear();
         self.descent = None;
         self.state = state;
@@ -84,14 +80,9 @@ impl DeviceCore {
     pub(super) fn step_tick(&mut self, sink: &mut impl DeviceSink) {
         self.output.settle();
         if self.state.is_live() && self.descent.is_none() {
-            if self.plays_samples() {
-                self.count_missing_samples();
-            } else {
-                self.apply_frame(sink);
-            }
+            self.apply_frame(sink);
         }
         self.check_current(sink);
-        self.report_samples(sink);
         self.report_change(sink);
         if self
             .session

@@ -12,8 +12,6 @@ mod model;
 mod output;
 mod queue;
 mod requests;
-mod sample_ring;
-mod samples;
 mod sense;
 mod sink;
 mod trouble;
@@ -25,9 +23,8 @@ pub use lie::{Lie, Miswiring};
 pub use model::DeviceModel;
 use output::{OutputStage, TICK};
 use queue::FrameQueue;
-use sample_ring::SampleRing;
 pub use sense::{Load, Sense};
-pub use sink::{AppliedFrame, DeviceSink, Moment, SampleCount, SampledTick};
+pub use sink::{AppliedFrame, DeviceSink, Moment};
 
 const MS_US: u64 = 1000;
 const FAULT_PERIOD_US: u64 = 100_000;
@@ -71,7 +68,6 @@ pub struct DeviceCore {
     config: Config,
     output: OutputStage,
     queue: FrameQueue,
-    samples: SampleRing,
     scratch: Vec<[u16; 2]>,
     counters: CoreCounters,
     /// When the last FRAME was accepted; none since ARM or HELLO is `None`.
@@ -109,7 +105,6 @@ impl DeviceCore {
             config: nothing,
             output: OutputStage::new(n_channels),
             queue: FrameQueue::new(model.queue, n_channels),
-            samples: SampleRing::new(model.queue, n_channels),
             scratch: vec![[0; 2]; n_channels],
             counters: CoreCounters::default(),
             last_frame_us: None,
@@ -173,7 +168,6 @@ impl DeviceCore {
         let next_tick = (self.now_us / TICK + 1) * TICK;
         let moving = self.descent.is_some()
             || self.output.ident.is_some()
-            || (self.state.is_live() && self.plays_samples())
             || (self.state.is_live() && !self.output.is_gain_full());
         if moving {
             return Some(next_ms);
@@ -188,23 +182,17 @@ impl DeviceCore {
     }
 
     /// Output codes at this moment, `[40 Hz, 320 Hz]` per channel, everything applied, wiring
-    /// faults too. In mode B twice the size of the present sample, as if it were all of the first.
+    /// faults too.
     pub fn output(&self) -> Vec<[u16; 2]> {
         let mut codes = vec![[0; 2]; self.model.n_channels()];
-        if self.state.is_live() && self.plays_samples() {
-            self.write_samples_to(&mut codes);
-            self.model.wiring.connect(&mut codes);
-        } else {
-            self.write_output(&mut codes);
-        }
+        self.write_output(&mut codes);
         codes
     }
 
-    /// Writes [`output`](Self::output) to codes that are there already; silence in mode B, where
-    /// no amplitudes are.
+    /// Writes [`output`](Self::output) to codes that are there already.
     pub(crate) fn write_output(&self, codes: &mut [[u16; 2]]) {
         codes.fill([0; 2]);
-        if self.state.is_live() && !self.plays_samples() {
+        if self.state.is_live() {
             self.output.write_to(codes);
             self.model.wiring.connect(codes);
         }
@@ -263,9 +251,7 @@ impl DeviceCore {
     }
 
     fn amp_sum(&self) -> u32 {
-        if self.state.is_live() && self.plays_samples() {
-            self.sample_sum()
-        } else if self.state.is_live() {
+        if self.state.is_live() {
             self.output.amp_sum()
         } else {
             0
@@ -284,7 +270,7 @@ impl DeviceCore {
                 .and_then(|session| session.last_seq)
                 .unwrap_or(0),
             state: self.state.code(),
-            queued: self.queue.len() + self.samples.waiting_ticks(),
+            queued: self.queue.len(),
             underrun: self.counters.underrun,
             late: self.counters.late,
             dup: self.counters.dup,

@@ -6,7 +6,7 @@ use crate::codes::ArrayProfile;
 use crate::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::message::{Caps, Config, MAGIC, TICK_US, frame};
 
-/// Samples a second of its converters, and of mode B.
+/// Samples a second of its converters.
 pub(super) const SAMPLE_HZ: u16 = 8000;
 
 /// Build-time properties of a device; the default is a 6 × 4 array with plain capabilities.
@@ -116,11 +116,7 @@ impl DeviceModel {
         let hold_ms = wish.hold_ms.min(100);
         let all = crate::message::ChannelMask::first(self.n_channels());
         Config {
-            mode: if self.modes & Caps::MODE_B != 0 && wish.mode == Config::SAMPLES {
-                Config::SAMPLES
-            } else {
-                Config::AMPLITUDES
-            },
+            mode: Config::AMPLITUDES,
             flags: if self.modes & Caps::INTERPOLATES == 0 {
                 0
             } else {

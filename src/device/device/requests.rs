@@ -3,7 +3,7 @@
 
 use super::lie::caps_packet;
 use super::output::{IdentDrive, allow};
-use super::{DeviceCore, DeviceSink, MS_US, Session, sample_ring};
+use super::{DeviceCore, DeviceSink, MS_US, Session};
 use crate::fields::wrapped_u32;
 use crate::framing::Received;
 use crate::message::{
@@ -13,6 +13,8 @@ use crate::message::{
 
 const DEFAULT_LEASE_MS: u16 = 1000;
 const LONGEST_IDENT_MS: u16 = 1000;
+/// Bytes of a SAMPLES payload before its samples.
+const SAMPLES_HEAD_LEN: usize = 8;
 
 /// What a packet leads to, beside its effect.
 pub(super) enum Answer {
@@ -60,10 +62,7 @@ impl DeviceCore {
             kind::STOP => Stop::decode(payload).map(|stop| Answer::Ack(self.stop(stop))),
             kind::PING => Ping::decode(payload).map(|ping| self.pong(ping, sink)),
             kind::CLEAR => Clear::decode(payload).map(|clear| Answer::Ack(self.clear(clear))),
-            kind::SAMPLES if payload.len() < sample_ring::HEAD_LEN => None,
-            kind::SAMPLES if self.model.modes & Caps::MODE_B != 0 => {
-                Some(self.take_samples(payload))
-            }
+            kind::SAMPLES if payload.len() < SAMPLES_HEAD_LEN => None,
             kind::IDENT => Ident::decode(payload).map(|ident| Answer::Ack(self.ident(ident))),
             _ => Some(Answer::Ack(AckCode::UnknownType)),
         };
@@ -154,9 +153,6 @@ impl DeviceCore {
         if self.state == DeviceState::Fault {
             return Answer::Ack(AckCode::Faulted);
         }
-        if self.plays_samples() {
-            return Answer::Ack(AckCode::WrongState);
-        }
         let live = self.state.is_live() && self.descent.is_none();
         let Some(session) = self.session.as_mut().filter(|_| live) else {
             return Answer::Ack(AckCode::WrongState);
@@ -199,7 +195,6 @@ impl DeviceCore {
     /// Disarms at once; a ramp only where there is output to ramp.
     fn stop(&mut self, stop: Stop) -> AckCode {
         self.queue.clear();
-        self.samples.clear();
         let after = self.descent.unwrap_or(DeviceState::Ready);
         match self.state {
             DeviceState::Idle | DeviceState::Fault => {}

@@ -14,34 +14,6 @@ pub struct AppliedFrame<'a> {
     pub codes: &'a [[u16; 2]],
 }
 
-/// A tick in mode B, at its end: which samples came during it, and how loud those were that played.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampledTick<'a> {
-    /// The moment of its end, output included.
-    pub moment: Moment,
-    /// Counts.
-    pub count: SampleCount,
-    /// The largest sample that was played, as twice its size per channel, everything applied.
-    pub peaks: &'a [u16],
-}
-
-/// What became of samples during a tick; samples are counted once for all channels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SampleCount {
-    /// SAMPLES packets that were accepted.
-    pub packets: u16,
-    /// Samples in them.
-    pub received: u32,
-    /// Of those, samples whose time was over.
-    pub late: u32,
-    /// Values that were above their limit.
-    pub clipped: u16,
-    /// Samples that were played.
-    pub played: u32,
-    /// Samples that repeated the last one because they had not come.
-    pub missing: u32,
-}
-
 /// The device at one instant of its own clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
@@ -67,10 +39,6 @@ pub trait DeviceSink {
     fn packet(&mut self, bytes: &[u8]);
     /// A FRAME took effect.
     fn applied(&mut self, _frame: &AppliedFrame<'_>) {}
-    /// Mode B: these samples were played, interleaved, everything applied.
-    fn played(&mut self, _first: u64, _samples: &[i16]) {}
-    /// Mode B: a tick in which samples came or were played is over.
-    fn sampled(&mut self, _tick: &SampledTick<'_>) {}
     /// The state changed.
     fn changed(&mut self, _moment: &Moment) {}
     /// A step of the 1 ms clock is done; what the device puts out now holds until the next.

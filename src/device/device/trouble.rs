@@ -12,10 +12,9 @@ impl DeviceCore {
     }
 
     /// The supply current that STATUS tells, mA: what amplifiers take for the codes of this moment,
-    /// 0 where the model has none, and in mode B, where it is not measured.
+    /// 0 where the model has none.
     pub(super) fn measured_ma(&self) -> u16 {
-        let is_playing = self.state.is_live() && !self.plays_samples();
-        let load = self.model.load.filter(|_| is_playing);
+        let load = self.model.load.filter(|_| self.state.is_live());
         let taken = load.map_or(0.0, |load| {
             let dead = &self.model.wiring.dead;
             let channels = (0..self.model.n_channels()).zip(0_u16..);

@@ -3,9 +3,7 @@
 //!
 //! `dev_us,tick,event,state,seq,age_ms,gain,amp_sum,a40_0,a320_0,…`. A `frame` row carries the
 //! codes as received; a `state` row has no seq and no codes, nor has a row of an injected fault,
-//! whose event begins with `fault`. In mode B a row of a tick begins with `samples` and counts what
-//! came and what played; where codes are it has twice the largest sample, all of it under `a40`.
-//! `gain` is the hold and ramp gain, `amp_sum` the sum of the
+//! whose event begins with `fault`. `gain` is the hold and ramp gain, `amp_sum` the sum of the
 //! output codes from then on.
 
 use std::fs::File;
@@ -13,7 +11,7 @@ use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::BridgeError;
-use crate::device::{AppliedFrame, Moment, SampleCount, SampledTick};
+use crate::device::{AppliedFrame, Moment};
 use crate::wire::Injection;
 
 /// A log being written. The first error is kept and given by [`finish`](Self::finish).
@@ -49,27 +47,6 @@ impl DeviceLog {
         self.moment("frame", &frame.moment, Some(frame.seq));
         for [code_40, code_320] in frame.codes {
             self.text(format_args!(",{code_40},{code_320}"));
-        }
-        self.end_line();
-    }
-
-    /// A tick of samples is over (mode B).
-    pub(crate) fn samples(&mut self, tick: &SampledTick<'_>) {
-        let SampleCount {
-            packets,
-            received,
-            late,
-            clipped,
-            played,
-            missing,
-        } = tick.count;
-        let event = format!(
-            "samples packets={packets} received={received} late={late} clipped={clipped} \
-             played={played} missing={missing}"
-        );
-        self.moment(&event, &tick.moment, None);
-        for peak in tick.peaks {
-            self.text(format_args!(",{peak},"));
         }
         self.end_line();
     }

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use super::BridgeError;
 use super::actuator_model::ActuatorFeed;
-use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment, SampledTick};
+use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
 use super::port::{PairPort, Port, pair};
 use super::wire::{Faults, Injection, WireSink, WiredDevice};
 pub(crate) use log::DeviceLog;
@@ -173,12 +173,6 @@ impl DeviceSink for LiveSink<'_> {
     fn applied(&mut self, frame: &AppliedFrame<'_>) {
         if let Some(log) = &mut self.log {
             log.frame(frame);
-        }
-    }
-
-    fn sampled(&mut self, tick: &SampledTick<'_>) {
-        if let Some(log) = &mut self.log {
-            log.samples(tick);
         }
     }
 

@@ -6,7 +6,6 @@
 
 mod array;
 mod notes;
-mod samples;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
@@ -27,8 +26,6 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
-pub use samples::SampleStream;
-use samples::Sampling;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -89,7 +86,6 @@ pub struct Bridge {
     session: HostSession,
     link: Option<Link>,
     actuators: Option<ActuatorWatch>,
-    sampling: Option<Sampling>,
     notes: Notes,
 }
 
@@ -127,7 +123,6 @@ impl Bridge {
             session,
             link,
             actuators,
-            sampling: None,
             notes: Notes::default(),
         }
     }
@@ -136,9 +131,6 @@ impl Bridge {
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
         let event = self.next();
-        if matches!(event, Some(BridgeEvent::Ready(_))) {
-            self.open_samples();
-        }
         self.heed(event.as_ref());
         event
     }
@@ -209,8 +201,7 @@ impl Bridge {
         self.flush();
     }
 
-    /// Sends one FRAME for the coming tick, limits and soft start applied, or the samples of that
-    /// tick where they are played; `None` unless armed.
+    /// Sends one FRAME for the coming tick, limits and soft start applied; `None` unless armed.
     ///
     /// `amplitudes_um` are `[A40, A320]` in µm in contactor order. `stamp` is the time of the input
     /// that they follow from, for [`timings`](Self::timings). Neither allocates, locks nor waits.
@@ -219,9 +210,6 @@ impl Bridge {
         amplitudes_um: &[[f32; 2]],
         stamp: Option<Instant>,
     ) -> Option<SentFrame> {
-        if self.session.plays_samples() {
-            return self.send_samples(amplitudes_um, stamp);
-        }
         let link = self.link.as_mut()?;
         let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
         link.send_frame(&QueuedFrame {

@@ -4,26 +4,20 @@ use std::time::Instant;
 
 use super::reported::Reported;
 use crate::codes::{ArrayProfile, Coder};
-use crate::message::{Caps, ChannelMask, Config, LARGEST_CHANNELS, TICK_US, samples};
+use crate::message::{ChannelMask, Config, LARGEST_CHANNELS};
 
 /// Ticks of the linear soft start after ARM.
 pub(crate) const SOFT_START_TICKS: u32 = 20;
-/// Ticks that a device's ring must hold: one that plays, one that comes, and what is under way.
-const MIN_RING_TICKS: u8 = 3;
 
 /// What makes codes of amplitudes, and for which ticks it did.
 #[derive(Debug)]
 pub(super) struct Drive {
     pub(super) profile: ArrayProfile,
     pub(super) n_contactors: usize,
-    /// Whether samples are sent where the device plays them.
-    pub(super) prefers_samples: bool,
     pub(super) coder: Coder,
     pub(super) codes: Vec<[u16; 2]>,
     /// The first tick that a frame was made for since ARM.
     pub(super) first_apply_tick: Option<u32>,
-    /// The last tick whose samples were made since ARM (mode B).
-    pub(super) last_played_tick: Option<u32>,
     /// When the answer to the last STATUS is due; taken by the frame that is it.
     pub(super) due: Option<Instant>,
 }
@@ -35,9 +29,7 @@ impl Drive {
             codes: vec![[0; 2]; n_contactors.min(LARGEST_CHANNELS)],
             profile,
             n_contactors,
-            prefers_samples: false,
             first_apply_tick: None,
-            last_played_tick: None,
             due: None,
         }
     }
@@ -45,7 +37,6 @@ impl Drive {
     /// ARM goes out: the soft start begins anew.
     pub(super) fn begin(&mut self) {
         self.first_apply_tick = None;
-        self.last_played_tick = None;
     }
 
     /// Makes the codes of a frame for a tick; gives the soft-start gain that they contain.
@@ -63,7 +54,7 @@ impl Drive {
             .map_or((0, [0; 2]), |caps| (caps.hv_max_dv, caps.comp_limit));
         let wanted = self.coder.comp_limit();
         Config {
-            mode: self.mode(device),
+            mode: Config::AMPLITUDES,
             flags: 0,
             hold_ms: self.profile.hold_ms,
             ramp_ms: self.profile.ramp_ms,
@@ -71,32 +62,6 @@ impl Drive {
             hv_dv: self.profile.hv_dv.min(hv_max_dv),
             comp_limit: [0, 1].map(|band| wanted[band].min(max[band])),
             mask: ChannelMask::first(self.n_contactors),
-        }
-    }
-
-    /// What to ask for: samples only where they can be played.
-    fn mode(&self, device: &Reported) -> u8 {
-        let can = device.caps.is_some_and(|caps| self.lack(&caps).is_none());
-        if self.prefers_samples && can {
-            Config::SAMPLES
-        } else {
-            Config::AMPLITUDES
-        }
-    }
-
-    /// What a device lacks for samples.
-    pub(super) fn lack(&self, caps: &Caps) -> Option<&'static str> {
-        let ticks_are_whole = u64::from(caps.sample_hz) * u64::from(TICK_US) % 1_000_000 == 0;
-        if caps.modes & Caps::MODE_B == 0 {
-            Some("the device offers no mode B (samples)")
-        } else if caps.sample_hz == 0 || !ticks_are_whole {
-            Some("a tick of the device is no whole number of samples")
-        } else if caps.queue < MIN_RING_TICKS {
-            Some("the device's ring holds fewer than three ticks of samples")
-        } else if samples::most(caps.max_body, self.n_contactors) == 0 {
-            Some("the device's packets have no room for a sample of every channel")
-        } else {
-            None
         }
     }
 }

@@ -19,9 +19,6 @@ impl HostSession {
         now: Instant,
         amplitudes_um: &[[f32; 2]],
     ) -> Option<(SentFrame, Packet)> {
-        if self.plays_samples() {
-            return None;
-        }
         let seq = self.outbox.sequence.next();
         let sent = self.prepare(now, seq, amplitudes_um)?;
         let packet = frame::packet(seq, sent.apply_tick, &self.drive.codes)?;
@@ -45,9 +42,7 @@ impl HostSession {
         self.outbox.last_sent = Some(now);
         let due = self.drive.due.take().map(|due| due.min(now));
         if let Some(due) = due {
-            let by_tick = self.plays_samples();
-            let name = if by_tick { apply_tick } else { seq.into() };
-            self.evidence.sent(name, due);
+            self.evidence.sent(seq, due);
         }
         Some(SentFrame {
             seq,

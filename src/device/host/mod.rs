@@ -19,7 +19,6 @@ mod pending;
 mod replies;
 mod report;
 mod reported;
-mod samples;
 mod timers;
 
 use std::collections::VecDeque;
@@ -29,7 +28,9 @@ use std::time::{Duration, Instant};
 
 use super::codes::{ArrayProfile, LimiterState};
 use super::framing::Packet;
-use super::message::{Arm, Caps, Clear, Config, Message as _, Ping, Status, Stop, StopHow, kind};
+use super::message::{
+    Arm, Caps, Clear, Config, Hello, Message as _, Ping, Status, Stop, StopHow, kind,
+};
 use super::session_log::{Entry, Note};
 pub use array::ArrayChange;
 pub use clock::ClockFit;
@@ -41,9 +42,6 @@ use notes::Notes;
 use pending::{Identifying, Pending, Pings, Presence};
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DisarmedBy, SentFrame};
 use reported::Reported;
-pub(crate) use samples::CutSamples;
-pub(super) use samples::MAX_TICKS;
-pub use samples::Waveform;
 
 const MAX_EVENTS: usize = 64;
 const MAX_PACKETS: usize = 16;
@@ -330,7 +328,11 @@ impl HostSession {
         request.sent(seq, now);
         self.note(now, self.note_of(request.kind()));
         let packet = match request.kind() {
-            kind::HELLO => self.hello().packet(seq),
+            kind::HELLO => Hello {
+                host_flags: Hello::WANT_STATUS | Hello::WANT_LOG,
+                ..Hello::new(self.nonce)
+            }
+            .packet(seq),
             kind::CONFIG => self
                 .drive
                 .wanted_config(&self.device)

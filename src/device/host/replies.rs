@@ -11,7 +11,7 @@ use crate::array::DeviceUid;
 use crate::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
 };
-use crate::session_log::{DelaySource, Note};
+use crate::session_log::Note;
 
 /// A line of the device's clock that moved further than this makes what was measured by it void.
 const MOVED: Duration = Duration::from_millis(1);
@@ -170,7 +170,7 @@ impl HostSession {
         let earliest = received.checked_sub(TICK).unwrap_or(received);
         let start = start.max(earliest);
         self.device.tick_start = Some(start);
-        self.learn_from_status(received, start, status);
+        self.learn_from_status(start, status);
     }
 
     fn latch(&mut self, now: Instant, lost: [u64; 2]) {
@@ -219,30 +219,9 @@ impl HostSession {
     }
 
     /// A tick began at `start`, and its STATUS says what the device had by then.
-    fn learn_from_status(&mut self, now: Instant, start: Instant, status: &Status) {
-        let (delay, source) = if self.plays_samples() {
-            let delay = self.evidence.delay_of_samples(start, status);
-            (delay, DelaySource::Ring)
-        } else {
-            let delay = self.evidence.delay_of_frame(start, status);
-            (delay, DelaySource::LastSeq)
-        };
-        if let Some(delay) = delay {
-            self.learn(now, delay, source);
-        }
-    }
-
-    /// A PING was answered; a ring that tells says more.
-    fn learn_from_answer(&mut self, now: Instant, round_trip: Duration) {
-        if self.plays_samples() && self.state.takes_frames() && !self.evidence.knows_ring() {
-            self.learn(now, round_trip, DelaySource::RoundTrips);
-        }
-    }
-
-    fn learn(&mut self, now: Instant, delay: Duration, source: DelaySource) {
-        self.latching.accepted(delay);
-        if self.evidence.is_new_source(source) {
-            self.note(now, Note::Delays(source));
+    fn learn_from_status(&mut self, start: Instant, status: &Status) {
+        if let Some(delay) = self.evidence.delay_of_frame(start, status) {
+            self.latching.accepted(delay);
         }
     }
 
@@ -257,7 +236,6 @@ impl HostSession {
                 // What was measured by the old line is wrong by as much.
                 self.latching.forget();
             }
-            self.learn_from_answer(received, round_trip);
             self.event(BridgeEvent::Pong {
                 round_trip,
                 phase_us: pong.phase_us,

@@ -168,12 +168,9 @@ pub struct BridgeCounters {
     pub device: DeviceCounters,
     /// Amplitudes that had to be changed before they became codes.
     pub codes: CodeCounters,
-    /// Frames written to the port; in mode B whole ticks of samples.
+    /// Frames written to the port.
     pub frames_sent: u64,
-    /// SAMPLES packets written to the port (mode B).
-    pub samples_sent: u64,
-    /// Frames that a newer one replaced, or a STOP discarded, before they were written; in mode B
-    /// ticks of samples without room or after their time.
+    /// Frames that a newer one replaced, or a STOP discarded, before they were written.
     pub frames_superseded: u64,
     /// Frames that the device answered with a refusal.
     pub frames_rejected: u64,

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::clock::TICK;
 use crate::array::DeviceUid;
-use crate::message::{Caps, Config, DeviceCounters, Status, TICK_US, samples};
+use crate::message::{Caps, Config, DeviceCounters, Status};
 
 /// Everything that is known of the device by its own word.
 #[derive(Debug, Default)]
@@ -20,12 +20,6 @@ pub(super) struct Reported {
 }
 
 impl Reported {
-    /// Whether the device plays samples (mode B): its CFG says so.
-    pub(super) fn plays_samples(&self) -> bool {
-        self.config
-            .is_some_and(|config| config.mode == Config::SAMPLES)
-    }
-
     /// The device's tick now: that of the last STATUS plus whole ticks since it began.
     pub(super) fn present_tick(&self, now: Instant) -> u32 {
         let tick = self.status.map_or(0, |status| status.tick);
@@ -45,26 +39,8 @@ impl Reported {
         start.saturating_duration_since(now)
     }
 
-    /// The most samples for each of `n_channels` that one packet takes.
-    pub(super) fn samples_per_packet(&self, n_channels: usize) -> usize {
-        let max_body = self.caps.map_or(0, |caps| caps.max_body);
-        samples::most(max_body, n_channels)
-    }
-
-    /// Samples of a channel in a tick.
-    pub(super) fn samples_per_tick(&self) -> u32 {
-        let rate_hz = self.caps.map_or(0, |caps| u32::from(caps.sample_hz));
-        rate_hz / (1_000_000 / TICK_US)
-    }
-
-    /// How many ticks ahead may be sent: a ring keeps room for the tick that plays, so that the
-    /// last sample of a tick always finds a place.
+    /// How many ticks ahead may be sent.
     pub(super) fn deepest(&self) -> u8 {
-        let queue = self.caps.map_or(1, |caps| caps.queue);
-        if self.plays_samples() {
-            queue.saturating_sub(2)
-        } else {
-            queue
-        }
+        self.caps.map_or(1, |caps| caps.queue)
     }
 }

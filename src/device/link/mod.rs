@@ -3,9 +3,8 @@
 //!
 //! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped
 //! and counted: STATUS repeats itself, requests are repeated). Towards the port there are three
-//! ways, in this order: the STOP slot, a ring of control packets, then what is to be felt: a ring
-//! of frames of which only the newest is written, or in mode B a ring of samples that are written
-//! in turn. A STOP empties the others, so that nothing queued earlier can follow it. What the
+//! ways, in this order: the STOP slot, a ring of control packets, then a ring of frames of which
+//! only the newest is written. A STOP empties the others, so that nothing queued earlier can follow it. What the
 //! messages mean is the session's business.
 
 mod reader;
@@ -33,8 +32,6 @@ use writer::{Outgoing, Writer};
 const INCOMING: usize = 256;
 const CONTROLS: usize = 16;
 const FRAMES: usize = 4;
-/// Ticks of samples that wait for the port at most: 75 ms.
-pub(super) const SAMPLE_TICKS: usize = 3;
 
 /// The reading and the writing end of an open port.
 pub(super) type Ends = (Box<dyn Port>, Box<dyn Port>);
@@ -67,16 +64,6 @@ pub(super) struct QueuedFrame {
     pub(super) stamp: Option<Instant>,
 }
 
-/// A SAMPLES packet on its way to the port.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct QueuedSamples {
-    pub(super) frame: QueuedFrame,
-    /// The last of its tick: with it a whole frame is written.
-    pub(super) ends_tick: bool,
-    /// When its tick is over, and it is worth nothing any more.
-    pub(super) until: Instant,
-}
-
 /// What owner, threads and stop handles share. Only the STOP slot has a lock, held for the copy of
 /// one packet.
 struct Shared {
@@ -96,7 +83,6 @@ struct Shared {
     frame_interval: Histogram,
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
-    samples_sent: AtomicU64,
     bad_received: AtomicU64,
     events_dropped: AtomicU64,
     write_timeouts: AtomicU64,
@@ -120,7 +106,6 @@ impl Shared {
             frame_interval: Histogram::new(),
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
-            samples_sent: AtomicU64::new(0),
             bad_received: AtomicU64::new(0),
             events_dropped: AtomicU64::new(0),
             write_timeouts: AtomicU64::new(0),
@@ -181,9 +166,6 @@ pub(super) struct Link {
     failures: Consumer<String>,
     controls: Producer<Packet>,
     frames: Producer<QueuedFrame>,
-    /// The present ring of samples, and the way to give the writer another.
-    samples: Option<Producer<QueuedSamples>>,
-    rings: Producer<Consumer<QueuedSamples>>,
 }
 
 impl fmt::Debug for Link {
@@ -205,8 +187,7 @@ impl Link {
         let (failed, failures) = RingBuffer::new(FRAMES);
         let (controls, controls_out) = RingBuffer::new(CONTROLS);
         let (frames, frames_out) = RingBuffer::new(FRAMES);
-        let (rings, rings_out) = RingBuffer::new(FRAMES);
-        let outgoing = Outgoing::new(controls_out, frames_out, rings_out);
+        let outgoing = Outgoing::new(controls_out, frames_out);
         let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
         let reader = Reader::new(Arc::clone(&shared), to_owner, n_channels);
         let running = Running::new(&shared);
@@ -223,8 +204,6 @@ impl Link {
             failures,
             controls,
             frames,
-            samples: None,
-            rings,
         })
     }
 
@@ -255,37 +234,6 @@ impl Link {
         self.shared.unpark_writer();
     }
 
-    /// Makes a ring for [`SAMPLE_TICKS`] ticks of so many SAMPLES packets each; what the last one
-    /// holds is not written. False when the writer did not take the last ones yet. Allocates.
-    pub(super) fn open_samples(&mut self, packets_per_tick: usize) -> bool {
-        let (samples, out) = RingBuffer::new(SAMPLE_TICKS * packets_per_tick);
-        let is_given = self.rings.push(out).is_ok();
-        if is_given {
-            self.samples = Some(samples);
-        }
-        is_given
-    }
-
-    /// Whether so many SAMPLES packets find room; if not, they count as a frame that was dropped.
-    pub(super) fn has_room(&self, n_packets: usize) -> bool {
-        let slots = self.samples.as_ref().map_or(0, Producer::slots);
-        if slots < n_packets {
-            count(&self.shared.frames_superseded);
-        }
-        slots >= n_packets
-    }
-
-    /// Queues one SAMPLES packet; there is room when [`has_room`](Self::has_room) said so.
-    pub(super) fn send_samples(&mut self, samples: &QueuedSamples) {
-        let is_pushed = self
-            .samples
-            .as_mut()
-            .is_some_and(|ring| ring.push(*samples).is_ok());
-        if is_pushed {
-            self.shared.unpark_writer();
-        }
-    }
-
     /// A STOP that went out through a handle since the last call.
     pub(super) fn take_stop_by_handle(&self) -> Option<StopHow> {
         match self.shared.stop_by_handle.swap(0, Ordering::AcqRel) {
@@ -306,7 +254,6 @@ impl Link {
         BridgeCounters {
             frames_sent: get(&self.shared.frames_sent),
             frames_superseded: get(&self.shared.frames_superseded),
-            samples_sent: get(&self.shared.samples_sent),
             bad_received: get(&self.shared.bad_received),
             events_dropped: get(&self.shared.events_dropped),
             write_timeouts: get(&self.shared.write_timeouts),

@@ -3,7 +3,7 @@
 use std::io;
 
 use super::*;
-use crate::message::{Arm, Ping, frame, kind};
+use crate::message::{Arm, Ping, frame};
 
 /// A port that notes what is written, or fails as told.
 #[derive(Default)]
@@ -30,30 +30,27 @@ impl Port for Notes {
     }
 }
 
-struct PaneHost {
+struct Desk {
     link: Link,
     writer: Writer,
     port: Notes,
 }
 
-fn desk() -> PaneHost {
+fn desk() -> Desk {
     let shared = Arc::new(Shared::new(Sequence::default(), Arc::new(|| {})));
     let (_, incoming) = RingBuffer::new(INCOMING);
     let (failed, failures) = RingBuffer::new(FRAMES);
     let (controls, controls_out) = RingBuffer::new(CONTROLS);
     let (frames, frames_out) = RingBuffer::new(FRAMES);
-    let (rings, rings_out) = RingBuffer::new(FRAMES);
-    let outgoing = Outgoing::new(controls_out, frames_out, rings_out);
+    let outgoing = Outgoing::new(controls_out, frames_out);
     let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
-    PaneHost {
+    Desk {
         link: Link {
             shared,
             incoming,
             failures,
             controls,
             frames,
-            samples: None,
-            rings,
         },
         writer,
         port: Notes::default(),
@@ -70,7 +67,7 @@ fn queued(tick: u32) -> QueuedFrame {
     }
 }
 
-impl PaneHost {
+impl Desk {
     fn write_all(&mut self) {
         while self.writer.step(&mut self.port).is_some() {}
     }
@@ -186,81 +183,4 @@ fn rings_that_are_full_drop_and_count() {
     }
     desk.write_all();
     assert_eq!(desk.port.written.len(), CONTROLS);
-}
-
-/// A tick of samples in so many packets, worth something for this long.
-fn tick_of_samples(n_packets: u8, worth: Duration) -> Vec<QueuedSamples> {
-    let samples = |nth: u8| QueuedSamples {
-        frame: QueuedFrame {
-            packet: Packet::encode(kind::SAMPLES, u16::from(nth), &[nth; 8]).unwrap(),
-            ..queued(0)
-        },
-        ends_tick: nth + 1 == n_packets,
-        until: Instant::now() + worth,
-    };
-    (0..n_packets).map(samples).collect()
-}
-
-const LONG: Duration = Duration::from_hours(1);
-
-#[test]
-fn samples_are_written_in_turn_and_a_tick_of_them_counts_as_one_frame() {
-    let mut desk = desk();
-    assert!(!desk.link.has_room(1), "no ring yet");
-    assert!(desk.link.open_samples(4));
-    let tick = tick_of_samples(4, LONG);
-    for samples in &tick {
-        desk.link.send_samples(samples);
-    }
-    let ping = Ping { token: 1 }.packet(0).unwrap();
-    desk.link.send_control(&ping);
-    desk.write_all();
-    let mut wanted = vec![ping.as_bytes()];
-    wanted.extend(tick.iter().map(|samples| samples.frame.packet.as_bytes()));
-    assert_eq!(desk.port.written, wanted);
-    let counters = desk.link.counters();
-    assert_eq!((counters.samples_sent, counters.frames_sent), (4, 1));
-    assert_eq!(desk.link.timings().due_to_write.n, 1);
-}
-
-#[test]
-fn a_ring_holds_three_ticks_of_samples_and_says_when_there_is_no_room() {
-    let mut desk = desk();
-    assert!(desk.link.open_samples(4));
-    for _ in 0..2 {
-        assert!(desk.link.has_room(4));
-        for samples in &tick_of_samples(4, LONG) {
-            desk.link.send_samples(samples);
-        }
-    }
-    assert!(desk.link.has_room(4) && !desk.link.has_room(5));
-    assert_eq!(desk.link.counters().frames_superseded, 1);
-    desk.write_all();
-    assert!(desk.link.has_room(12));
-}
-
-#[test]
-fn samples_after_their_time_and_samples_before_a_stop_are_not_written() {
-    let mut desk = desk();
-    assert!(desk.link.open_samples(4));
-    for worth in [Duration::ZERO, LONG] {
-        for samples in &tick_of_samples(2, worth) {
-            desk.link.send_samples(samples);
-        }
-    }
-    desk.write_all();
-    assert_eq!(desk.port.written.len(), 2, "those of the second tick");
-    for samples in &tick_of_samples(4, LONG) {
-        desk.link.send_samples(samples);
-    }
-    let stop = Stop {
-        reason: 0,
-        how: StopHow::Ramp,
-    };
-    desk.link.send_stop(&stop.packet(9).unwrap());
-    desk.write_all();
-    assert_eq!(desk.port.written.len(), 3);
-    assert_eq!(desk.port.written[2], stop.packet(9).unwrap().as_bytes());
-    let counters = desk.link.counters();
-    assert_eq!((counters.frames_sent, counters.frames_superseded), (1, 2));
 }

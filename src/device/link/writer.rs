@@ -1,5 +1,4 @@
-//! The writer's thread: STOP first, then control packets, then the newest frame or the next
-//! samples; one packet a write.
+//! The writer's thread: STOP first, then control packets, then the newest frame; one packet a write.
 
 use std::io;
 use std::sync::Arc;
@@ -8,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer};
 
-use super::{QueuedFrame, QueuedSamples, Shared, count};
+use super::{QueuedFrame, Shared, count};
 use crate::framing::Packet;
 use crate::port::Port;
 
@@ -30,29 +29,11 @@ pub(super) enum Written {
 pub(super) struct Outgoing {
     controls: Consumer<Packet>,
     frames: Consumer<QueuedFrame>,
-    samples: Option<Consumer<QueuedSamples>>,
-    rings: Consumer<Consumer<QueuedSamples>>,
 }
 
 impl Outgoing {
-    pub(super) fn new(
-        controls: Consumer<Packet>,
-        frames: Consumer<QueuedFrame>,
-        rings: Consumer<Consumer<QueuedSamples>>,
-    ) -> Self {
-        Self {
-            controls,
-            frames,
-            samples: None,
-            rings,
-        }
-    }
-
-    fn next_samples(&mut self) -> Option<QueuedSamples> {
-        while let Ok(ring) = self.rings.pop() {
-            self.samples = Some(ring);
-        }
-        self.samples.as_mut()?.pop().ok()
+    pub(super) fn new(controls: Consumer<Packet>, frames: Consumer<QueuedFrame>) -> Self {
+        Self { controls, frames }
     }
 }
 
@@ -103,9 +84,6 @@ impl Writer {
         if let Ok(packet) = self.outgoing.controls.pop() {
             return Some(self.write(port, &packet));
         }
-        if let Some(samples) = self.timely_samples() {
-            return Some(self.write_samples(port, &samples));
-        }
         let frame = self.newest_frame()?;
         let written = self.write(port, &frame.packet);
         if written == Written::Yes {
@@ -118,9 +96,6 @@ impl Writer {
     fn discard(&mut self) {
         self.last_frame = None;
         while self.outgoing.controls.pop().is_ok() {}
-        while let Some(samples) = self.outgoing.next_samples() {
-            self.supersede(&samples);
-        }
         if self.newest_frame().is_some() {
             count(&self.shared.frames_superseded);
         }
@@ -133,36 +108,6 @@ impl Writer {
             newest = newer;
         }
         Some(newest)
-    }
-
-    /// The next samples whose tick is not over yet: a port that was stuck gets no old ones.
-    fn timely_samples(&mut self) -> Option<QueuedSamples> {
-        loop {
-            let samples = self.outgoing.next_samples()?;
-            if Instant::now() < samples.until {
-                return Some(samples);
-            }
-            self.supersede(&samples);
-        }
-    }
-
-    fn write_samples(&mut self, port: &mut dyn Port, samples: &QueuedSamples) -> Written {
-        let written = self.write(port, &samples.frame.packet);
-        if written == Written::Yes {
-            count(&self.shared.samples_sent);
-            if samples.ends_tick {
-                self.record(&samples.frame, Instant::now());
-            }
-        }
-        written
-    }
-
-    /// Samples that are not written: a tick of them counts as one frame.
-    fn supersede(&self, samples: &QueuedSamples) {
-        let n_frames = u64::from(samples.ends_tick);
-        self.shared
-            .frames_superseded
-            .fetch_add(n_frames, Ordering::Relaxed);
     }
 
     fn record(&mut self, frame: &QueuedFrame, written: Instant) {

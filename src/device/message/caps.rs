@@ -40,7 +40,7 @@ pub struct Caps {
     pub queue: u8,
     /// Resolution of its converters.
     pub dac_bits: u8,
-    /// Bit 0 mode A, bit 1 mode B, bit 2 IDENT, bit 3 interpolation.
+    /// Bit 0 mode A, bit 1 reserved, bit 2 IDENT, bit 3 interpolation.
     pub modes: u16,
     /// Drive peak in mV at code 65535.
     pub fs_mv: u32,
@@ -67,8 +67,6 @@ pub struct Caps {
 impl Caps {
     /// Bit of `modes`: amplitudes.
     pub const MODE_A: u16 = 1;
-    /// Bit of `modes`: samples.
-    pub const MODE_B: u16 = 1 << 1;
     /// Bit of `modes`: IDENT.
     pub const MODE_IDENT: u16 = 1 << 2;
     /// Bit of `modes`: amplitudes may move linearly inside a tick.

@@ -57,7 +57,7 @@ impl ChannelMask {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
-    /// 0: amplitudes (mode A); 1: samples (mode B).
+    /// 0: amplitudes (mode A), the only one.
     pub mode: u8,
     /// Bit 0: interpolate inside the tick.
     pub flags: u8,
@@ -78,8 +78,6 @@ pub struct Config {
 impl Config {
     /// `mode`: the device makes the carriers, the host sends amplitudes.
     pub(crate) const AMPLITUDES: u8 = 0;
-    /// `mode`: the host sends samples.
-    pub const SAMPLES: u8 = 1;
     /// Bit of `flags`: amplitudes move linearly inside a tick.
     pub(crate) const INTERPOLATE: u8 = 1;
 

@@ -190,35 +190,3 @@ pub mod frame {
         Some(apply_tick)
     }
 }
-
-/// SAMPLES: values of all channels that the host made (mode B). Free functions, because its length
-/// depends on the device.
-///
-/// ```text
-/// 0 first_sample u32 | 4 n u8 | 5 format u8 (0 = i16) | 6 reserved u16
-/// 8 interleaved i16, channel 0, 1, … of the first sample, then of the next
-/// ```
-pub mod samples {
-    use super::{FieldWriter, kind};
-    use crate::framing::{CRC_LEN, HEADER_LEN, Packet};
-
-    /// Samples for each channel that a packet holds at most, when its body may have so many bytes.
-    pub fn most(max_body: u16, n_channels: usize) -> usize {
-        let room = usize::from(max_body).saturating_sub(HEADER_LEN + 8 + CRC_LEN);
-        (room / (2 * n_channels.max(1))).min(usize::from(u8::MAX))
-    }
-
-    /// The framed packet; `None` when it holds no whole samples or more than a packet may.
-    pub fn packet(seq: u16, first: u32, n_channels: usize, values: &[i16]) -> Option<Packet> {
-        if n_channels == 0 || !values.len().is_multiple_of(n_channels) {
-            return None;
-        }
-        let n = u8::try_from(values.len() / n_channels).ok()?;
-        let mut fields = FieldWriter::new();
-        fields.u32(first).u8(n).u8(0).u16(0);
-        for value in values {
-            fields.i16(*value);
-        }
-        Packet::encode(kind::SAMPLES, seq, fields.finish()?)
-    }
-}

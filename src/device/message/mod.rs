@@ -15,7 +15,7 @@ pub(crate) use config::ChannelMask;
 pub use config::{Config, LARGEST_CHANNELS};
 pub use device::{Ack, DeviceCounters, DeviceMessage, Fault, LogText, Pong, Status, Unreadable};
 pub(crate) use host::{ARM_KEY, NEXT_TICK};
-pub use host::{Arm, Clear, Hello, Ident, Ping, Stop, StopHow, frame, samples};
+pub use host::{Arm, Clear, Hello, Ident, Ping, Stop, StopHow, frame};
 pub(crate) use state::AckCode;
 pub use state::{DeviceState, fault_bit};
 
@@ -46,7 +46,7 @@ pub mod kind {
     pub const PING: u8 = 0x06;
     /// Clears latched faults.
     pub const CLEAR: u8 = 0x07;
-    /// Host-made samples (mode B).
+    /// Reserved: samples that a host would make; no device plays them.
     pub const SAMPLES: u8 = 0x08;
     /// Drives one contactor.
     pub const IDENT: u8 = 0x09;

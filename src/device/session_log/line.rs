@@ -82,7 +82,6 @@ fn words(note: &Note) -> (&'static str, String) {
             let lead_ms = lead.as_secs_f64() * 1e3;
             ("depth", format!("ticks={depth} lead_ms={lead_ms:.2}"))
         }
-        Note::Delays(source) => ("delays", format!("source={}", source.name())),
         Note::Said(event, text) => (event, one_line(text)),
         Note::Missing(n) => ("entries-lost", format!("n={n}")),
     }

@@ -21,7 +21,7 @@ use super::BridgeError;
 pub use file::LogBound;
 use file::LogFile;
 use line::Epoch;
-pub(super) use note::{DelaySource, Entry, HostCounters, Note};
+pub(super) use note::{Entry, HostCounters, Note};
 
 /// Room for entries on their way: seconds of a link on which everything goes wrong.
 const MAX_ENTRIES: usize = 256;

@@ -54,8 +54,6 @@ pub(crate) enum Note {
     HostCounters(HostCounters),
     /// How many ticks ahead frames are sent, and how long before them they are due.
     Depth(u8, Duration),
-    /// What delays, and so the lead, are learned from now on.
-    Delays(DelaySource),
     /// Something with words of its own: an event's name and its text.
     Said(&'static str, String),
     /// So many entries found no room.
@@ -70,26 +68,4 @@ pub(crate) struct HostCounters {
     pub bad_received: u64,
     pub events_dropped: u64,
     pub write_timeouts: u64,
-}
-
-/// What delays are learned from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum DelaySource {
-    /// The number and age of the last accepted FRAME.
-    LastSeq,
-    /// How full the device's ring is, and the age of its last samples.
-    Ring,
-    /// Answers to PINGs.
-    RoundTrips,
-}
-
-impl DelaySource {
-    /// A word for the log.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::LastSeq => "last-seq",
-            Self::Ring => "ring",
-            Self::RoundTrips => "round-trips",
-        }
-    }
 }

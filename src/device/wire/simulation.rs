@@ -1,20 +1,17 @@
 //! A host and a device at the two ends of a failing link, in virtual time: what tests and studies
 //! try the protocol with.
 //!
-//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame (or
-//! its samples, where it has a waveform and the device plays them), and does nothing else by
-//! itself: whoever runs the simulation arms, opens anew and clears faults.
+//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame, and does
+//! nothing else by itself: whoever runs the simulation arms, opens anew and clears faults.
 
 use std::time::{Duration, Instant};
 
 use super::wired::WireSink;
 use super::{Faults, Injection, WiredDevice};
 use crate::codes::ArrayProfile;
-use crate::device::{AppliedFrame, DeviceModel, DeviceSink, Moment, SampleCount, SampledTick};
+use crate::device::{AppliedFrame, DeviceModel, DeviceSink, Moment};
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
-use crate::host::{
-    BridgeEvent, BridgeState, CutSamples, DisarmedBy, HostSession, SentFrame, Sequence, Waveform,
-};
+use crate::host::{BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence};
 use crate::message::{DeviceMessage, kind};
 
 /// Contactors of the simulated display, and channels of the usual device.
@@ -55,7 +52,6 @@ pub struct Simulation {
     pub bad_received: u64,
     /// ARM packets that the host wrote.
     pub arms_written: u32,
-    wave: Option<Box<dyn Waveform>>,
     decoder: Decoder,
     n_visits: u32,
 }
@@ -66,10 +62,6 @@ pub struct SimulationLog {
     arrived: Vec<u8>,
     /// Tick, seq and codes of every frame that took effect.
     pub frames: Vec<(u32, u16, Vec<[u16; 2]>)>,
-    /// Every sample that was played, from this number on, interleaved (mode B).
-    pub played: (Option<u64>, Vec<i16>),
-    /// What became of the samples of every tick (mode B).
-    pub sampled: Vec<SampleCount>,
     /// Every change of state.
     pub changes: Vec<Moment>,
     /// Every injected fault.
@@ -84,15 +76,6 @@ impl DeviceSink for SimulationLog {
     fn applied(&mut self, frame: &AppliedFrame<'_>) {
         self.frames
             .push((frame.moment.tick, frame.seq, frame.codes.to_vec()));
-    }
-
-    fn played(&mut self, first: u64, samples: &[i16]) {
-        self.played.0.get_or_insert(first);
-        self.played.1.extend_from_slice(samples);
-    }
-
-    fn sampled(&mut self, tick: &SampledTick<'_>) {
-        self.sampled.push(tick.count);
     }
 
     fn changed(&mut self, moment: &Moment) {
@@ -133,7 +116,6 @@ impl Simulation {
             loudest_age_us: 0,
             bad_received: 0,
             arms_written: 0,
-            wave: None,
             decoder: Decoder::new(LARGEST_BODY),
             n_visits: 0,
         }
@@ -147,15 +129,6 @@ impl Simulation {
     /// The same over a link and with a device that have these faults.
     pub fn streaming_over(faults: &Faults, ms: u64) -> Self {
         let mut simulation = Self::of(DeviceModel::default(), faults);
-        simulation.arm_and_run(ms);
-        simulation
-    }
-
-    /// The same over a good link with a device of this model, by samples where it plays them.
-    pub fn playing(model: DeviceModel, wave: Box<dyn Waveform>, ms: u64) -> Self {
-        let mut simulation = Self::of(model, &Faults::default());
-        simulation.host.prefer_samples();
-        simulation.wave = Some(wave);
         simulation.arm_and_run(ms);
         simulation
     }
@@ -301,13 +274,6 @@ impl Simulation {
         match event {
             BridgeEvent::Tick { .. } if self.is_unheard => {}
             BridgeEvent::Tick { .. } => self.answer(),
-            BridgeEvent::Ready(_) => {
-                let rate_hz = self.host.caps().map_or(0, |caps| caps.sample_hz.into());
-                if let Some(wave) = &mut self.wave {
-                    wave.prepare(rate_hz, N_CONTACTORS);
-                }
-                self.events.push(event);
-            }
             BridgeEvent::Pong { .. } => {}
             other => self.events.push(other),
         }
@@ -315,18 +281,9 @@ impl Simulation {
 
     fn answer(&mut self) {
         let (now, amplitudes) = (self.now(), [self.amplitude_um; N_CONTACTORS]);
-        let mut packets = Vec::new();
-        if let Some(wave) = &mut self.wave {
-            let out = |cut: CutSamples| packets.push(cut.packet);
-            let played = self.host.play(now, &amplitudes, wave.as_mut(), out);
-            self.sent.extend(played);
-        }
         if let Some((stamp, packet)) = self.host.frame(now, &amplitudes) {
             self.sent.push(stamp);
-            packets.push(packet);
-        }
-        for packet in &packets {
-            self.write(packet);
+            self.write(&packet);
         }
     }
 

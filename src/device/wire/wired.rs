@@ -5,8 +5,7 @@ use super::faults::{Direction, Faults, Injection, InjectionKind, OneOff, OneOffK
 use super::faulty_channel::{BOOT_BANNER, FaultyChannel};
 use crate::actuator_model::ContactorModel;
 use crate::device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, SampledTick,
-    Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, Sense,
 };
 use crate::message::{DeviceState, fault_bit};
 
@@ -359,14 +358,6 @@ impl<S: DeviceSink> DeviceSink for LinkSink<'_, S> {
         #[cfg(test)]
         self.tap.applied(frame);
         self.sink.applied(frame);
-    }
-
-    fn played(&mut self, first: u64, samples: &[i16]) {
-        self.sink.played(first, samples);
-    }
-
-    fn sampled(&mut self, tick: &SampledTick<'_>) {
-        self.sink.sampled(tick);
     }
 
     fn changed(&mut self, moment: &Moment) {

@@ -112,9 +112,6 @@ fn golden_devices() {
         "device.csv",
         &words_of(&script.lab.read("device.csv"), "state"),
     );
-    let able = ["--modes", "a,b,ident", "--max-body", "1024"];
-    on_device(&mut script, &able, &format!("{play} --samples"));
-    on_device(&mut script, &[], &format!("{play} --samples"));
     on_device(&mut script, &[], &format!("{play} --array 5x5"));
     script.run("play a.scene.toml --path a.csv --port nowhere");
     script.compare(&mut golden, "devices");

@@ -3,7 +3,6 @@
 mod frames;
 mod random;
 mod requests;
-mod samples;
 mod silence;
 
 use super::*;

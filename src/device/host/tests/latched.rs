@@ -3,8 +3,6 @@
 use super::*;
 use crate::device::{AppliedFrame, DeviceCore, DeviceSink};
 use crate::framing::Decoder;
-use crate::host::{CutSamples, Waveform};
-use crate::session_log::{DelaySource, Note};
 
 /// What the device says, and at which ticks frames took effect.
 #[derive(Default)]
@@ -45,57 +43,16 @@ struct Wired {
     /// From the making of each frame to the start of its tick, as told and as it was, µs.
     aheads_us: Vec<[f64; 2]>,
     depths: Vec<BridgeEvent>,
-    /// Whether STATUS says that nothing waits.
-    hides_ring: bool,
-    /// What delays were learned from.
-    sources: Vec<DelaySource>,
-    /// Silent samples, where the device plays them.
-    wave: Silence,
-}
-
-/// A waveform that is not heard.
-#[derive(Debug, Default)]
-struct Silence(Vec<i16>);
-
-impl Waveform for Silence {
-    fn prepare(&mut self, rate_hz: u32, n_channels: usize) -> bool {
-        self.0 = vec![0; usize::try_from(rate_hz / 40).unwrap() * n_channels];
-        true
-    }
-
-    fn tick(&mut self, _codes: &[[u16; 2]]) -> &[i16] {
-        &self.0
-    }
 }
 
 impl Wired {
     fn new(host_ppm: f64, ways: [Way; 3]) -> Self {
-        Self::of(DeviceModel::default(), host_ppm, ways)
-    }
-
-    /// The same with a device that is played by samples.
-    fn by_samples(host_ppm: f64, ways: [Way; 3]) -> Self {
-        let model = DeviceModel {
-            modes: Caps::MODE_A | Caps::MODE_B,
-            max_body: 1024,
-            ..DeviceModel::default()
-        };
-        let mut wired = Self::of(model, host_ppm, ways);
-        assert!(wired.wave.prepare(8000, 24));
-        wired
-    }
-
-    fn of(model: DeviceModel, host_ppm: f64, ways: [Way; 3]) -> Self {
         let start = Instant::now();
         let mut host = session();
-        host.keep_notes();
-        if model.modes & Caps::MODE_B != 0 {
-            host.prefer_samples();
-        }
         host.opened(start);
         let mut wired = Self {
             host,
-            device: DeviceCore::new(model),
+            device: DeviceCore::new(DeviceModel::default()),
             start,
             us: 0,
             host_ppm,
@@ -108,9 +65,6 @@ impl Wired {
             due: None,
             aheads_us: Vec::new(),
             depths: Vec::new(),
-            hides_ring: false,
-            sources: Vec::new(),
-            wave: Silence::default(),
         };
         wired.run(2);
         assert!(wired.host.arm(wired.now()), "{}", wired.host.state());
@@ -165,12 +119,7 @@ impl Wired {
         while let Some((_, wire)) = self.to_host.pop_front_if(|(at, _)| *at <= self.us) {
             for byte in wire {
                 if let Some(packet) = self.decoder.push(byte) {
-                    let mut message = DeviceMessage::decode(&packet, 24).unwrap();
-                    if let DeviceMessage::Status(status) = &mut message
-                        && self.hides_ring
-                    {
-                        status.queued = 0;
-                    }
+                    let message = DeviceMessage::decode(&packet, 24).unwrap();
                     self.host.on_message(now, &message);
                 }
             }
@@ -192,11 +141,6 @@ impl Wired {
         if self.due.take_if(|due| *due <= now).is_some() {
             self.answer(now);
         }
-        while let Some(entry) = self.host.next_note() {
-            if let Note::Delays(source) = entry.note {
-                self.sources.push(source);
-            }
-        }
         while let Some(packet) = self.host.take_stop().or_else(|| self.host.next_packet()) {
             self.write(0, packet.as_bytes());
         }
@@ -204,23 +148,14 @@ impl Wired {
 
     fn answer(&mut self, now: Instant) {
         let um = [[10.0, 20.0]; 24];
-        let mut packets = Vec::new();
-        let out = |cut: CutSamples| packets.push(cut.packet);
-        let played = self.host.play(now, &um, &mut self.wave, out);
-        let framed = self.host.frame(now, &um).map(|(sent, packet)| {
-            packets.push(packet);
-            sent
-        });
-        let Some(sent) = played.or(framed) else {
+        let Some((sent, packet)) = self.host.frame(now, &um) else {
             return;
         };
         let starts_us = f64::from(sent.apply_tick) * 25_000.0;
         let told_us = sent.ahead.as_secs_f64() * 1e6;
         self.aheads_us.push([told_us, starts_us - self.us as f64]);
         let making_us = self.way(0);
-        for packet in packets {
-            self.write(making_us, packet.as_bytes());
-        }
+        self.write(making_us, packet.as_bytes());
     }
 
     fn write(&mut self, after_us: u64, bytes: &[u8]) {
@@ -318,44 +253,4 @@ fn a_stall_makes_frames_early_again_at_once() {
     let after = wired.host.counters().device.late;
     assert!(after <= late + 1, "{late} then {after}");
     assert_eq!(wired.host.depth(), 1);
-}
-
-#[test]
-fn samples_over_usb_are_made_just_in_time_by_what_the_devices_ring_tells() {
-    let mut wired = Wired::by_samples(60.0, USB);
-    wired.run(600);
-    assert_eq!(wired.host.state(), BridgeState::Streaming);
-    assert_eq!(wired.host.counters().device, DeviceCounters::default());
-    assert_eq!(wired.sources, [DelaySource::Ring]);
-    assert!(wired.depths.is_empty());
-    let ms = wired.mean_ahead_ms(4000);
-    assert!((5.0..10.0).contains(&ms), "{ms} ms before their tick");
-}
-
-#[test]
-fn samples_over_a_slow_link_go_two_ticks_ahead_and_then_none_is_missing() {
-    let ways: [Way; 3] = [|_| 300, |n| 26_000 + some(n, 2000), |_| 1000];
-    let mut wired = Wired::by_samples(0.0, ways);
-    wired.run(30);
-    assert_eq!(wired.host.depth(), 2);
-    assert_eq!(wired.depths, [BridgeEvent::DepthRaised(2)]);
-    let before = wired.host.counters().device;
-    wired.run(120);
-    assert_eq!(wired.host.counters().device, before);
-    assert!(wired.sources.contains(&DelaySource::Ring));
-}
-
-#[test]
-fn a_device_that_does_not_count_its_ring_is_measured_by_its_answers() {
-    let mut wired = Wired::by_samples(0.0, USB);
-    wired.hides_ring = true;
-    wired.run(300);
-    assert_eq!(wired.host.counters().device, DeviceCounters::default());
-    assert_eq!(wired.sources, [DelaySource::RoundTrips]);
-    let lead = wired.host.lead();
-    assert!(
-        lead < TICK,
-        "after {} answers: {lead:?}",
-        wired.host.clock().n_answers
-    );
 }

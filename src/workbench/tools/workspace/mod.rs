@@ -2,7 +2,8 @@
 //! shows what lies under the finger.
 //!
 //! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
-//! Draws, says where the pointer feels, and gives commands; what is done about it is decided elsewhere.
+//! Draws, says where the pointer feels, and gives commands; what is done about them is decided
+//! elsewhere.
 
 pub(crate) mod arrange;
 pub(crate) mod calibration;
