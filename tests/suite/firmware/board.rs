@@ -289,8 +289,8 @@ struct Terminal {
 
 impl Terminal {
     fn open(board: &Board) -> Self {
-        let port = File::options().read(true).write(true);
-        let port = port.open(&board.port).unwrap();
+        let mut options = File::options();
+        let port = options.read(true).write(true).open(&board.port).unwrap();
         let mut reader = port.try_clone().unwrap();
         let (sender, said) = sync_channel(1000);
         let name = std::thread::Builder::new().name(String::from("terminal"));
