@@ -31,6 +31,7 @@
 
 mod actuator_model;
 mod array;
+mod certify;
 mod codes;
 mod device;
 mod emulator;
@@ -56,6 +57,10 @@ pub use actuator_model::{
     MAX_QUALITY, SAMPLES_PER_S, Skin,
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
+pub use certify::{
+    Certificate, CertificateFolder, CheckOutcome, CheckResult, Extent, Line, Trial, VirtualLine,
+    certify, certify_port,
+};
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,

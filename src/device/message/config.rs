@@ -18,9 +18,16 @@ pub(crate) struct ChannelMask {
 impl ChannelMask {
     /// Channels `0..n_channels` on, the others off.
     pub(crate) fn first(n_channels: usize) -> Self {
+        Self::of(0..n_channels)
+    }
+
+    /// These channels on, the others off.
+    pub(crate) fn of(channels: impl Iterator<Item = usize>) -> Self {
         let mut mask = Self::default();
-        for channel in 0..n_channels.min(32 * MASK_WORDS) {
-            mask.words[channel / 32] |= 1 << (channel % 32);
+        for channel in channels {
+            if let Some(word) = mask.words.get_mut(channel / 32) {
+                *word |= 1 << (channel % 32);
+            }
         }
         mask
     }

@@ -1,0 +1,145 @@
+//! The lease: who renews it, and what happens without a sign of the host.
+
+use super::checks;
+use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::predict::Between;
+use crate::certify::say::{Say, Want};
+use crate::message::{Config, TICK_US, fault_bit, kind};
+
+checks! { "lease":
+    FULL "READY" ready, "no valid packet for lease_ms: STATUS stops, IDLE";
+    FULL "ARMED" armed, "ARMED ends the same way";
+    FULL "the usual lease" usual, "lease_ms 0 is 1000 ms";
+    FULL "renewed" renewed, "PING, refused and unknown packets renew it";
+    FULL "not renewed" not_renewed, "what counts as bad does not renew it";
+    FULL "while running" running, "output ramps from the present gain, then IDLE";
+}
+
+fn ready(c: &mut Client<'_>) -> Verdict {
+    let hello = c.hello_with([1, 1], 1, 130, 1);
+    let heard = c.tell(&[hello])?;
+    expires(c, heard, 130)
+}
+
+fn armed(c: &mut Client<'_>) -> Verdict {
+    let config = c.usual();
+    let says = [c.hello_with([1, 1], 1, 110, 1), c.config(&config), c.arm()];
+    let heard = c.tell(&says)?;
+    expires(c, heard, 110)
+}
+
+fn usual(c: &mut Client<'_>) -> Verdict {
+    let hello = c.hello_with([1, 1], 1, 0, 1);
+    let heard = c.tell(&[hello])?;
+    expires(c, heard, 1000)
+}
+
+/// Says nothing more; STATUS goes on until the lease is over and not beyond.
+fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
+    let mark = c.mark();
+    // The last PING of what was said renewed it last.
+    let ends_us = heard.to_us + lease_ms * 1000;
+    c.pass(lease_ms * 1000 + 90_000)?;
+    c.watch.may_pause = true;
+    let codes = c.faint(1);
+    let config = c.usual();
+    let says = [
+        c.config(&config).wants(Want::Ack(2)),
+        c.arm().wants(Want::Ack(2)),
+        c.frame_next(&codes).wants(Want::Ack(2)),
+    ];
+    let asked = c.tell(&says)?;
+    if asked.from_us <= ends_us + 2000 {
+        return Err(Trouble::Late);
+    }
+    let tick_us = u64::from(TICK_US);
+    let last = c.statuses_since(mark).last().map_or(heard.to_us / tick_us, |s| u64::from(s.tick));
+    // The ms in which it ends may still be of the session.
+    let (least, most) = ((ends_us / tick_us), (ends_us + 1000) / tick_us);
+    ensure((least..=most).contains(&last), || {
+        let over_us = (last * tick_us).abs_diff(ends_us);
+        let which = if last < least { "before" } else { "after" };
+        format!("STATUS stopped {} ms {which} the end of the lease", over_us / 1000)
+    })
+}
+
+fn renewed(c: &mut Client<'_>) -> Verdict {
+    let config = c.usual();
+    let hello = [c.hello_with([1, 1], 1, 120, 1)];
+    c.tell(&hello)?;
+    let codes = c.faint(0);
+    let signs: Vec<Say> = vec![
+        c.ping(),
+        c.arm().wants(Want::Ack(2)),
+        c.frame_next(&codes).wants(Want::Ack(2)),
+        c.say(0x22, &[]).wants(Want::Ack(4)),
+        c.stop(0),
+        c.config(&config),
+    ];
+    for sign in signs {
+        // Alone, so that nothing else renews it, and each within the lease of the one before.
+        let before = c.mark();
+        c.pass(80_000)?;
+        c.write(&sign)?;
+        c.pass(80_000)?;
+        let says = [c.ping()];
+        c.tell_after(&[sign.clone()], &says)?;
+        let n_ticks = c.statuses_since(before).len();
+        ensure(n_ticks >= 5, || {
+            format!("the session ended although type {:02X} came", sign.kind)
+        })?;
+    }
+    Ok(())
+}
+
+fn not_renewed(c: &mut Client<'_>) -> Verdict {
+    let hello = c.hello_with([1, 1], 1, 130, 1);
+    let heard = c.tell(&[hello])?;
+    c.pass(70_000)?;
+    let wrong = Client::hello_payload(0, [1, 1], 1, 0);
+    for say in [
+        c.say(kind::PING, &[1]).wants(Want::Bad),
+        c.say(kind::STATUS, &[0; 36]).wants(Want::Bad),
+        c.say(kind::HELLO, &wrong).wants(Want::Bad),
+        Client::noise(&[0, 7, 7, 0]),
+    ] {
+        c.write_bad(&say)?;
+    }
+    expires(c, heard, 130)
+}
+
+/// The lease is shorter than the hold, so that it ends first.
+fn running(c: &mut Client<'_>) -> Verdict {
+    let (lease_ms, ramp_ms) = (40, 20);
+    let config = Config { hold_ms: 80, ramp_ms, ..c.usual() };
+    let says = [c.hello_with([1, 1], 1, lease_ms, 1), c.config(&config), c.arm()];
+    c.tell(&says)?;
+    let tick = c.aim(16_000)?;
+    let codes = c.faint(2);
+    let frame = [c.frame_next(&codes)];
+    let heard = c.tell_at(tick, 16_000, &frame)?;
+    let sum = crate::certify::predict::Allowed::of(&codes, &config).sum();
+    let mark = c.mark();
+    c.pass(150_000)?;
+    c.watch.may_pause = true;
+    let says = [c.frame_next(&codes).wants(Want::Ack(2)), c.arm().wants(Want::Ack(2))];
+    c.tell(&says)?;
+    // Its last PING renewed the lease.
+    let last = Between { from_us: heard.to_us, to_us: heard.to_us };
+    let statuses = c.statuses_since(mark);
+    ensure(!statuses.is_empty(), || String::from("no STATUS came while it ran"))?;
+    for status in &statuses {
+        let at_us = u64::from(status.tick) * u64::from(TICK_US);
+        let n_steps = last.steps_until(lease_ms, at_us)[0];
+        let n_steps = [n_steps.saturating_sub(1), n_steps + 1];
+        let [least, most] = crate::certify::predict::ramped(sum, ramp_ms, n_steps);
+        ensure((least..=most).contains(&status.amp_sum), || {
+            format!("{} in place of {least}…{most}", super::steps::shown(status))
+        })?;
+        let is_told = status.faults & fault_bit::LEASE_LOST == 0 || n_steps[1] > 0;
+        ensure(is_told, || String::from("bit 5 before the lease was over"))?;
+        let is_over = n_steps[0] > u64::from(ramp_ms);
+        ensure(!is_over, || String::from("STATUS after the ramp of a lost lease"))?;
+    }
+    Ok(())
+}
