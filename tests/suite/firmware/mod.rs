@@ -5,6 +5,7 @@
 #![cfg(unix)]
 
 mod board;
+mod certified;
 mod defects;
 mod differential;
 mod kit;
