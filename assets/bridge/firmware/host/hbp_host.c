@@ -8,8 +8,8 @@
  * Lines: boot | at US | wait US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes
  *        | samples N
  * An answer is STATE AMP_SUM BYTES, the bytes in hex or "-"; of codes and samples, the numbers.
- * `wait` is `at` that ends early, after the first millisecond in which the device sent something; its
- * answer begins with the time.
+ * `wait` is `at` that ends early, after the first millisecond in which the device sent something;
+ * its answer begins with the time.
  * Only `samples` calls hbp_sample, and it makes no step: time passes by `at`.
  * Sessions add what must hold: out HEX... | state NAME AMP_SUM | drive CHANNEL A40 A320.
  */

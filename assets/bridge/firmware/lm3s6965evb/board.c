@@ -5,9 +5,9 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
  * UART0 is the link (1,000,000 baud, 8N1), SysTick the 1 ms clock, PF0 (the status LED) stands for
- * the high-voltage enable: a resistor of 10 kOhm pulls it to ground, so that it is off whenever this
- * program does not drive it. The board has no converters: samples are made and thrown away where a
- * real array would clock them out.
+ * the high-voltage enable: a resistor of 10 kOhm pulls it to ground, so that it is off whenever
+ * this program does not drive it. The board has no converters: samples are made and thrown away
+ * where a real array would clock them out.
  *
  * Interrupts only move bytes and count: SysTick counts ms and makes samples, the UART fills and
  * drains rings. The loop in main does everything else and sleeps in between.
