@@ -361,3 +361,38 @@ fn an_emulated_board_that_ran_into_a_hard_fault_starts_anew_and_says_so() {
     terminal.port.write_all(clear.as_bytes()).unwrap();
     terminal.status(3, is_well);
 }
+
+/// The emulator does not mind; on the real board a register without its clock is a bus fault.
+#[test]
+fn a_port_of_the_board_has_its_clock_before_it_is_written() {
+    let path = tools::kit().join("firmware/lm3s6965evb/board.c");
+    let source = std::fs::read_to_string(path).unwrap();
+    let body = |name: &str| {
+        let from = source.find(&format!("{name}(void)\n{{")).unwrap();
+        let length = source[from..].find("\n}\n").unwrap();
+        &source[from..from + length]
+    };
+    let starts = [
+        (
+            "static void start_high_voltage_pin",
+            "SYSTEM_RCGC2",
+            "GPIO_F(",
+        ),
+        ("static void start_uart", "SYSTEM_RCGC2", "GPIO_A("),
+        ("static void start_uart", "SYSTEM_RCGC1", "UART("),
+        ("static void start_watchdog", "SYSTEM_RCGC0", "WATCHDOG("),
+    ];
+    for (start, clock, port) in starts {
+        let body = body(start);
+        let clocked = body.find(&format!("SYSTEM({clock}) |=")).unwrap();
+        // Reading a clock register back gives the clock the cycles that it needs.
+        let waited = body.find("(void)SYSTEM(").unwrap();
+        let written = body.find(port).unwrap();
+        assert!(clocked < waited && waited < written, "{start}: {port}");
+    }
+    // The core switches the high voltage off as soon as it begins, so its pin is ready by then.
+    let main = body("int main");
+    let at = |call: &str| main.find(call).unwrap();
+    assert!(at("start_high_voltage_pin()") < at("hbp_init("));
+    assert!(at("hbp_init(") < at("start_systick()"), "no sample before");
+}

@@ -10,6 +10,7 @@ use selvedge_device::DeviceModel;
 use super::differential::first_difference;
 use super::reference::CCore;
 use super::tools;
+use crate::program::Lab;
 
 /// Random scripts that a defect must not survive; the core itself survives as many.
 const N_SCRIPTS: u64 = 60;
@@ -87,4 +88,26 @@ fn every_defect_has_one_place_in_the_core() {
         names.len() + 1,
         "one in a comment"
     );
+}
+
+/// In a build that is not asked for a defect, the places of the rules compile to what they were
+/// before they were marked.
+#[test]
+fn a_core_without_a_defect_has_nothing_of_the_others_in_it() {
+    if !tools::has("cc", "the object code of the core in C") {
+        return;
+    }
+    let lab = Lab::new();
+    let object = |name: &str, more: &[&str]| {
+        let object = lab.path(name);
+        let source = tools::kit().join("firmware/hbp_core.c");
+        let mut args: Vec<String> = ["-std=c99", "-O1", "-c", "-o"].map(String::from).to_vec();
+        args.extend([object.display().to_string(), source.display().to_string()]);
+        args.extend(more.iter().map(|arg| String::from(*arg)));
+        tools::compile("cc", &args);
+        std::fs::read(object).unwrap()
+    };
+    let shipped = object("shipped.o", &[]);
+    assert!(shipped == object("bare.o", &["-DHBP_DEFECTS_H", "-DDEFECT(name)=0"]));
+    assert!(shipped != object("defect.o", &["-DHBP_DEFECT=1"]));
 }
