@@ -242,7 +242,7 @@ fn rates_and_channels_that_cannot_be_are_refused() {
     }
 }
 
-const USAGE: [&str; 20] = [
+const USAGE: [&str; 21] = [
     "render",
     "render a.scene.toml",
     "render a.scene.toml --path a.csv --speed 3",

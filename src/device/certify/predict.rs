@@ -11,7 +11,7 @@ pub(super) fn clamped(caps: &Caps, wish: &Config) -> Config {
     let hold_ms = wish.hold_ms.min(100);
     let can_interpolate = caps.modes & Caps::INTERPOLATES != 0;
     Config {
-        mode: u8::from(wish.mode == 1 && caps.modes & Caps::MODE_B != 0),
+        mode: 0,
         flags: wish.flags & u8::from(can_interpolate),
         hold_ms,
         ramp_ms: wish.ramp_ms.min(100 - hold_ms),

@@ -28,7 +28,7 @@ const BOUNDS: &[Bound] = &[
     }),
     ("modes lack A", |caps| caps.modes & Caps::MODE_A != 0),
     ("modes have bits that v1 does not know", |caps| {
-        let known = Caps::MODE_A | Caps::MODE_B | Caps::MODE_IDENT | Caps::INTERPOLATES;
+        let known = Caps::MODE_A | Caps::MODE_IDENT | Caps::INTERPOLATES;
         caps.modes & !known == 0
     }),
     ("fs_mV is 0", |caps| caps.fs_mv > 0),

@@ -152,11 +152,12 @@ fn not_renewed(c: &mut Client<'_>) -> Verdict {
     expires(c, heard, 130)
 }
 
-/// The lease is shorter than the hold, so that it ends first.
+/// The lease is shorter than the hold, so that it ends first; the ramp is longer than a tick, so that
+/// a STATUS shows it.
 fn running(c: &mut Client<'_>) -> Verdict {
-    let (lease_ms, ramp_ms) = (40, 20);
+    let (lease_ms, ramp_ms) = (40, 40);
     let config = Config {
-        hold_ms: 80,
+        hold_ms: 60,
         ramp_ms,
         ..c.usual()
     };
@@ -203,5 +204,10 @@ fn running(c: &mut Client<'_>) -> Verdict {
             String::from("STATUS after the ramp of a lost lease")
         })?;
     }
-    Ok(())
+    let ramps = statuses
+        .iter()
+        .any(|status| status.faults & fault_bit::LEASE_LOST != 0);
+    ensure(ramps, || {
+        String::from("output was cut: no STATUS of a ramp with bit 5")
+    })
 }

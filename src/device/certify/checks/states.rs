@@ -41,9 +41,7 @@ fn probes(c: &mut Client<'_>, state: DeviceState) -> Vec<Say> {
         let code = if can_ident { 2 } else { 4 };
         says.push(c.say(kind::IDENT, &ident).wants(Want::Ack(code)));
     }
-    if c.caps.modes & Caps::MODE_B == 0 {
-        says.push(c.say(kind::SAMPLES, &[0; 8]).wants(Want::Ack(4)));
-    }
+    says.push(c.say(kind::SAMPLES, &[0; 8]).wants(Want::Ack(4)));
     says.push(c.say(kind::CLEAR, &[0, 0]).wants(Want::Ack(0)));
     says.push(c.say(kind::CLEAR, &[0xff, 0]).wants(Want::Ack(0)));
     says.push(c.say(0x0b, &[]).wants(Want::Ack(4)));
