@@ -148,6 +148,7 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
         BridgeError::Profile(error) => code_of_file(error),
         BridgeError::Open { .. }
         | BridgeError::LinkTaken(_)
+        | BridgeError::LinkHeld { .. }
         | BridgeError::Model(_)
         | BridgeError::WavSpec { .. } => 2,
         _ => 1,

@@ -31,6 +31,8 @@ pub(super) struct IdentifyArgs {
     #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
           value_parser = array::profile)]
     array: Box<ArrayProfile>,
+    #[command(flatten)]
+    baud: array::BaudArgs,
     /// The profile with the wiring that was found
     #[arg(long, value_name = "PROFILE.toml")]
     out: PathBuf,
@@ -44,8 +46,10 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     play::check_port(&args.port)?;
     let answers = Answers::open(args.answers.as_deref())?;
     let stop = signals::stop_flag()?;
-    let n = args.array.n_contactors();
-    let mut driver = Driver::open(Target::Port(args.port.clone()), (*args.array).clone(), n);
+    let mut array = (*args.array).clone();
+    args.baud.set(&mut array);
+    let n = array.n_contactors();
+    let mut driver = Driver::open(Target::Port(args.port.clone()), array, n);
     let mut bench = Bench::of(args, answers, driver.bridge().target());
     let ended = driver.run(&mut bench, &stop);
     let uid = driver.bridge().caps().map(|caps| DeviceUid(caps.uid));

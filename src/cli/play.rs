@@ -18,7 +18,7 @@ use super::{CliError, array, output, play_audio, signals, terminal};
 use selvedge_device::{
     ArrayProfile, Bridge, BridgeEvent, Driver, Ended, FrameSource, SessionLog, Target,
 };
-use selvedge_engine::{Notice, PreparedScene};
+use selvedge_engine::{CardChannels, Notice, PreparedScene};
 use selvedge_render::scene::LoadedScene;
 
 /// What `--session-log` does.
@@ -36,10 +36,16 @@ pub(super) struct PlayArgs {
     #[arg(long, value_name = "PORT", required_unless_present = "audio")]
     port: Option<PathBuf>,
     /// Sound card to play on instead, one channel a contactor: its name or a part of it
-    #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "log", "session_log"])]
+    #[arg(long, value_name = "DEVICE", conflicts_with_all = ["port", "baud", "log", "session_log"])]
     audio: Option<String>,
+    /// The card's channel of each contactor in order, counted from 1, such as 1,2,5-8; without it
+    /// the first ones
+    #[arg(long, value_name = "CHANNELS", requires = "audio")]
+    channels: Option<CardChannels>,
     #[arg(long, value_name = "ARRAY", help = array::HELP, value_parser = array::profile)]
     array: Option<Box<ArrayProfile>>,
+    #[command(flatten)]
+    baud: array::BaudArgs,
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
@@ -70,10 +76,14 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         .map(|path| SessionLog::append(path, None));
     let session_log = session_log.transpose()?;
     let stop = signals::stop_flag()?;
-    let profile = scene.profile().clone();
+    let mut profile = scene.profile().clone();
+    args.baud.set(&mut profile);
     let moving = Moving::begin(&args.source, scene, loaded.scene().size_mm)?;
     let port = match (&args.port, &args.audio) {
-        (_, Some(card)) => return play_audio::play(card, moving, &profile, &stop),
+        (_, Some(card)) => {
+            let channels = args.channels.as_ref();
+            return play_audio::play(card, channels, moving, &profile, &stop);
+        }
         (port, None) => port.clone().unwrap_or_default(),
     };
     let n_felt = moving.core.felt_um().len();
@@ -136,9 +146,6 @@ impl FrameSource for Player {
         let describe = |what: &str| terminal::notice(&format!("{}: {what}", self.target));
         match event {
             BridgeEvent::Connected(caps) => {
-                if let Some(log) = &mut self.log {
-                    log.set_link_limit(caps.comp_limit);
-                }
                 if let Some(doubt) = array::doubt(self.moving.core.scene().profile(), caps) {
                     describe(&doubt);
                 }
@@ -149,7 +156,9 @@ impl FrameSource for Player {
                     "{what} {depth} ticks ahead, felt more than 40 ms late"
                 ));
             }
-            BridgeEvent::Log(text) => describe(&format!("the device says: {text}")),
+            BridgeEvent::Log(text) => {
+                terminal::heard(&format!("{}: the device says: {text}", self.target));
+            }
             _ => {}
         }
         Ok(())
@@ -168,6 +177,7 @@ impl FrameSource for Player {
         if let Some(sent) = bridge.send(felt_um, self.moving.core.fresh_stamp()) {
             self.n_frames += 1;
             if let Some(log) = &mut self.log {
+                log.set_link(bridge.link_scale());
                 log.frame(&sent, &self.moving.core.pose(), felt_um)?;
             }
         }

@@ -46,7 +46,9 @@ mod track;
 mod velocity;
 mod vibration;
 
-pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
+pub use audio::{
+    AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer, audio_outputs,
+};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, Notice};
 pub use engine_core::EngineCore;

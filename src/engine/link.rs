@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::{LinkView, TICK};
 use selvedge_device::{
-    ArrayChange, Bridge, BridgeEvent, DeviceUid, Pacer, SentFrame, StopHow, Timings,
+    ArrayChange, Bridge, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame, StopHow, Timings,
 };
 
 /// Ticks between two looks at the timings of the link: one second.
@@ -147,11 +147,10 @@ impl Link {
         bridge.identify(channel, how)
     }
 
-    /// The limits of the device, if one is connected: those in force, or else its largest.
-    pub(super) fn comp_limit(&self) -> Option<[u16; 2]> {
+    /// What the device makes of codes, if one is connected.
+    pub(super) fn scale(&self) -> Option<LinkScale> {
         let bridge = self.bridge.as_ref()?;
-        let in_force = bridge.config().map(|config| config.comp_limit);
-        in_force.or_else(|| bridge.caps().map(|caps| caps.comp_limit))
+        bridge.link_scale().filter(|_| bridge.state().is_open())
     }
 
     /// Frames not made because no armed device listened.
@@ -169,7 +168,8 @@ impl Link {
         Some(LinkView {
             state: bridge.state(),
             caps: bridge.caps().copied(),
-            comp_limit: self.comp_limit(),
+            scale: bridge.link_scale(),
+            predicted_sum: bridge.predicted_sum(),
             status: bridge.status().copied(),
             depth: bridge.depth(),
             lead: bridge.lead(),

@@ -140,17 +140,22 @@ impl Runner {
 
     /// Takes the news of the device, and says whether a tick is due, and since when.
     fn turn(&mut self) -> Option<Instant> {
-        let (core, notices) = (&mut self.core, &mut self.channels.notices);
-        self.link.turn(self.clock.now(), &mut |event| {
+        let (notices, mut is_other) = (&mut self.channels.notices, false);
+        let due = self.link.turn(self.clock.now(), &mut |event| {
             match &event {
-                BridgeEvent::Connected(caps) => core.set_link_limit(Some(caps.comp_limit)),
-                BridgeEvent::Ready(config) => core.set_link_limit(Some(config.comp_limit)),
-                BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => core.set_link_limit(None),
+                BridgeEvent::Connected(_)
+                | BridgeEvent::Ready(_)
+                | BridgeEvent::Lost(_)
+                | BridgeEvent::Refused(_) => is_other = true,
                 BridgeEvent::Pong { .. } => return,
                 _ => {}
             }
             notices.push(Notice::Bridge(event));
-        })
+        });
+        if is_other {
+            self.core.set_link(self.link.scale());
+        }
+        due
     }
 
     fn tick(&mut self, due: Instant) {
@@ -242,7 +247,7 @@ impl Runner {
             self.connect(None);
             self.say(Notice::DisplayChanged);
         }
-        next.scene.set_link_limit(self.link.comp_limit());
+        next.scene.set_link(self.link.scale());
         self.obey_core(CoreCommand::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
@@ -266,7 +271,7 @@ impl Runner {
 
     fn connect(&mut self, bridge: Option<Box<Bridge>>) {
         let last = self.link.connect(bridge);
-        self.core.set_link_limit(None);
+        self.core.set_link(None);
         self.retire(last.map(Retired::Bridge));
     }
 

@@ -38,6 +38,11 @@ impl Device {
         Self(child)
     }
 
+    /// Its process.
+    pub(crate) fn id(&self) -> u32 {
+        self.0.id()
+    }
+
     /// As when the cable is pulled.
     pub(crate) fn vanish(&mut self) {
         self.0.kill().unwrap();

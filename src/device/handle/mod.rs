@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use super::BridgeError;
 use super::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
-use super::codes::{ArrayProfile, LimiterState};
+use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
 use super::host::{
@@ -73,7 +73,7 @@ impl Target {
             Self::Emulator => emulate(&Faults::default()),
             Self::FaultyEmulator(faults) => emulate(faults),
             Self::Port(path) => {
-                let port = open_patiently(&path.display().to_string())?;
+                let port = open_patiently(&path.display().to_string(), profile.baud)?;
                 Ok((Box::new(port.try_clone()?), Box::new(port)))
             }
         }
@@ -167,6 +167,9 @@ impl Bridge {
                 return Some(event);
             }
         }
+        if let Some(link) = &self.link {
+            self.session.heard(now, link.heard());
+        }
         self.session.on_time(now);
         self.raise(now);
         self.flush();
@@ -207,6 +210,7 @@ impl Bridge {
     }
 
     /// Sends a PING; `Pong` follows.
+    #[cfg(test)]
     pub(crate) fn ping(&mut self) {
         self.session.ping(Instant::now());
         self.flush();
@@ -251,6 +255,16 @@ impl Bridge {
         self.session.config()
     }
 
+    /// What the device makes of codes: its limits in force, or before it is configured its largest.
+    pub fn link_scale(&self) -> Option<LinkScale> {
+        self.session.link_scale()
+    }
+
+    /// The largest `amp_sum` that our own frames allow the device at its last tick.
+    pub fn predicted_sum(&self) -> f64 {
+        self.session.predicted_sum()
+    }
+
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.session.status()
@@ -288,6 +302,7 @@ impl Bridge {
             device: session.device,
             codes: session.codes,
             frames_rejected: session.frames_rejected,
+            stray_status: session.stray_status,
             ..link.counters()
         };
         self.link.as_ref().map_or(session, with_link)
@@ -372,10 +387,10 @@ impl Drop for Bridge {
 }
 
 /// Opens a port that an earlier link of this program may still be letting go.
-fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
+fn open_patiently(path: &str, baud: u32) -> Result<SerialLink, BridgeError> {
     let deadline = Instant::now() + BUSY_PATIENCE;
     loop {
-        match SerialLink::open(path) {
+        match SerialLink::open(path, baud) {
             Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
                 std::thread::sleep(BUSY_NAP);
             }
