@@ -167,8 +167,11 @@ fn in_a_terminal_that_closes(lab: &Lab, line: &str, is_so: impl Fn(&str) -> bool
     let code = lab.path("code.txt");
     drop(std::fs::remove_file(&code));
     let program = env!("CARGO_BIN_EXE_selvedge");
-    // The shell must outlive the hangup to tell the code; a program inherits no such trap.
-    let script = format!("trap : HUP; {program} {line}; echo $? > code.new; mv code.new code.txt");
+    // The shell hands the hangup on, as one does, and outlives it to tell the code.
+    let script = format!(
+        "exec 3<&0; trap 'kill -HUP $pid' HUP; {program} {line} <&3 & pid=$!; wait $pid; \
+         wait $pid; echo $? > code.new; mv code.new code.txt"
+    );
     let mut terminal = hearing_hangups("script")
         .args(["--quiet", "--command", &script, "/dev/null"])
         .current_dir(lab.path(""))
