@@ -7,9 +7,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use clap::Args;
 
 use super::{CliError, array, output, play, signals, terminal};
-use selvedge_device::{
-    ArrayProfile, Certificate, CertificateFolder, Extent, Trial, certify_port,
-};
+use selvedge_device::{ArrayProfile, Certificate, CertificateFolder, Extent, Trial, certify_port};
 
 /// What to certify, and where the report goes.
 #[derive(Debug, Args)]
@@ -46,7 +44,9 @@ pub(super) fn certify(args: &CertifyArgs) -> Result<(), CliError> {
     if let Some(folder) = selvedge_workbench::own_certificates()
         && let Err(error) = CertificateFolder::new(&folder).write(&certificate)
     {
-        terminal::notice(&format!("{error}; the workbench will not know of this certificate"));
+        terminal::notice(&format!(
+            "{error}; the workbench will not know of this certificate"
+        ));
     }
     output::print(&format!("{certificate}\n{}\n", report.display()))?;
     judged(&args.port, &certificate)
@@ -78,6 +78,9 @@ fn judged(port: &Path, certificate: &Certificate) -> Result<(), CliError> {
     let Some(first) = certificate.first_trouble() else {
         return Ok(());
     };
-    let what = format!("{}: {first}; check power and cable, then the firmware", port.display());
+    let what = format!(
+        "{}: {first}; check power and cable, then the firmware",
+        port.display()
+    );
     Err(CliError::Failed(what))
 }

@@ -82,7 +82,10 @@ fn a_device_that_lies_fails_its_test_with_the_reason() {
     let device = Device::start(&lab, &["--firmware-lie", "caps.rows=5"]);
     let outcome = lab.run(&["bridge", "test", "--port", "array"]);
     assert_eq!(outcome.code, 1, "{outcome:?}");
-    assert!(outcome.out.contains("rows · cols is not n_ch"), "{outcome:?}");
+    assert!(
+        outcome.out.contains("rows · cols is not n_ch"),
+        "{outcome:?}"
+    );
     drop(device.end(&lab));
 }
 

@@ -16,7 +16,9 @@ const N_TRIES: usize = 5;
 fn certificate(lab: &Lab) -> Certificate {
     let folder = std::fs::read_dir(lab.path("reports")).unwrap();
     let paths: Vec<_> = folder.map(|entry| entry.unwrap().path()).collect();
-    let json = paths.iter().find(|path| path.extension().is_some_and(|end| end == "json"));
+    let json = paths
+        .iter()
+        .find(|path| path.extension().is_some_and(|end| end == "json"));
     let json = json.unwrap();
     assert!(json.with_extension("md").exists(), "{paths:?}");
     Certificate::from_json(&std::fs::read_to_string(json).unwrap(), json).unwrap()
@@ -39,10 +41,16 @@ fn a_right_device_is_certified_and_its_report_names_it() {
         assert_eq!(outcome.code == 0, certificate.passed(), "{outcome:?}");
         certificate.passed()
     };
-    assert!((0..N_TRIES).any(|nth| passed(&nth)), "not once of {N_TRIES}");
+    assert!(
+        (0..N_TRIES).any(|nth| passed(&nth)),
+        "not once of {N_TRIES}"
+    );
     let certificate = certificate(&lab);
     assert!(certificate.is_full);
-    assert!(lab.path(&format!("reports/{}.md", certificate.file_stem())).exists());
+    assert!(
+        lab.path(&format!("reports/{}.md", certificate.file_stem()))
+            .exists()
+    );
     drop(device.end(&lab));
 }
 
@@ -57,7 +65,10 @@ fn a_device_with_a_defect_is_not_certified() {
         let device = Device::start(&lab, &["--firmware-lie", lie]);
         let outcome: Outcome = lab.run(&CERTIFY);
         assert_eq!(outcome.code, 1, "{outcome:?}");
-        assert!(failed(&certificate(&lab)).contains(&name), "{lie}: {outcome:?}");
+        assert!(
+            failed(&certificate(&lab)).contains(&name),
+            "{lie}: {outcome:?}"
+        );
         drop(device.end(&lab));
     }
 }

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::Line;
+use super::line::Line;
 use super::predict::{Between, clamped};
 use super::say::{Say, Want, kind_name, packet};
 use super::watch::Watch;
@@ -155,7 +155,12 @@ impl<'a> Client<'a> {
     }
 
     /// The payload of a HELLO.
-    pub(super) fn hello_payload(session: u32, versions: [u8; 2], flags: u16, lease: u16) -> Vec<u8> {
+    pub(super) fn hello_payload(
+        session: u32,
+        versions: [u8; 2],
+        flags: u16,
+        lease: u16,
+    ) -> Vec<u8> {
         let mut payload = MAGIC.to_vec();
         payload.extend(session.to_le_bytes());
         payload.extend(versions);
@@ -201,7 +206,15 @@ impl<'a> Client<'a> {
     pub(super) fn config_payload(&self, wish: &Config) -> Vec<u8> {
         let mut payload = vec![wish.mode, wish.flags];
         let [low, high] = wish.comp_limit;
-        for field in [wish.hold_ms, wish.ramp_ms, wish.slew, wish.hv_dv, low, high, 0] {
+        for field in [
+            wish.hold_ms,
+            wish.ramp_ms,
+            wish.slew,
+            wish.hv_dv,
+            low,
+            high,
+            0,
+        ] {
             payload.extend(field.to_le_bytes());
         }
         for word in 0..self.n_ch().div_ceil(32).max(1) {
@@ -252,7 +265,10 @@ impl<'a> Client<'a> {
 
     /// PING.
     pub(super) fn ping(&mut self) -> Say {
-        self.token = self.token.wrapping_mul(0x0019_660d).wrapping_add(0x3c6e_f35f);
+        self.token = self
+            .token
+            .wrapping_mul(0x0019_660d)
+            .wrapping_add(0x3c6e_f35f);
         let token = self.token;
         self.say(kind::PING, &token.to_le_bytes())
             .wants(Want::Pong(token))
@@ -286,11 +302,7 @@ impl<'a> Client<'a> {
     }
 
     /// The same where these were written before, and their answers are still to come.
-    pub(super) fn tell_after(
-        &mut self,
-        written: &[Say],
-        says: &[Say],
-    ) -> Result<Between, Trouble> {
+    pub(super) fn tell_after(&mut self, written: &[Say], says: &[Say]) -> Result<Between, Trouble> {
         let first = self.read;
         let (before, after) = (self.ping(), self.ping());
         let sent_us = self.line.now_us();
@@ -300,9 +312,10 @@ impl<'a> Client<'a> {
         let Want::Pong(last) = after.want else {
             return Err(Trouble::Late);
         };
-        self.hear_until("no PONG comes to a PING", |heard| {
-            matches!(heard, Heard::Pong(pong) if pong.token == last)
-        })?;
+        self.hear_until(
+            "no PONG comes to a PING",
+            |heard| matches!(heard, Heard::Pong(pong) if pong.token == last),
+        )?;
         // Whether it was late is known whatever else is wrong.
         let between = [&before, &after].map(|ping| self.pong_since(first, ping));
         if let [Some(from_us), Some(to_us)] = between {
@@ -337,9 +350,10 @@ impl<'a> Client<'a> {
         let Want::Pong(last) = end.want else {
             return Ok(());
         };
-        self.hear_until("no PONG comes to a PING in pieces", |heard| {
-            matches!(heard, Heard::Pong(pong) if pong.token == last)
-        })?;
+        self.hear_until(
+            "no PONG comes to a PING in pieces",
+            |heard| matches!(heard, Heard::Pong(pong) if pong.token == last),
+        )?;
         self.compare(first, &[end])
     }
 
@@ -352,7 +366,10 @@ impl<'a> Client<'a> {
         for say in asked {
             let name = kind_name(say.kind);
             if matches!(say.want, Want::Nothing | Want::Bad | Want::NoPacket) {
-                self.due.bad = self.due.bad.wrapping_add(u16::from(matches!(say.want, Want::Bad)));
+                self.due.bad = self
+                    .due
+                    .bad
+                    .wrapping_add(u16::from(matches!(say.want, Want::Bad)));
                 continue;
             }
             let answer = answers.next();
@@ -370,7 +387,10 @@ impl<'a> Client<'a> {
             }
             ensure(is_right, || {
                 let came = answer.map_or_else(|| String::from("nothing"), Heard::describe);
-                format!("{name} was answered by {came}, not by {}", self.describe(say))
+                format!(
+                    "{name} was answered by {came}, not by {}",
+                    self.describe(say)
+                )
             })?;
         }
         let surplus = answers.next().map(Heard::describe);
@@ -460,7 +480,11 @@ impl<'a> Client<'a> {
     ) -> Result<Between, Trouble> {
         self.reach(tick, phase_us)?;
         let between = self.tell(says)?;
-        if between.is_in(tick) { Ok(between) } else { Err(Trouble::Late) }
+        if between.is_in(tick) {
+            Ok(between)
+        } else {
+            Err(Trouble::Late)
+        }
     }
 
     /// Says these so that the tick is told: `says` is made for the tick in which they are heard.
@@ -471,7 +495,11 @@ impl<'a> Client<'a> {
         let tick = self.aim(6000)?;
         let says = says(self, tick);
         let between = self.tell(&says)?;
-        if between.is_in(tick) { Ok((tick, between)) } else { Err(Trouble::Late) }
+        if between.is_in(tick) {
+            Ok((tick, between))
+        } else {
+            Err(Trouble::Late)
+        }
     }
 
     /// The next STATUS that comes.
@@ -540,7 +568,10 @@ impl<'a> Client<'a> {
 
     /// Writes what has no answer, and counts it.
     pub(super) fn write_bad(&mut self, say: &Say) -> Verdict {
-        self.due.bad = self.due.bad.wrapping_add(u16::from(matches!(say.want, Want::Bad)));
+        self.due.bad = self
+            .due
+            .bad
+            .wrapping_add(u16::from(matches!(say.want, Want::Bad)));
         self.write(say)
     }
 
@@ -683,12 +714,16 @@ impl<'a> Client<'a> {
         self.tell(&[hello])?;
         let now = self.status()?;
         self.count(&now)?;
-        self.watch.take_wrong().map_or(Ok(()), |what| Err(Trouble::Wrong(what)))
+        self.watch
+            .take_wrong()
+            .map_or(Ok(()), |what| Err(Trouble::Wrong(what)))
     }
 
     /// Compares the counters of a STATUS with what was due so far.
     pub(super) fn count(&self, now: &Status) -> Verdict {
-        let Some(base) = &self.base else { return Ok(()) };
+        let Some(base) = &self.base else {
+            return Ok(());
+        };
         let due = Due {
             bad: self.due.bad.wrapping_add(self.mirror_bad()),
             ..self.due
@@ -701,12 +736,17 @@ impl<'a> Client<'a> {
         ];
         for (name, before, after, due) in rows {
             let risen = after.wrapping_sub(before);
-            ensure(risen == due, || format!("{name} rose by {risen}, not by {due}"))?;
+            ensure(risen == due, || {
+                format!("{name} rose by {risen}, not by {due}")
+            })?;
         }
         Ok(())
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "counters wrap at 65536 on the wire")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "counters wrap at 65536 on the wire"
+    )]
     fn mirror_bad(&self) -> u16 {
         self.mirror.bad() as u16
     }
@@ -723,7 +763,10 @@ impl<'a> Client<'a> {
 
     /// The present device time as the link is known, ms.
     pub(super) fn device_ms(&self) -> u64 {
-        let us = self.line.now_us().saturating_add_signed(self.offset_us().unwrap_or(0));
+        let us = self
+            .line
+            .now_us()
+            .saturating_add_signed(self.offset_us().unwrap_or(0));
         us / 1000
     }
 
@@ -780,7 +823,10 @@ fn describe_config(held: &Config) -> String {
         held.ramp_ms,
         held.slew,
         held.hv_dv,
-        (0..32).filter(|bit| held.mask.contains(*bit)).map(|bit| 1u32 << bit).sum::<u32>()
+        (0..32)
+            .filter(|bit| held.mask.contains(*bit))
+            .map(|bit| 1u32 << bit)
+            .sum::<u32>()
     )
 }
 

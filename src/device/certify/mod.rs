@@ -26,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::BridgeError;
 use crate::port::SerialLink;
-use checks::Check;
+use checks::{Check, When};
 use client::{Client, Trouble, Verdict};
 use line::PortLine;
 pub use line::{Line, VirtualLine};
@@ -82,7 +82,9 @@ pub fn certify(
         client.know_largest_body();
     }
     let mut section = "";
-    for check in checks::all().filter(|check| check.is_quick || trial.extent == Extent::Full) {
+    for check in
+        checks::all().filter(|check| check.when != When::Full || trial.extent == Extent::Full)
+    {
         if section != check.section && over.is_none() {
             section = check.section;
             progress(section);
@@ -122,7 +124,12 @@ pub fn certify_port(
     progress: &mut dyn FnMut(&str),
 ) -> Result<Certificate, BridgeError> {
     let mut port = SerialLink::open(&path.display().to_string())?;
-    Ok(certify(&mut PortLine::new(&mut port), trial, stop, progress))
+    Ok(certify(
+        &mut PortLine::new(&mut port),
+        trial,
+        stop,
+        progress,
+    ))
 }
 
 /// What a check gave, and whether nothing more can be tried.
@@ -152,7 +159,7 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
     Tried {
         // No host would go on with a device that is refused by its CAPS.
         ends: matches!(verdict, Err(Trouble::Over(_)))
-            || (check.ends_all && matches!(verdict, Err(Trouble::Wrong(_)))),
+            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_)))),
         result: CheckResult {
             outcome: outcome_of(&verdict),
             came: came_of(&verdict),

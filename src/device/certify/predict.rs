@@ -97,8 +97,7 @@ impl Between {
     /// Whole steps of the 1 ms clock that lie more than `delay_ms` after it, up to `at_us`.
     pub(super) fn steps_until(self, delay_ms: u16, at_us: u64) -> [u64; 2] {
         let delay_us = u64::from(delay_ms) * MS_US;
-        [self.to_us, self.from_us]
-            .map(|us| (at_us / MS_US).saturating_sub((us + delay_us) / MS_US))
+        [self.to_us, self.from_us].map(|us| (at_us / MS_US).saturating_sub((us + delay_us) / MS_US))
     }
 
     /// Its age at `at_us` in whole ms.
@@ -112,7 +111,11 @@ pub(super) fn ramped(sum: u32, ramp_ms: u16, n_steps: [u64; 2]) -> [u32; 2] {
     let [fewest, most] = n_steps;
     let after = |n: u64| {
         let full = u64::from(ramp_ms.max(1));
-        let left = if ramp_ms == 0 && n > 0 { 0 } else { full.saturating_sub(n) };
+        let left = if ramp_ms == 0 && n > 0 {
+            0
+        } else {
+            full.saturating_sub(n)
+        };
         u32::try_from(u64::from(sum) * left / full).unwrap_or(u32::MAX)
     };
     [after(most), after(fewest)]

@@ -86,7 +86,9 @@ impl Certificate {
 
     /// Whether every check passed.
     pub fn passed(&self) -> bool {
-        self.checks.iter().all(|check| check.outcome == CheckOutcome::Passed)
+        self.checks
+            .iter()
+            .all(|check| check.outcome == CheckOutcome::Passed)
     }
 
     /// The first check that did not pass, in one line.
@@ -97,7 +99,10 @@ impl Certificate {
             CheckOutcome::NotTested => "was not tested",
             _ => "failed",
         };
-        Some(format!("{} \"{}\" {outcome}: {}", first.section, first.name, first.came))
+        Some(format!(
+            "{} \"{}\" {outcome}: {}",
+            first.section, first.name, first.came
+        ))
     }
 
     /// Whether it lets a device with this number and firmware be used without a mark: everything
@@ -117,10 +122,23 @@ impl Certificate {
 
     /// The last line: how many checks came out how.
     pub fn verdict(&self) -> String {
-        let count = |outcome| self.checks.iter().filter(|check| check.outcome == outcome).count();
-        let [passed, failed, untested] =
-            [CheckOutcome::Passed, CheckOutcome::Failed, CheckOutcome::NotTested].map(count);
-        let verdict = if self.passed() { "passed" } else { "not passed" };
+        let count = |outcome| {
+            self.checks
+                .iter()
+                .filter(|check| check.outcome == outcome)
+                .count()
+        };
+        let [passed, failed, untested] = [
+            CheckOutcome::Passed,
+            CheckOutcome::Failed,
+            CheckOutcome::NotTested,
+        ]
+        .map(count);
+        let verdict = if self.passed() {
+            "passed"
+        } else {
+            "not passed"
+        };
         format!("{verdict}: {passed} checks passed, {failed} failed, {untested} not tested")
     }
 
@@ -134,7 +152,11 @@ impl Certificate {
             in_cell(&self.device_name),
             self.uid,
             self.firmware,
-            if self.is_full { "everything" } else { "the quick half" },
+            if self.is_full {
+                "everything"
+            } else {
+                "the quick half"
+            },
             self.program,
             self.date,
             self.verdict()
@@ -175,7 +197,13 @@ impl Certificate {
 impl fmt::Display for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for check in &self.checks {
-            write!(f, "{:<10}  {}: {}", check.outcome.name(), check.section, check.name)?;
+            write!(
+                f,
+                "{:<10}  {}: {}",
+                check.outcome.name(),
+                check.section,
+                check.name
+            )?;
             if check.outcome != CheckOutcome::Passed {
                 write!(f, ": {}; expected: {}", check.came, check.expected)?;
             }

@@ -53,7 +53,11 @@ impl Watch {
     pub(super) fn byte(&mut self, byte: u8) {
         let opening = &mut self.opening;
         if byte == 0 {
-            opening.n_zeros = if opening.first == 0 { opening.n_zeros + 1 } else { 1 };
+            opening.n_zeros = if opening.first == 0 {
+                opening.n_zeros + 1
+            } else {
+                1
+            };
             opening.first = 0;
         } else if opening.first == 0 {
             opening.first = byte;
@@ -64,7 +68,9 @@ impl Watch {
     pub(super) fn packet(&mut self, packet_kind: u8, seq: u16) {
         // The first block of a body ends behind its type where the flags are 0.
         let is_plain = self.opening.first == 2 || packet_kind == 0;
-        self.note(is_plain, || String::from("a packet has flags in its header"));
+        self.note(is_plain, || {
+            String::from("a packet has flags in its header")
+        });
         let has_zero = self.opening.n_zeros >= 2 || !self.opening.is_later;
         self.note(has_zero, || String::from("a packet has no zero before it"));
         self.opening.is_later = true;
@@ -82,7 +88,9 @@ impl Watch {
             _ => format!("a packet of type {packet_kind:02X} came"),
         });
         self.note(packet_kind != kind::FAULT, || {
-            String::from("it reports a FAULT; send CLEAR when the cause is gone, then certify again")
+            String::from(
+                "it reports a FAULT; send CLEAR when the cause is gone, then certify again",
+            )
         });
     }
 
@@ -149,7 +157,9 @@ impl Watch {
         };
         let sum = status.amp_sum;
         let is_silent = !state.is_live() || (state == DeviceState::Armed && !self.may_ident);
-        self.note(sum == 0 || !is_silent, || format!("amp_sum {sum} in {state}"));
+        self.note(sum == 0 || !is_silent, || {
+            format!("amp_sum {sum} in {state}")
+        });
         let queued = status.queued;
         self.note(queued == 0 || state.is_live(), || {
             format!("{queued} frames wait in {state}")
@@ -157,7 +167,9 @@ impl Watch {
         self.note(queued <= caps.queue, || {
             format!("{queued} frames wait, the queue has {}", caps.queue)
         });
-        self.note(state != DeviceState::Idle, || String::from("STATUS in IDLE"));
+        self.note(state != DeviceState::Idle, || {
+            String::from("STATUS in IDLE")
+        });
     }
 
     fn senses(&mut self, status: &Status) {

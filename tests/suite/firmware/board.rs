@@ -118,7 +118,10 @@ fn an_emulated_board_passes_its_test_and_plays_a_stroke() {
     };
     let mut tries = (1..=N_TRIES).map(|nth| {
         let nonce = 1000 * u32::try_from(nth).unwrap();
-        let trial = Trial { extent: Extent::Quick, nonce };
+        let trial = Trial {
+            extent: Extent::Quick,
+            nonce,
+        };
         certify_port(&board.port, trial, &AtomicBool::new(false), &mut |_| {}).unwrap()
     });
     let certificate = tries.find(Certificate::passed).unwrap();

@@ -1,6 +1,6 @@
 //! What a device says of itself, and that it says the same again.
 
-use super::checks;
+use super::check::checks;
 use crate::certify::client::{Client, Verdict, ensure};
 use crate::message::{Caps, MAGIC, TICK_US};
 
@@ -23,7 +23,9 @@ const BOUNDS: &[Bound] = &[
     ("the pitch is 0", |caps| caps.pitch_um > 0),
     ("tick_us is not 25000", |caps| caps.tick_us == TICK_US),
     ("the queue is 0", |caps| caps.queue > 0),
-    ("dac_bits is not 8…16", |caps| (8..=16).contains(&caps.dac_bits)),
+    ("dac_bits is not 8…16", |caps| {
+        (8..=16).contains(&caps.dac_bits)
+    }),
     ("modes lack A", |caps| caps.modes & Caps::MODE_A != 0),
     ("modes have bits that v1 does not know", |caps| {
         let known = Caps::MODE_A | Caps::MODE_B | Caps::MODE_IDENT | Caps::INTERPOLATES;
@@ -38,9 +40,10 @@ const BOUNDS: &[Bound] = &[
     ("max_body is too small for a FRAME", |caps| {
         u32::from(caps.max_body) >= 12 + 4 * u32::from(caps.n_ch)
     }),
-    ("sample_hz is no whole number of samples a period of 320 Hz", |caps| {
-        caps.sample_hz >= 640 && caps.sample_hz % 320 == 0
-    }),
+    (
+        "sample_hz is no whole number of samples a period of 320 Hz",
+        |caps| caps.sample_hz >= 640 && caps.sample_hz % 320 == 0,
+    ),
     ("the carriers are not 40 and 320 Hz", |caps| {
         caps.freq_mhz == [40_000, 320_000]
     }),

@@ -1,6 +1,6 @@
 //! FRAMEs: which is played when, and what is counted.
 
-use super::checks;
+use super::check::checks;
 use super::session::frame_codes;
 use super::steps::{expect, status_of};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
@@ -23,7 +23,11 @@ checks! { "frames":
 
 fn armed(c: &mut Client<'_>) -> Verdict {
     // A long hold, so that two ticks without a FRAME are no ramp.
-    let config = Config { hold_ms: 90, ramp_ms: 10, ..c.usual() };
+    let config = Config {
+        hold_ms: 90,
+        ramp_ms: 10,
+        ..c.usual()
+    };
     let says = c.arming(&config);
     c.tell(&says).map(drop)
 }
@@ -89,9 +93,10 @@ fn queue(c: &mut Client<'_>) -> Verdict {
         let codes = c.faint(small(ahead));
         let expected = sum(c, &codes);
         expect(&status, DeviceState::Run, expected)?;
-        ensure(depth > 40 || u32::from(status.queued) == depth - ahead, || {
-            format!("queued {} instead of {}", status.queued, depth - ahead)
-        })?;
+        ensure(
+            depth > 40 || u32::from(status.queued) == depth - ahead,
+            || format!("queued {} instead of {}", status.queued, depth - ahead),
+        )?;
     }
     for ahead in 3..=depth.min(8) {
         // The age is kept young by FRAMEs that are repeated.
@@ -120,7 +125,9 @@ fn last_writer(c: &mut Client<'_>) -> Verdict {
     let expected = sum(c, &third);
     expect(&status, DeviceState::Run, expected)?;
     if depth == 2 {
-        ensure(status.queued == 1, || format!("queued {} instead of 1", status.queued))?;
+        ensure(status.queued == 1, || {
+            format!("queued {} instead of 1", status.queued)
+        })?;
         let expected = sum(c, &second);
         expect(&status_of(c, tick + 2)?, DeviceState::Run, expected)?;
     }
@@ -144,7 +151,9 @@ fn late(c: &mut Client<'_>) -> Verdict {
         let status = status_of(c, tick + 1)?;
         let expected = sum(c, &codes);
         expect(&status, DeviceState::Run, expected)?;
-        ensure(status.last_seq == seq, || String::from("a late FRAME is not in last_seq"))?;
+        ensure(status.last_seq == seq, || {
+            String::from("a late FRAME is not in last_seq")
+        })?;
         c.count(&status)?;
     }
     Ok(())
@@ -155,7 +164,8 @@ fn far(c: &mut Client<'_>) -> Verdict {
     let codes = c.faint(8);
     let (tick, _) = c.tell_in_tick(|c, tick| {
         vec![
-            c.frame(tick.wrapping_add(0x7fff_fffe), &codes).wants(Want::Ack(3)),
+            c.frame(tick.wrapping_add(0x7fff_fffe), &codes)
+                .wants(Want::Ack(3)),
             c.frame(tick.wrapping_add(1000), &codes).wants(Want::Ack(3)),
             c.frame(tick.wrapping_sub(0x7fff_fffe), &codes),
         ]
@@ -195,9 +205,15 @@ fn duplicates(c: &mut Client<'_>) -> Verdict {
     c.count(&status)?;
     expect(&status, DeviceState::Hold, expected)?;
     let ages_ms = heard.ages_ms(u64::from(tick + 2) * 25_000);
-    ensure((ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)), || {
-        format!("age_ms {} after a duplicate, {} is right", status.age_ms, ages_ms[0])
-    })?;
+    ensure(
+        (ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)),
+        || {
+            format!(
+                "age_ms {} after a duplicate, {} is right",
+                status.age_ms, ages_ms[0]
+            )
+        },
+    )?;
     // Only a FRAME is a duplicate by its seq.
     let mut ping = c.ping();
     if let Want::Pong(token) = ping.want {
@@ -232,9 +248,15 @@ fn refused(c: &mut Client<'_>) -> Verdict {
         format!("last_seq {} is of a refused FRAME", status.last_seq)
     })?;
     let ages_ms = heard.ages_ms(u64::from(tick + 2) * 25_000);
-    ensure((ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)), || {
-        format!("age_ms {} after a refused FRAME, {} is right", status.age_ms, ages_ms[0])
-    })
+    ensure(
+        (ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)),
+        || {
+            format!(
+                "age_ms {} after a refused FRAME, {} is right",
+                status.age_ms, ages_ms[0]
+            )
+        },
+    )
 }
 
 fn missing(c: &mut Client<'_>) -> Verdict {
@@ -254,7 +276,9 @@ fn missing(c: &mut Client<'_>) -> Verdict {
     let again = status_of(c, tick + 3)?;
     expect(&again, DeviceState::Run, expected)?;
     let n_missed = again.underrun.wrapping_sub(hold.underrun);
-    ensure(n_missed == 0, || format!("underrun rose by {n_missed} in RUN"))
+    ensure(n_missed == 0, || {
+        format!("underrun rose by {n_missed} in RUN")
+    })
 }
 
 fn depth(c: &mut Client<'_>) -> Verdict {

@@ -1,6 +1,6 @@
 //! Texts between zeros: what is a packet, what is not, and that only itself is lost.
 
-use super::checks;
+use super::check::checks;
 use super::steps::expect;
 use crate::certify::client::{Client, Verdict};
 use crate::certify::say::{Say, Want, packet};
@@ -28,7 +28,8 @@ const BURST: usize = 1500;
 /// Says these in bursts.
 fn tell_all(c: &mut Client<'_>, says: &[Say]) -> Verdict {
     let longest = says.iter().map(|say| say.bytes.len()).max().unwrap_or(1);
-    says.chunks((BURST / longest).max(1)).try_for_each(|burst| c.tell(burst).map(drop))
+    says.chunks((BURST / longest).max(1))
+        .try_for_each(|burst| c.tell(burst).map(drop))
 }
 
 fn empties(c: &mut Client<'_>) -> Verdict {
@@ -90,7 +91,11 @@ fn flipped(c: &mut Client<'_>, say: &Say, step: usize) -> Vec<Say> {
 
 fn flips(c: &mut Client<'_>) -> Verdict {
     let (codes, config) = (c.faint(0), c.usual());
-    for (say, step) in [(c.ping(), 1), (c.config(&config), 5), (c.frame_next(&codes), 11)] {
+    for (say, step) in [
+        (c.ping(), 1),
+        (c.config(&config), 5),
+        (c.frame_next(&codes), 11),
+    ] {
         let says = flipped(c, &say, step);
         tell_all(c, &says)?;
     }
@@ -116,7 +121,13 @@ fn oversize(c: &mut Client<'_>) -> Verdict {
     }
     c.tell(&fits)?;
     let longer = c.say(0x70, &vec![0x5a; largest - 7]).wants(Want::NoPacket);
-    let says = [longer, c.ping(), Client::noise(&[7; 700]), Client::noise(&[7; 900]), c.ping()];
+    let says = [
+        longer,
+        c.ping(),
+        Client::noise(&[7; 700]),
+        Client::noise(&[7; 900]),
+        c.ping(),
+    ];
     c.tell(&says).map(drop)
 }
 
@@ -140,7 +151,16 @@ fn full_block(c: &mut Client<'_>) -> Verdict {
 fn echoes(c: &mut Client<'_>) -> Verdict {
     let caps = c.caps_payload().to_vec();
     let mut says = vec![c.say(kind::CAPS, &caps).wants(Want::Bad)];
-    for kind in [0x80, kind::CFG, kind::ACK, kind::STATUS, kind::FAULT, kind::PONG, 0x8f, 0xff] {
+    for kind in [
+        0x80,
+        kind::CFG,
+        kind::ACK,
+        kind::STATUS,
+        kind::FAULT,
+        kind::PONG,
+        0x8f,
+        0xff,
+    ] {
         says.push(c.say(kind, &[0; 40]).wants(Want::Bad));
     }
     says.push(c.ping());
@@ -150,13 +170,21 @@ fn echoes(c: &mut Client<'_>) -> Verdict {
 fn unknown(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     for is_armed in [false, true] {
-        let mut says = if is_armed { c.arming(&config) } else { Vec::new() };
+        let mut says = if is_armed {
+            c.arming(&config)
+        } else {
+            Vec::new()
+        };
         for kind in [0x00, 0x0a, 0x10, 0x33, 0x5a, 0x7f] {
             says.push(c.say(kind, &[]).wants(Want::Ack(4)));
             says.push(c.say(kind, &[1; 30]).wants(Want::Ack(4)));
         }
         c.tell(&says)?;
-        let state = if is_armed { DeviceState::Armed } else { DeviceState::Ready };
+        let state = if is_armed {
+            DeviceState::Armed
+        } else {
+            DeviceState::Ready
+        };
         expect(&c.status()?, state, 0)?;
     }
     Ok(())
@@ -166,7 +194,9 @@ fn flags(c: &mut Client<'_>) -> Verdict {
     let mut says = Vec::new();
     for flags in [1, 0x80, 0xff] {
         let mut ping = c.ping();
-        let Want::Pong(token) = ping.want else { continue };
+        let Want::Pong(token) = ping.want else {
+            continue;
+        };
         ping.bytes = packet(kind::PING, flags, ping.seq, &token.to_le_bytes());
         says.push(ping);
         let mut stop = c.stop(0);
@@ -232,7 +262,9 @@ fn trailing(c: &mut Client<'_>) -> Verdict {
     let ask = c.config(&config);
     let (config_payload, arm_payload) = (c.config_payload(&config), Client::arm_payload(c.session));
     let (arm, ping) = (c.arm(), c.ping());
-    let Want::Pong(token) = ping.want else { return Ok(()) };
+    let Want::Pong(token) = ping.want else {
+        return Ok(());
+    };
     let says = [
         longer(c, hello, &hello_payload),
         longer(c, ask, &config_payload),

@@ -1,6 +1,6 @@
 //! IDENT: one contactor at a time, for a while.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go, status_of};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 use crate::certify::say::{Say, Want};
@@ -20,7 +20,10 @@ fn can(c: &Client<'_>) -> bool {
 
 fn ident(c: &mut Client<'_>, channel: u16, ms: u16, amp: u16) -> Say {
     c.watch.may_ident = true;
-    let payload: Vec<u8> = [channel, ms, amp].iter().flat_map(|field| field.to_le_bytes()).collect();
+    let payload: Vec<u8> = [channel, ms, amp]
+        .iter()
+        .flat_map(|field| field.to_le_bytes())
+        .collect();
     let code = if can(c) { 0 } else { 4 };
     c.say(kind::IDENT, &payload).wants(Want::Ack(code))
 }
@@ -42,9 +45,15 @@ fn sounds(c: &mut Client<'_>) -> Verdict {
     for ms in [58, 63, 68] {
         sound(c, &config, 0, ms, u32::from(amp))?;
     }
-    let limited = Config { comp_limit: [0, amp / 2], ..config };
+    let limited = Config {
+        comp_limit: [0, amp / 2],
+        ..config
+    };
     sound(c, &limited, last, 30, u32::from(amp / 2))?;
-    let masked = Config { mask: ChannelMask::first(usize::from(last)), ..config };
+    let masked = Config {
+        mask: ChannelMask::first(usize::from(last)),
+        ..config
+    };
     sound(c, &masked, last, 30, 0)
 }
 
@@ -105,7 +114,9 @@ fn ends(c: &mut Client<'_>) -> Verdict {
         let first = ident(c, 0, 900, amp);
         c.tell_at(there.tick, there.phase_us, &[first])?;
         let status = status_of(c, there.tick + 1)?;
-        ensure(status.amp_sum == u32::from(amp), || String::from("IDENT did not sound"))?;
+        ensure(status.amp_sum == u32::from(amp), || {
+            String::from("IDENT did not sound")
+        })?;
         let (end, sum) = match by {
             kind::STOP => (c.stop(0), 0),
             kind::FRAME => {

@@ -1,6 +1,6 @@
 //! The lease: who renews it, and what happens without a sign of the host.
 
-use super::checks;
+use super::check::checks;
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 use crate::certify::predict::Between;
 use crate::certify::say::{Say, Want};
@@ -53,13 +53,19 @@ fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
         return Err(Trouble::Late);
     }
     let tick_us = u64::from(TICK_US);
-    let last = c.statuses_since(mark).last().map_or(heard.to_us / tick_us, |s| u64::from(s.tick));
+    let last = c
+        .statuses_since(mark)
+        .last()
+        .map_or(heard.to_us / tick_us, |s| u64::from(s.tick));
     // The ms in which it ends may still be of the session.
     let (least, most) = ((ends_us / tick_us), (ends_us + 1000) / tick_us);
     ensure((least..=most).contains(&last), || {
         let over_us = (last * tick_us).abs_diff(ends_us);
         let which = if last < least { "before" } else { "after" };
-        format!("STATUS stopped {} ms {which} the end of the lease", over_us / 1000)
+        format!(
+            "STATUS stopped {} ms {which} the end of the lease",
+            over_us / 1000
+        )
     })
 }
 
@@ -103,7 +109,12 @@ fn duplicate_renews(c: &mut Client<'_>, codes: &[[u16; 2]]) -> Verdict {
     let config = c.usual();
     let frame = c.frame_next(codes);
     let seq = frame.seq;
-    let says = [c.hello_with([1, 1], 1, 120, 1), c.config(&config), c.arm(), frame];
+    let says = [
+        c.hello_with([1, 1], 1, 120, 1),
+        c.config(&config),
+        c.arm(),
+        frame,
+    ];
     c.tell(&says)?;
     c.due.dup += 1;
     renews(c, super::frames::with_seq(codes, seq))
@@ -144,8 +155,16 @@ fn not_renewed(c: &mut Client<'_>) -> Verdict {
 /// The lease is shorter than the hold, so that it ends first.
 fn running(c: &mut Client<'_>) -> Verdict {
     let (lease_ms, ramp_ms) = (40, 20);
-    let config = Config { hold_ms: 80, ramp_ms, ..c.usual() };
-    let says = [c.hello_with([1, 1], 1, lease_ms, 1), c.config(&config), c.arm()];
+    let config = Config {
+        hold_ms: 80,
+        ramp_ms,
+        ..c.usual()
+    };
+    let says = [
+        c.hello_with([1, 1], 1, lease_ms, 1),
+        c.config(&config),
+        c.arm(),
+    ];
     c.tell(&says)?;
     let tick = c.aim(5000)?;
     let codes = c.faint(2);
@@ -155,12 +174,20 @@ fn running(c: &mut Client<'_>) -> Verdict {
     let mark = c.mark();
     c.pass(150_000)?;
     c.watch.pause();
-    let says = [c.frame_next(&codes).wants(Want::Ack(2)), c.arm().wants(Want::Ack(2))];
+    let says = [
+        c.frame_next(&codes).wants(Want::Ack(2)),
+        c.arm().wants(Want::Ack(2)),
+    ];
     c.tell(&says)?;
     // Its last PING renewed the lease.
-    let last = Between { from_us: heard.to_us, to_us: heard.to_us };
+    let last = Between {
+        from_us: heard.to_us,
+        to_us: heard.to_us,
+    };
     let statuses = c.statuses_since(mark);
-    ensure(!statuses.is_empty(), || String::from("no STATUS came while it ran"))?;
+    ensure(!statuses.is_empty(), || {
+        String::from("no STATUS came while it ran")
+    })?;
     for status in &statuses {
         let at_us = u64::from(status.tick) * u64::from(TICK_US);
         let n_steps = last.steps_until(lease_ms, at_us)[0];
@@ -172,7 +199,9 @@ fn running(c: &mut Client<'_>) -> Verdict {
         let is_told = status.faults & fault_bit::LEASE_LOST == 0 || n_steps[1] > 0;
         ensure(is_told, || String::from("bit 5 before the lease was over"))?;
         let is_over = n_steps[0] > u64::from(ramp_ms);
-        ensure(!is_over, || String::from("STATUS after the ramp of a lost lease"))?;
+        ensure(!is_over, || {
+            String::from("STATUS after the ramp of a lost lease")
+        })?;
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! CONFIG and what it bounds: clamps, limits, mask, slew, sum guard.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{expect, status_of};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 use crate::certify::predict::Allowed;
 use crate::certify::say::Say;
-use crate::message::{ChannelMask, Config, DeviceState, Status};
+use crate::message::{Caps, ChannelMask, Config, DeviceState, Status};
 
 checks! { "limits":
     Quick "CFG" usual, "CFG is what was asked where CAPS allow it";
@@ -20,7 +20,10 @@ checks! { "limits":
 
 /// Everything as asked, at 0 V: a device that does not grant that gets no large codes.
 fn unpowered(c: &mut Client<'_>) -> Result<Config, Trouble> {
-    let config = Config { hv_dv: 0, ..c.usual() };
+    let config = Config {
+        hv_dv: 0,
+        ..c.usual()
+    };
     let says = [c.hello(), c.config(&config)];
     match c.tell(&says) {
         Err(Trouble::Wrong(what)) => Err(Trouble::Untested(format!(
@@ -44,44 +47,49 @@ fn usual(c: &mut Client<'_>) -> Verdict {
     c.tell(&says).map(drop)
 }
 
+/// A wish that CAPS and the rules bound, as what it changes of a plain one.
+type Wish = fn(&mut Config, &Caps);
+
+const WISHES: &[Wish] = &[
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (100, 0),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (100, 1),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (0, 100),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (0, 101),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (101, 40),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (60, 41),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (u16::MAX, u16::MAX),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (0, 0),
+    |wish, _| (wish.hold_ms, wish.ramp_ms) = (25, 30),
+    |wish, _| wish.slew = 1,
+    |wish, caps| wish.slew = caps.slew_max,
+    |wish, _| wish.slew = u16::MAX,
+    |wish, _| wish.comp_limit = [u16::MAX; 2],
+    |wish, _| wish.comp_limit[0] = 0,
+    |wish, _| wish.comp_limit[1] = 0,
+    |wish, caps| wish.comp_limit = caps.comp_limit.map(|limit| limit / 2),
+    |wish, _| wish.mode = 1,
+    |wish, _| wish.mode = 9,
+    |wish, _| wish.flags = 1,
+    |wish, _| wish.flags = 0xff,
+    |wish, _| wish.flags = 0xfe,
+    |wish, _| wish.mask = ChannelMask::default(),
+    |wish, _| wish.mask = ChannelMask::first(1),
+    |wish, caps| wish.mask = ChannelMask::first(usize::from(caps.n_ch) - 1),
+    |wish, caps| wish.mask = ChannelMask::first(32 * usize::from(caps.n_ch).div_ceil(32)),
+    |wish, caps| wish.hv_dv = caps.hv_max_dv,
+    |wish, caps| wish.hv_dv = caps.hv_max_dv.saturating_add(1),
+    |wish, _| wish.hv_dv = u16::MAX,
+    |wish, _| wish.hv_dv = 1,
+    |_, _| {},
+];
+
 fn clamps(c: &mut Client<'_>) -> Verdict {
-    let config = Config { hv_dv: 0, ..c.usual() };
-    let [low, high] = c.caps.comp_limit;
-    let n_ch = c.n_ch();
-    let wishes = [
-        config,
-        Config { hold_ms: 100, ramp_ms: 0, ..config },
-        Config { hold_ms: 100, ramp_ms: 1, ..config },
-        Config { hold_ms: 0, ramp_ms: 100, ..config },
-        Config { hold_ms: 0, ramp_ms: 101, ..config },
-        Config { hold_ms: 101, ramp_ms: 40, ..config },
-        Config { hold_ms: 60, ramp_ms: 41, ..config },
-        Config { hold_ms: u16::MAX, ramp_ms: u16::MAX, ..config },
-        Config { hold_ms: 0, ramp_ms: 0, ..config },
-        Config { hold_ms: 25, ramp_ms: 30, ..config },
-        Config { slew: 1, ..config },
-        Config { slew: c.caps.slew_max, ..config },
-        Config { slew: u16::MAX, ..config },
-        Config { comp_limit: [u16::MAX; 2], ..config },
-        Config { comp_limit: [0, high], ..config },
-        Config { comp_limit: [low, 0], ..config },
-        Config { comp_limit: [low / 2, high / 3], ..config },
-        Config { mode: 1, ..config },
-        Config { mode: 9, ..config },
-        Config { flags: 1, ..config },
-        Config { flags: 0xff, ..config },
-        Config { flags: 0xfe, ..config },
-        Config { mask: ChannelMask::default(), ..config },
-        Config { mask: ChannelMask::first(1), ..config },
-        Config { mask: ChannelMask::first(n_ch - 1), ..config },
-        Config { mask: ChannelMask::first(32 * n_ch.div_ceil(32)), ..config },
-        Config { hv_dv: c.caps.hv_max_dv, ..config },
-        Config { hv_dv: c.caps.hv_max_dv.saturating_add(1), ..config },
-        Config { hv_dv: u16::MAX, ..config },
-        Config { hv_dv: 1, ..config },
-        config,
-    ];
-    for wish in wishes {
+    for change in WISHES {
+        let mut wish = Config {
+            hv_dv: 0,
+            ..c.usual()
+        };
+        change(&mut wish, &c.caps);
         let says = [c.config(&wish)];
         c.tell(&says)?;
     }
@@ -89,7 +97,10 @@ fn clamps(c: &mut Client<'_>) -> Verdict {
 }
 
 fn last_config(c: &mut Client<'_>) -> Verdict {
-    let silent = Config { comp_limit: [0; 2], ..c.usual() };
+    let silent = Config {
+        comp_limit: [0; 2],
+        ..c.usual()
+    };
     let usual = c.usual();
     let says = [c.config(&silent), c.config(&usual), c.config(&silent)];
     c.tell(&says)?;
@@ -111,7 +122,11 @@ fn frame_is(
     let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
     let status = status_of(c, tick + 1)?;
     let is_near = (sum.saturating_sub(slack)..=sum).contains(&status.amp_sum);
-    expect(&status, DeviceState::Run, if is_near { status.amp_sum } else { sum })?;
+    expect(
+        &status,
+        DeviceState::Run,
+        if is_near { status.amp_sum } else { sum },
+    )?;
     Ok(status)
 }
 
@@ -137,7 +152,10 @@ fn comp_limit(c: &mut Client<'_>) -> Verdict {
         [most[0], 0],
         [0, 0],
     ] {
-        let config = Config { comp_limit: limits, ..c.usual() };
+        let config = Config {
+            comp_limit: limits,
+            ..c.usual()
+        };
         play_is(c, &config, &codes)?;
     }
     Ok(())
@@ -145,14 +163,22 @@ fn comp_limit(c: &mut Client<'_>) -> Verdict {
 
 fn clipped(c: &mut Client<'_>) -> Verdict {
     if c.caps.queue < 2 {
-        return Err(Trouble::Untested(String::from("the queue holds no FRAME for later")));
+        return Err(Trouble::Untested(String::from(
+            "the queue holds no FRAME for later",
+        )));
     }
     let codes = c.faint(3);
-    let config = Config { comp_limit: [1, 1], ..c.usual() };
+    let config = Config {
+        comp_limit: [1, 1],
+        ..c.usual()
+    };
     let says = c.arming(&config);
     c.tell(&says)?;
     let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
-    c.due.clipped = c.due.clipped.wrapping_add(Allowed::of(&codes, &config).clipped);
+    c.due.clipped = c
+        .due
+        .clipped
+        .wrapping_add(Allowed::of(&codes, &config).clipped);
     let status = status_of(c, tick + 1)?;
     c.count(&status)
 }
@@ -162,22 +188,43 @@ fn mask(c: &mut Client<'_>) -> Verdict {
     let n_ch = c.n_ch();
     let codes = c.faint(4);
     let usual = c.usual();
-    let limits = codes.first().map_or([1; 2], |code| code.map(|code| code.saturating_sub(1)));
+    let limits = codes
+        .first()
+        .map_or([1; 2], |code| code.map(|code| code.saturating_sub(1)));
     let n_bits = usize::BITS - (n_ch - 1).leading_zeros();
     for bit in 0..n_bits {
         let mask = ChannelMask::of(n_ch, |channel| channel >> bit & 1 == 1);
         play_is(c, &Config { mask, ..usual }, &codes)?;
-        play_is(c, &Config { mask, comp_limit: limits, ..usual }, &codes)?;
+        play_is(
+            c,
+            &Config {
+                mask,
+                comp_limit: limits,
+                ..usual
+            },
+            &codes,
+        )?;
     }
-    let nothing = Config { mask: ChannelMask::default(), ..usual };
+    let nothing = Config {
+        mask: ChannelMask::default(),
+        ..usual
+    };
     play_is(c, &nothing, &codes)
 }
 
 fn slew(c: &mut Client<'_>) -> Verdict {
-    let config = Config { slew: 30, hold_ms: 90, ramp_ms: 10, ..c.usual() };
+    let config = Config {
+        slew: 30,
+        hold_ms: 90,
+        ramp_ms: 10,
+        ..c.usual()
+    };
     let says = c.arming(&config);
     c.tell(&says)?;
-    let [up, down] = [c.faint(1), c.faint(9).iter().map(|code| code.map(|c| c / 4)).collect()];
+    let [up, down] = [
+        c.faint(1),
+        c.faint(9).iter().map(|code| code.map(|c| c / 4)).collect(),
+    ];
     let mut reached = vec![[0; 2]; c.n_ch()];
     let mut tick = c.aim(6000)?;
     // Every second tick has none: HOLD moves on as well.
@@ -198,7 +245,11 @@ fn slew(c: &mut Client<'_>) -> Verdict {
         tick += 1;
         reached = Allowed::of(codes, &config).slewed(&reached, config.slew);
         let sum = reached.iter().flatten().map(|code| u32::from(*code)).sum();
-        let state = if has_frame { DeviceState::Run } else { DeviceState::Hold };
+        let state = if has_frame {
+            DeviceState::Run
+        } else {
+            DeviceState::Hold
+        };
         expect(&status_of(c, tick)?, state, sum)?;
     }
     Ok(())
@@ -208,12 +259,22 @@ fn guard(c: &mut Client<'_>) -> Verdict {
     let config = unpowered(c)?;
     let n_ticks = u16::MAX.div_ceil(c.caps.slew_max.max(1));
     if n_ticks > 40 {
-        return Err(Trouble::Untested(format!("full drive takes {n_ticks} ticks of slew")));
+        return Err(Trouble::Untested(format!(
+            "full drive takes {n_ticks} ticks of slew"
+        )));
     }
     let n_ch = c.n_ch();
     let full = [
         vec![[u16::MAX; 2]; n_ch],
-        (0..n_ch).map(|channel| if channel == 0 { [60_000, 30_000] } else { [7, 9] }).collect(),
+        (0..n_ch)
+            .map(|channel| {
+                if channel == 0 {
+                    [60_000, 30_000]
+                } else {
+                    [7, 9]
+                }
+            })
+            .collect(),
         vec![[32_768, 32_767]; n_ch],
         vec![[32_768, 32_768]; n_ch],
         vec![[1, u16::MAX]; n_ch],
@@ -232,9 +293,10 @@ fn guard(c: &mut Client<'_>) -> Verdict {
         }
         let Some(status) = status else { continue };
         let (sum, slack) = (allowed.sum(), 2 * allowed.n_scaled);
-        ensure((sum - slack.min(sum)..=sum).contains(&status.amp_sum), || {
-            format!("amp_sum {} where {sum} is right", status.amp_sum)
-        })?;
+        ensure(
+            (sum - slack.min(sum)..=sum).contains(&status.amp_sum),
+            || format!("amp_sum {} where {sum} is right", status.amp_sum),
+        )?;
         c.count(&status)?;
     }
     Ok(())
@@ -242,21 +304,55 @@ fn guard(c: &mut Client<'_>) -> Verdict {
 
 /// That both components are scaled alike: the sum cannot tell, but the way down by slew can.
 fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
-    let config = Config { slew: 10_000.min(c.caps.slew_max), ..*config };
+    let config = Config {
+        slew: 10_000.min(c.caps.slew_max),
+        ..*config
+    };
     let codes = vec![[60_000, 30_000]; c.n_ch()];
     let says = c.arming(&config);
     c.tell(&says)?;
     let allowed = Allowed::of(&codes, &config);
-    let n_up = allowed.codes.iter().flatten().max().map_or(0, |code| code.div_ceil(config.slew));
+    let n_up = allowed
+        .codes
+        .iter()
+        .flatten()
+        .max()
+        .map_or(0, |code| code.div_ceil(config.slew));
     let mut reached = vec![[0; 2]; c.n_ch()];
+    let mut before: Option<(u32, Allowed)> = None;
     for nth in 0..n_up + 2 {
         let is_up = nth < n_up;
-        let codes = if is_up { codes.clone() } else { vec![[0; 2]; c.n_ch()] };
+        let codes = if is_up {
+            codes.clone()
+        } else {
+            vec![[0; 2]; c.n_ch()]
+        };
+        let frame = c.frame_next(&codes);
+        let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
         let aim = Allowed::of(&codes, &config);
         c.due.clipped = c.due.clipped.wrapping_add(aim.clipped);
+        if let Some((from, aim)) = &before {
+            // Ticks without a FRAME, where the link is slow, move towards the last one.
+            for _ in from + 1..=tick {
+                reached = aim.slewed(&reached, config.slew);
+            }
+        }
         reached = aim.slewed(&reached, config.slew);
-        let sum = reached.iter().flatten().map(|code| u32::from(*code)).sum();
-        frame_is(c, &codes, sum, 2 * allowed.n_scaled)?;
+        before = Some((tick + 1, aim));
+        let status = status_of(c, tick + 1)?;
+        let sum = reached
+            .iter()
+            .flatten()
+            .map(|code| u32::from(*code))
+            .sum::<u32>();
+        let slack = 2 * allowed.n_scaled;
+        let sums = sum.saturating_sub(slack)..=sum + slack;
+        ensure(sums.contains(&status.amp_sum), || {
+            format!(
+                "amp_sum {} on the way by slew, {sum} is right",
+                status.amp_sum
+            )
+        })?;
     }
     Ok(())
 }

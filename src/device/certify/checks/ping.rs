@@ -1,6 +1,6 @@
 //! The device's clock: PONG at every phase of a tick, STATUS at every tick.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 
@@ -47,7 +47,13 @@ fn phases(c: &mut Client<'_>) -> Verdict {
 }
 
 fn states(c: &mut Client<'_>) -> Verdict {
-    for place in [Place::Ready, Place::Armed, Place::Run, Place::Hold, Place::Ramp] {
+    for place in [
+        Place::Ready,
+        Place::Armed,
+        Place::Run,
+        Place::Hold,
+        Place::Ramp,
+    ] {
         let there = go(c, place)?;
         c.tell_at(there.tick, there.phase_us, &[])?;
         let status = c.status()?;
@@ -57,7 +63,11 @@ fn states(c: &mut Client<'_>) -> Verdict {
             place => place.state(),
         };
         ensure(status.state == state.code(), || {
-            format!("PING in {} led to {}", place.state(), super::steps::shown(&status))
+            format!(
+                "PING in {} led to {}",
+                place.state(),
+                super::steps::shown(&status)
+            )
         })?;
     }
     let idle = c.hello_with([2, 2], 1, 0, 0);

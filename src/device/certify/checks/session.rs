@@ -1,6 +1,6 @@
 //! HELLO, its nonce and its versions, and what arms.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, expect, go};
 use crate::certify::client::{Client, Verdict, ensure};
 use crate::certify::say::Want;
@@ -155,7 +155,11 @@ fn counters(c: &mut Client<'_>) -> Verdict {
     c.tell(&arming)?;
     let (_, _) = c.tell_in_tick(|c, tick| {
         let frame = c.frame(tick, &codes);
-        vec![frame.clone(), frame, c.say(kind::PING, &[1]).wants(Want::Bad)]
+        vec![
+            frame.clone(),
+            frame,
+            c.say(kind::PING, &[1]).wants(Want::Bad),
+        ]
     })?;
     c.due.late += 1;
     c.due.dup += 1;
@@ -165,7 +169,9 @@ fn counters(c: &mut Client<'_>) -> Verdict {
     let after = c.status()?;
     c.count(&after)?;
     let n_missed = after.underrun.wrapping_sub(before.underrun);
-    ensure(n_missed <= 1, || format!("underrun rose by {n_missed} over HELLO"))?;
+    ensure(n_missed <= 1, || {
+        format!("underrun rose by {n_missed} over HELLO")
+    })?;
     ensure(after.tick.wrapping_sub(before.tick) < 40, || {
         format!("tick {} before HELLO, {} after", before.tick, after.tick)
     })?;
@@ -185,5 +191,9 @@ fn counters(c: &mut Client<'_>) -> Verdict {
 
 /// The codes of a FRAME as bytes.
 pub(super) fn frame_codes(codes: &[[u16; 2]]) -> Vec<u8> {
-    codes.iter().flatten().flat_map(|code| code.to_le_bytes()).collect()
+    codes
+        .iter()
+        .flatten()
+        .flat_map(|code| code.to_le_bytes())
+        .collect()
 }

@@ -1,6 +1,6 @@
 //! Hold and ramp by the age of the last FRAME, at every phase of a tick.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{follow_silence, play_at};
 use crate::certify::client::{Client, Trouble, Verdict, ensure};
 use crate::certify::predict::Allowed;

@@ -1,6 +1,6 @@
 //! Every type in every state: its answer, and that a refusal changes nothing.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go, judge_silence, status_of};
 use crate::certify::client::{Client, Verdict, ensure};
 use crate::certify::say::{Say, Want};

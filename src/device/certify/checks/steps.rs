@@ -53,7 +53,11 @@ pub(super) fn play_at(
 /// The tick in which all of it was heard.
 pub(super) fn tick_of(heard: Between) -> Result<u32, Trouble> {
     let tick = u32::try_from(heard.from_us / u64::from(TICK_US)).map_err(|_| Trouble::Late)?;
-    if heard.is_in(tick) { Ok(tick) } else { Err(Trouble::Late) }
+    if heard.is_in(tick) {
+        Ok(tick)
+    } else {
+        Err(Trouble::Late)
+    }
 }
 
 /// The STATUS of this tick; those before it are passed over.
@@ -98,9 +102,10 @@ pub(super) fn judge_silence(played: &Played, status: &Status) -> Verdict {
     let ages_ms = played.heard.ages_ms(at_us);
     let age_ms = u64::from(status.age_ms);
     let is_live = status.device_state().is_some_and(DeviceState::is_live);
-    ensure(!is_live || (ages_ms[0]..=ages_ms[1]).contains(&age_ms), || {
-        format!("age_ms {age_ms} instead of {}", ages_ms[0])
-    })?;
+    ensure(
+        !is_live || (ages_ms[0]..=ages_ms[1]).contains(&age_ms),
+        || format!("age_ms {age_ms} instead of {}", ages_ms[0]),
+    )?;
     ensure(status.last_seq == played.seq || !is_live, || {
         format!("last_seq {} instead of {}", status.last_seq, played.seq)
     })

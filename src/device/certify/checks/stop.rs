@@ -1,6 +1,6 @@
 //! STOP in every state, and what it leaves.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, There, expect, go, judge_ramp, status_of};
 use crate::certify::client::{Client, Verdict, ensure};
 use crate::certify::say::Want;
@@ -32,7 +32,8 @@ fn ramp_in(c: &mut Client<'_>, place: Place, reason: u8) -> Verdict {
     let there = go(c, place)?;
     let codes = c.faint(2);
     let mut says = vec![
-        c.say(crate::message::kind::STOP, &[reason, 0]).wants(Want::Ack(0)),
+        c.say(crate::message::kind::STOP, &[reason, 0])
+            .wants(Want::Ack(0)),
         c.frame_next(&codes).wants(Want::Ack(2)),
     ];
     if there.played.is_some() {
@@ -51,9 +52,13 @@ fn ramp_in(c: &mut Client<'_>, place: Place, reason: u8) -> Verdict {
     for n_later in 1..=u32::from(ramp_ms) / 25 + 2 {
         let tick = there.tick + n_later;
         let status = status_of(c, tick)?;
-        let n_steps = from.0.steps_until(from.1, u64::from(tick) * u64::from(TICK_US));
+        let n_steps = from
+            .0
+            .steps_until(from.1, u64::from(tick) * u64::from(TICK_US));
         judge_ramp(&status, played.sum, DeviceState::Ramp, ramp_ms, n_steps)?;
-        ensure(status.queued == 0, || format!("{} FRAMEs wait after STOP", status.queued))?;
+        ensure(status.queued == 0, || {
+            format!("{} FRAMEs wait after STOP", status.queued)
+        })?;
     }
     expect(&c.status()?, DeviceState::Ready, 0)
 }
@@ -99,7 +104,13 @@ fn second(c: &mut Client<'_>) -> Verdict {
             }
             let at_us = u64::from(tick) * u64::from(TICK_US);
             let n_steps = stopped.steps_until(0, at_us);
-            judge_ramp(&status, played.sum, DeviceState::Ramp, config.ramp_ms, n_steps)?;
+            judge_ramp(
+                &status,
+                played.sum,
+                DeviceState::Ramp,
+                config.ramp_ms,
+                n_steps,
+            )?;
         }
     }
     Ok(())
@@ -111,13 +122,17 @@ fn queue(c: &mut Client<'_>) -> Verdict {
     let arming = c.arming(&config);
     c.tell(&arming)?;
     c.tell_in_tick(|c, tick| {
-        let mut says: Vec<_> = (1..=depth).map(|ahead| c.frame(tick + ahead, &codes)).collect();
+        let mut says: Vec<_> = (1..=depth)
+            .map(|ahead| c.frame(tick + ahead, &codes))
+            .collect();
         says.extend([c.stop(1), c.arm()]);
         says
     })?;
     for status in c.statuses(5)? {
         expect(&status, DeviceState::Armed, 0)?;
-        ensure(status.queued == 0, || format!("{} FRAMEs wait after STOP", status.queued))?;
+        ensure(status.queued == 0, || {
+            format!("{} FRAMEs wait after STOP", status.queued)
+        })?;
     }
     Ok(())
 }
@@ -145,5 +160,7 @@ fn reached(c: &mut Client<'_>, what: &str, is_there: impl Fn(u32) -> bool) -> Ve
         let ping = c.ping();
         c.tell(&[ping])?;
     }
-    ensure(false, || format!("hv_dV is {last} a second after it went {what}"))
+    ensure(false, || {
+        format!("hv_dV is {last} a second after it went {what}")
+    })
 }
