@@ -1,6 +1,7 @@
 //! What a check is, and how a section declares its own.
 
-use crate::certify::client::{Client, Verdict};
+use crate::certify::client::Client;
+use crate::certify::verdict::Verdict;
 
 /// One thing that is tried.
 pub(crate) struct Check {

@@ -1,9 +1,11 @@
 //! The lease: who renews it, and what happens without a sign of the host.
 
 use super::check::checks;
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::Between;
 use crate::certify::say::{Say, Want};
+use crate::certify::speech::Speech;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Config, TICK_US, fault_bit, kind};
 
 checks! { "lease":
@@ -116,7 +118,7 @@ fn duplicate_renews(c: &mut Client<'_>, codes: &[[u16; 2]]) -> Verdict {
         frame,
     ];
     c.tell(&says)?;
-    c.due.dup += 1;
+    c.tally.due.dup += 1;
     renews(c, super::frames::with_seq(codes, seq))
 }
 
@@ -140,14 +142,14 @@ fn not_renewed(c: &mut Client<'_>) -> Verdict {
     let hello = c.hello_with([1, 1], 1, 130, 1);
     let heard = c.tell(&[hello])?;
     c.pass(70_000)?;
-    let wrong = Client::hello_payload(0, [1, 1], 1, 0);
+    let wrong = Speech::hello_payload(0, [1, 1], 1, 0);
     for say in [
         c.say(kind::PING, &[1]).wants(Want::Bad),
         c.say(kind::STATUS, &[0; 36]).wants(Want::Bad),
         c.say(kind::HELLO, &wrong).wants(Want::Bad),
-        Client::noise(&[0, 7, 7, 0]),
+        Speech::noise(&[0, 7, 7, 0]),
     ] {
-        c.write_bad(&say)?;
+        c.write(&say)?;
     }
     expires(c, heard, 130)
 }

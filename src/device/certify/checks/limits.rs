@@ -2,9 +2,10 @@
 
 use super::check::checks;
 use super::steps::{expect, status_of};
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::Allowed;
 use crate::certify::say::Say;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Caps, ChannelMask, Config, DeviceState, Status};
 
 checks! { "limits":
@@ -12,7 +13,7 @@ checks! { "limits":
     Full "clamps" clamps, "hold + ramp ≤ 100 ms, the rest within CAPS; slew 0 is slew_max";
     Full "the last CONFIG holds" last_config, "a second CONFIG in READY replaces the first";
     Full "comp_limit" comp_limit, "values above it are lowered and counted, one each";
-    Full "clipped at reception" clipped, "values are counted when their FRAME comes, not when played";
+    Full "clipped at reception" clipped, "values are counted when their FRAME comes";
     Full "the mask" mask, "masked channels are 0 and not counted; bit and place agree";
     Full "slew" slew, "at most slew a tick, towards the newest target, in HOLD too";
     Full "sum guard" guard, "A40 + A320 above 65535: both scaled alike, counted once a channel";
@@ -135,9 +136,9 @@ fn play_is(c: &mut Client<'_>, config: &Config, codes: &[[u16; 2]]) -> Verdict {
     let says: Vec<Say> = c.arming(config);
     c.tell(&says)?;
     let allowed = Allowed::of(codes, config);
-    c.due.clipped = c.due.clipped.wrapping_add(allowed.clipped);
+    c.tally.due.clipped = c.tally.due.clipped.wrapping_add(allowed.clipped);
     let status = frame_is(c, codes, allowed.sum(), 2 * allowed.n_scaled)?;
-    c.count(&status)
+    c.tally.compare(&status)
 }
 
 fn comp_limit(c: &mut Client<'_>) -> Verdict {
@@ -175,12 +176,12 @@ fn clipped(c: &mut Client<'_>) -> Verdict {
     let says = c.arming(&config);
     c.tell(&says)?;
     let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
-    c.due.clipped = c
+    c.tally.due.clipped = c
         .due
         .clipped
         .wrapping_add(Allowed::of(&codes, &config).clipped);
     let status = status_of(c, tick + 1)?;
-    c.count(&status)
+    c.tally.compare(&status)
 }
 
 /// Masks by the bits of a channel's number: every channel has its own pattern of them.
@@ -288,7 +289,7 @@ fn guard(c: &mut Client<'_>) -> Verdict {
         for _ in 0..n_ticks.max(1) {
             let frame = c.frame_next(&codes);
             let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
-            c.due.clipped = c.due.clipped.wrapping_add(allowed.clipped);
+            c.tally.due.clipped = c.tally.due.clipped.wrapping_add(allowed.clipped);
             status = Some(status_of(c, tick + 1)?);
         }
         let Some(status) = status else { continue };
@@ -297,7 +298,7 @@ fn guard(c: &mut Client<'_>) -> Verdict {
             (sum - slack.min(sum)..=sum).contains(&status.amp_sum),
             || format!("amp_sum {} where {sum} is right", status.amp_sum),
         )?;
-        c.count(&status)?;
+        c.tally.compare(&status)?;
     }
     Ok(())
 }
@@ -330,7 +331,7 @@ fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
         let frame = c.frame_next(&codes);
         let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
         let aim = Allowed::of(&codes, &config);
-        c.due.clipped = c.due.clipped.wrapping_add(aim.clipped);
+        c.tally.due.clipped = c.tally.due.clipped.wrapping_add(aim.clipped);
         if let Some((from, aim)) = &before {
             // Ticks without a FRAME, where the link is slow, move towards the last one.
             for _ in from + 1..=tick {
