@@ -1,8 +1,9 @@
 //! Steps that many checks share: how to come into a state, and what STATUS must show then.
 
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::{Allowed, Between, fits_ramp, ramped};
 use crate::certify::say::Say;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Config, DeviceState, Status, TICK_US};
 
 /// A FRAME that runs, and what it comes to.
@@ -40,7 +41,7 @@ pub(super) fn play_at(
     let heard = c.tell(&[frame])?;
     let tick = tick_of(heard)?;
     let allowed = Allowed::of(codes, config);
-    c.due.clipped += allowed.clipped;
+    c.tally.due.clipped += allowed.clipped;
     Ok(Played {
         config: *config,
         sum: allowed.sum(),
