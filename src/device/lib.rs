@@ -44,6 +44,7 @@ mod host;
 mod link;
 mod message;
 mod port;
+mod replay;
 mod self_test;
 mod session_log;
 mod wav;
@@ -82,6 +83,7 @@ pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
+pub use replay::{ReplayedLink, ReplayedTick, replay_log};
 pub use self_test::SelfTestStep;
 pub use self_test::{SelfTestReport, self_test};
 pub use session_log::LogFeed;

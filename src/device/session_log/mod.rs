@@ -32,12 +32,15 @@ use line::Epoch;
 pub(super) use note::{Entry, HostCounters, Note};
 pub(super) use packets::HashedFrame;
 pub(super) use read::{LogReader, Seen};
+pub(super) use recorder::CONTINUED;
 use recorder::Recorder;
 use tap::Passing;
 pub(super) use tap::{Body, Passed, Tap, TapEnd, tap};
 
 /// Room for entries on their way: seconds of a link on which everything goes wrong.
 const MAX_ENTRIES: usize = 256;
+/// Stands in the first line of a link whose log has hashes of frames instead of frames.
+pub(super) const HASHED: &str = " frames=hashes";
 /// Between two looks at what is to be written.
 const NAP: Duration = Duration::from_millis(100);
 
@@ -197,7 +200,8 @@ impl SessionLog {
             shared: Arc::clone(&self.shared),
         };
         let program = selvedge_foundation::PROGRAM;
-        let text = format!("n={number} target={target:?} program={program}");
+        let frames = if self.keeps_frames { "" } else { HASHED };
+        let text = format!("n={number} target={target:?} program={program}{frames}");
         feed.say(event::LINK, text);
         feed
     }

@@ -440,15 +440,5 @@ fn hash_of(codes: &[[u16; 2]]) -> String {
 }
 
 fn body_of_status(status: &Status, seq: u16) -> Option<Body> {
-    body_of(status.packet(seq)?.as_bytes())
-}
-
-/// The body in a framed packet; `None` for what is no packet, as the lone delimiter.
-pub(super) fn body_of(wire: &[u8]) -> Option<Body> {
-    let mut decoder = crate::framing::Decoder::new(crate::framing::LARGEST_BODY);
-    let body = wire.iter().find_map(|&byte| {
-        let packet = decoder.push(byte)?;
-        Body::new(&packet)
-    });
-    body.map(|body| body.with_flags(decoder.flags()))
+    Body::of_wire(status.packet(seq)?.as_bytes())
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::events::event;
 use super::line::{Epoch, write_entry, write_packet};
 use super::note::{Entry, Note};
-use super::packets::{MAX_AGAIN, PacketCode, PacketWords, body_of};
+use super::packets::{MAX_AGAIN, PacketCode, PacketWords};
 use super::tap::{Body, Passed, Passing};
 use crate::message::kind;
 
@@ -18,7 +18,7 @@ const LONGEST_RUN: Duration = Duration::from_millis(500);
 const MAX_HEADINGS: usize = 16;
 
 /// Ends the first heading of a link that began in an earlier file.
-const CONTINUED: &str = " continued";
+pub(crate) const CONTINUED: &str = " continued";
 
 /// Frames equal to the one that was written last.
 #[derive(Clone, Copy, Debug)]
@@ -88,11 +88,11 @@ impl Recorder {
     pub(super) fn passing(&mut self, passing: &Passing, lines: &mut String) {
         let at = passing.at;
         let words = match &passing.what {
-            Passed::Sent(packet) => match body_of(packet.as_bytes()) {
+            Passed::Sent(packet) => match Body::of_wire(packet.as_bytes()) {
                 Some(body) => return self.sent(at, &body, lines),
                 None => return,
             },
-            Passed::Unsent(packet) => match body_of(packet.as_bytes()) {
+            Passed::Unsent(packet) => match Body::of_wire(packet.as_bytes()) {
                 Some(body) => PacketCode::unsent(&body),
                 None => return,
             },

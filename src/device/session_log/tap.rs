@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use crate::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY, Packet, Received};
+use crate::framing::{CRC_LEN, Decoder, HEADER_LEN, LARGEST_BODY, Packet, Received};
 
 /// Room for packets on their way to the log: more than arrive while its writer sleeps.
 const MAX_PASSING: usize = 256;
@@ -38,6 +38,15 @@ impl Body {
         let room = body.bytes.get_mut(..body.len)?;
         room.copy_from_slice(packet.payload);
         Some(body)
+    }
+
+    /// The body in a framed packet; `None` for what is no packet, as the lone delimiter.
+    pub(crate) fn of_wire(wire: &[u8]) -> Option<Self> {
+        let mut decoder = Decoder::new(LARGEST_BODY);
+        let body = wire
+            .iter()
+            .find_map(|&byte| Self::new(&decoder.push(byte)?));
+        body.map(|body| body.with_flags(decoder.flags()))
     }
 
     /// The same with these flags.
