@@ -227,7 +227,7 @@ impl Player {
             } => return Err(CliError::Failed(self.of_target(&reason))),
             BridgeEvent::Connected(caps) => {
                 if let Some(log) = &mut self.log {
-                    log.set_link_limit(caps.comp_limit);
+                    log.set_link(self.bridge.link_scale());
                 }
                 if let Some(doubt) = array::doubt(self.moving.core.scene().profile(), &caps) {
                     terminal::notice(&self.of_target(&doubt));

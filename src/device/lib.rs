@@ -57,7 +57,7 @@ pub use actuator_model::{
     MAX_QUALITY, SAMPLES_PER_S, Skin,
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
-pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState};
+pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
     Sense,

@@ -5,7 +5,9 @@
 use std::time::{Duration, Instant};
 
 use super::{LinkView, Notice, TICK};
-use selvedge_device::{ArrayChange, Bridge, BridgeEvent, DeviceUid, SentFrame, StopHow, Timings};
+use selvedge_device::{
+    ArrayChange, Bridge, BridgeEvent, DeviceUid, LinkScale, SentFrame, StopHow, Timings,
+};
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;
@@ -31,8 +33,8 @@ pub(super) struct Link {
 pub(super) enum News {
     /// A device tick began; when its STATUS arrived, and when the answer is due.
     Tick(u32, [Instant; 2]),
-    /// A device with these limits is connected, or configured.
-    Limits([u16; 2]),
+    /// A device that makes this of codes is connected, or configured.
+    Scale(LinkScale),
     /// The device is gone.
     Gone,
 }
@@ -72,8 +74,9 @@ impl Link {
                     due,
                 } => return Some(News::Tick(*tick, [*received, *due])),
                 BridgeEvent::Pong { .. } => continue,
-                BridgeEvent::Connected(caps) => Some(News::Limits(caps.comp_limit)),
-                BridgeEvent::Ready(config) => Some(News::Limits(config.comp_limit)),
+                BridgeEvent::Connected(_) | BridgeEvent::Ready(_) => {
+                    bridge.link_scale().map(News::Scale)
+                }
                 BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => Some(News::Gone),
                 _ => None,
             };
@@ -158,11 +161,9 @@ impl Link {
         bridge.identify(channel, how)
     }
 
-    /// The limits of the device, if one is connected: those in force, or else its largest.
-    pub(super) fn comp_limit(&self) -> Option<[u16; 2]> {
-        let bridge = self.bridge.as_ref()?;
-        let in_force = bridge.config().map(|config| config.comp_limit);
-        in_force.or_else(|| bridge.caps().map(|caps| caps.comp_limit))
+    /// What the device makes of codes, if one is connected.
+    pub(super) fn scale(&self) -> Option<LinkScale> {
+        self.bridge.as_ref()?.link_scale()
     }
 
     /// Frames not made because no armed device listened.
@@ -180,7 +181,8 @@ impl Link {
         Some(LinkView {
             state: bridge.state(),
             caps: bridge.caps().copied(),
-            comp_limit: self.comp_limit(),
+            scale: bridge.link_scale(),
+            predicted_sum: bridge.predicted_sum(),
             status: bridge.status().copied(),
             depth: bridge.depth(),
             lead: bridge.lead(),

@@ -187,10 +187,10 @@ impl Runner {
         while let Some(news) = self.link.hear(&mut |notice| notices.push(notice)) {
             match news {
                 News::Tick(number, times) => tick = Some((number, times)),
-                News::Limits(comp_limit) => self.core.set_link_limit(Some(comp_limit)),
+                News::Scale(link) => self.core.set_link(Some(link)),
                 News::Gone => {
                     tick = None;
-                    self.core.set_link_limit(None);
+                    self.core.set_link(None);
                     self.pacer.forget_device();
                 }
             }
@@ -259,7 +259,7 @@ impl Runner {
             self.connect(None);
             self.say(Notice::DisplayChanged);
         }
-        next.scene.set_link_limit(self.link.comp_limit());
+        next.scene.set_link(self.link.scale());
         self.obey_core(CoreCommand::Scene(next));
         let old = std::mem::replace(&mut self.channels.snapshots, snapshots);
         self.retire(Some(Retired::Snapshots(old)));
@@ -283,7 +283,7 @@ impl Runner {
 
     fn connect(&mut self, bridge: Option<Box<Bridge>>) {
         let last = self.link.connect(bridge);
-        self.core.set_link_limit(None);
+        self.core.set_link(None);
         self.pacer.forget_device();
         self.retire(last.map(Retired::Bridge));
     }

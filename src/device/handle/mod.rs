@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use super::BridgeError;
 use super::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
-use super::codes::{ArrayProfile, LimiterState};
+use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
 use super::host::{
@@ -157,6 +157,9 @@ impl Bridge {
                 return Some(event);
             }
         }
+        if let Some(link) = &self.link {
+            self.session.heard(now, link.heard());
+        }
         self.session.on_time(now);
         self.flush();
         if !self.session.state().is_open() {
@@ -240,6 +243,16 @@ impl Bridge {
         self.session.config()
     }
 
+    /// What the device makes of codes: its limits in force, or before it is configured its largest.
+    pub fn link_scale(&self) -> Option<LinkScale> {
+        self.session.link_scale()
+    }
+
+    /// The largest `amp_sum` that our own frames allow the device at its last tick.
+    pub fn predicted_sum(&self) -> f64 {
+        self.session.predicted_sum()
+    }
+
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.session.status()
@@ -272,6 +285,7 @@ impl Bridge {
             device: session.device,
             codes: session.codes,
             frames_rejected: session.frames_rejected,
+            stray_status: session.stray_status,
             ..link.counters()
         };
         self.link.as_ref().map_or(session, with_link)

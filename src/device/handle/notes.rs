@@ -84,7 +84,8 @@ impl Bridge {
     fn note_telemetry(&mut self, now: Instant) {
         self.notes.told = Some(now);
         if let Some(status) = self.session.status().copied() {
-            self.session.note(now, Note::Telemetry(status));
+            let predicted = self.session.predicted_sum();
+            self.session.note(now, Note::Telemetry(status, predicted));
         }
     }
 

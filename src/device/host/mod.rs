@@ -7,26 +7,30 @@
 //! never arms on its own.
 
 mod array;
-mod checks;
+mod claims;
 mod clock;
 mod drive;
 mod evidence;
 mod frames;
 mod ident;
 mod latching;
+mod noise;
 mod notes;
 mod pending;
+mod prediction;
 mod replies;
 mod report;
 mod reported;
+mod ticks;
 mod timers;
+mod watch;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use super::codes::{ArrayProfile, LimiterState};
+use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::framing::Packet;
 use super::message::{
     Arm, Caps, Clear, Config, Hello, Message as _, Ping, Status, Stop, StopHow, kind,
@@ -38,10 +42,14 @@ use clock::DeviceClock;
 use drive::Drive;
 use evidence::Evidence;
 use latching::Latching;
+pub(crate) use noise::Heard;
+use noise::Noise;
 use notes::Notes;
 use pending::{Identifying, Pending, Pings, Presence};
+use prediction::{Lasting, Prediction};
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DisarmedBy, SentFrame};
 use reported::Reported;
+use ticks::Ticks;
 
 const MAX_EVENTS: usize = 64;
 const MAX_PACKETS: usize = 16;
@@ -104,6 +112,9 @@ pub struct HostSession {
     latching: Latching,
     evidence: Evidence,
     presence: Presence,
+    ticks: Ticks,
+    prediction: Prediction,
+    noise: Noise,
     notes: Notes,
     events: VecDeque<BridgeEvent>,
 }
@@ -140,6 +151,9 @@ impl HostSession {
             latching: Latching::new(),
             evidence: Evidence::default(),
             presence: Presence::default(),
+            ticks: Ticks::default(),
+            prediction: Prediction::default(),
+            noise: Noise::default(),
             notes: Notes::default(),
             events: VecDeque::with_capacity(MAX_EVENTS),
         }
@@ -167,6 +181,7 @@ impl HostSession {
         }
         self.state = BridgeState::Arming;
         self.drive.begin();
+        self.prediction.begin();
         self.request(kind::ARM, now);
         true
     }
@@ -238,9 +253,24 @@ impl HostSession {
         self.device.config.as_ref()
     }
 
+    /// What the device makes of codes: its limits in force, or before it is configured its largest.
+    pub(crate) fn link_scale(&self) -> Option<LinkScale> {
+        let caps = self.device.caps?;
+        let config = self.device.config;
+        Some(LinkScale {
+            comp_limit: config.map_or(caps.comp_limit, |config| config.comp_limit),
+            fs_mv: caps.fs_mv,
+        })
+    }
+
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.device.status.as_ref()
+    }
+
+    /// The largest `amp_sum` that our own frames allow the device at its last tick.
+    pub fn predicted_sum(&self) -> f64 {
+        self.prediction.last_bound()
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -275,6 +305,7 @@ impl HostSession {
             device: self.device.counters,
             codes: self.drive.coder.counters(),
             frames_rejected: self.frames_rejected,
+            stray_status: self.ticks.n_strays(),
             ..BridgeCounters::default()
         }
     }
@@ -369,6 +400,39 @@ impl HostSession {
         }
         self.end(BridgeState::Lost);
         self.event(BridgeEvent::Lost(reason));
+    }
+
+    /// The device contradicts itself, the profile or what was asked: output ends, STOP first.
+    fn contradicted(&mut self, now: Instant, (how, reason): watch::End) {
+        self.stop(now, how);
+        self.stopping.ends_output = false;
+        self.note(now, Note::Said("contradiction", reason.clone()));
+        self.disarmed(DisarmedBy::Device, reason);
+    }
+
+    /// The device is not to be driven; one that moves is stopped.
+    fn refuse(&mut self, now: Instant, reason: String) {
+        let is_live = self.device.status.is_some_and(|status| {
+            status
+                .device_state()
+                .is_none_or(crate::message::DeviceState::is_live)
+        });
+        self.end(BridgeState::Refused);
+        if is_live {
+            self.send_stop(&mut Pending::new(kind::STOP, now), now);
+        }
+        self.event(BridgeEvent::Refused(reason));
+    }
+
+    /// What makes amplitudes last in the device.
+    fn lasting(&self) -> Lasting {
+        let config = self.device.config.unwrap_or_default();
+        let n_codes = 2 * self.drive.n_contactors;
+        Lasting {
+            silencing_ms: u32::from(config.hold_ms) + u32::from(config.ramp_ms),
+            depth: self.latching.depth(),
+            fall: n_codes as f64 * f64::from(config.slew),
+        }
     }
 
     fn end(&mut self, state: BridgeState) {

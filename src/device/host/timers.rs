@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use super::HostSession;
+use super::noise::{Heard, NOISY};
 use super::pending::Verdict;
 use super::report::{BridgeState, DisarmedBy};
 use crate::message::{StopHow, kind};
@@ -30,19 +31,28 @@ impl HostSession {
             .last_time
             .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));
         self.presence.last_time = Some(now);
+        self.ticks.present(now);
         if !self.state.is_open() || self.state == BridgeState::Opening {
             return;
         }
         self.check_request(now);
         self.check_stop(now);
         self.check_ident(now);
-        self.check_silence(step.min(LONGEST_STEP));
+        self.check_silence(now, step.min(LONGEST_STEP));
         let quiet = self
             .outbox
             .last_sent
             .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
         if self.state.is_open() && self.device.caps.is_some() && (quiet || self.wants_time(now)) {
             self.ping(now);
+        }
+    }
+
+    /// Takes what the reader of the link has counted: one on which too much breaks ends output.
+    pub(crate) fn heard(&mut self, now: Instant, heard: Heard) {
+        let is_noisy = self.noise.heard(now, heard);
+        if is_noisy && self.state.is_live() && self.state != BridgeState::Stopping {
+            self.contradicted(now, (StopHow::Ramp, String::from(NOISY)));
         }
     }
 
@@ -106,7 +116,7 @@ impl HostSession {
 
     /// Silence is counted in steps of the caller's own presence: a program that was suspended
     /// starts afresh.
-    fn check_silence(&mut self, step: Duration) {
+    fn check_silence(&mut self, now: Instant, step: Duration) {
         if self.device.caps.is_none() {
             return;
         }
@@ -117,10 +127,7 @@ impl HostSession {
             SILENCE_IDLE
         };
         if self.presence.silent_for >= patience && self.state.is_open() {
-            self.lose(format!(
-                "no STATUS for {} ms: check the cable and that the bridge is powered",
-                patience.as_millis()
-            ));
+            self.lose(self.noise.silence_reason(now, patience));
         }
     }
 }

@@ -21,7 +21,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::BridgeError;
 use super::framing::Packet;
-use super::host::{BridgeCounters, Sequence};
+use super::host::{BridgeCounters, Heard, Sequence};
 use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use super::session_log::{TapEnd, tap};
@@ -85,6 +85,7 @@ struct Shared {
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
     bad_received: AtomicU64,
+    bytes_received: AtomicU64,
     events_dropped: AtomicU64,
     write_timeouts: AtomicU64,
 }
@@ -108,6 +109,7 @@ impl Shared {
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
             bad_received: AtomicU64::new(0),
+            bytes_received: AtomicU64::new(0),
             events_dropped: AtomicU64::new(0),
             write_timeouts: AtomicU64::new(0),
         }
@@ -268,6 +270,14 @@ impl Link {
             events_dropped: get(&self.shared.events_dropped),
             write_timeouts: get(&self.shared.write_timeouts),
             ..BridgeCounters::default()
+        }
+    }
+
+    /// What the reader has counted.
+    pub(super) fn heard(&self) -> Heard {
+        Heard {
+            bytes: self.shared.bytes_received.load(Ordering::Relaxed),
+            bad: self.shared.bad_received.load(Ordering::Relaxed),
         }
     }
 

@@ -109,6 +109,10 @@ impl Reader {
         if n_bad > 0 {
             self.tap.put(received, Passed::Bad(n_bad));
         }
+        let n_bytes = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
+        self.shared
+            .bytes_received
+            .fetch_add(n_bytes, Ordering::Relaxed);
         self.shared
             .bad_received
             .store(self.decoder.bad(), Ordering::Relaxed);

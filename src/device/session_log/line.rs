@@ -91,7 +91,9 @@ fn words(note: &Note) -> (&'static str, String) {
             (event::FAULT, what)
         }
         Note::State(code) => (event::STATE, format!("state={}", state_name(*code))),
-        Note::Telemetry(status) => (event::TELEMETRY, telemetry_words(status)),
+        Note::Telemetry(status, predicted) => {
+            (event::TELEMETRY, telemetry_words(status, *predicted))
+        }
         Note::DeviceCounters(counters) => (event::DEVICE_COUNTERS, device_words(counters)),
         Note::HostCounters(counters) => (event::HOST_COUNTERS, host_words(counters)),
         Note::Depth(depth, lead) => {
@@ -122,11 +124,11 @@ fn caps_words(caps: &Caps) -> String {
     let [major, minor, patch] = caps.firmware;
     let uid = caps.uid.map(|byte| format!("{byte:02x}")).concat();
     format!(
-        "name={:?} firmware={major}.{minor}.{patch} uid={uid} session={:08x} version={} \
+        "name=\"{}\" firmware={major}.{minor}.{patch} uid={uid} session={:08x} version={} \
          components={} channels={} rows={} cols={} pitch_um={} tick_us={} queue={} dac_bits={} \
          modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} sample_hz={} freq_mhz={}/{} \
          comp_limit={}/{}",
-        one_line(caps.name()),
+        caps.shown_name(),
         caps.session,
         caps.version,
         caps.n_comp,
@@ -181,9 +183,9 @@ fn mask_words(config: &Config) -> String {
     digits.join("/")
 }
 
-fn telemetry_words(status: &Status) -> String {
+fn telemetry_words(status: &Status, predicted: f64) -> String {
     format!(
-        "hv_v={:.1} i_ma={} temp_c={:.2} amp_sum={} state={} queued={} age_ms={} faults={:#06x}",
+        "hv_v={:.1} i_ma={} temp_c={:.2} amp_sum={} predicted_sum={predicted:.0} state={} queued={} age_ms={} faults={:#06x}",
         f64::from(status.hv_dv) / 10.0,
         status.i_ma,
         f64::from(status.temp_cdeg) / 100.0,

@@ -15,6 +15,8 @@ mod packets;
 mod read;
 mod recorder;
 mod tap;
+#[cfg(test)]
+mod virtual_log;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -36,6 +38,8 @@ pub(super) use recorder::CONTINUED;
 use recorder::Recorder;
 use tap::Passing;
 pub(super) use tap::{Body, Passed, Tap, TapEnd, tap};
+#[cfg(test)]
+pub(super) use virtual_log::VirtualLog;
 
 /// Room for entries on their way: seconds of a link on which everything goes wrong.
 const MAX_ENTRIES: usize = 256;

@@ -11,7 +11,7 @@ use super::{Faults, Injection, WiredDevice};
 use crate::codes::ArrayProfile;
 use crate::device::{AppliedFrame, DeviceModel, DeviceSink, Moment};
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
-use crate::host::{BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence};
+use crate::host::{BridgeEvent, BridgeState, DisarmedBy, Heard, HostSession, SentFrame, Sequence};
 use crate::message::{DeviceMessage, kind};
 
 /// Contactors of the simulated display, and channels of the usual device.
@@ -50,8 +50,12 @@ pub struct Simulation {
     pub loudest_age_us: u64,
     /// Texts from the device that were no packet or no message.
     pub bad_received: u64,
+    bytes_received: u64,
     /// ARM packets that the host wrote.
     pub arms_written: u32,
+    /// What a log of the link holds, if one is kept.
+    #[cfg(test)]
+    pub(crate) record: Option<crate::session_log::VirtualLog>,
     decoder: Decoder,
     n_visits: u32,
 }
@@ -115,7 +119,10 @@ impl Simulation {
             host_ppm: 0,
             loudest_age_us: 0,
             bad_received: 0,
+            bytes_received: 0,
             arms_written: 0,
+            #[cfg(test)]
+            record: None,
             decoder: Decoder::new(LARGEST_BODY),
             n_visits: 0,
         }
@@ -157,6 +164,7 @@ impl Simulation {
             self.us = next_us.clamp(self.us, turn_us);
             self.meet();
             if self.us == turn_us {
+                self.host.heard(self.now(), self.heard());
                 self.host.on_time(self.now());
                 self.exchange();
             }
@@ -247,10 +255,17 @@ impl Simulation {
             return;
         }
         let now = self.now();
+        self.bytes_received += u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         for byte in bytes {
             let Some(packet) = self.decoder.push(byte) else {
                 continue;
             };
+            #[cfg(test)]
+            if let Some(record) = &mut self.record
+                && let Some(body) = crate::session_log::Body::new(&packet)
+            {
+                record.received(now, body);
+            }
             match DeviceMessage::decode(&packet, N_CONTACTORS) {
                 Ok(message) => self.host.on_message(now, &message),
                 Err(_) => self.bad_received += 1,
@@ -289,12 +304,32 @@ impl Simulation {
 
     fn write(&mut self, packet: &Packet) {
         self.arms_written += u32::from(is_arm(packet));
+        #[cfg(test)]
+        self.record_sent(packet);
         if self.cut {
             return;
         }
         self.device.host_wrote(self.us, packet.as_bytes());
         self.device.advance(self.us, &mut self.log);
         self.deliver();
+    }
+
+    fn heard(&self) -> Heard {
+        Heard {
+            bytes: self.bytes_received,
+            bad: self.bad_texts_received(),
+        }
+    }
+
+    #[cfg(test)]
+    fn record_sent(&mut self, packet: &Packet) {
+        let now = self.now();
+        if let Some(record) = &mut self.record {
+            record.sent(now, packet);
+            while let Some(entry) = self.host.next_note() {
+                record.entry(entry);
+            }
+        }
     }
 
     /// Texts that were no packet to the host's decoder.
