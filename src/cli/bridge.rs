@@ -8,6 +8,8 @@ use super::bridge_abilities::AbilityArgs;
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::identify::{self, IdentifyArgs};
+use super::record::RecordArgs;
+use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, play, terminal};
 use selvedge_device::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
 use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
@@ -29,9 +31,12 @@ pub(super) enum BridgeCommand {
         #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
               value_parser = array::profile)]
         array: Box<ArrayProfile>,
-        #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
-        session_log: Option<PathBuf>,
+        #[command(flatten)]
+        record: RecordArgs,
     },
+    /// Play a session log to the emulator: what the finger got, tick by tick, and whether the
+    /// device told the truth
+    Replay(ReplayArgs),
     /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
     Kit {
         /// A new folder
@@ -73,17 +78,17 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::Test {
             port,
             array,
-            session_log,
-        } => test(port, array, session_log.as_deref()),
+            record,
+        } => test(port, array, record),
+        BridgeCommand::Replay(args) => replay::run(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
     }
 }
 
-fn test(port: &Path, array: &ArrayProfile, session_log: Option<&Path>) -> Result<(), CliError> {
+fn test(port: &Path, array: &ArrayProfile, record: &RecordArgs) -> Result<(), CliError> {
     play::check_port(port)?;
-    let log = session_log.map(|path| SessionLog::append(path, None));
-    let log = log.transpose()?;
+    let log = record.open()?;
     let report = self_test(Target::Port(port.to_owned()), array.clone(), log.as_ref());
     if let Some(doubt) = report.caps.and_then(|caps| array::doubt(array, &caps)) {
         terminal::notice(&doubt);

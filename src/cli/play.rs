@@ -16,6 +16,7 @@ use super::method::MethodArgs;
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::play_source::{Moving, SourceArgs};
+use super::record::{self, RecordArgs};
 use super::{CliError, array, output, play_audio, signals, terminal};
 
 use selvedge_device::{
@@ -29,10 +30,6 @@ use selvedge_render::scene::LoadedScene;
 const NAP: Duration = Duration::from_millis(20);
 /// The last STOP is sent again every 250 ms, eight times; then the session itself gives up.
 const STOP_PATIENCE: Duration = Duration::from_secs(4);
-
-/// What `--session-log` does.
-pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change \
-    of a counter of the link, as CSV; added to a file that is there";
 
 /// Longest wait for the STOP of a program that fails.
 const LAST_WORD: Duration = Duration::from_millis(250);
@@ -55,10 +52,21 @@ pub(super) struct PlayArgs {
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
-    #[arg(long, value_name = "F.csv", help = SESSION_LOG_HELP)]
-    session_log: Option<PathBuf>,
+    #[command(flatten)]
+    record: RecordArgs,
     #[command(flatten)]
     how: MethodArgs,
+}
+
+impl PlayArgs {
+    /// The files whose hashes a session log holds.
+    fn files(&self) -> Vec<(&'static str, &Path)> {
+        let path = self.source.path_file().map(|path| ("path", path));
+        [("scene", self.scene.as_path())]
+            .into_iter()
+            .chain(path)
+            .collect()
+    }
 }
 
 /// Plays, and says how punctual it was.
@@ -76,11 +84,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
         None => None,
     };
-    let session_log = args
-        .session_log
-        .as_deref()
-        .map(|path| SessionLog::append(path, None));
-    let session_log = session_log.transpose()?;
+    let session_log = args.record.open()?;
     let stop = signals::stop_flag()?;
     let profile = scene.profile().clone();
     let moving = Moving::begin(&args.source, scene, loaded.scene().size_mm)?;
@@ -88,9 +92,11 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         (_, Some(card)) => return play_audio::play(card, moving, &profile, &stop),
         (port, None) => port.clone().unwrap_or_default(),
     };
+    let profile_told = profile.clone();
     let mut player = Player::open(port, profile, moving, log);
     if let Some(session_log) = &session_log {
-        let feed = session_log.feed(player.bridge.target());
+        let mut feed = session_log.feed(player.bridge.target());
+        record::say_what(&mut feed, &profile_told, &args.files());
         player.bridge.log_to(feed);
     }
     let played = player.play(&stop);

@@ -125,7 +125,7 @@ impl Placer {
 
     /// A STATUS of `device_us`, µs since boot, arrived at `host_s`: which packets came before it.
     pub(super) fn status(&mut self, status: &Status, device_us: u64, host_s: f64) -> Placement {
-        self.confirm(status, device_us);
+        let confirmed = self.confirm(status, device_us);
         let mut placement = Placement::default();
         let is_told = |waiting: &Waiting| waiting.sign != Sign::None;
         let n_before = self
@@ -138,13 +138,15 @@ impl Placer {
             .status_us
             .is_some_and(|last_us| device_us.saturating_sub(last_us) < TICK_US + TICK_US / 2);
         let mut before: Vec<(Waiting, u64)> = Vec::with_capacity(n_before);
-        for waiting in self.waiting.drain(..n_before) {
+        for (at, waiting) in self.waiting.drain(..n_before).enumerate() {
             let guess_us = rounded(waiting.host_s * 1e6 + shift_us);
             let was_before = self.status_us.is_some_and(|us| guess_us + DOUBT_US < us);
             let is_frame = waiting.written.kind() == kind::FRAME;
+            // A later one would be the last that STATUS names.
+            let may_be = is_frame && confirmed.is_some_and(|confirmed| at < confirmed);
             if is_told(&waiting) {
                 before.push((waiting, guess_us));
-            } else if !is_frame || is_next && was_before {
+            } else if !may_be || is_next && was_before {
                 placement.n_lost += 1;
             } else {
                 placement.n_doubtful += 1;
@@ -161,20 +163,20 @@ impl Placer {
         placement
     }
 
-    /// The FRAME that a STATUS names came at its age, known within a ms.
-    fn confirm(&mut self, status: &Status, device_us: u64) {
-        let is_it = |it: &&mut Waiting| {
-            it.written.kind() == kind::FRAME && it.written.seq() == status.last_seq
-        };
+    /// The FRAME that a STATUS names came at its age, known within a ms. Its place, if it waits.
+    fn confirm(&mut self, status: &Status, device_us: u64) -> Option<usize> {
+        let is_it =
+            |it: &Waiting| it.written.kind() == kind::FRAME && it.written.seq() == status.last_seq;
         let age_us = u64::from(status.age_ms) * MS_US + MS_US / 2;
         if status.age_ms == u16::MAX {
-            return;
+            return None;
         }
-        if let Some(waiting) = self.waiting.iter_mut().find(is_it)
-            && waiting.sign == Sign::None
-        {
+        let at = self.waiting.iter().position(is_it)?;
+        let waiting = self.waiting.get_mut(at)?;
+        if waiting.sign == Sign::None {
             waiting.sign = Sign::At(device_us.saturating_sub(age_us));
         }
+        Some(at)
     }
 
     /// The device's clock less ours, as the last packet with a known time had it; at first as this

@@ -27,6 +27,7 @@ use std::time::{Duration, Instant};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::BridgeError;
+use crate::ArrayProfile;
 pub(super) use events::event;
 pub use file::LogBound;
 use file::LogFile;
@@ -36,6 +37,7 @@ pub(super) use packets::HashedFrame;
 pub(super) use read::{LogReader, Seen};
 pub(super) use recorder::CONTINUED;
 use recorder::Recorder;
+use selvedge_foundation::files::sha256_hex;
 use tap::Passing;
 pub(super) use tap::{Body, Passed, Tap, TapEnd, tap};
 #[cfg(test)]
@@ -254,6 +256,14 @@ impl LogFeed {
     /// Says what is played and on what: `name` with its unit or kind, such as `scene_sha256`.
     pub fn about(&mut self, name: &str, value: &str) {
         self.say(event::ABOUT, format!("{name}={value}"));
+    }
+
+    /// Says on which array, and with which settings of it.
+    pub fn about_array(&mut self, profile: &ArrayProfile) {
+        if let Ok(text) = profile.to_toml() {
+            self.about("profile", &format!("{:?}", profile.name));
+            self.about("profile_sha256", &sha256_hex([text.as_bytes()]));
+        }
     }
 
     fn say(&mut self, event: &'static str, text: String) {

@@ -50,10 +50,6 @@ impl VirtualLog {
         self.pass(at, Passed::Received(body));
     }
 
-    pub(crate) fn bad(&mut self, at: Instant, n: u64) {
-        self.pass(at, Passed::Bad(n));
-    }
-
     fn pass(&mut self, at: Instant, what: Passed) {
         self.recorder.passing(&Passing { at, what }, &mut self.text);
         self.recorder.settle(at, &mut self.text);
