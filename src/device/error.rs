@@ -68,7 +68,10 @@ pub enum BridgeError {
         reason: String,
     },
     /// A session log cannot stand where it should.
-    #[error("cannot write the session log: {reason}; name a file in a folder that is there: {}", path.display())]
+    #[error(
+        "cannot write the session log: {reason}; name a file in a folder that is there: {}",
+        path.display()
+    )]
     LogPlace {
         /// The file.
         path: PathBuf,

@@ -135,7 +135,8 @@ pub(super) fn compare_config(
         let n_on = (0..n_channels.min(LARGEST_CHANNELS)).filter(is_on).count();
         let [low, high] = config.comp_limit;
         format!(
-            "mode {}, flags {}, hold {} ms, ramp {} ms, slew {}, {} dV, limits {low}/{high}, {n_on} on",
+            "mode {}, flags {}, hold {} ms, ramp {} ms, slew {}, {} dV, limits {low}/{high}, \
+             {n_on} on",
             config.mode, config.flags, config.hold_ms, config.ramp_ms, config.slew, config.hv_dv,
         )
     };

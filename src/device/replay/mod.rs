@@ -35,7 +35,7 @@ const REACH_S: f64 = 1.5;
 /// before, but may have been noted after, s.
 const AFTER_S: f64 = 0.01;
 /// Lines that wait at most.
-const MAX_WAITING: usize = 50_000;
+const MAX_WAITING: usize = 20_000;
 
 /// Replays every link of a log, one after the other; `each` is told of every tick. The contactors'
 /// full scale is that of the device.

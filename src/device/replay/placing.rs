@@ -1,10 +1,10 @@
 //! When the device had each packet of the host, by its own clock.
 //!
-//! A log knows when a packet left the host. When it arrived is told by the device: STATUS names the
-//! FRAME that was accepted last and its age (within a ms), PONG holds the time of its PING, and every
-//! other request is answered before the STATUS of the tick in which it came. What is known so is
-//! exact as far as the emulator is concerned, which acts on a 1 ms clock; between such bounds the
-//! time of writing, moved by what the last FRAME or PING took, is a guess.
+//! A log knows when a packet left the host. When it arrived is told by the device: STATUS names
+//! the FRAME that was accepted last and its age (within a ms), PONG holds the time of its PING, and
+//! every other request is answered before the STATUS of the tick in which it came. What is known so
+//! is exact as far as the emulator is concerned, which acts on a 1 ms clock; between such bounds
+//! the time of writing, moved by what the last FRAME or PING took, is a guess.
 
 use std::collections::VecDeque;
 

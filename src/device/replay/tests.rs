@@ -6,6 +6,7 @@ use crate::host::BridgeState;
 use crate::message::StopHow;
 use crate::session_log::VirtualLog;
 use crate::wire::{Faults, Latency, LinkFaults, Simulation};
+use selvedge_foundation::numerics::Random;
 
 fn recording(faults: &Faults, keeps_frames: bool) -> Simulation {
     let mut simulation = Simulation::of(DeviceModel::default(), faults);
@@ -238,4 +239,34 @@ fn caps_that_no_emulator_can_have_are_said() {
     let (links, _) = replayed(&simulation.record.unwrap().finish());
     let line = links[0].to_string();
     assert!(!links[0].agrees() && line.contains("5 × 4"), "{line}");
+}
+
+#[test]
+fn mutated_logs_are_replayed_or_refused() {
+    let mut simulation = recording(&Faults::default(), true);
+    arm(&mut simulation);
+    simulation.run(400);
+    simulation.host.stop(simulation.now(), StopHow::Now);
+    simulation.run(100);
+    let text = simulation.record.unwrap().finish();
+    let contactors = ContactorModel::default();
+    let mut random = Random::new(11);
+    let mut n_refused = 0;
+    for _ in 0..400 {
+        let mut bytes = text.clone().into_bytes();
+        for _ in 0..=random.index(4) {
+            let at = random.index(bytes.len());
+            bytes[at] = b"0123456789abcdef,= \"\nAZ"[random.index(22)];
+        }
+        let mut n_ticks = 0;
+        let mut desk = Desk::new(&contactors, |_: &ReplayedTick| {
+            n_ticks += 1;
+            Ok::<(), String>(())
+        });
+        let read = desk.read(bytes.as_slice(), |(_, reason)| reason);
+        n_refused += usize::from(read.is_err());
+        drop(desk);
+        assert!(n_ticks < 10_000, "{n_ticks}");
+    }
+    assert!((20..400).contains(&n_refused), "{n_refused}");
 }

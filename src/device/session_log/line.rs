@@ -7,9 +7,10 @@
 use std::fmt::Write as _;
 use std::time::{Instant, SystemTime};
 
+use super::bodies::kind_name;
 use super::events::{COLUMNS, event};
 use super::note::{Entry, HostCounters, Note};
-use super::packets::{PacketWords, kind_name};
+use super::packets::PacketWords;
 use crate::message::{
     Caps, Config, DeviceCounters, DeviceState, LARGEST_CHANNELS, Status, StopHow, fault_bit,
 };
@@ -185,7 +186,8 @@ fn mask_words(config: &Config) -> String {
 
 fn telemetry_words(status: &Status, predicted: f64) -> String {
     format!(
-        "hv_v={:.1} i_ma={} temp_c={:.2} amp_sum={} predicted_sum={predicted:.0} state={} queued={} age_ms={} faults={:#06x}",
+        "hv_v={:.1} i_ma={} temp_c={:.2} amp_sum={} predicted_sum={predicted:.0} state={} \
+         queued={} age_ms={} faults={:#06x}",
         f64::from(status.hv_dv) / 10.0,
         status.i_ma,
         f64::from(status.temp_cdeg) / 100.0,

@@ -1,11 +1,12 @@
-//! The log of a link: every packet both ways, every setting, arming, stop, fault, refusal and change
-//! of a counter, by host and device time, one line each; and what reads it.
+//! The log of a link: every packet both ways, every setting, arming, stop, fault, refusal and
+//! change of a counter, by host and device time, one line each; and what reads it.
 //!
 //! Packets come from the link's threads, where they were really written and really arrived; entries
 //! from the session's. All travel in bounded rings (what finds no room is counted, and the number
 //! is written); a thread of its own makes lines of them a few times a second. The file only ever
 //! grows at its end, so that what stands in it stays, whatever becomes of the program.
 
+mod bodies;
 mod digits;
 mod events;
 mod file;

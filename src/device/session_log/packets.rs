@@ -5,8 +5,7 @@
 //! its payload in hexadecimal digits. Writer and reader keep the same state and change it with the
 //! same lines. One FRAME in 40 is written whole, so that a reader may begin anywhere.
 
-use std::fmt::Write as _;
-
+use super::bodies::{body_words, push, read_body};
 use super::digits::{pack, unpack};
 use super::events::event;
 use super::tap::Body;
@@ -21,40 +20,6 @@ const WHOLE_EVERY: u32 = 40;
 pub(super) const MAX_AGAIN: u16 = 400;
 /// Digits of a frame's hash.
 const HASH_DIGITS: usize = 16;
-
-/// The types of packets with their names.
-const KINDS: [(u8, &str); 16] = [
-    (kind::HELLO, "HELLO"),
-    (kind::CONFIG, "CONFIG"),
-    (kind::ARM, "ARM"),
-    (kind::FRAME, "FRAME"),
-    (kind::STOP, "STOP"),
-    (kind::PING, "PING"),
-    (kind::CLEAR, "CLEAR"),
-    (kind::SAMPLES, "SAMPLES"),
-    (kind::IDENT, "IDENT"),
-    (kind::CAPS, "CAPS"),
-    (kind::CFG, "CFG"),
-    (kind::ACK, "ACK"),
-    (kind::STATUS, "STATUS"),
-    (kind::FAULT, "FAULT"),
-    (kind::PONG, "PONG"),
-    (kind::LOG, "LOG"),
-];
-
-/// The name of a type of packet; its number where it has none.
-pub(super) fn kind_name(kind: u8) -> String {
-    let known = KINDS.iter().find(|(known, _)| *known == kind);
-    known.map_or_else(|| format!("{kind:#04x}"), |(_, name)| (*name).to_owned())
-}
-
-fn kind_of(name: &str) -> Option<u8> {
-    if let Some(digits) = name.strip_prefix("0x") {
-        return u8::from_str_radix(digits, 16).ok();
-    }
-    let known = KINDS.iter().find(|(_, known)| *known == name);
-    known.map(|(kind, _)| *kind)
-}
 
 /// A FRAME as a log without frames knows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -328,27 +293,13 @@ impl PacketCode {
 
     /// Reads an `out`, `in` or `unsent`.
     pub(super) fn read_plain(&mut self, event: &str, detail: &str) -> Option<Body> {
-        let mut words = detail.split(' ');
-        let kind = kind_of(words.next()?)?;
-        let seq = words.next()?.parse().ok()?;
-        let mut next = words.next();
-        let flags = next.and_then(|word| word.strip_prefix("flags="));
-        let flags = match flags {
-            None => 0,
-            Some(flags) => {
-                next = words.next();
-                flags.parse().ok()?
-            }
-        };
-        let payload = next.map_or(Some(Vec::new()), bytes_of)?;
+        let body = read_body(detail)?;
         match event {
-            event::IN => self.received_seq = seq,
-            event::OUT => self.sent_seq = seq,
+            event::IN => self.received_seq = body.seq,
+            event::OUT => self.sent_seq = body.seq,
             _ => {}
         }
-        let payload = &payload;
-        let body = Body::new(&Received { kind, seq, payload })?.with_flags(flags);
-        words.next().is_none().then_some(body)
+        Some(body)
     }
 
     fn read_apply_tick(&self, ahead: &str) -> Option<u32> {
@@ -387,35 +338,12 @@ impl PacketCode {
     }
 }
 
-fn push(text: &mut String, words: std::fmt::Arguments<'_>) {
-    let written = text.write_fmt(words);
-    debug_assert!(written.is_ok(), "a String takes everything");
-}
-
 fn plain(event: &'static str, body: &Body) -> PacketWords {
-    let mut detail = format!("{} {}", kind_name(body.kind), body.seq);
-    if body.flags != 0 {
-        push(&mut detail, format_args!(" flags={}", body.flags));
-    }
-    if !body.payload().is_empty() {
-        detail.push(' ');
-    }
-    for byte in body.payload() {
-        push(&mut detail, format_args!("{byte:02x}"));
-    }
     PacketWords {
         event,
         tick: None,
-        detail,
+        detail: body_words(body),
     }
-}
-
-fn bytes_of(digits: &str) -> Option<Vec<u8>> {
-    let pairs = digits.as_bytes().chunks(2);
-    pairs
-        .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
-        .map(|byte| byte.filter(|_| digits.len().is_multiple_of(2)))
-        .collect()
 }
 
 /// Apply tick and codes of a FRAME that is one to the byte.
