@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::Bridge;
 use crate::host::{BridgeEvent, DisarmedBy};
+use crate::link::Link;
 use crate::session_log::{HostCounters, LogFeed, Note, event};
 
 /// From one line of telemetry to the next.
@@ -24,7 +25,7 @@ impl Bridge {
     /// Writes to a log what happens from now on: call it before the first [`poll`](Self::poll).
     pub fn log_to(&mut self, log: LogFeed) {
         self.session.keep_notes();
-        if let Some(taps) = self.link.as_mut().and_then(|link| link.take_taps()) {
+        if let Some(taps) = self.link.as_mut().and_then(Link::take_taps) {
             log.follow(taps);
         }
         self.notes.log = Some(log);

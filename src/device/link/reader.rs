@@ -90,7 +90,7 @@ impl Reader {
             let message = DeviceMessage::decode(&packet, self.n_channels);
             if let Some(body) = body {
                 let body = body.with_flags(self.decoder.flags());
-                self.tap.put(received, Passed::Received(body));
+                self.tap.put(received, &Passed::Received(body));
             }
             match message {
                 Ok(message) => {
@@ -107,7 +107,7 @@ impl Reader {
         }
         let n_bad = self.decoder.bad() - bad_before;
         if n_bad > 0 {
-            self.tap.put(received, Passed::Bad(n_bad));
+            self.tap.put(received, &Passed::Bad(n_bad));
         }
         let n_bytes = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         self.shared

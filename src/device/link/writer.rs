@@ -142,7 +142,7 @@ impl Writer {
             Ok(()) => Passed::Sent(*packet),
             Err(_) => Passed::Unsent(*packet),
         };
-        self.tap.put(Instant::now(), what);
+        self.tap.put(Instant::now(), &what);
         let reason = match result {
             Ok(()) => {
                 self.timed_out = false;

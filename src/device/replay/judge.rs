@@ -17,7 +17,11 @@ pub(super) struct Disagreement {
 }
 
 impl Disagreement {
-    pub(super) fn new(what: &'static str, device: impl ToString, emulator: impl ToString) -> Self {
+    pub(super) fn new(
+        what: &'static str,
+        device: &impl ToString,
+        emulator: &impl ToString,
+    ) -> Self {
         Self {
             what,
             device: device.to_string(),
@@ -66,10 +70,18 @@ impl Pair {
             }
         }
         if device.age_ms.abs_diff(emulator.age_ms) > 1 {
-            found.push(Disagreement::new("age_ms", device.age_ms, emulator.age_ms));
+            found.push(Disagreement::new(
+                "age_ms",
+                &device.age_ms,
+                &emulator.age_ms,
+            ));
         }
         if device.queued != emulator.queued && !scope.is_guessed {
-            found.push(Disagreement::new("queued", device.queued, emulator.queued));
+            found.push(Disagreement::new(
+                "queued",
+                &device.queued,
+                &emulator.queued,
+            ));
         }
         found.extend(
             before
@@ -82,8 +94,9 @@ impl Pair {
     fn state(&self, around: &[Moment]) -> Option<Disagreement> {
         let told = self.device.state;
         let is_near = around.iter().any(|moment| moment.state.code() == told);
-        (told != self.emulator.state && !is_near)
-            .then(|| Disagreement::new("state", state_name(told), state_name(self.emulator.state)))
+        (told != self.emulator.state && !is_near).then(|| {
+            Disagreement::new("state", &state_name(told), &state_name(self.emulator.state))
+        })
     }
 
     /// Exactly alike while nothing but frames changes it; near an edge between what it is before
@@ -96,7 +109,7 @@ impl Pair {
         let (least, most) = (sums.clone().min()?.min(own), sums.max()?.max(own));
         let is_near = is_guessed || around.iter().any(is_edge);
         let is_fine = told == own || is_near && (least..=most).contains(&told);
-        (!is_fine).then(|| Disagreement::new("amp_sum", told, own))
+        (!is_fine).then(|| Disagreement::new("amp_sum", &told, &own))
     }
 
     /// What both counted since the STATUS before.
@@ -118,7 +131,7 @@ impl Pair {
         // Whether a tick near a STOP or after an arming counts depends on the moment.
         steps.retain(|(_, [device, emulator])| device != emulator && !scope.is_guessed);
         let more = |(what, [device, emulator]): (&'static str, [u16; 2])| {
-            Disagreement::new(what, format!("+{device}"), format!("+{emulator}"))
+            Disagreement::new(what, &format!("+{device}"), &format!("+{emulator}"))
         };
         steps.into_iter().map(more).collect()
     }
@@ -141,7 +154,7 @@ pub(super) fn compare_config(
         )
     };
     let (device, emulator) = (words(device), words(emulator));
-    (device != emulator).then(|| Disagreement::new("CFG", device, emulator))
+    (device != emulator).then(|| Disagreement::new("CFG", &device, &emulator))
 }
 
 pub(super) fn state_name(code: u8) -> String {

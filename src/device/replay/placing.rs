@@ -23,7 +23,7 @@ const DOUBT_US: u64 = 2 * MS_US;
 /// What the host wrote.
 #[derive(Clone, Debug)]
 pub(super) enum Written {
-    Body(Body),
+    Body(Box<Body>),
     Hashed(HashedFrame),
 }
 

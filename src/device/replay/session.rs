@@ -67,7 +67,9 @@ impl LinkReplay {
     /// Takes what a line tells; gives ticks that are over.
     pub(super) fn take(&mut self, seen: Seen, host_s: f64) -> Vec<ReplayedTick> {
         match seen {
-            Seen::Sent(body) | Seen::Unsent(body) => self.wrote(Written::Body(body), host_s),
+            Seen::Sent(body) | Seen::Unsent(body) => {
+                self.wrote(Written::Body(Box::new(body)), host_s)
+            }
             Seen::Hashed(hashed) => self.wrote(Written::Hashed(hashed), host_s),
             Seen::Received(body) => return self.received(&body, host_s),
             Seen::Note(name, detail) => self.noted(&name, &detail),
@@ -125,7 +127,7 @@ impl LinkReplay {
                 self.told_acks.push(ack);
             }
             Ok(DeviceMessage::Pong(pong)) => {
-                let at_us = self.unwrapped(pong.tick, pong.dev_us);
+                let at_us = Self::unwrapped(pong.tick, pong.dev_us);
                 self.placer.answered(kind::PING, at_us);
             }
             Ok(DeviceMessage::Status(status)) => return self.status(&status, host_s),
@@ -165,7 +167,7 @@ impl LinkReplay {
             && let Some(packet) = config.request(asked.seq, n_channels)
             && let Some(body) = Body::of_wire(packet.as_bytes())
         {
-            *asked = body;
+            **asked = body;
             self.told_config = Some(config);
         }
     }
@@ -180,7 +182,7 @@ impl LinkReplay {
     }
 
     /// A clock of the device with its wraps undone by the tick; `None` when they do not fit.
-    fn unwrapped(&self, tick: u32, dev_us: u32) -> Option<u64> {
+    fn unwrapped(tick: u32, dev_us: u32) -> Option<u64> {
         let begins_us = u64::from(tick) * TICK;
         let phase_us = dev_us.wrapping_sub(crate::fields::wrapped_u32(begins_us));
         (u64::from(phase_us) < TICK).then(|| begins_us + u64::from(phase_us))
@@ -198,15 +200,15 @@ impl LinkReplay {
         if self.twin.is_none() {
             return Vec::new();
         }
-        let device_us = self.unwrapped(status.tick, status.dev_us);
+        let device_us = Self::unwrapped(status.tick, status.dev_us);
         if device_us.is_none() {
             let (told, own) = (status.dev_us, u64::from(status.tick) * TICK);
-            let found = Disagreement::new("dev_us", told, own);
+            let found = Disagreement::new("dev_us", &told, &own);
             self.report.disagree(status.tick, found);
         }
         if step.is_some_and(|step| step > MAX_JUMP) {
             let last = self.last.map_or(0, |last| last.device.tick);
-            let found = Disagreement::new("tick", status.tick, last.wrapping_add(1));
+            let found = Disagreement::new("tick", &status.tick, &last.wrapping_add(1));
             self.report.disagree(status.tick, found);
             self.report.broken = Some(String::from("the device's clock jumps"));
             return self
@@ -214,7 +216,7 @@ impl LinkReplay {
                 .take()
                 .map_or(Vec::new(), |mut twin| twin.finish());
         }
-        let device_us = device_us.unwrap_or(u64::from(status.tick) * TICK);
+        let device_us = device_us.unwrap_or_else(|| u64::from(status.tick) * TICK);
         self.play(status, device_us, host_s);
         self.compare(status);
         let ticks = self.twin.as_mut().map(Twin::take_ticks).unwrap_or_default();
@@ -258,14 +260,14 @@ impl LinkReplay {
         let told_acks = std::mem::take(&mut self.told_acks);
         let is_doubtful = status.tick < self.doubtful_until;
         if !is_doubtful {
-            found.extend(told_acks.iter().filter_map(|told| other_ack(told, &acks)));
+            found.extend(told_acks.iter().filter_map(|told| other_ack(*told, &acks)));
         }
         let Some(own) = twin.take_status() else {
             // An emulator without a session tells nothing: it is where the device should be.
             let own = twin.state();
             if own.code() != status.state && !is_doubtful {
                 let told = state_name(status.state);
-                found.push(Disagreement::new("state", told, own.name()));
+                found.push(Disagreement::new("state", &told, &own.name()));
             }
             return self.note(status.tick, found);
         };
@@ -334,11 +336,11 @@ fn shows_until_us(placed: &Placed) -> u64 {
 }
 
 /// The answer of the emulator to the same packet, if it is another.
-fn other_ack(told: &Ack, own: &[Ack]) -> Option<Disagreement> {
+fn other_ack(told: Ack, own: &[Ack]) -> Option<Disagreement> {
     let is_same = |own: &&Ack| (own.kind, own.seq) == (told.kind, told.seq);
     let own = own.iter().find(is_same)?;
     (own.code != told.code)
-        .then(|| Disagreement::new("ACK", told.code.describe(), own.code.describe()))
+        .then(|| Disagreement::new("ACK", &told.code.describe(), &own.code.describe()))
 }
 
 /// The packet as it was written; one of which the log has a hash is silent, and of the same length.

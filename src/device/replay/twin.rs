@@ -32,7 +32,7 @@ pub struct ReplayedTick {
     pub gain: f64,
     /// Sum of all output codes then; `None` where the log has no frames.
     pub amp_sum: Option<u32>,
-    /// Code of the state, and amp_sum, that the device itself told of this tick, if it was heard.
+    /// Code of the state, and `amp_sum`, that the device itself told of this tick, if it was heard.
     pub told: Option<(u8, u32)>,
     /// Output codes at the start of the tick, `[40 Hz, 320 Hz]` per channel; empty without frames.
     pub codes: Vec<[u16; 2]>,

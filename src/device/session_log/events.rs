@@ -40,7 +40,7 @@ events! {
     FRAME_HASH = "frame-hash";
     /// So many frames more, equal but for their numbers and ticks.
     FRAME_AGAIN = "frame-again";
-    /// A STATUS arrived: age, amp_sum, then what is not as in the last.
+    /// A STATUS arrived: age, `amp_sum`, then what is not as in the last.
     STATUS = "status";
     /// Another packet was written: type, number, payload in hexadecimal digits.
     OUT = "out";
@@ -82,7 +82,7 @@ events! {
     FAULT = "fault";
     /// The device is in another state.
     STATE = "state";
-    /// Volts, milliamperes, degrees, amp_sum.
+    /// Volts, milliamperes, degrees, `amp_sum`.
     TELEMETRY = "telemetry";
     /// What the device counted.
     DEVICE_COUNTERS = "device-counters";

@@ -48,7 +48,7 @@ pub(crate) enum Note {
     Fault(Fault),
     /// The device is in another state, by its code.
     State(u8),
-    /// What the device measures of itself, and the largest amp_sum that our frames predict.
+    /// What the device measures of itself, and the largest `amp_sum` that our frames predict.
     Telemetry(Status, f64),
     /// Counters of the device since the session began, after a change.
     DeviceCounters(DeviceCounters),

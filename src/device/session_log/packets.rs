@@ -227,7 +227,7 @@ impl PacketCode {
         self.frame.hash.clear();
         self.frame.since_whole = Some(0);
         self.frame.apply_tick = apply_tick;
-        self.frame.seq = self.read_seq(words.next(), self.sent_seq)?;
+        self.frame.seq = Self::read_seq(words.next(), self.sent_seq)?;
         self.sent_seq = self.frame.seq;
         words.next().is_none().then(|| self.last_frame())?
     }
@@ -241,7 +241,7 @@ impl PacketCode {
         let hash = words.next()?;
         let is_hash = hash.len() == HASH_DIGITS && hash.bytes().all(|b| b.is_ascii_hexdigit());
         self.frame = LastFrame {
-            seq: self.read_seq(words.next(), self.sent_seq)?,
+            seq: Self::read_seq(words.next(), self.sent_seq)?,
             apply_tick,
             codes: vec![[0; 2]; n],
             hash: hash.to_owned(),
@@ -307,7 +307,7 @@ impl PacketCode {
         Some(self.status.tick.wrapping_add(ahead.cast_unsigned()))
     }
 
-    fn read_seq(&self, word: Option<&str>, last: u16) -> Option<u16> {
+    fn read_seq(word: Option<&str>, last: u16) -> Option<u16> {
         match word {
             None => Some(last.wrapping_add(1)),
             Some(word) => word.strip_prefix("seq=")?.parse().ok(),

@@ -74,10 +74,6 @@ impl fmt::Debug for Body {
 
 /// What passes a port.
 #[derive(Clone, Copy, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "plain values in a ring: a box would allocate on the thread that waits for the port"
-)]
 pub(crate) enum Passed {
     /// The port took this packet.
     Sent(Packet),
@@ -130,7 +126,8 @@ pub(crate) fn tap() -> (Tap, TapEnd) {
 
 impl Tap {
     /// Takes note of what passed; without room it is counted.
-    pub(crate) fn put(&mut self, at: Instant, what: Passed) {
+    pub(crate) fn put(&mut self, at: Instant, what: &Passed) {
+        let what = *what;
         let is_wanted = self.shared.is_on.load(Ordering::Relaxed);
         if is_wanted && self.ring.push(Passing { at, what }).is_err() {
             self.shared.n_lost.fetch_add(1, Ordering::Relaxed);
@@ -166,15 +163,15 @@ mod tests {
     #[test]
     fn a_full_ring_counts_what_it_lost() {
         let (mut tap, mut end) = tap();
-        tap.put(Instant::now(), Passed::Bad(1));
+        tap.put(Instant::now(), &Passed::Bad(1));
         assert!(end.next().is_none(), "nobody records yet");
         end.open();
         for _ in 0..MAX_PASSING + 5 {
-            tap.put(Instant::now(), Passed::Bad(1));
+            tap.put(Instant::now(), &Passed::Bad(1));
         }
         let n_kept = std::iter::from_fn(|| end.next()).count();
         assert_eq!((n_kept, end.take_lost()), (MAX_PASSING, 5));
-        tap.put(Instant::now(), Passed::Bad(2));
+        tap.put(Instant::now(), &Passed::Bad(2));
         assert!(end.next().is_some() && end.take_lost() == 0 && !end.is_over());
         drop(tap);
         assert!(end.is_over());

@@ -276,7 +276,7 @@ fn a_log_that_was_cut_is_continued_and_its_cut_line_dropped() {
     drop(log.feed("again"));
     log.finish().unwrap();
     let lines = read(&fs::read(&path).unwrap()).unwrap();
-    let (before, last) = (read(text[..at].as_bytes()).unwrap(), lines.last().unwrap());
+    let (before, last) = (read(&text.as_bytes()[..at]).unwrap(), lines.last().unwrap());
     assert_eq!(lines.len(), before.len() + 1);
     assert!(matches!(&last.seen, Seen::Note(name, _) if name == event::LINK));
 }
@@ -357,7 +357,7 @@ fn an_hour_takes_less_than_sixteen_megabytes() {
         let packet = status
             .packet(u16::try_from(tick & 0xffff).unwrap())
             .unwrap();
-        log.received(at, Body::of_wire(packet.as_bytes()).unwrap());
+        log.received(at, &Body::of_wire(packet.as_bytes()).unwrap());
         seq = seq.wrapping_add(1);
         if tick % 40 == 0 {
             let packet = crate::Ping { token: tick }.packet(seq).unwrap();

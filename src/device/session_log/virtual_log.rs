@@ -43,15 +43,16 @@ impl VirtualLog {
     }
 
     pub(crate) fn sent(&mut self, at: Instant, packet: &Packet) {
-        self.pass(at, Passed::Sent(*packet));
+        self.pass(at, &Passed::Sent(*packet));
     }
 
-    pub(crate) fn received(&mut self, at: Instant, body: Body) {
-        self.pass(at, Passed::Received(body));
+    pub(crate) fn received(&mut self, at: Instant, body: &Body) {
+        self.pass(at, &Passed::Received(*body));
     }
 
-    fn pass(&mut self, at: Instant, what: Passed) {
-        self.recorder.passing(&Passing { at, what }, &mut self.text);
+    fn pass(&mut self, at: Instant, what: &Passed) {
+        self.recorder
+            .passing(&Passing { at, what: *what }, &mut self.text);
         self.recorder.settle(at, &mut self.text);
     }
 

@@ -264,7 +264,7 @@ impl Simulation {
             if let Some(record) = &mut self.record
                 && let Some(body) = crate::session_log::Body::new(&packet)
             {
-                record.received(now, body);
+                record.received(now, &body);
             }
             match DeviceMessage::decode(&packet, N_CONTACTORS) {
                 Ok(message) => self.host.on_message(now, &message),
