@@ -68,7 +68,7 @@ impl LinkReplay {
     pub(super) fn take(&mut self, seen: Seen, host_s: f64) -> Vec<ReplayedTick> {
         match seen {
             Seen::Sent(body) | Seen::Unsent(body) => {
-                self.wrote(Written::Body(Box::new(body)), host_s)
+                self.wrote(Written::Body(Box::new(body)), host_s);
             }
             Seen::Hashed(hashed) => self.wrote(Written::Hashed(hashed), host_s),
             Seen::Received(body) => return self.received(&body, host_s),
