@@ -70,7 +70,9 @@ mod tests {
         let count = Arc::new(AtomicU32::new(0));
         let add = |n: u32| {
             let count = Arc::clone(&count);
-            on_panic(move || drop(count.fetch_add(n, Ordering::SeqCst)))
+            on_panic(move || {
+                count.fetch_add(n, Ordering::SeqCst);
+            })
         };
         let panics = || {
             let thread = std::thread::Builder::new().name("clumsy".to_owned());

@@ -175,10 +175,10 @@ impl Driver {
         self.is_ending = true;
         self.bridge.stop(StopHow::Ramp);
         let deadline = Instant::now() + REPLY_PATIENCE;
-        let mut outcome = Ok(());
+        let mut wrong = None;
         while self.bridge.state().is_live() && Instant::now() < deadline {
-            let turned = self.turn(source);
-            outcome = outcome.and(turned.map(|_due| ()));
+            let error = self.turn(source).err();
+            wrong = wrong.or(error);
             self.wait();
         }
         if self.bridge.state().is_live() {
@@ -186,9 +186,9 @@ impl Driver {
                 handle.last_word();
             }
             let what = "did not acknowledge the last STOP; switch its power off";
-            outcome = outcome.and(Err(self.failed(what).into()));
+            wrong = wrong.or_else(|| Some(self.failed(what).into()));
         }
-        outcome
+        wrong.map_or(Ok(()), Err)
     }
 
     /// Takes all news, and says whether a tick is due. The first that is wrong ends the session.

@@ -163,9 +163,12 @@ fn a_lost_stretch_makes_no_two_frames_for_one_tick() {
     // the loss comes at any time within its tick.
     for held_us in (0..25_000).step_by(500) {
         for has_own_clock in [true, false] {
-            let mut script = Scripted::armed(|start| match has_own_clock {
-                true => Pacer::with_own_clock(start),
-                false => Pacer::waiting(),
+            let mut script = Scripted::armed(|start| {
+                if has_own_clock {
+                    Pacer::with_own_clock(start)
+                } else {
+                    Pacer::waiting()
+                }
             });
             let mut passed = ARMED * 25_000 - 10_000;
             for k in ARMED..ARMED + 60 {
