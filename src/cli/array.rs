@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{CliError, terminal};
 
-use selvedge_device::{ArrayProfile, BridgeError, Caps, DeviceUid, ProfileFolder};
+use selvedge_device::{ArrayProfile, BridgeError, Caps, Certificate, DeviceUid, ProfileFolder};
 use selvedge_foundation::quantity;
 use selvedge_render::scene::LoadedScene;
 
@@ -29,7 +29,12 @@ pub(super) struct BaudArgs {
 impl BaudArgs {
     /// Lets the rate of the command line, if there is one, take the place of the profile's.
     pub(super) fn set(&self, profile: &mut ArrayProfile) {
-        profile.baud = self.baud.unwrap_or(profile.baud);
+        profile.baud = self.rate(profile);
+    }
+
+    /// The rate of the command line, or else the profile's.
+    pub(super) fn rate(&self, profile: &ArrayProfile) -> u32 {
+        self.baud.unwrap_or(profile.baud)
     }
 }
 
@@ -60,6 +65,11 @@ pub(super) fn profile(word: &str) -> Result<Box<ArrayProfile>, String> {
 /// What is to be said when a device with these CAPS is connected for a profile.
 pub(super) fn doubt(profile: &ArrayProfile, caps: &Caps) -> Option<String> {
     profile.wiring_doubt(DeviceUid(caps.uid))
+}
+
+/// The same of a device that was tried.
+pub(super) fn certified_doubt(profile: &ArrayProfile, found: &Certificate) -> Option<String> {
+    profile.wiring_doubt(DeviceUid::parse(&found.uid)?)
 }
 
 /// Refuses an array with another number of contactors than the scene's first display, and says when

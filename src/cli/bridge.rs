@@ -7,9 +7,10 @@ use clap::{Args, Subcommand};
 use super::bridge_abilities::AbilityArgs;
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
+use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
-use super::{CliError, array, output, play, terminal};
-use selvedge_device::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
+use super::{CliError, array, output, terminal};
+use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
 use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
 
 /// What to do with devices.
@@ -22,18 +23,9 @@ pub(super) enum BridgeCommand {
         udev_rule: bool,
     },
     /// Test a connected device: handshake, pings, a second of faint frames, STOP
-    Test {
-        /// Serial port of the device
-        #[arg(long, value_name = "PORT")]
-        port: PathBuf,
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
-              value_parser = array::profile)]
-        array: Box<ArrayProfile>,
-        #[command(flatten)]
-        baud: array::BaudArgs,
-        #[arg(long, value_name = "F.csv", help = play::SESSION_LOG_HELP)]
-        session_log: Option<PathBuf>,
-    },
+    Test(TestArgs),
+    /// Certify a device: all that its firmware must do, in a report; at most a minute
+    Certify(CertifyArgs),
     /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
     Kit {
         /// A new folder
@@ -72,40 +64,11 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
         BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
-        BridgeCommand::Test {
-            port,
-            array,
-            baud,
-            session_log,
-        } => {
-            let mut array = (**array).clone();
-            baud.set(&mut array);
-            test(port, &array, session_log.as_deref())
-        }
+        BridgeCommand::Test(args) => certify::test(args),
+        BridgeCommand::Certify(args) => certify::certify(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
     }
-}
-
-fn test(port: &Path, array: &ArrayProfile, session_log: Option<&Path>) -> Result<(), CliError> {
-    play::check_port(port)?;
-    let log = session_log.map(|path| SessionLog::append(path, None));
-    let log = log.transpose()?;
-    let report = self_test(Target::Port(port.to_owned()), array.clone(), log.as_ref());
-    if let Some(doubt) = report.caps.and_then(|caps| array::doubt(array, &caps)) {
-        terminal::notice(&doubt);
-    }
-    output::print(&format!("{report}\n"))?;
-    log.map_or(Ok(()), SessionLog::finish)?;
-    if report.passed() {
-        return Ok(());
-    }
-    let failed = report.steps.last().map_or("handshake", |step| step.name);
-    let what = format!(
-        "{}: the {failed} failed; check power and cable",
-        port.display()
-    );
-    Err(CliError::Failed(what))
 }
 
 fn list() -> Result<(), CliError> {

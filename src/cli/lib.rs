@@ -20,6 +20,7 @@ mod bridge_abilities;
 mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
+mod certify;
 mod experiment;
 mod failure;
 mod identify;

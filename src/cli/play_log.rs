@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::CliError;
 use super::output::TableOut;
-use selvedge_device::{ArrayProfile, Coder, SentFrame};
+use selvedge_device::{ArrayProfile, Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
 
 /// One row a frame.
@@ -44,9 +44,9 @@ impl PlayLog {
         })
     }
 
-    /// The device's own limits, which the codes keep.
-    pub(super) fn set_link_limit(&mut self, comp_limit: [u16; 2]) {
-        self.coder.set_link_limit(comp_limit);
+    /// What the device makes of codes.
+    pub(super) fn set_link(&mut self, scale: Option<LinkScale>) {
+        self.coder.set_link(scale);
     }
 
     /// Writes the row of a frame: amplitudes in µm after gains, before limits and soft start.

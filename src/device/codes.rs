@@ -55,6 +55,15 @@ pub struct Limit {
     pub is_of_device: bool,
 }
 
+/// What a device makes of codes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LinkScale {
+    /// The largest code that it takes, `[40 Hz, 320 Hz]`.
+    pub comp_limit: [u16; 2],
+    /// Drive peak that a code of 65535 stands for, mV.
+    pub fs_mv: u32,
+}
+
 /// Full scale and limits in µm, made safe: no NaN, no negative limit, full scale above 0.
 #[expect(clippy::struct_field_names, reason = "names carry their unit")]
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +73,10 @@ struct Scale {
     limit_um: [f64; 2],
     /// Of its drive, as the amplitude that a contactor of nominal gain would have.
     drive_limit_um: [f64; 2],
+    /// Drive peak at which full scale holds, mV.
+    full_scale_mv: f64,
+    /// The device's code for full drive, as a part of 65535.
+    part: f64,
 }
 
 /// Where a contactor's codes go, and how strongly it is driven.
@@ -77,8 +90,8 @@ struct Lead {
 #[derive(Clone, Debug)]
 pub struct Coder {
     scale: Scale,
-    /// The device's limits, once they are known.
-    link: Option<[u16; 2]>,
+    /// What the device makes of codes, once it is known.
+    link: Option<LinkScale>,
     leads: Vec<Lead>,
     counters: CodeCounters,
     limiters: Vec<LimiterState>,
@@ -125,20 +138,25 @@ impl Coder {
     /// Goes on counting where another coder was, under the same limits of the device.
     pub fn go_on_from(&mut self, before: &Self) {
         self.counters = before.counters;
-        if let Some(comp_limit) = before.link {
-            self.set_link_limit(comp_limit);
+        if before.link.is_some() {
+            self.set_link(before.link);
         }
     }
 
-    /// Lowers the limits to what the device accepts: `comp_limit · F / 65535` per band. `None`: no
-    /// device is known that lowers them.
-    pub fn set_link_limit(&mut self, comp_limit: impl Into<Option<[u16; 2]>>) {
-        self.link = comp_limit.into();
+    /// Makes codes for this device: scaled by the profile's drive peak over the device's, limits
+    /// lowered to what it accepts. `None`: a device of the profile's own voltage without limits.
+    ///
+    /// A device that cannot reach the profile's drive peak gets no more than it has.
+    pub fn set_link(&mut self, link: Option<LinkScale>) {
+        self.link = link;
         self.scale.drive_limit_um = [f64::INFINITY; 2];
-        for (band, code) in self.link.into_iter().flatten().enumerate() {
-            let full_scale_um = self.scale.full_scale_um[band];
+        self.scale.part = 1.0;
+        let Some(link) = link else { return };
+        self.scale.part = self.scale.part_of(link.fs_mv).min(1.0);
+        for (band, code) in link.comp_limit.into_iter().enumerate() {
+            let full_code = f64::from(FULL_CODE) * self.scale.part;
             self.scale.drive_limit_um[band] =
-                f64::from(code) * full_scale_um / f64::from(FULL_CODE);
+                f64::from(code) * self.scale.full_scale_um[band] / full_code;
         }
     }
 
@@ -157,16 +175,17 @@ impl Coder {
         })
     }
 
-    /// The component limits to ask a device for: the smallest codes that no allowed amplitude
-    /// exceeds on any contactor.
-    pub fn comp_limit(&self) -> [u16; 2] {
+    /// The component limits to ask a device for whose code of 65535 stands for `fs_mv`: the
+    /// smallest codes that no allowed amplitude exceeds on any contactor.
+    pub fn comp_limit(&self, fs_mv: u32) -> [u16; 2] {
+        let part = self.scale.part_of(fs_mv).min(1.0);
         let driven = self.leads.iter().filter(|lead| !lead.calibration.is_off);
         let gains = driven.map(|lead| lead.calibration.drive_gain);
         let largest = gains.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         let largest = largest.unwrap_or([1.0; 2]);
         [0, 1].map(|band| {
             let share = self.scale.limit_um[band] * largest[band] / self.scale.full_scale_um[band];
-            round_half_up((65535.0 * share).ceil().min(65535.0))
+            round_half_up((65535.0 * part * share.min(1.0)).ceil())
         })
     }
 
@@ -283,10 +302,12 @@ fn drive_code(
         limiter.guarded = true;
         driven_um = driven_um.map(|a_um| a_um / share);
     }
+    let full = f64::from(FULL_CODE) * scale.part;
     let [code_40, code_320] =
-        [0, 1].map(|band| round_half_up(65535.0 * driven_um[band] / scale.full_scale_um[band]));
+        [0, 1].map(|band| round_half_up(full * driven_um[band] / scale.full_scale_um[band]));
     // Rounding both halves up can exceed full drive by one.
-    ([code_40, code_320.min(FULL_CODE - code_40)], limiter)
+    let most = round_half_up(full);
+    ([code_40, code_320.min(most - code_40)], limiter)
 }
 
 impl Scale {
@@ -295,6 +316,8 @@ impl Scale {
             full_scale_um: profile.full_scale_um,
             limit_um: profile.limit_um,
             drive_limit_um: [f64::INFINITY; 2],
+            full_scale_mv: f64::from(profile.full_scale_mv),
+            part: 1.0,
         };
         for (full_scale_um, limit_um) in scale.full_scale_um.iter_mut().zip(&mut scale.limit_um) {
             let usable = full_scale_um.is_finite() && *full_scale_um > 0.0 && *limit_um > 0.0;
@@ -304,10 +327,14 @@ impl Scale {
         scale
     }
 
+    fn part_of(&self, fs_mv: u32) -> f64 {
+        self.full_scale_mv / f64::from(fs_mv.max(1))
+    }
+
     /// Whether the device's limit of a contactor with this drive gain is below the profile's. One
     /// that was asked for because of the profile is that rounded up, and within half a code of it.
     fn device_is_lower(&self, band: usize, drive_gain: f64) -> bool {
-        let half_um = 0.5 * self.full_scale_um[band] / f64::from(FULL_CODE);
+        let half_um = 0.5 * self.full_scale_um[band] / (f64::from(FULL_CODE) * self.part);
         self.drive_limit_um[band] + half_um < self.limit_um[band] * drive_gain
     }
 }

@@ -31,7 +31,6 @@ mod handle;
 mod input;
 mod link;
 mod meters;
-mod pacer;
 mod prepared;
 mod programs;
 mod ready;
@@ -61,7 +60,6 @@ pub use input::{
     open_input_device,
 };
 pub use meters::{DurationBucket, DurationHistogram};
-pub use pacer::PATIENCE;
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
 pub use recording::{RecordedSample, RecordedTick, Recording};

@@ -7,7 +7,7 @@ use super::{
     ClockView, ContactorView, DisplayView, EngineCounters, EngineError, Playback, PointerView,
     RecordingView, RenderingView, Snapshot, SourceKind,
 };
-use selvedge_device::{ArrayProfile, Coder};
+use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
@@ -178,10 +178,10 @@ impl PreparedScene {
         }
     }
 
-    /// The device's own limits, which lower those of the profile for the first display.
-    pub(super) fn set_link_limit(&mut self, comp_limit: Option<[u16; 2]>) {
+    /// What the device makes of the codes of the first display.
+    pub(super) fn set_link(&mut self, link: Option<LinkScale>) {
         if let Some(output) = self.outputs.first_mut() {
-            output.coder.set_link_limit(comp_limit);
+            output.coder.set_link(link);
         }
     }
 

@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use super::{DurationHistogram, InputRate, Playback, SampleCounters, SourceKind, VelocityMethod};
 use selvedge_device::{
-    BridgeCounters, BridgeState, Caps, ClockFit, LimiterState, SentFrame, Spread, Status, Timings,
+    BridgeCounters, BridgeState, Caps, ClockFit, LimiterState, LinkScale, SentFrame, Spread,
+    Status, Timings,
 };
 use selvedge_foundation::geometry::Point;
 use selvedge_render::Counters;
@@ -187,8 +188,10 @@ pub struct LinkView {
     pub state: BridgeState,
     /// What the device says it is.
     pub caps: Option<Caps>,
-    /// The largest codes that it takes now, `[40 Hz, 320 Hz]`.
-    pub comp_limit: Option<[u16; 2]>,
+    /// What it makes of codes.
+    pub scale: Option<LinkScale>,
+    /// The largest sum of codes that our own frames allow it now; its STATUS says the real one.
+    pub predicted_sum: f64,
     /// Its last STATUS.
     pub status: Option<Status>,
     /// Ticks from a frame to its effect, 1…3.

@@ -185,6 +185,7 @@ fn wrong_ports_are_refused_before_anything_moves() {
         for args in [
             [&play[..], &[port]].concat(),
             vec!["bridge", "test", "--port", port],
+            vec!["bridge", "certify", "--out", "new", "--port", port],
         ] {
             let line = lab.refuse(&args);
             assert!(
@@ -241,7 +242,7 @@ fn rates_and_channels_that_cannot_be_are_refused() {
     }
 }
 
-const USAGE: [&str; 20] = [
+const USAGE: [&str; 21] = [
     "render",
     "render a.scene.toml",
     "render a.scene.toml --path a.csv --speed 3",
@@ -256,6 +257,7 @@ const USAGE: [&str; 20] = [
     "textile",
     "bridge",
     "bridge test",
+    "bridge certify --port /dev/none",
     "bridge emulate",
     "screenshot",
     "screenshot --out a.png --width 1",

@@ -79,10 +79,13 @@ fn a_device_that_reboots_while_it_plays_is_lost_and_stays_silent() {
 #[test]
 fn a_device_that_lies_fails_its_test_with_the_reason() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab, &["--lie", "rows=5"]);
+    let device = Device::start(&lab, &["--firmware-lie", "caps.rows=5"]);
     let outcome = lab.run(&["bridge", "test", "--port", "array"]);
     assert_eq!(outcome.code, 1, "{outcome:?}");
-    assert!(outcome.out.contains("5 rows"), "{outcome:?}");
+    assert!(
+        outcome.out.contains("rows · cols is not n_ch"),
+        "{outcome:?}"
+    );
     drop(device.end(&lab));
 }
 
@@ -93,7 +96,7 @@ fn faults_that_cannot_be_are_refused_before_anything_starts() {
         (["--dead", "24"], "channels 0 to 23"),
         (["--drop", "1.5"], "0 to 1"),
         (["--reboot-at", "later"], "300ms"),
-        (["--lie", "colour=3"], "max-body"),
+        (["--firmware-lie", "caps.colour=3"], "caps.max-body"),
         (["--tick-jitter", "1s"], "10 ms"),
     ] {
         let args = [&["bridge", "emulate", "--link", "array"], &fault[..]].concat();

@@ -11,6 +11,7 @@ pub(super) fn flaw(profile: &ArrayProfile) -> Option<Flaw> {
         .or_else(|| places_flaw(profile))
         .or_else(|| scale_flaw(profile))
         .or_else(|| silencing_flaw(profile))
+        .or_else(|| link_flaw(profile))
         .or_else(|| calibration_flaw(profile))
         .or_else(|| wiring_flaw(profile))
 }
@@ -101,14 +102,37 @@ fn silencing_flaw(profile: &ArrayProfile) -> Option<Flaw> {
         let mend = format!("the array must be silent within {max_ms} ms: shorten one");
         return Some(Flaw::new(("", 0, "ramp_ms"), what, mend));
     }
-    if profile.hv_dv > ArrayProfile::LARGEST_HV_DV {
+    if let Some(hv_dv) = profile.hv_dv.filter(|dv| *dv > ArrayProfile::LARGEST_HV_DV) {
         let most_v = f64::from(ArrayProfile::LARGEST_HV_DV) / 10.0;
-        let what = format!("a high voltage of {} V", f64::from(profile.hv_dv) / 10.0);
+        let what = format!("a high voltage of {} V", f64::from(hv_dv) / 10.0);
         return Some(Flaw::new(
             ("", 0, "hv_v"),
             what,
             format!("give 0 to {most_v} V"),
         ));
+    }
+    None
+}
+
+fn link_flaw(profile: &ArrayProfile) -> Option<Flaw> {
+    let most_mv = ArrayProfile::LARGEST_FULL_SCALE_MV;
+    if !(1..=most_mv).contains(&profile.full_scale_mv) {
+        let what = format!("full_scale_mv is {}", profile.full_scale_mv);
+        let mend = format!("give 1 to {most_mv} mV: the drive peak at full_scale_um");
+        return Some(Flaw::new(("", 0, "full_scale_mv"), what, mend));
+    }
+    if let Some([low, high]) = profile.temperature_c
+        && !(low.is_finite() && high.is_finite() && low < high)
+    {
+        let what = format!("temperature_c is [{low}, {high}]");
+        let mend = "give the lowest and the highest temperature, °C";
+        return Some(Flaw::new(("", 0, "temperature_c"), what, mend));
+    }
+    let [least, most] = ArrayProfile::BAUD;
+    if !(least..=most).contains(&profile.baud) {
+        let what = format!("baud is {}", profile.baud);
+        let mend = format!("give {least} to {most} symbols a second");
+        return Some(Flaw::new(("", 0, "baud"), what, mend));
     }
     None
 }

@@ -24,10 +24,19 @@ struct ProfileKeys {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     contactors_mm: Option<Vec<[f64; 2]>>,
     full_scale_um: [f64; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    full_scale_mv: Option<u32>,
     limit_um: [f64; 2],
     hold_ms: u16,
     ramp_ms: u16,
-    hv_v: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    hv_v: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    i_ma_max: Option<u16>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    temperature_c: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    baud: Option<u32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     calibration: Option<CalibrationKeys>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,6 +128,7 @@ impl ArrayProfile {
             }
         };
         let n = usize::from(keys.rows) * usize::from(keys.cols);
+        let volts = |volts| whole(("", 0, "hv_v"), volts, "V", 10.0);
         Ok(Self {
             name: keys.name,
             rows: keys.rows,
@@ -129,12 +139,15 @@ impl ArrayProfile {
             limit_um: keys.limit_um,
             hold_ms: keys.hold_ms,
             ramp_ms: keys.ramp_ms,
-            hv_dv: whole(("", 0, "hv_v"), keys.hv_v, "V", 10.0)?,
+            full_scale_mv: keys.full_scale_mv.unwrap_or(Self::USUAL_FULL_SCALE_MV),
+            hv_dv: keys.hv_v.map(volts).transpose()?,
+            i_ma_max: keys.i_ma_max,
+            temperature_c: keys.temperature_c,
+            baud: keys.baud.unwrap_or(Self::USUAL_BAUD),
             calibration: keys
                 .calibration
                 .map_or_else(|| Ok(Vec::new()), |keys| calibration_from(&keys, n))?,
             wiring: keys.wiring.map(wiring_from).transpose()?,
-            baud: Self::default().baud,
         })
     }
 
@@ -150,7 +163,11 @@ impl ArrayProfile {
             limit_um: self.limit_um,
             hold_ms: self.hold_ms,
             ramp_ms: self.ramp_ms,
-            hv_v: f64::from(self.hv_dv) / 10.0,
+            full_scale_mv: unusual(self.full_scale_mv, Self::USUAL_FULL_SCALE_MV),
+            hv_v: self.hv_dv.map(|dv| f64::from(dv) / 10.0),
+            i_ma_max: self.i_ma_max,
+            temperature_c: self.temperature_c,
+            baud: unusual(self.baud, Self::USUAL_BAUD),
             calibration: calibration_keys(&self.calibration),
             wiring: self.wiring.as_ref().map(|wiring| WiringKeys {
                 device_uid: wiring.device_uid.to_string(),
@@ -165,6 +182,11 @@ const HEAD: &str = "\
 # Array profile of Selvedge. Amplitudes in µm peak, [40 Hz, 320 Hz]; contactors and channels
 # count from 0, contactors row by row from the fingertip's left.
 ";
+
+/// A value worth a line.
+fn unusual(value: u32, usual: u32) -> Option<u32> {
+    (value != usual).then_some(value)
+}
 
 /// A number of `unit` as a whole number of its `per_unit` parts.
 fn whole(place: Place, value: f64, unit: &str, per_unit: f64) -> Result<u16, Flaw> {

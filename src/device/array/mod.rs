@@ -17,8 +17,8 @@ use std::fmt;
 
 /// What the host assumes of an array: shape, scale, limits, calibration and wiring.
 ///
-/// The scale is an assumption of this program (50 µm at full drive), not a property that a device
-/// reports.
+/// The scale is an assumption of this program (50 µm at 50 V), not a property that a device reports;
+/// what voltage a code stands for is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrayProfile {
     /// Name for people, `exeter-24`.
@@ -31,22 +31,28 @@ pub struct ArrayProfile {
     pub pitch_um: u16,
     /// Places of contactors that form no grid, seen from the middle, mm; empty for a grid.
     pub contactors_mm: Vec<[f64; 2]>,
-    /// `[F40, F320]`: peak displacement in µm that a code of 65535 stands for.
+    /// `[F40, F320]`: peak displacement in µm at a drive peak of `full_scale_mv`.
     pub full_scale_um: [f64; 2],
+    /// Drive peak at which `full_scale_um` holds, mV.
+    pub full_scale_mv: u32,
     /// Largest amplitude per band in µm.
     pub limit_um: [f64; 2],
     /// Time without an accepted frame before the device starts its ramp, in ms.
     pub hold_ms: u16,
     /// Duration of the device's ramp to silence, in ms.
     pub ramp_ms: u16,
-    /// High voltage to ask for, in 0.1 V.
-    pub hv_dv: u16,
+    /// High voltage to ask for, in 0.1 V; `None`: what the device gives at most.
+    pub hv_dv: Option<u16>,
+    /// Supply current above which output ends, mA; `None`: it is not judged.
+    pub i_ma_max: Option<u16>,
+    /// Lowest and highest temperature at which output goes on, °C; `None`: −10 to 70.
+    pub temperature_c: Option<[f64; 2]>,
+    /// Symbols a second of a serial line; USB ignores it.
+    pub baud: u32,
     /// One a contactor; those beyond its end are as at first.
     pub calibration: Vec<Calibration>,
     /// Which channel drives which contactor; `None`: channel 0 drives contactor 0, and so on.
     pub wiring: Option<Wiring>,
-    /// Rate of a bridge with a real UART, baud; USB and pseudo-terminals ignore it.
-    pub baud: u32,
 }
 
 /// How one contactor answers its drive.
@@ -122,8 +128,16 @@ impl ArrayProfile {
     pub const LONGEST_SILENCING_MS: u16 = 100;
     /// Largest high voltage to ask for, 0.1 V.
     pub const LARGEST_HV_DV: u16 = 5000;
-    /// Slowest and fastest rate of a UART, baud: a slower one has no time for frames.
+    /// Drive peak of full scale where a profile names none, mV.
+    pub const USUAL_FULL_SCALE_MV: u32 = 50_000;
+    /// Largest drive peak of full scale, mV.
+    pub const LARGEST_FULL_SCALE_MV: u32 = 1_000_000;
+    /// Symbols a second where a profile names none.
+    pub const USUAL_BAUD: u32 = 1_000_000;
+    /// Slowest and fastest rate of a serial line: a slower one has no time for frames.
     pub const BAUD: [u32; 2] = [115_200, 12_000_000];
+    /// Temperatures outside of which no device works, °C.
+    pub const TEMPERATURE_C: [f64; 2] = [-10.0, 70.0];
 
     /// `rows · cols`.
     pub fn n_contactors(&self) -> usize {
@@ -182,6 +196,7 @@ impl ArrayProfile {
         let is_same_array = (self.rows, self.cols, &self.wiring)
             == (before.rows, before.cols, &before.wiring)
             && self.full_scale_um.map(f64::to_bits) == before.full_scale_um.map(f64::to_bits)
+            && self.full_scale_mv == before.full_scale_mv
             && (self.hold_ms, self.ramp_ms, self.hv_dv)
                 == (before.hold_ms, before.ramp_ms, before.hv_dv);
         let at_most = |new: [f64; 2], old: [f64; 2]| new[0] <= old[0] && new[1] <= old[1];
@@ -243,10 +258,13 @@ impl Default for ArrayProfile {
             limit_um: [50.0, 50.0],
             hold_ms: 60,
             ramp_ms: 40,
-            hv_dv: 600,
+            full_scale_mv: Self::USUAL_FULL_SCALE_MV,
+            hv_dv: Some(600),
+            i_ma_max: None,
+            temperature_c: None,
+            baud: Self::USUAL_BAUD,
             calibration: Vec::new(),
             wiring: None,
-            baud: 1_000_000,
         }
     }
 }

@@ -18,7 +18,11 @@ fn rich() -> ArrayProfile {
         contactors_mm: vec![[0.0, 0.5], [-1.25, 0.1 + 0.2], [3.0, -2.0]],
         full_scale_um: [48.7, 61.3],
         limit_um: [30.0, 0.1],
-        hv_dv: 555,
+        full_scale_mv: 55_000,
+        hv_dv: Some(555),
+        i_ma_max: Some(20),
+        temperature_c: Some([5.0, 45.5]),
+        baud: 115_200,
         wiring: Some(Wiring {
             device_uid: DeviceUid([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0xab, 0xff]),
             channels: vec![2, 0, 1],
@@ -199,7 +203,10 @@ fn what_only_lowers_is_told_from_what_may_raise() {
     );
     assert!(!with(|p| p.wiring = None), "other channels");
     assert!(!with(|p| p.full_scale_um[0] = 60.0), "another scale");
-    assert!(!with(|p| p.hv_dv = 500), "the device must be asked anew");
+    assert!(
+        !with(|p| p.hv_dv = Some(500)),
+        "the device must be asked anew"
+    );
 }
 
 #[test]

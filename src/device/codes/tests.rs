@@ -9,6 +9,14 @@ fn coder() -> Coder {
     Coder::new(&ArrayProfile::default(), 1)
 }
 
+/// A device of the profile's own voltage with these limits.
+fn of_50_v(comp_limit: [u16; 2]) -> Option<LinkScale> {
+    Some(LinkScale {
+        comp_limit,
+        fs_mv: 50_000,
+    })
+}
+
 fn code(a40: f32, a320: f32) -> [u16; 2] {
     coder().encode(&[[a40, a320]], 1.0)[0]
 }
@@ -22,6 +30,39 @@ fn codes_follow_the_closed_form() {
     // 65535 · 0.000381… rounds half up at exactly one half: 25 µm is 32767.5.
     assert_eq!(code(25.0, 0.0), [32768, 0]);
     assert_eq!(coder().encode(&[[20.0, 10.0]], 0.05)[0], [1311, 655]);
+}
+
+#[test]
+fn codes_are_volts_whatever_a_device_makes_of_full_code() {
+    let on = |fs_mv| {
+        let mut coder = coder();
+        coder.set_link(Some(LinkScale {
+            comp_limit: [65535; 2],
+            fs_mv,
+        }));
+        coder.encode(&[[10.0, 20.0]], 1.0)[0]
+    };
+    assert_eq!(on(50_000), [13107, 26214]);
+    assert_eq!(on(200_000), [3277, 6554], "a quarter of the codes, half up");
+    assert_eq!(on(800_000), [819, 1638]);
+    // A device of 200 V holds a limit of 16384 at 50 V, which is full scale.
+    let mut coder = coder();
+    coder.set_link(Some(LinkScale {
+        comp_limit: [8192, 65535],
+        fs_mv: 200_000,
+    }));
+    let codes = coder.encode(&[[50.0, 0.0]], 1.0)[0];
+    assert_eq!(codes, [8192, 0]);
+    assert_eq!(coder.comp_limit(200_000), [16384; 2]);
+    let limit = coder.limits(0)[0];
+    assert!((limit.um - 25.0).abs() < 1e-3 && limit.is_of_device);
+    // Both bands at once: full drive is that of the profile.
+    coder.set_link(Some(LinkScale {
+        comp_limit: [65535; 2],
+        fs_mv: 200_000,
+    }));
+    let [low, high] = coder.encode(&[[50.0, 50.0]], 1.0)[0];
+    assert_eq!(low + high, 16384);
 }
 
 #[test]
@@ -62,7 +103,7 @@ fn limits_are_counted_per_band_and_the_link_lowers_them() {
     assert_eq!(coder.limited()[0].limited, [true, false]);
     assert!(!coder.limited()[1].any());
     for limit in [0, 1, 999, 32768, 65535] {
-        coder.set_link_limit([65535, limit]);
+        coder.set_link(of_50_v([65535, limit]));
         let expected = limit.min(52428);
         assert_eq!(coder.encode(&[[0.0, 50.0]], 1.0)[0], [0, expected]);
     }
@@ -183,7 +224,7 @@ fn calibration_drives_weak_contactors_more_and_limits_hold_what_they_do() {
     assert!(limiters[2].guarded, "80 µm of drive share 50");
     assert_eq!((coder.counters().off, coder.counters().guarded), (1, 1));
     assert_eq!(
-        coder.comp_limit(),
+        coder.comp_limit(50_000),
         [65535, 39321],
         "the strongest drive that may be needed"
     );
@@ -201,7 +242,7 @@ fn the_devices_limit_holds_the_drive_and_the_profiles_the_contactor() {
         &[gains(2.0, 2.0), gains(1.0, 1.0), gains(0.5, 0.5)],
     );
     let mut coder = Coder::new(&profile, 3);
-    coder.set_link_limit([13107, 65535]);
+    coder.set_link(of_50_v([13107, 65535]));
     let codes = coder.encode(&[[10.0, 0.0], [10.0, 0.0], [10.0, 0.0]], 1.0);
     assert_eq!(codes, [[13107, 0], [13107, 0], [6554, 0]]);
     let limited: Vec<bool> = coder
@@ -238,7 +279,7 @@ fn an_identified_channel_keeps_to_every_limit_and_knows_no_calibration() {
     assert_eq!(coder.ident_code(10.0), 13107);
     assert_eq!(coder.ident_code(40.0), 26214);
     assert_eq!(coder.ident_code(f32::NAN), 0);
-    coder.set_link_limit([0, 1000]);
+    coder.set_link(of_50_v([0, 1000]));
     assert_eq!(coder.ident_code(40.0), 1000);
 }
 
@@ -273,10 +314,10 @@ proptest! {
         };
         let [mut a, mut b] = [plain, spelt].map(|profile| Coder::new(&profile, 24));
         prop_assert_eq!(a.encode(&amplitudes, gain), b.encode(&amplitudes, gain));
-        a.set_link_limit(limit);
-        b.set_link_limit(limit);
+        a.set_link(of_50_v(limit));
+        b.set_link(of_50_v(limit));
         prop_assert_eq!(a.encode(&amplitudes, gain), b.encode(&amplitudes, gain));
-        prop_assert_eq!(a.comp_limit(), b.comp_limit());
+        prop_assert_eq!(a.comp_limit(50_000), b.comp_limit(50_000));
         // The formula of one contactor, spelt out: what the program has always sent.
         for (pair, code) in amplitudes.iter().zip(a.encode(&amplitudes, gain)) {
             prop_assert_eq!(code, plainly(*pair, gain, limit_um, limit));

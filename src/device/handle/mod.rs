@@ -6,6 +6,7 @@
 
 mod array;
 mod notes;
+mod pulse;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use super::BridgeError;
 use super::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
-use super::codes::{ArrayProfile, LimiterState};
+use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::device::DeviceModel;
 use super::emulator::EmulatorThread;
 use super::host::{
@@ -26,6 +27,7 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
+use pulse::Pulse;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -87,6 +89,8 @@ pub struct Bridge {
     link: Option<Link>,
     actuators: Option<ActuatorWatch>,
     notes: Notes,
+    /// A channel that is driven alone, on its way to its amplitude.
+    pulse: Option<Pulse>,
 }
 
 impl Bridge {
@@ -124,15 +128,21 @@ impl Bridge {
             link,
             actuators,
             notes: Notes::default(),
+            pulse: None,
         }
     }
 
     /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
-        let event = self.next();
-        self.heed(event.as_ref());
-        event
+        loop {
+            let event = self.next();
+            self.heed(event.as_ref());
+            match event {
+                Some(event) if !self.is_news(&event, Instant::now()) => {}
+                event => return event,
+            }
+        }
     }
 
     fn next(&mut self) -> Option<BridgeEvent> {
@@ -157,7 +167,11 @@ impl Bridge {
                 return Some(event);
             }
         }
+        if let Some(link) = &self.link {
+            self.session.heard(now, link.heard());
+        }
         self.session.on_time(now);
+        self.raise(now);
         self.flush();
         if !self.session.state().is_open() {
             self.release();
@@ -196,6 +210,7 @@ impl Bridge {
     }
 
     /// Sends a PING; `Pong` follows.
+    #[cfg(test)]
     pub(crate) fn ping(&mut self) {
         self.session.ping(Instant::now());
         self.flush();
@@ -240,9 +255,24 @@ impl Bridge {
         self.session.config()
     }
 
+    /// What the device makes of codes: its limits in force, or before it is configured its largest.
+    pub fn link_scale(&self) -> Option<LinkScale> {
+        self.session.link_scale()
+    }
+
+    /// The largest `amp_sum` that our own frames allow the device at its last tick.
+    pub fn predicted_sum(&self) -> f64 {
+        self.session.predicted_sum()
+    }
+
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.session.status()
+    }
+
+    /// The device's tick now, as frames are stamped by it; `None` before the first STATUS.
+    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
+        self.session.present_tick(now)
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -272,6 +302,7 @@ impl Bridge {
             device: session.device,
             codes: session.codes,
             frames_rejected: session.frames_rejected,
+            stray_status: session.stray_status,
             ..link.counters()
         };
         self.link.as_ref().map_or(session, with_link)

@@ -40,6 +40,8 @@ impl HostSession {
         };
         let seq = self.outbox.sequence.next();
         self.outbox.queue(ident.packet(seq).as_ref(), now);
+        let (tick, lasting) = (self.device.present_tick(now), self.lasting());
+        self.prediction.ident(tick, (ident.amp, ident.ms), lasting);
         self.ident = Some(Identifying {
             channel,
             seq,

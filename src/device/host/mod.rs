@@ -7,26 +7,30 @@
 //! never arms on its own.
 
 mod array;
-mod checks;
+mod claims;
 mod clock;
 mod drive;
 mod evidence;
 mod frames;
 mod ident;
 mod latching;
+mod noise;
 mod notes;
 mod pending;
+mod prediction;
 mod replies;
 mod report;
 mod reported;
+mod ticks;
 mod timers;
+mod watch;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use super::codes::{ArrayProfile, LimiterState};
+use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::framing::Packet;
 use super::message::{
     Arm, Caps, Clear, Config, Hello, Message as _, Ping, Status, Stop, StopHow, kind,
@@ -38,10 +42,14 @@ use clock::DeviceClock;
 use drive::Drive;
 use evidence::Evidence;
 use latching::Latching;
+pub(crate) use noise::Heard;
+use noise::Noise;
 use notes::Notes;
 use pending::{Identifying, Pending, Pings, Presence};
+use prediction::{Lasting, Prediction};
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DisarmedBy, SentFrame};
 use reported::Reported;
+use ticks::Ticks;
 
 const MAX_EVENTS: usize = 64;
 const MAX_PACKETS: usize = 16;
@@ -82,6 +90,8 @@ impl Outbox {
 #[derive(Debug)]
 struct Stopping {
     pending: Option<Pending>,
+    /// When it was acknowledged: the device is to come to rest.
+    obeyed: Option<Instant>,
     how: StopHow,
     /// Whether it ends output, rather than making sure of rest.
     ends_output: bool,
@@ -104,6 +114,9 @@ pub struct HostSession {
     latching: Latching,
     evidence: Evidence,
     presence: Presence,
+    ticks: Ticks,
+    prediction: Prediction,
+    noise: Noise,
     notes: Notes,
     events: VecDeque<BridgeEvent>,
 }
@@ -130,6 +143,7 @@ impl HostSession {
             request: None,
             stopping: Stopping {
                 pending: None,
+                obeyed: None,
                 how: StopHow::Ramp,
                 ends_output: false,
             },
@@ -140,6 +154,9 @@ impl HostSession {
             latching: Latching::new(),
             evidence: Evidence::default(),
             presence: Presence::default(),
+            ticks: Ticks::default(),
+            prediction: Prediction::default(),
+            noise: Noise::default(),
             notes: Notes::default(),
             events: VecDeque::with_capacity(MAX_EVENTS),
         }
@@ -167,6 +184,7 @@ impl HostSession {
         }
         self.state = BridgeState::Arming;
         self.drive.begin();
+        self.prediction.begin();
         self.request(kind::ARM, now);
         true
     }
@@ -188,6 +206,7 @@ impl HostSession {
         }
         let mut stopping = Pending::new(kind::STOP, now);
         self.send_stop(&mut stopping, now);
+        self.stopping.obeyed = None;
         // A device that has not answered HELLO cannot be expected to answer STOP.
         self.stopping.pending = self.device.caps.is_some().then_some(stopping);
     }
@@ -238,9 +257,29 @@ impl HostSession {
         self.device.config.as_ref()
     }
 
+    /// What the device makes of codes: its limits in force, or before it is configured its largest.
+    pub(crate) fn link_scale(&self) -> Option<LinkScale> {
+        let caps = self.device.caps?;
+        let config = self.device.config;
+        Some(LinkScale {
+            comp_limit: config.map_or(caps.comp_limit, |config| config.comp_limit),
+            fs_mv: caps.fs_mv,
+        })
+    }
+
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.device.status.as_ref()
+    }
+
+    /// The largest `amp_sum` that our own frames allow the device at its last tick.
+    pub fn predicted_sum(&self) -> f64 {
+        self.prediction.last_bound()
+    }
+
+    /// The device's tick now, by its last STATUS and the time since; `None` before the first.
+    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
+        self.device.status.map(|_| self.device.present_tick(now))
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -275,6 +314,7 @@ impl HostSession {
             device: self.device.counters,
             codes: self.drive.coder.counters(),
             frames_rejected: self.frames_rejected,
+            stray_status: self.ticks.n_strays(),
             ..BridgeCounters::default()
         }
     }
@@ -369,6 +409,32 @@ impl HostSession {
         }
         self.end(BridgeState::Lost);
         self.event(BridgeEvent::Lost(reason));
+    }
+
+    /// The device contradicts itself, the profile or what was asked: output ends, STOP first.
+    fn contradicted(&mut self, now: Instant, (how, reason): watch::End) {
+        self.stop(now, how);
+        self.stopping.ends_output = false;
+        self.note(now, Note::Said("contradiction", reason.clone()));
+        self.disarmed(DisarmedBy::Device, reason);
+    }
+
+    /// The device is not to be driven; it may move for all we know.
+    fn refuse(&mut self, now: Instant, reason: String) {
+        self.end(BridgeState::Refused);
+        self.send_stop(&mut Pending::new(kind::STOP, now), now);
+        self.event(BridgeEvent::Refused(reason));
+    }
+
+    /// What makes amplitudes last in the device.
+    fn lasting(&self) -> Lasting {
+        let config = self.device.config.unwrap_or_default();
+        let n_codes = 2 * self.drive.n_contactors;
+        Lasting {
+            silencing_ms: u32::from(config.hold_ms) + u32::from(config.ramp_ms),
+            depth: self.latching.depth(),
+            fall: n_codes as f64 * f64::from(config.slew),
+        }
     }
 
     fn end(&mut self, state: BridgeState) {

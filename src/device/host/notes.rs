@@ -34,6 +34,11 @@ impl Notes {
         self.waiting.pop_front()
     }
 
+    /// Faults were cleared: the next are news.
+    pub(super) fn forget_faults(&mut self) {
+        self.faults = 0;
+    }
+
     /// Whether fault bits are news: FAULT comes every 100 ms.
     pub(super) fn is_news(&mut self, faults: u16) -> bool {
         std::mem::replace(&mut self.faults, faults) != faults

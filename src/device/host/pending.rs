@@ -42,6 +42,12 @@ impl Pending {
         }
     }
 
+    /// Number of its last sending.
+    #[cfg(test)]
+    pub(super) fn last_seq(&self) -> u16 {
+        self.last_seq
+    }
+
     pub(super) fn kind(&self) -> u8 {
         self.kind
     }

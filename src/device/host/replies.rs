@@ -3,13 +3,16 @@
 use std::time::{Duration, Instant};
 
 use super::HostSession;
-use super::checks::refusal;
+use super::claims::{caps_refusal, config_refusal, is_at_rest, live_refusal, standing_faults};
 use super::clock::TICK;
 use super::latching::Deepened;
 use super::report::{BridgeEvent, BridgeState, DisarmedBy};
+use super::ticks::Worth;
+use super::watch::{contradiction, fault_end};
 use crate::array::DeviceUid;
 use crate::message::{
-    Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, MAGIC, Pong, Status, fault_bit, kind,
+    Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, Fault, MAGIC, Pong, Status, StopHow,
+    kind,
 };
 use crate::session_log::Note;
 
@@ -23,18 +26,14 @@ impl HostSession {
         if !self.state.is_open() {
             return;
         }
+        self.ticks.present(received);
         match message {
             DeviceMessage::Caps(caps) => self.on_caps(received, caps),
             _ if self.device.caps.is_none() => {}
             DeviceMessage::Cfg(config) => self.on_config(received, config),
             DeviceMessage::Ack(ack) => self.on_ack(received, *ack),
             DeviceMessage::Status(status) => self.on_status(received, status),
-            DeviceMessage::Fault(fault) => {
-                if self.notes.is_news(fault.faults) {
-                    self.note(received, Note::Fault(*fault));
-                }
-                self.event(BridgeEvent::Fault(*fault));
-            }
+            DeviceMessage::Fault(fault) => self.on_fault(received, *fault),
             DeviceMessage::Pong(pong) => self.on_pong(received, *pong),
             DeviceMessage::Log(text) => self.event(BridgeEvent::Log(text.to_line())),
         }
@@ -46,10 +45,8 @@ impl HostSession {
             return;
         }
         self.note(received, Note::Caps(*caps));
-        if let Some(reason) = refusal(caps, self.drive.n_contactors) {
-            self.end(BridgeState::Refused);
-            self.event(BridgeEvent::Refused(reason));
-            return;
+        if let Some(reason) = caps_refusal(caps, &self.drive.profile, self.drive.n_contactors) {
+            return self.refuse(received, reason);
         }
         self.device.caps = Some(*caps);
         self.event(BridgeEvent::Connected(*caps));
@@ -63,16 +60,57 @@ impl HostSession {
     }
 
     fn on_config(&mut self, received: Instant, config: &Config) {
-        if self.state != BridgeState::Configuring {
+        let Some(caps) = self.device.caps.filter(|_| {
+            // A CFG that nobody waits for repeats one that was judged.
+            self.state == BridgeState::Configuring && self.request.is_some()
+        }) else {
             return;
-        }
+        };
         self.request = None;
         self.note(received, Note::Effective(*config));
-        self.drive.coder.set_link_limit(config.comp_limit);
+        let asked = self.drive.wanted_config(&self.device);
+        if let Some(reason) = config_refusal(&asked, config, &caps, self.drive.n_contactors) {
+            return self.refuse(received, reason);
+        }
         self.device.config = Some(*config);
+        self.drive.coder.set_link(self.link_scale());
         self.latching.set_queue(self.device.deepest());
-        self.state = BridgeState::Ready;
-        self.event(BridgeEvent::Ready(*config));
+        self.settle();
+    }
+
+    /// Configured, with a base of ticks and a device that says it is ready: it may be armed.
+    fn settle(&mut self) {
+        let is_configured = self.state == BridgeState::Configuring && self.request.is_none();
+        let is_ready = self.ticks.is_set() && self.device.status.as_ref().is_some_and(is_at_rest);
+        if let Some(config) = self.device.config.filter(|_| is_configured && is_ready) {
+            self.state = BridgeState::Ready;
+            self.event(BridgeEvent::Ready(config));
+        }
+    }
+
+    /// A fault ends output, and stands against arming until it is cleared.
+    fn on_fault(&mut self, received: Instant, fault: Fault) {
+        if self.notes.is_news(fault.faults) {
+            self.note(received, Note::Fault(fault));
+            self.event(BridgeEvent::Fault(fault));
+        }
+        let standing = standing_faults(fault.faults);
+        if standing != 0 {
+            self.fault_stands(received, standing);
+        }
+    }
+
+    fn fault_stands(&mut self, received: Instant, faults: u16) {
+        match self.state {
+            BridgeState::Arming | BridgeState::Armed | BridgeState::Streaming => {
+                self.contradicted(received, fault_end(faults));
+            }
+            BridgeState::Configuring | BridgeState::Ready => {
+                self.request = None;
+                self.state = BridgeState::Faulted;
+            }
+            _ => {}
+        }
     }
 
     fn on_ack(&mut self, received: Instant, ack: Ack) {
@@ -81,13 +119,14 @@ impl HostSession {
             self.note(received, Note::Refused(ack.kind, ack.code));
             self.frames_rejected += u64::from(ack.kind == kind::FRAME);
         }
+        let is_obeyed = ack.code == AckCode::Ok;
         if self
             .stopping
             .pending
-            .is_some_and(|stopping| stopping.is_answered_by(ack.kind, ack.seq))
+            .is_some_and(|stopping| is_obeyed && stopping.is_answered_by(ack.kind, ack.seq))
         {
             self.note(received, Note::Stopped);
-            self.on_stopped();
+            self.on_stopped(received);
         }
         if !self
             .request
@@ -109,12 +148,12 @@ impl HostSession {
             }
             (kind::CONFIG, AckCode::Faulted) => self.state = BridgeState::Faulted,
             (kind::CONFIG, code) => {
-                self.end(BridgeState::Refused);
                 let reason = format!("the device refused its settings: {}", code.describe());
-                self.event(BridgeEvent::Refused(reason));
+                self.refuse(received, reason);
             }
             (kind::CLEAR, AckCode::Ok) => {
                 self.note(received, Note::Cleared);
+                self.notes.forget_faults();
                 self.configure(received);
             }
             _ => {}
@@ -123,15 +162,22 @@ impl HostSession {
 
     /// STOP is acknowledged. The device may still ramp: `Stopping` lasts until a STATUS shows it at
     /// rest.
-    fn on_stopped(&mut self) {
+    fn on_stopped(&mut self, received: Instant) {
         self.stopping.pending = None;
+        self.stopping.obeyed = Some(received);
         if self.stopping.ends_output {
             self.stopping.ends_output = false;
             self.disarmed(DisarmedBy::Host, String::from("stopped"));
         }
     }
 
+    /// One whose tick does not advance tells nothing.
     fn on_status(&mut self, received: Instant, status: &Status) {
+        let worth = self.ticks.announced(status.tick);
+        if worth == Worth::Stray {
+            return;
+        }
+        self.noise.good_status();
         let before = self.device.status.replace(*status);
         let counted = self.device.counters;
         if let Some(before) = before {
@@ -148,8 +194,8 @@ impl HostSession {
         let late = self.device.counters.late - counted.late;
         let missing = self.device.counters.underrun - counted.underrun;
         self.latch(received, [late, missing]);
-        self.follow(received, status);
-        if self.state.is_open() {
+        self.judge(received, status);
+        if self.state.is_open() && worth == Worth::Pacing {
             let start = self.device.tick_start.unwrap_or(received);
             let due = self.latching.due(start, received);
             self.drive.due = Some(due);
@@ -188,33 +234,58 @@ impl HostSession {
         self.event(depth);
     }
 
-    /// Compares the device's state with ours. It may leave output by itself; it never gets back
-    /// without a new command.
-    fn follow(&mut self, received: Instant, status: &Status) {
+    /// Compares what the device says with what was asked of it. It may leave output by itself; it
+    /// never gets back without a new command.
+    fn judge(&mut self, received: Instant, status: &Status) {
         let device = status.device_state();
-        let at_rest = !device.is_some_and(DeviceState::is_live);
-        let acknowledged = self.stopping.pending.is_none();
+        let faults = standing_faults(status.faults);
         match self.state {
-            BridgeState::Armed | BridgeState::Streaming if at_rest => {
-                self.rest(device);
-                let reason = self_disarm_reason(device, status.faults);
-                self.disarmed(DisarmedBy::Device, reason);
+            BridgeState::Configuring | BridgeState::Ready => {
+                let is_based = self.ticks.is_set() && self.request.is_none();
+                if let Some(reason) = live_refusal(status, is_based) {
+                    self.refuse(received, reason);
+                } else if device == Some(DeviceState::Fault) || faults != 0 {
+                    self.fault_stands(received, faults);
+                } else {
+                    self.settle();
+                }
             }
-            BridgeState::Stopping if at_rest && acknowledged => self.rest(device),
-            BridgeState::Ready if device == Some(DeviceState::Fault) => self.rest(device),
-            BridgeState::Faulted
-                if device == Some(DeviceState::Ready) && self.request.is_none() =>
+            BridgeState::Arming if faults != 0 => self.fault_stands(received, faults),
+            BridgeState::Armed | BridgeState::Streaming => self.judge_output(received, status),
+            BridgeState::Stopping
+                if self.stopping.pending.is_none() && !device.is_some_and(DeviceState::is_live) =>
             {
+                self.rest(status);
+            }
+            BridgeState::Faulted if is_at_rest(status) && self.request.is_none() => {
                 self.configure(received);
             }
             _ => {}
         }
     }
 
-    fn rest(&mut self, device: Option<DeviceState>) {
-        self.state = match device {
-            Some(DeviceState::Ready) => BridgeState::Ready,
-            _ => BridgeState::Faulted,
+    fn judge_output(&mut self, received: Instant, status: &Status) {
+        let bound = self.prediction.bound(status.tick, self.lasting());
+        let is_louder = self.prediction.is_exceeded(status.amp_sum);
+        let config = self.device.config.unwrap_or_default();
+        let end = contradiction(status, &self.drive.profile, &config);
+        if let Some(end) = end {
+            self.contradicted(received, end);
+        } else if is_louder {
+            let reason = format!(
+                "the device puts out {} codes in all where {bound:.0} were asked at most: check its \
+                 firmware",
+                status.amp_sum
+            );
+            self.contradicted(received, (StopHow::Now, reason));
+        }
+    }
+
+    fn rest(&mut self, status: &Status) {
+        self.state = if is_at_rest(status) {
+            BridgeState::Ready
+        } else {
+            BridgeState::Faulted
         };
     }
 
@@ -241,17 +312,5 @@ impl HostSession {
                 phase_us: pong.phase_us,
             });
         }
-    }
-}
-
-fn self_disarm_reason(device: Option<DeviceState>, faults: u16) -> String {
-    match device {
-        Some(DeviceState::Fault) => {
-            format!("the device reports a fault: {}", fault_bit::names(faults))
-        }
-        Some(DeviceState::Ready) => {
-            String::from("the device disarmed itself: no frame reached it in time")
-        }
-        _ => String::from("the device ended the session by itself"),
     }
 }

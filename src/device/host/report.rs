@@ -174,6 +174,8 @@ pub struct BridgeCounters {
     pub frames_superseded: u64,
     /// Frames that the device answered with a refusal.
     pub frames_rejected: u64,
+    /// STATUS whose tick repeated, went back or jumped: they pace nothing.
+    pub stray_status: u64,
     /// Texts from the device that were no packet.
     pub bad_received: u64,
     /// Messages of the device that found no room because nobody took them.

@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use super::HostSession;
+use super::noise::{Heard, NOISY};
 use super::pending::Verdict;
 use super::report::{BridgeState, DisarmedBy};
 use crate::message::{StopHow, kind};
@@ -18,6 +19,8 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SILENCE_ARMED: Duration = Duration::from_millis(500);
 /// The same while nothing moves; longer, since nothing is at stake.
 const SILENCE_IDLE: Duration = Duration::from_secs(2);
+/// From the acknowledgement of STOP to rest: the longest ramp, and STATUS on its way.
+const REST_PATIENCE: Duration = Duration::from_millis(500);
 /// A caller that was away longer than this cannot blame the device for the silence.
 const LONGEST_STEP: Duration = Duration::from_millis(100);
 
@@ -30,19 +33,28 @@ impl HostSession {
             .last_time
             .map_or(Duration::ZERO, |last| now.saturating_duration_since(last));
         self.presence.last_time = Some(now);
+        self.ticks.present(now);
         if !self.state.is_open() || self.state == BridgeState::Opening {
             return;
         }
         self.check_request(now);
         self.check_stop(now);
         self.check_ident(now);
-        self.check_silence(step.min(LONGEST_STEP));
+        self.check_silence(now, step.min(LONGEST_STEP));
         let quiet = self
             .outbox
             .last_sent
             .is_none_or(|sent| now.duration_since(sent) >= PING_EVERY);
         if self.state.is_open() && self.device.caps.is_some() && (quiet || self.wants_time(now)) {
             self.ping(now);
+        }
+    }
+
+    /// Takes what the reader of the link has counted: one on which too much breaks ends output.
+    pub(crate) fn heard(&mut self, now: Instant, heard: Heard) {
+        let is_noisy = self.noise.heard(now, heard);
+        if is_noisy && self.state.is_live() && self.state != BridgeState::Stopping {
+            self.contradicted(now, (StopHow::Ramp, String::from(NOISY)));
         }
     }
 
@@ -92,7 +104,7 @@ impl HostSession {
 
     fn check_stop(&mut self, now: Instant) {
         let Some(mut stopping) = self.stopping.pending else {
-            return;
+            return self.check_rest(now);
         };
         match stopping.verdict(now) {
             Verdict::Wait => {}
@@ -104,9 +116,22 @@ impl HostSession {
         }
     }
 
+    /// A device that acknowledged STOP comes to rest within its ramp.
+    fn check_rest(&mut self, now: Instant) {
+        let obeyed = self
+            .stopping
+            .obeyed
+            .filter(|_| self.state == BridgeState::Stopping);
+        if obeyed.is_some_and(|at| now.saturating_duration_since(at) > REST_PATIENCE) {
+            self.lose(String::from(
+                "the device acknowledged STOP and did not come to rest: switch its power off",
+            ));
+        }
+    }
+
     /// Silence is counted in steps of the caller's own presence: a program that was suspended
     /// starts afresh.
-    fn check_silence(&mut self, step: Duration) {
+    fn check_silence(&mut self, now: Instant, step: Duration) {
         if self.device.caps.is_none() {
             return;
         }
@@ -117,10 +142,7 @@ impl HostSession {
             SILENCE_IDLE
         };
         if self.presence.silent_for >= patience && self.state.is_open() {
-            self.lose(format!(
-                "no STATUS for {} ms: check the cable and that the bridge is powered",
-                patience.as_millis()
-            ));
+            self.lose(self.noise.silence_reason(now, patience));
         }
     }
 }

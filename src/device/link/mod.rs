@@ -21,7 +21,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::BridgeError;
 use super::framing::Packet;
-use super::host::{BridgeCounters, Sequence};
+use super::host::{BridgeCounters, Heard, Sequence};
 use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use reader::Reader;
@@ -32,6 +32,8 @@ use writer::{Outgoing, Writer};
 const INCOMING: usize = 256;
 const CONTROLS: usize = 16;
 const FRAMES: usize = 4;
+/// Longest wait for the STOP of a program that fails.
+const LAST_WORD: Duration = Duration::from_millis(250);
 
 /// The reading and the writing end of an open port.
 pub(super) type Ends = (Box<dyn Port>, Box<dyn Port>);
@@ -84,6 +86,7 @@ struct Shared {
     frames_sent: AtomicU64,
     frames_superseded: AtomicU64,
     bad_received: AtomicU64,
+    bytes_received: AtomicU64,
     events_dropped: AtomicU64,
     write_timeouts: AtomicU64,
 }
@@ -107,6 +110,7 @@ impl Shared {
             frames_sent: AtomicU64::new(0),
             frames_superseded: AtomicU64::new(0),
             bad_received: AtomicU64::new(0),
+            bytes_received: AtomicU64::new(0),
             events_dropped: AtomicU64::new(0),
             write_timeouts: AtomicU64::new(0),
         }
@@ -261,6 +265,14 @@ impl Link {
         }
     }
 
+    /// What the reader has counted.
+    pub(super) fn heard(&self) -> Heard {
+        Heard {
+            bytes: self.shared.bytes_received.load(Ordering::Relaxed),
+            bad: self.shared.bad_received.load(Ordering::Relaxed),
+        }
+    }
+
     pub(super) fn timings(&self) -> Timings {
         Timings {
             due_to_write: self.shared.due_to_write.spread(),
@@ -316,8 +328,14 @@ impl StopHandle {
         (self.shared.waker)();
     }
 
-    /// Waits until every STOP asked for so far is written, at most `patience`. For the last moments
-    /// of a program.
+    /// Zero now, and waits until that is written, for a moment at most: for the last moments of a
+    /// program or of a thread. If the port takes nothing the device's own silence rule is left.
+    pub fn last_word(&self) {
+        self.stop(StopHow::Now);
+        self.wait_written(LAST_WORD);
+    }
+
+    /// Waits until every STOP asked for so far is written, at most `patience`.
     pub fn wait_written(&self, patience: Duration) -> bool {
         let deadline = Instant::now() + patience;
         let asked = self.shared.stops_asked.load(Ordering::Acquire);

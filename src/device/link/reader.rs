@@ -94,6 +94,10 @@ impl Reader {
                 Err(Unreadable::Short) => self.decoder.count_bad(),
             }
         }
+        let n_bytes = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
+        self.shared
+            .bytes_received
+            .fetch_add(n_bytes, Ordering::Relaxed);
         self.shared
             .bad_received
             .store(self.decoder.bad(), Ordering::Relaxed);

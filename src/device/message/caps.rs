@@ -1,5 +1,6 @@
 //! CAPS: what a device says of itself in answer to HELLO.
 
+use super::device::escaped;
 use super::{FieldReader, FieldWriter, Message, kind};
 use crate::fields::{read_fields, write_fields};
 use crate::framing::Packet;
@@ -84,6 +85,13 @@ impl Caps {
             Ok(name) => name,
             Err(error) => std::str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or(""),
         }
+    }
+
+    /// The name for people, in one line: control characters are shown escaped, what is no UTF-8
+    /// replaced.
+    pub fn shown_name(&self) -> String {
+        let used = self.name.iter().position(|&byte| byte == 0);
+        escaped(&self.name[..used.unwrap_or(self.name.len())])
     }
 
     /// Pads or cuts `name` to the field.

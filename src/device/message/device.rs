@@ -134,13 +134,9 @@ impl LogText {
         Packet::encode(kind::LOG, seq, &bytes[..bytes.len().min(120)])
     }
 
-    /// The text in one line: control characters and what is no UTF-8 are replaced.
+    /// The text in one line, as [`escaped`].
     pub(crate) fn to_line(self) -> String {
-        String::from_utf8_lossy(&self.bytes[..self.len])
-            .trim_end()
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect()
+        escaped(&self.bytes[..self.len])
     }
 }
 
@@ -148,6 +144,20 @@ impl fmt::Debug for LogText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "LogText({:?})", self.to_line())
     }
+}
+
+/// Words of a device in one line: control characters are shown escaped, what is no UTF-8 replaced.
+pub(super) fn escaped(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let mut line = String::with_capacity(text.len());
+    for letter in text.trim_end().chars() {
+        if letter.is_control() {
+            line.extend(letter.escape_default());
+        } else {
+            line.push(letter);
+        }
+    }
+    line
 }
 
 /// Any message of a device.

@@ -284,7 +284,7 @@ fn device_messages_are_told_apart() {
     let Ok(DeviceMessage::Log(text)) = decode(kind::LOG, b"hot\nand \xff cold") else {
         panic!("a log text");
     };
-    assert_eq!(text.to_line(), "hot and \u{fffd} cold");
+    assert_eq!(text.to_line(), "hot\\nand \u{fffd} cold");
     assert_eq!(
         fault_bit::names(0b101),
         "over-temperature, high voltage out of range"

@@ -105,7 +105,7 @@ fn caps_words(caps: &Caps) -> String {
         "name={:?} firmware={major}.{minor}.{patch} uid={uid} version={} channels={} rows={} \
          cols={} queue={} modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} \
          sample_hz={} comp_limit={}/{}",
-        one_line(caps.name()),
+        caps.shown_name(),
         caps.version,
         caps.n_ch,
         caps.rows,

@@ -11,7 +11,7 @@ use super::{Faults, Injection, WiredDevice};
 use crate::codes::ArrayProfile;
 use crate::device::{AppliedFrame, DeviceModel, DeviceSink, Moment};
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
-use crate::host::{BridgeEvent, BridgeState, DisarmedBy, HostSession, SentFrame, Sequence};
+use crate::host::{BridgeEvent, BridgeState, DisarmedBy, Heard, HostSession, SentFrame, Sequence};
 use crate::message::{DeviceMessage, kind};
 
 /// Contactors of the simulated display, and channels of the usual device.
@@ -50,6 +50,7 @@ pub struct Simulation {
     pub loudest_age_us: u64,
     /// Texts from the device that were no packet or no message.
     pub bad_received: u64,
+    bytes_received: u64,
     /// ARM packets that the host wrote.
     pub arms_written: u32,
     decoder: Decoder,
@@ -115,6 +116,7 @@ impl Simulation {
             host_ppm: 0,
             loudest_age_us: 0,
             bad_received: 0,
+            bytes_received: 0,
             arms_written: 0,
             decoder: Decoder::new(LARGEST_BODY),
             n_visits: 0,
@@ -157,6 +159,7 @@ impl Simulation {
             self.us = next_us.clamp(self.us, turn_us);
             self.meet();
             if self.us == turn_us {
+                self.host.heard(self.now(), self.heard());
                 self.host.on_time(self.now());
                 self.exchange();
             }
@@ -247,6 +250,7 @@ impl Simulation {
             return;
         }
         let now = self.now();
+        self.bytes_received += u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         for byte in bytes {
             let Some(packet) = self.decoder.push(byte) else {
                 continue;
@@ -295,6 +299,13 @@ impl Simulation {
         self.device.host_wrote(self.us, packet.as_bytes());
         self.device.advance(self.us, &mut self.log);
         self.deliver();
+    }
+
+    fn heard(&self) -> Heard {
+        Heard {
+            bytes: self.bytes_received,
+            bad: self.bad_texts_received(),
+        }
     }
 
     /// Texts that were no packet to the host's decoder.

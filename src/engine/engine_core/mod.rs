@@ -17,7 +17,7 @@ use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
     RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
 };
-use selvedge_device::{Coder, SentFrame};
+use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
 
 /// From a command's refusal to the window: every tick has at most a few.
@@ -240,9 +240,9 @@ impl EngineCore {
         self.revision += 1;
     }
 
-    /// A device with these limits is connected, or none any more.
-    pub(super) fn set_link_limit(&mut self, comp_limit: Option<[u16; 2]>) {
-        self.scene.set_link_limit(comp_limit);
+    /// A device that makes this of codes is connected, or none any more.
+    pub(super) fn set_link(&mut self, link: Option<LinkScale>) {
+        self.scene.set_link(link);
     }
 
     /// Writes the state into a snapshot that was made for this scene; clock and device are the

@@ -75,6 +75,7 @@ impl Bench {
         if let Some(last) = &self.device.target {
             self.notices.forget_about(last);
         }
+        self.device.trouble = None;
         self.device.target = Some(query::device_name(&target));
         self.send(selvedge_engine::Command::Connect(target));
     }

@@ -10,7 +10,7 @@ use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
     BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LibraryDot, LibraryEntry,
-    LinkTiming, Marks, PlayView, SceneView, Source, Status,
+    LinkTiming, Marks, PlayView, SceneView, Source, Status, Telemetry,
 };
 use selvedge_device::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
 use selvedge_engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
@@ -196,7 +196,7 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
         state: link.state.label(),
         phase: phase(link.state),
         uid: link.caps.map(|caps| DeviceUid(caps.uid)),
-        comp_limit: link.comp_limit,
+        scale: link.scale,
         can_identify: link
             .caps
             .is_some_and(|caps| caps.modes & Caps::MODE_IDENT != 0),
@@ -213,10 +213,18 @@ fn bridge_view(link: &LinkView, frame_interval_s: Option<f64>) -> BridgeView {
             .filter(|_| link.state.takes_frames())
             .map(|sent| sent.gain),
         frames_sent: link.counters.frames_sent,
+        telemetry: link.status.map(|status| Telemetry {
+            high_v: f64::from(status.hv_dv) / 10.0,
+            current_ma: status.i_ma,
+            celsius: f64::from(status.temp_cdeg) / 100.0,
+            codes: status.amp_sum,
+            most_codes: link.predicted_sum,
+        }),
         troubles: vec![
             ("underruns", device.underrun),
             ("late", device.late),
             ("repeated", device.dup),
+            ("STATUS astray", link.counters.stray_status),
             ("garbled", device.bad + link.counters.bad_received),
             ("clipped", device.clipped),
             ("rejected", link.counters.frames_rejected),
@@ -283,11 +291,7 @@ fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
         BridgeEvent::Disarmed {
             by: DisarmedBy::Device,
             reason,
-        } => Some(format!("{device} disarmed itself: {reason}")),
-        BridgeEvent::Fault(fault) => Some(format!(
-            "{device} reports fault {:#06x}; mend its cause, then clear it in the Bridge pane",
-            fault.faults
-        )),
+        } => Some(format!("{device}: {reason}")),
         BridgeEvent::DepthRaised(depth) => Some(format!(
             "Frames came late: they are now sent {depth} ticks ahead, so everything is felt more \
              than 40 ms late"

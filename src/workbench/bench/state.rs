@@ -114,6 +114,8 @@ pub(crate) struct DeviceState {
     pub(crate) arrays: Arrays,
     /// What goes wrong with the emulator that is connected; `None` for other devices.
     pub(crate) faults: Option<FaultWords>,
+    /// Why the last device was refused, lost or stopped, in one line; nothing since it was armed.
+    pub(crate) trouble: Option<String>,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured: Option<BridgeView>,
     /// Refusals to arm that are expected, since there is no device.

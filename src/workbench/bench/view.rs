@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 pub(crate) use crate::kit::swatch::ClothPicture;
-use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState};
+use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterState, LinkScale};
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
 use selvedge_render::scene::Pose;
@@ -296,8 +296,8 @@ pub(crate) struct BridgeView {
     pub phase: BridgePhase,
     /// The device's own number.
     pub uid: Option<DeviceUid>,
-    /// The largest codes that it takes now.
-    pub comp_limit: Option<[u16; 2]>,
+    /// What it makes of codes.
+    pub scale: Option<LinkScale>,
     /// Whether it can drive one channel alone.
     pub(crate) can_identify: bool,
     /// Ticks from a frame to its effect.
@@ -312,10 +312,28 @@ pub(crate) struct BridgeView {
     pub gain: Option<f64>,
     /// Frames sent.
     pub frames_sent: u64,
+    /// What its last STATUS measured.
+    pub telemetry: Option<Telemetry>,
     /// Counters that ought to stay at zero, with their names.
     pub troubles: Vec<(&'static str, u64)>,
     /// How long things take.
     pub timing: LinkTiming,
+}
+
+/// What a device measures, and how loud our own frames allow it to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_field_names, reason = "two of them count codes")]
+pub(crate) struct Telemetry {
+    /// High voltage, V.
+    pub(crate) high_v: f64,
+    /// Supply current, mA.
+    pub(crate) current_ma: u16,
+    /// Temperature, °C.
+    pub(crate) celsius: f64,
+    /// Sum of all codes that it puts out.
+    pub(crate) codes: u32,
+    /// The largest sum that our own frames allow it.
+    pub(crate) most_codes: f64,
 }
 
 /// How long things take on the link, and where it is written down what happens there.

@@ -141,6 +141,8 @@ fn bridge_window(ports: PortsView) -> Harness<'static, Commands> {
             sources: &SourcesView::default(),
             has_actuator_model: false,
             faults: None,
+            trouble: None,
+            has_developer_tools: false,
             stops_on_focus_loss: false,
         };
         bridge.show(ui, &view, commands);

@@ -121,11 +121,8 @@ fn ticking_only(host: &mut HostSession, start: Instant) -> (usize, usize) {
         let now = start + Duration::from_millis(ms);
         host.on_time(now);
         if ms % 25 == 0 && host.state().is_open() {
-            let status = Status {
-                state: 1,
-                ..Status::default()
-            };
-            host.on_message(now, &DeviceMessage::Status(status));
+            let tick = u32::try_from(4 + ms / 25).unwrap();
+            host.on_message(now, &at(tick, DeviceState::Ready));
         }
         counts.0 += usize::from(host.take_stop().is_some());
         while let Some(packet) = host.next_packet() {

@@ -1,7 +1,9 @@
 //! The session in virtual time: alone against scripted messages, and end to end against the device.
 
 mod alone;
+mod armed;
 mod array;
+mod claims;
 mod latched;
 mod together;
 
@@ -21,6 +23,16 @@ fn session() -> HostSession {
     HostSession::new(NONCE, ArrayProfile::default(), 24, Sequence::default())
 }
 
+/// A STATUS of a device in this state.
+fn at(tick: u32, state: DeviceState) -> DeviceMessage {
+    DeviceMessage::Status(Status {
+        tick,
+        dev_us: tick.wrapping_mul(25_000),
+        state: state.code(),
+        ..Status::default()
+    })
+}
+
 /// Session and device on one virtual clock.
 type Pair = Simulation;
 
@@ -32,8 +44,12 @@ fn ready_alone(now: Instant) -> HostSession {
         now,
         &DeviceMessage::Caps(DeviceModel::default().caps(NONCE, 1)),
     );
-    let config = host.drive.wanted_config(&host.device);
-    host.on_message(now, &DeviceMessage::Cfg(config));
+    let asked = host.drive.wanted_config(&host.device);
+    let effective = DeviceModel::default().clamp(&asked);
+    host.on_message(now, &DeviceMessage::Cfg(effective));
+    for tick in 1..=3 {
+        host.on_message(now, &at(tick, DeviceState::Ready));
+    }
     assert_eq!(host.state(), BridgeState::Ready);
     while host.next_packet().is_some() {}
     while host.next_event().is_some() {}

@@ -143,7 +143,8 @@ fn a_reboot_starts_tick_and_counters_anew_and_keeps_no_session() {
     assert_eq!(trial.device.state(), DeviceState::Idle);
     assert_eq!(trial.device.counters_of_boots().len(), 2);
     trial.run(1000);
-    assert!(trial.lost().unwrap().starts_with("no STATUS for 500 ms"));
+    // It answers PINGs, so that nobody is sent to look after the cable.
+    assert!(trial.lost().unwrap().contains("advances for 500 ms"));
 }
 
 #[test]
@@ -229,4 +230,29 @@ fn who_disarmed_is_told_right_when_the_host_is_not_heard() {
     let (by, reason) = trial.disarmed_by().unwrap();
     assert_eq!(by, DisarmedBy::Device);
     assert!(reason.contains("no frame reached it in time"), "{reason}");
+}
+
+#[test]
+fn a_link_on_which_a_fifth_breaks_ends_with_the_word_noisy_and_a_clean_one_does_not() {
+    let over = |flip_rate| {
+        let breaking = LinkFaults {
+            flip_rate,
+            ..LinkFaults::default()
+        };
+        let faults = Faults {
+            seed: 3,
+            to_host: breaking,
+            ..Faults::default()
+        };
+        Simulation::streaming_over(&faults, 8000)
+    };
+    let noisy = over(0.005);
+    let (by, reason) = noisy.disarmed_by().unwrap();
+    assert_eq!(by, DisarmedBy::Device);
+    assert!(
+        reason.contains("noisy") && !reason.contains("powered"),
+        "{reason}"
+    );
+    assert!(noisy.is_at_rest());
+    assert_eq!(over(0.0002).host.state(), BridgeState::Streaming);
 }

@@ -146,7 +146,7 @@ fn apply(change: &ArrayCommand, profile: &mut ArrayProfile) {
         }
         ArrayCommand::HighVoltage(volts) => {
             let most = f64::from(ArrayProfile::LARGEST_HV_DV);
-            profile.hv_dv = whole(within(10.0 * volts, 0.0, most));
+            profile.hv_dv = Some(whole(within(10.0 * volts, 0.0, most)));
         }
         ArrayCommand::Calibrate(contactor, mut calibration) => {
             let [least, most] = selvedge_device::Calibration::DRIVE_GAIN;

@@ -7,7 +7,7 @@ use eframe::egui;
 
 use crate::bench::view::BridgePhase;
 use crate::bench::{Bench, query};
-use selvedge_device::{ArrayProfile, BridgeEvent, DeviceUid};
+use selvedge_device::{ArrayProfile, BridgeEvent, DeviceUid, DisarmedBy};
 use selvedge_engine::{Command, Notice};
 
 impl Bench {
@@ -60,7 +60,23 @@ impl Bench {
                 if let BridgeEvent::Connected(caps) = event {
                     self.doubt_wiring(DeviceUid(caps.uid));
                 }
+                self.keep_trouble(event);
             }
+            _ => {}
+        }
+    }
+
+    /// What stands beside the device's state until it is armed again.
+    fn keep_trouble(&mut self, event: &BridgeEvent) {
+        match event {
+            BridgeEvent::Refused(why) | BridgeEvent::Lost(why) => {
+                self.device.trouble = Some(query::capitalised(why));
+            }
+            BridgeEvent::Disarmed {
+                by: DisarmedBy::Device,
+                reason,
+            } => self.device.trouble = Some(query::capitalised(reason)),
+            BridgeEvent::Armed => self.device.trouble = None,
             _ => {}
         }
     }

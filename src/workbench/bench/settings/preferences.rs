@@ -52,6 +52,8 @@ pub(crate) struct Preferences {
     /// Whether an armed device stops when the window loses the keyboard.
     #[serde(rename = "all_off_on_focus_loss")]
     pub(crate) stops_on_focus_loss: bool,
+    /// Whether what developers of firmware and renderers need is shown too.
+    pub(crate) developer_tools: bool,
     /// The scale of amplitudes.
     #[serde(flatten)]
     pub(crate) amplitude: AmplitudeScale,
@@ -101,6 +103,7 @@ impl Default for Preferences {
             has_numbers: false,
             greys_below: true,
             stops_on_focus_loss: false,
+            developer_tools: false,
             amplitude: AmplitudeScale::default(),
             pixels_per_mm: None,
             rendering: Rendering::default(),

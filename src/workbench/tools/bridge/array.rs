@@ -178,7 +178,8 @@ fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) 
     commands.extend(new.map(|ms| ArrayCommand::Ramp(ms).into()));
     let most_v = f64::from(ArrayProfile::LARGEST_HV_DV) / 10.0;
     let volts = even(0.0, most_v, (60.0, 0.1), (1, "V"));
-    let (new, response) = slider_row(ui, "Voltage", ink, volts, f64::from(profile.hv_dv) / 10.0);
+    let asked_v = f64::from(profile.hv_dv.unwrap_or(ArrayProfile::LARGEST_HV_DV)) / 10.0;
+    let (new, response) = slider_row(ui, "Voltage", ink, volts, asked_v);
     response.on_hover_text("High voltage to ask the device for, which allows it or less");
     commands.extend(new.map(|volts| ArrayCommand::HighVoltage(volts).into()));
 }

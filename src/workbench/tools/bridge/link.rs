@@ -5,6 +5,7 @@ use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgePhase, BridgeView};
+use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::text::mark;
 
@@ -31,6 +32,14 @@ pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Optio
             ui.add(egui::Label::new(name).truncate());
         });
     });
+}
+
+/// Why the device is not driven, in the words of the one line.
+pub(crate) fn show_trouble(ui: &mut Ui, trouble: Option<&str>) {
+    let Some(trouble) = trouble else { return };
+    let ink = Palette::in_ui(ui).danger;
+    let words = RichText::new(trouble).font(theme::small()).color(ink);
+    ui.add(egui::Label::new(words).wrap());
 }
 
 pub(crate) fn show_arming(

@@ -17,6 +17,7 @@ pub(crate) mod port;
 pub(crate) mod ports;
 pub(crate) mod replug;
 pub(crate) mod surface;
+pub(crate) mod telemetry;
 #[cfg(test)]
 mod tests;
 pub(crate) mod timing;
@@ -32,7 +33,7 @@ use crate::bench::command::{Command, Commands};
 use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tool};
-use crate::kit::pane::scrolled;
+use crate::kit::pane::{framed, scrolled};
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
 use crate::tools::bridge::actuators::ActuatorPeek;
@@ -74,8 +75,9 @@ impl Tool for Bridge {
     }
 
     fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        scrolled(ui, pane.title(), |ui| {
-            let bench = &mut *context.bench;
+        let bench = &mut *context.bench;
+        let mut has_developer_tools = bench.settings.preferences.developer_tools;
+        {
             let has_actuator_model = self.actuators.look(ui.ctx(), &mut bench.engine).is_some();
             let profile = bench.array();
             // What no frame can carry is no array that a device drives.
@@ -100,10 +102,18 @@ impl Tool for Bridge {
                 sources: &bench.sources_view(),
                 has_actuator_model,
                 faults: bench.device.faults.as_ref(),
+                trouble: bench.device.trouble.as_deref(),
+                has_developer_tools,
                 stops_on_focus_loss: bench.settings.preferences.stops_on_focus_loss,
             };
-            self.show(ui, &view, context.commands);
-        });
+            framed(ui, 12, |ui| show_device(ui, &view, context.commands));
+            scrolled(ui, pane.title(), |ui| {
+                self.show(ui, &view, context.commands);
+                ui.add_space(STEP);
+                show_developer_tools(ui, &mut has_developer_tools);
+            });
+        }
+        bench.settings.preferences.developer_tools = has_developer_tools;
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
@@ -141,12 +151,9 @@ impl Tool for Bridge {
 }
 
 impl Bridge {
-    /// Shows the pane.
+    /// Shows what folds away and scrolls.
     pub(crate) fn show(&mut self, ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
         let bridge = view.live.bridge.as_ref();
-        link::show_state(ui, bridge, view.target);
-        link::show_arming(ui, bridge, view.live.is_stopped, commands);
-        timing::show_fault(ui, bridge, commands);
         port::show_back(ui, self.ports.view().back.as_ref(), commands);
         if let Some(wizard) = view.array.wizard {
             ui.add_space(STEP);
@@ -165,12 +172,23 @@ impl Bridge {
             counters::show_counters(ui, bridge, view.live.status.felt_age_s);
             timing::show_focus(ui, view.stops_on_focus_loss, commands);
         });
+        fold(
+            ui,
+            ("Telemetry", false),
+            &telemetry::summary(bridge),
+            |ui| {
+                telemetry::show(ui, bridge);
+            },
+        );
         fold(ui, ("Timing", false), &timing::summary(bridge), |ui| {
             timing::show(ui, bridge, commands);
         });
         fold(ui, ("Input", false), inputs::word(view.live), |ui| {
             inputs::show(ui, view.live, view.sources, commands);
         });
+        if !view.has_developer_tools {
+            return;
+        }
         if let Some(running) = view.faults {
             let summary = faults::summary(running, &self.faults);
             fold(ui, ("Faults", false), &summary, |ui| {
@@ -192,6 +210,20 @@ impl Bridge {
             ..Self::default()
         }
     }
+}
+
+/// What never scrolls out of sight: where the device is, how it is, and arming.
+fn show_device(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
+    let bridge = view.live.bridge.as_ref();
+    link::show_state(ui, bridge, view.target);
+    link::show_arming(ui, bridge, view.live.is_stopped, commands);
+    timing::show_fault(ui, bridge, commands);
+    link::show_trouble(ui, view.trouble);
+}
+
+fn show_developer_tools(ui: &mut Ui, is_shown: &mut bool) {
+    let tip = "Faults to try the emulator with, and a model of what its contactors do";
+    ui.checkbox(is_shown, "Developer tools").on_hover_text(tip);
 }
 
 /// What is known of each contactor.

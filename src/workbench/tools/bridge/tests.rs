@@ -12,8 +12,8 @@ use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
 use crate::bench::view::{BridgePhase, BridgeView, Dot, EngineView};
 use crate::kit::theme;
-use crate::tools::bridge::Bridge;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
+use crate::tools::bridge::{Bridge, show_device};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
     ArrayProfile, BridgeEvent, Calibration, DeviceUid, FaultWords, LimiterState, Wiring,
@@ -87,8 +87,11 @@ impl Stage {
             sources: &self.sources,
             has_actuator_model: false,
             faults: self.faults.as_ref(),
+            trouble: None,
+            has_developer_tools: true,
             stops_on_focus_loss: false,
         };
+        show_device(ui, &view, commands);
         self.bridge.show(ui, &view, commands);
     }
 }

@@ -21,6 +21,10 @@ pub(crate) struct BridgePane<'a> {
     pub has_actuator_model: bool,
     /// What goes wrong with the emulator that is connected; `None` for other devices.
     pub faults: Option<&'a FaultWords>,
+    /// Why the last device was refused, lost or stopped.
+    pub(crate) trouble: Option<&'a str>,
+    /// Whether faults and the model of the contactors are shown.
+    pub(crate) has_developer_tools: bool,
     /// Whether an armed device stops when the window loses the keyboard.
     pub(crate) stops_on_focus_loss: bool,
 }

@@ -47,7 +47,7 @@ impl TwoTicks {
         let watched = u32::try_from(contactor(bench)).unwrap_or(u32::MAX);
         let bridge = bench.live.bridge.as_ref();
         let mut coder = Coder::of_contactor(bench.engine.profile(), contactor(bench));
-        coder.set_link_limit(bridge.and_then(|bridge| bridge.comp_limit));
+        coder.set_link(bridge.and_then(|bridge| bridge.scale));
         Self {
             before_um: drive_um(history, watched, tick.saturating_sub(1)),
             now_um: drive_um(history, watched, tick),

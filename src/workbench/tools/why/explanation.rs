@@ -9,7 +9,7 @@ use crate::bench::Bench;
 use crate::bench::command::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::Source;
-use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState};
+use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState, LinkScale};
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -58,12 +58,12 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// What a contactor of this array is told for these amplitudes, µm. The device takes codes
-    /// up to `comp_limit`; `gain` is the soft-start gain of one that is armed.
+    /// What a contactor of this array is told for these amplitudes, µm. The device makes
+    /// `scale` of codes; `gain` is the soft-start gain of one that is armed.
     pub(crate) fn of(
         (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
-        (gain, comp_limit): (Option<f64>, Option<[u16; 2]>),
+        (gain, scale): (Option<f64>, Option<LinkScale>),
         is_silent: bool,
     ) -> Self {
         #[expect(
@@ -73,7 +73,7 @@ impl Output {
         let single = amplitudes_um.map(|um| um as f32);
         let felt = if is_silent { [0.0; 2] } else { single };
         let mut coder = Coder::of_contactor(profile, contactor);
-        coder.set_link_limit(comp_limit);
+        coder.set_link(scale);
         let codes = coder.encode(&[felt], gain.unwrap_or(1.0));
         Self {
             is_sent: gain.is_some(),
@@ -113,13 +113,13 @@ impl Explanation {
         let is_muted = !mute_solo.is_felt(Part::Contactor(contactor));
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);
-        let comp_limit = bridge.and_then(|bridge| bridge.comp_limit);
+        let scale = bridge.and_then(|bridge| bridge.scale);
         let is_silent = live.is_silent || is_muted;
         let amplitudes_um = trace.amplitudes_um;
         let output = Output::of(
             (bench.engine.profile(), contactor),
             amplitudes_um,
-            (gain, comp_limit),
+            (gain, scale),
             is_silent,
         );
         Some(Self {

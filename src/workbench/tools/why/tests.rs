@@ -3,7 +3,7 @@
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::tools::why::explanation::{Explanation, Output};
 use crate::tools::why::text::{sheet, to_text};
-use selvedge_device::{ArrayProfile, Coder};
+use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_foundation::geometry::{Frame, Point, Velocity};
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::Pose;
@@ -194,8 +194,17 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     };
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     // Half of 50 µm at 40 Hz is the device's; at 320 Hz it would take more than the profile.
-    let half = Some([32_768, 32_768]);
-    let described = Output::of((&profile, 0), [30.0, 30.0], (Some(1.0), half), false);
+    let of_50_v = |comp_limit| LinkScale {
+        comp_limit,
+        fs_mv: 50_000,
+    };
+    let half = [32_768, 32_768];
+    let described = Output::of(
+        (&profile, 0),
+        [30.0, 30.0],
+        (Some(1.0), Some(of_50_v(half))),
+        false,
+    );
     assert_eq!(
         described.limits.map(|limit| limit.is_of_device),
         [true, false]
@@ -209,8 +218,13 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
         "{text}"
     );
     // What the device was asked for because of the profile is the profile's.
-    let asked = Coder::new(&profile, 24).comp_limit();
-    let described = Output::of((&profile, 0), [60.0, 60.0], (Some(1.0), Some(asked)), false);
+    let asked = Coder::new(&profile, 24).comp_limit(50_000);
+    let described = Output::of(
+        (&profile, 0),
+        [60.0, 60.0],
+        (Some(1.0), Some(of_50_v(asked))),
+        false,
+    );
     assert_eq!(described.limiter.by_device, [false, false]);
     assert_eq!(described.limits.map(|limit| limit.um), profile.limit_um);
 }
