@@ -45,10 +45,11 @@ pub(super) fn play(
     let late = card.latency();
     let ms = |time: Duration| fixed(time.as_secs_f64() * 1e3, 0);
     output::print(&format!(
-        "{}: {n_frames} frames in {seconds} s; ticks without a new frame: {}; felt at most {} ms \
-         late, up to {} ms of them in the card\n",
+        "{}: {n_frames} frames in {seconds} s; ticks without a new frame: {}; hiccups of the \
+         card: {}; felt at most {} ms late, up to {} ms of them in the card\n",
         card.name(),
         card.n_missed(),
+        card.n_hiccups(),
         ms(late.total),
         ms(late.card)
     ))
