@@ -270,6 +270,11 @@ impl Bridge {
         self.session.status()
     }
 
+    /// Whether the device may still be moving, or has not acknowledged the last STOP.
+    pub(crate) fn is_ending(&self) -> bool {
+        self.session.is_ending()
+    }
+
     /// The device's tick now, as frames are stamped by it; `None` before the first STATUS.
     pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
         self.session.present_tick(now)

@@ -277,6 +277,11 @@ impl HostSession {
         self.prediction.last_bound()
     }
 
+    /// Whether the device may still be moving, or has not acknowledged the last STOP.
+    pub(crate) fn is_ending(&self) -> bool {
+        self.state.is_live() || self.stopping.pending.is_some()
+    }
+
     /// The device's tick now, by its last STATUS and the time since; `None` before the first.
     pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
         self.device.status.map(|_| self.device.present_tick(now))
