@@ -4,7 +4,6 @@
 //! waiting for it. However it ends, the sound falls to silence first, and the card is given the
 //! time to play that.
 
-use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -13,6 +12,7 @@ use super::play_source::Moving;
 use super::{CliError, output};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{AudioOutput, CardChannels, EngineError, Notice, Silencer};
+use selvedge_foundation::panics::on_panic;
 use selvedge_foundation::quantity::fixed;
 
 const NAP: Duration = Duration::from_millis(20);
@@ -35,10 +35,12 @@ pub(super) fn play(
     channels.check(n_contactors).map_err(EngineError::from)?;
     let opened = AudioOutput::open(name, profile, &channels);
     let mut card = opened.map_err(EngineError::from)?;
-    silence_on_panic(card.silencer());
+    let silencer = card.silencer();
+    let last_act = on_panic(move || fall_silent(&silencer));
     let started = Instant::now();
     let played = serve(&mut card, &mut moving, stop);
     fall_silent(&card.silencer());
+    drop(last_act);
     let n_frames = played?;
     let seconds = fixed(started.elapsed().as_secs_f64(), 2);
     let late = card.latency();
@@ -83,15 +85,6 @@ fn serve(card: &mut AudioOutput, moving: &mut Moving, stop: &AtomicBool) -> Resu
         n_frames += 1;
     }
     Ok(n_frames)
-}
-
-/// Lets a panic silence the card before it is reported as it was.
-fn silence_on_panic(silencer: Silencer) {
-    let report = panic::take_hook();
-    panic::set_hook(Box::new(move |info| {
-        fall_silent(&silencer);
-        report(info);
-    }));
 }
 
 /// Waits until the sound has fallen and the card has played it. A card that takes nothing any more
