@@ -36,10 +36,11 @@ pub(super) fn play(
     let opened = AudioOutput::open(name, profile, &channels);
     let mut card = opened.map_err(EngineError::from)?;
     let silencer = card.silencer();
-    let _on_panic = on_panic(move || fall_silent(&silencer));
+    let last_act = on_panic(move || fall_silent(&silencer));
     let started = Instant::now();
     let played = serve(&mut card, &mut moving, stop);
     fall_silent(&card.silencer());
+    drop(last_act);
     let n_frames = played?;
     let seconds = fixed(started.elapsed().as_secs_f64(), 2);
     let late = card.latency();
