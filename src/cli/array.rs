@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use clap::Args;
+
 use super::{CliError, terminal};
 
-use selvedge_device::{ArrayProfile, BridgeError, Caps, DeviceUid, ProfileFolder};
+use selvedge_device::{ArrayProfile, BridgeError, Caps, Certificate, DeviceUid, ProfileFolder};
 use selvedge_foundation::quantity;
 use selvedge_render::scene::LoadedScene;
 
@@ -14,6 +16,34 @@ const ELSEWHERE_MM: f64 = 0.01;
 /// Help of the option.
 pub(super) const HELP: &str =
     "Array profile: exeter-24, 5x5, 10x10, one of your own by its name, or a file.toml";
+
+/// `--baud`: how fast a port is opened.
+#[derive(Debug, Args)]
+pub(super) struct BaudArgs {
+    /// Rate of a bridge with a real UART, baud; without it the array profile's, usually 1000000.
+    /// USB ignores it
+    #[arg(long, value_name = "BAUD", value_parser = baud)]
+    baud: Option<u32>,
+}
+
+impl BaudArgs {
+    /// Lets the rate of the command line, if there is one, take the place of the profile's.
+    pub(super) fn set(&self, profile: &mut ArrayProfile) {
+        profile.baud = self.rate(profile);
+    }
+
+    /// The rate of the command line, or else the profile's.
+    pub(super) fn rate(&self, profile: &ArrayProfile) -> u32 {
+        self.baud.unwrap_or(profile.baud)
+    }
+}
+
+fn baud(word: &str) -> Result<u32, String> {
+    let [slowest, fastest] = ArrayProfile::BAUD;
+    let rate = word.parse().ok();
+    rate.filter(|rate| (slowest..=fastest).contains(rate))
+        .ok_or_else(|| format!("give a whole number, {slowest} to {fastest} baud"))
+}
 
 /// The profile that the word on the command line names: a file if it ends in .toml, otherwise one
 /// of the user's own or of the program.
@@ -35,6 +65,11 @@ pub(super) fn profile(word: &str) -> Result<Box<ArrayProfile>, String> {
 /// What is to be said when a device with these CAPS is connected for a profile.
 pub(super) fn doubt(profile: &ArrayProfile, caps: &Caps) -> Option<String> {
     profile.wiring_doubt(DeviceUid(caps.uid))
+}
+
+/// The same of a device that was tried.
+pub(super) fn certified_doubt(profile: &ArrayProfile, found: &Certificate) -> Option<String> {
+    profile.wiring_doubt(DeviceUid::parse(&found.uid)?)
 }
 
 /// Refuses an array with another number of contactors than the scene's first display, and says when

@@ -7,11 +7,11 @@ use clap::{Args, Subcommand};
 use super::bridge_abilities::AbilityArgs;
 use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
+use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
-use super::record::RecordArgs;
 use super::replay::{self, ReplayArgs};
-use super::{CliError, array, output, play, terminal};
-use selvedge_device::{ArrayProfile, SessionLog, Target, UDEV_RULE, list_ports, self_test};
+use super::{CliError, array, output, terminal};
+use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
 use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
 
 /// What to do with devices.
@@ -24,16 +24,9 @@ pub(super) enum BridgeCommand {
         udev_rule: bool,
     },
     /// Test a connected device: handshake, pings, a second of faint frames, STOP
-    Test {
-        /// Serial port of the device
-        #[arg(long, value_name = "PORT")]
-        port: PathBuf,
-        #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
-              value_parser = array::profile)]
-        array: Box<ArrayProfile>,
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    Test(TestArgs),
+    /// Certify a device: all that its firmware must do, in a report; at most a minute
+    Certify(CertifyArgs),
     /// Play a session log to the emulator: what the finger got, tick by tick, and whether the
     /// device told the truth
     Replay(ReplayArgs),
@@ -75,35 +68,12 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
         BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
-        BridgeCommand::Test {
-            port,
-            array,
-            record,
-        } => test(port, array, record),
+        BridgeCommand::Test(args) => certify::test(args),
+        BridgeCommand::Certify(args) => certify::certify(args),
         BridgeCommand::Replay(args) => replay::run(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
     }
-}
-
-fn test(port: &Path, array: &ArrayProfile, record: &RecordArgs) -> Result<(), CliError> {
-    play::check_port(port)?;
-    let log = record.open()?;
-    let report = self_test(Target::Port(port.to_owned()), array.clone(), log.as_ref());
-    if let Some(doubt) = report.caps.and_then(|caps| array::doubt(array, &caps)) {
-        terminal::notice(&doubt);
-    }
-    output::print(&format!("{report}\n"))?;
-    log.map_or(Ok(()), SessionLog::finish)?;
-    if report.passed() {
-        return Ok(());
-    }
-    let failed = report.steps.last().map_or("handshake", |step| step.name);
-    let what = format!(
-        "{}: the {failed} failed; check power and cable",
-        port.display()
-    );
-    Err(CliError::Failed(what))
 }
 
 fn list() -> Result<(), CliError> {

@@ -1,10 +1,17 @@
 //! The options of `selvedge bridge emulate` that make the device or its link fail: the rows of
 //! [`FaultOption`] as arguments.
 
+use std::ffi::OsStr;
+
+use clap::builder::TypedValueParser;
+use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
 use selvedge_device::{FaultKind, FaultOption, FaultWords, Faults};
+
+/// The value that asks for all the values there are.
+const LIST: &str = "list";
 
 /// What is to go wrong. Nothing, unless it is asked for.
 #[derive(Debug)]
@@ -75,11 +82,33 @@ fn argument(option: &'static FaultOption) -> Arg {
     let argument = argument
         .value_name(option.value)
         .allow_negative_numbers(true)
-        .value_parser(move |text: &str| option.check(text).map(|()| text.to_owned()));
+        .value_parser(TextOf(option));
     if option.usual.is_empty() {
         argument
     } else {
         argument.default_value(option.usual)
+    }
+}
+
+/// Checks the text of an option, or tells all that can be said.
+#[derive(Clone)]
+struct TextOf(&'static FaultOption);
+
+impl TypedValueParser for TextOf {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, Error> {
+        let option = self.0;
+        if let Some(listing) = option.listing().filter(|_| value == LIST) {
+            return Err(Error::raw(ErrorKind::DisplayHelp, listing));
+        }
+        let check = move |text: &str| option.check(text).map(|()| text.to_owned());
+        check.parse_ref(command, argument, value)
     }
 }
 
@@ -88,7 +117,7 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use selvedge_device::{Latency, Lie, LinkFaults, OneOffKind};
+    use selvedge_device::{Latency, LinkFaults, OneOffKind};
 
     #[derive(Parser)]
     struct Line {
@@ -111,7 +140,7 @@ mod tests {
         let faults = read(
             "--seed 7 --latency ftdi --hiccup 1%:20ms --drop 0.1 --flip 0.2 --insert 0.3 \
              --lose-usb 0.4 --repeat 0.5 --garbage-every 2s --way to-host --chatter --banner \
-             --clock-ppm -100 --tick-jitter 3ms --lie rows=5 --lie cut=40 --dead 3,4 --swap 5,6 \
+             --clock-ppm -100 --tick-jitter 3ms --firmware-lie caps.rows=5 --firmware-lie no-ramp --dead 3,4 --swap 5,6 \
              --stall-reading-at 1s,2s+1s --stall-writing-at 3s --unplug-at 4s --reboot-at 5s \
              --watchdog-at 6s --over-temperature-at 7s --over-current-at 8s --hv-sag-at 9s",
         )
@@ -135,7 +164,8 @@ mod tests {
         };
         assert_eq!(faults.to_device, only_chatter);
         assert_eq!((faults.clock_ppm, faults.tick_jitter_us), (-100, 3000));
-        assert_eq!(faults.lies, [Lie::Rows(5), Lie::Cut(40)]);
+        let lies: Vec<String> = faults.lies.iter().map(ToString::to_string).collect();
+        assert_eq!(lies, ["caps.rows=5", "no-ramp"]);
         assert_eq!(faults.wiring.dead, [3, 4]);
         assert_eq!(faults.wiring.swapped, [[5, 6]]);
         let kinds: Vec<OneOffKind> = faults.once.iter().map(|once| once.kind).collect();
@@ -145,13 +175,20 @@ mod tests {
     }
 
     #[test]
+    fn all_firmware_lies_are_listed_on_request() {
+        let listing = read("--firmware-lie list").unwrap_err();
+        assert!(listing.contains("\ncaps.rows=") && listing.contains("\nno-ramp "));
+    }
+
+    #[test]
     fn what_is_not_understood_says_what_is() {
         for (words, described) in [
             ("--drop 3", "0 to 1"),
             ("--latency slow", "5ms~2ms"),
             ("--reboot-at soon", "300ms"),
             ("--way up", "to-device"),
-            ("--lie hue=3", "max-body"),
+            ("--firmware-lie caps.hue=3", "caps.max-body"),
+            ("--firmware-lie hue", "no-ramp"),
             ("--swap 3", "two channels"),
         ] {
             let error = read(words).unwrap_err();

@@ -23,12 +23,21 @@ const SHIPPED: &[KitFile] = shipped![
     "firmware/hbp_config.h",
     "firmware/hbp_core.c",
     "firmware/hbp_core.h",
+    "firmware/hbp_defects.h",
     "firmware/host/Makefile",
     "firmware/host/hbp_host.c",
     "firmware/lm3s6965evb/Makefile",
     "firmware/lm3s6965evb/board.c",
     "firmware/lm3s6965evb/lm3s6965evb.ld",
+    "firmware/lm3s6965evb/restart.h",
     "firmware/lm3s6965evb/startup.c",
+    "firmware/rp2040/CMakeLists.txt",
+    "firmware/rp2040/board.h",
+    "firmware/rp2040/converters.c",
+    "firmware/rp2040/converters.h",
+    "firmware/rp2040/main.c",
+    "firmware/rp2040/tusb_config.h",
+    "firmware/rp2040/usb_descriptors.c",
     "protocol.md",
     "vectors.txt",
 ];
@@ -89,7 +98,7 @@ mod tests {
         let mut found = Vec::new();
         files_below(&folder, &mut found);
         // What building the kit in place leaves there.
-        let built = ["hbp_host", "hbp.elf", ".gitignore"];
+        let built = ["hbp_host", "hbp.elf", "hbp_emulated.elf", ".gitignore"];
         let mut names: Vec<String> = found
             .iter()
             .filter(|path| !built.iter().any(|name| path.ends_with(name)))

@@ -150,6 +150,7 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
         | BridgeError::LogPlace { .. }
         | BridgeError::LogContent { .. }
         | BridgeError::LinkTaken(_)
+        | BridgeError::LinkHeld { .. }
         | BridgeError::Model(_)
         | BridgeError::WavSpec { .. } => 2,
         _ => 1,

@@ -1,31 +1,26 @@
 //! `selvedge bridge identify`: which channel drives which contactor, asked on a terminal or
 //! answered from a file; the profile with what was found is written.
 //!
-//! One channel at a time is driven for a moment; the device is stopped at the end, whatever
-//! happens.
+//! One channel at a time is driven for a moment; no frame is sent.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead as _, IsTerminal as _, Write as _};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::thread;
-use std::time::{Duration, Instant};
 
 use clap::Args;
 
 use super::{CliError, array, output, play, signals, terminal};
-use selvedge_device::wiring::{Answer, WiringFound, WiringWalk};
-use selvedge_device::{ArrayProfile, Bridge, BridgeEvent, BridgeState, DeviceUid, StopHow, Target};
+use selvedge_device::wiring::{Answer, WiringWalk};
+use selvedge_device::{ArrayProfile, Bridge, BridgeEvent, DeviceUid, Driver, FrameSource, Target};
 use selvedge_foundation::files;
 
 /// How long one channel is driven, ms.
 const PULSE_MS: u16 = 600;
 /// Part of the limit at 320 Hz that it is driven with.
 const SHARE: f64 = 0.5;
-const NAP: Duration = Duration::from_millis(5);
-/// The session itself gives up earlier.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What to identify.
 #[derive(Debug, Args)]
@@ -36,6 +31,8 @@ pub(super) struct IdentifyArgs {
     #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
           value_parser = array::profile)]
     array: Box<ArrayProfile>,
+    #[command(flatten)]
+    baud: array::BaudArgs,
     /// The profile with the wiring that was found
     #[arg(long, value_name = "PROFILE.toml")]
     out: PathBuf,
@@ -49,14 +46,20 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     play::check_port(&args.port)?;
     let answers = Answers::open(args.answers.as_deref())?;
     let stop = signals::stop_flag()?;
-    let mut bench = Bench::open(args, answers, &stop);
-    let found = bench.walk();
-    // Whatever happened, the device is told to stop and its answer is waited for.
-    let uid = bench.uid();
-    let closed = bench.bridge.close(PATIENCE);
-    let found = found?;
-    closed?;
-    let uid = uid.ok_or_else(|| CliError::Failed("the device has no number".to_owned()))?;
+    let mut array = (*args.array).clone();
+    args.baud.set(&mut array);
+    let n = array.n_contactors();
+    let mut driver = Driver::open(Target::Port(args.port.clone()), array, n);
+    let mut bench = Bench::of(args, answers, driver.bridge().target());
+    let ended = driver.run(&mut bench, &stop);
+    let uid = driver.bridge().caps().map(|caps| DeviceUid(caps.uid));
+    driver.close();
+    ended?;
+    // A signal, or a terminal that closed: nobody is there to answer.
+    let Some((found, uid)) = bench.walk.found().zip(uid) else {
+        terminal::notice("stopped; nothing was written");
+        return Ok(());
+    };
     let profile = found.in_profile(&args.array, uid);
     profile.write(&args.out)?;
     let mut lines = found.lines();
@@ -135,179 +138,160 @@ fn said(line: &str, n: usize, n_columns: usize) -> Option<Said> {
     }
 }
 
-/// A device, a walk over its channels, and somebody who answers.
-struct Bench<'a> {
-    bridge: Bridge,
-    profile: ArrayProfile,
-    walk: WiringWalk,
-    answers: Answers,
-    stop: &'a AtomicBool,
+/// What is waited for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wait {
+    /// The next tick, to drive a channel.
+    Tick,
+    /// The device, to drive it.
+    Device,
+    /// A person.
+    Answer,
 }
 
-impl<'a> Bench<'a> {
-    fn open(args: &IdentifyArgs, answers: Answers, stop: &'a AtomicBool) -> Self {
-        let profile = (*args.array).clone();
-        let n = profile.n_contactors();
-        let target = Target::Port(args.port.clone());
-        Self {
-            bridge: Bridge::open(target, profile.clone(), n, || {}),
-            walk: WiringWalk::new(n),
-            profile,
-            answers,
-            stop,
-        }
-    }
+/// A walk over the channels of a device, and somebody who answers.
+struct Bench {
+    target: String,
+    n_columns: usize,
+    amplitude_um: f32,
+    walk: WiringWalk,
+    /// Contradictions that were told.
+    n_told: usize,
+    answers: Answers,
+    wait: Wait,
+}
 
-    fn uid(&self) -> Option<DeviceUid> {
-        self.bridge.caps().map(|caps| DeviceUid(caps.uid))
-    }
+impl FrameSource for Bench {
+    type Error = CliError;
 
-    fn walk(&mut self) -> Result<WiringFound, CliError> {
-        self.until("become ready", |event| {
-            matches!(event, BridgeEvent::Ready(_))
-        })?;
-        if self.bridge.state() != BridgeState::Ready || !self.bridge.arm() {
-            return Err(self.failed("the device cannot be armed"));
-        }
-        self.until("arm", |event| *event == BridgeEvent::Armed)?;
-        let n = self.profile.n_contactors();
-        if matches!(self.answers, Answers::Terminal(_)) {
-            terminal::notice(&format!(
-                "one channel at a time is driven: type the contactor that moved (0 to {}, or \
-                 row,column from 0), n for none, a for again, b for back",
-                n - 1
-            ));
-        }
-        let mut n_told = 0;
-        while let Some(channel) = self.walk.channel() {
-            self.drive(channel)?;
-            let answer = self.answer(channel)?;
-            match answer {
-                Said::Again => {}
-                Said::Back => self.walk.back(),
-                Said::Answer(answer) => {
-                    self.walk.answer(answer);
-                }
-            }
-            for conflict in self.walk.conflicts().iter().skip(n_told) {
+    fn event(&mut self, event: &BridgeEvent) -> Result<(), CliError> {
+        match event {
+            BridgeEvent::Armed if matches!(self.answers, Answers::Terminal(_)) => {
                 terminal::notice(&format!(
-                    "channels {:?} were all said to drive contactor {}: asked again; answer n for \
-                     the weaker one if both do",
-                    conflict.channels, conflict.contactor
+                    "one channel at a time is driven: type the contactor that moved (0 to {}, or \
+                     row,column from 0), n for none, a for again, b for back",
+                    self.walk.n_channels() - 1
                 ));
             }
-            n_told = self.walk.conflicts().len();
-        }
-        let found = self.walk.found();
-        found.ok_or_else(|| CliError::Failed("the walk did not come to its end".to_owned()))
-    }
-
-    /// Drives one channel and waits until the device says that it does.
-    fn drive(&mut self, channel: usize) -> Result<(), CliError> {
-        #[expect(clippy::cast_possible_truncation, reason = "amplitudes travel as f32")]
-        let amplitude_um = (SHARE * self.profile.limit_um[1]) as f32;
-        let channel = u16::try_from(channel).unwrap_or(u16::MAX);
-        let asked = self.bridge.identify(channel, (amplitude_um, PULSE_MS));
-        asked.map_err(|why| self.failed(why))?;
-        let mut refused = None;
-        self.until("drive a channel", |event| match event {
-            BridgeEvent::NotIdentified { reason, .. } => {
-                refused = Some(reason.clone());
-                true
+            BridgeEvent::Identified { channel } => {
+                self.wait = Wait::Answer;
+                self.ask(usize::from(*channel));
             }
-            event => *event == BridgeEvent::Identified { channel },
-        })?;
-        refused.map_or(Ok(()), |reason| {
-            Err(self.failed(&format!("channel {channel}: {reason}")))
-        })
+            BridgeEvent::NotIdentified { channel, reason } => {
+                return Err(self.failed(&format!("channel {channel}: {reason}")));
+            }
+            _ => {}
+        }
+        Ok(())
     }
 
-    fn answer(&mut self, channel: usize) -> Result<Said, CliError> {
-        let (n, n_columns) = (self.walk.n_channels(), usize::from(self.profile.cols));
-        if let Answers::File { path, lines } = &mut self.answers {
-            let Some((line, text)) = lines.pop_front() else {
-                let what = format!(
-                    "{}: there is no answer for channel {channel}; add a line for each question",
-                    path.display()
-                );
-                return Err(CliError::Input(what));
-            };
-            let what = format!(
-                "{}:{line}: {text:?} is no answer; write 0 to {}, row,column, n, a or b",
-                path.display(),
-                n - 1
-            );
-            return said(&text, n, n_columns).ok_or(CliError::Input(what));
+    /// Drives the channel that is asked for, or takes what was said of it.
+    fn tick(&mut self, bridge: &mut Bridge) -> Result<ControlFlow<()>, CliError> {
+        let Some(channel) = self.walk.channel() else {
+            return Ok(ControlFlow::Break(()));
+        };
+        match self.wait {
+            Wait::Tick => {
+                let channel = u16::try_from(channel).unwrap_or(u16::MAX);
+                let asked = bridge.identify(channel, (self.amplitude_um, PULSE_MS));
+                asked.map_err(|why| self.failed(why))?;
+                self.wait = Wait::Device;
+            }
+            Wait::Device => {}
+            Wait::Answer => return self.take_answer(channel),
         }
-        loop {
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl Bench {
+    fn of(args: &IdentifyArgs, answers: Answers, target: &str) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "amplitudes travel as f32")]
+        let amplitude_um = (SHARE * args.array.limit_um[1]) as f32;
+        Self {
+            target: target.to_owned(),
+            n_columns: usize::from(args.array.cols),
+            amplitude_um,
+            walk: WiringWalk::new(args.array.n_contactors()),
+            n_told: 0,
+            answers,
+            wait: Wait::Tick,
+        }
+    }
+
+    fn ask(&self, channel: usize) {
+        if matches!(self.answers, Answers::Terminal(_)) {
             drop(write!(io::stderr(), "channel {channel}: which contactor? "));
             drop(io::stderr().flush());
-            let text = self.typed()?;
-            if let Some(said) = said(&text, n, n_columns) {
-                return Ok(said);
-            }
-            let most = n - 1;
-            terminal::notice(&format!("type 0 to {most}, row,column, n, a or b"));
         }
     }
 
-    /// The next line from the terminal; the session lives meanwhile.
-    fn typed(&mut self) -> Result<String, CliError> {
-        loop {
-            self.hear(&mut |_| false)?;
-            let Answers::Terminal(typed) = &self.answers else {
-                return Err(self.failed("nobody answers"));
-            };
-            match typed.try_recv() {
-                Ok(line) => return Ok(line),
-                Err(TryRecvError::Disconnected) => return Err(self.failed("the terminal closed")),
-                Err(TryRecvError::Empty) => {}
+    /// Takes what was said of a channel, if something was. A terminal that closed ends the walk.
+    fn take_answer(&mut self, channel: usize) -> Result<ControlFlow<()>, CliError> {
+        let said = match &mut self.answers {
+            Answers::File { path, lines } => {
+                let line = lines.pop_front();
+                let size = (self.walk.n_channels(), self.n_columns);
+                Some(said_in_file(path, line, channel, size)?)
             }
-            if let Ok(line) = typed.recv_timeout(NAP) {
-                return Ok(line);
+            Answers::Terminal(typed) => match typed.try_recv() {
+                Err(TryRecvError::Disconnected) => return Ok(ControlFlow::Break(())),
+                Err(TryRecvError::Empty) => return Ok(ControlFlow::Continue(())),
+                Ok(text) => said(&text, self.walk.n_channels(), self.n_columns),
+            },
+        };
+        match said {
+            None => {
+                let most = self.walk.n_channels() - 1;
+                terminal::notice(&format!("type 0 to {most}, row,column, n, a or b"));
+                self.ask(channel);
+                return Ok(ControlFlow::Continue(()));
+            }
+            Some(Said::Again) => {}
+            Some(Said::Back) => self.walk.back(),
+            Some(Said::Answer(answer)) => {
+                self.walk.answer(answer);
             }
         }
+        self.describe_conflicts();
+        self.wait = Wait::Tick;
+        Ok(ControlFlow::Continue(()))
     }
 
-    /// Takes all news; whether one of them is `wanted`.
-    fn hear(&mut self, wanted: &mut dyn FnMut(&BridgeEvent) -> bool) -> Result<bool, CliError> {
-        if self.stop.load(Ordering::Relaxed) {
-            self.bridge.stop(StopHow::Now);
-            return Err(self.failed("stopped; nothing was written"));
+    fn describe_conflicts(&mut self) {
+        for conflict in self.walk.conflicts().iter().skip(self.n_told) {
+            terminal::notice(&format!(
+                "channels {:?} were all said to drive contactor {}: asked again; answer n for \
+                 the weaker one if both do",
+                conflict.channels, conflict.contactor
+            ));
         }
-        let mut is_there = false;
-        while let Some(event) = self.bridge.poll() {
-            match &event {
-                BridgeEvent::Refused(reason)
-                | BridgeEvent::Lost(reason)
-                | BridgeEvent::Disarmed { reason, .. } => {
-                    let reason = reason.clone();
-                    return Err(self.failed(&reason));
-                }
-                event => is_there |= wanted(event),
-            }
-        }
-        Ok(is_there)
-    }
-
-    fn until(
-        &mut self,
-        what: &str,
-        mut wanted: impl FnMut(&BridgeEvent) -> bool,
-    ) -> Result<(), CliError> {
-        let deadline = Instant::now() + PATIENCE;
-        while Instant::now() < deadline {
-            if self.hear(&mut wanted)? {
-                return Ok(());
-            }
-            thread::sleep(NAP);
-        }
-        Err(self.failed(&format!("the device did not {what}")))
+        self.n_told = self.walk.conflicts().len();
     }
 
     fn failed(&self, what: &str) -> CliError {
-        CliError::Failed(format!("{}: {what}", self.bridge.target()))
+        CliError::Failed(format!("{}: {what}", self.target))
     }
+}
+
+/// What a line of a file says of a channel.
+fn said_in_file(
+    path: &Path,
+    line: Option<(usize, String)>,
+    channel: usize,
+    (n, n_columns): (usize, usize),
+) -> Result<Said, CliError> {
+    let path = path.display();
+    let Some((line, text)) = line else {
+        let what = format!(
+            "{path}: there is no answer for channel {channel}; add a line for each question"
+        );
+        return Err(CliError::Input(what));
+    };
+    let most = n - 1;
+    let what =
+        format!("{path}:{line}: {text:?} is no answer; write 0 to {most}, row,column, n, a or b");
+    said(&text, n, n_columns).ok_or(CliError::Input(what))
 }
 
 #[cfg(test)]

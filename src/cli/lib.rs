@@ -20,6 +20,7 @@ mod bridge_abilities;
 mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
+mod certify;
 mod experiment;
 mod failure;
 mod identify;
@@ -38,6 +39,7 @@ mod play_source;
 mod record;
 mod render;
 mod render_out;
+mod repeats;
 mod replay;
 mod report;
 mod screenshot;
@@ -113,12 +115,14 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return usage::answer(&error),
     };
-    match run(cli) {
+    let ended = run(cli);
+    terminal::end();
+    match ended {
         Ok(()) | Err(CliError::OutputClosed) => ExitCode::SUCCESS,
         Err(error) => {
             let code = error.exit_code();
             if code != 0 {
-                terminal::notice(&one_line(&error.to_string()));
+                terminal::line(&one_line(&error.to_string()));
             }
             ExitCode::from(code)
         }

@@ -3,10 +3,11 @@
 //! Nothing here writes results. Errors of stderr are dropped: there is nowhere left to tell them.
 
 use std::io::{self, IsTerminal as _, Write as _};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::repeats::Repeats;
 use super::{CliError, signals};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -17,8 +18,33 @@ const REFRESH: Duration = Duration::from_millis(100);
 /// How often a log gets a line.
 const LOG_EVERY: Duration = Duration::from_secs(5);
 
-/// One line on stderr.
+/// What was said lately, by every thread.
+static REPEATS: Mutex<Option<Repeats>> = Mutex::new(None);
+
+/// One line on stderr; one that repeats is told once a second at most, with a count.
 pub(super) fn notice(text: &str) {
+    tell(|repeats, now| repeats.say(now, text));
+}
+
+/// The same for the words of a device, of which too many are left out.
+pub(super) fn heard(text: &str) {
+    tell(|repeats, now| repeats.hear(now, text));
+}
+
+/// Tells what was held back: the program ends.
+pub(super) fn end() {
+    tell(Repeats::end);
+}
+
+fn tell(said: impl FnOnce(&mut Repeats, Instant) -> Vec<String>) {
+    // A panic elsewhere leaves texts and counts, which cannot be wrong.
+    let mut repeats = REPEATS.lock().unwrap_or_else(PoisonError::into_inner);
+    let lines = said(repeats.get_or_insert_default(), Instant::now());
+    lines.iter().for_each(|text| line(text));
+}
+
+/// One line on stderr, whatever was said before.
+pub(super) fn line(text: &str) {
     drop(writeln!(io::stderr(), "selvedge: {text}"));
 }
 
@@ -56,12 +82,12 @@ impl Meter {
         self.is_shown = true;
         let spent = now.duration_since(self.started);
         let percent = (share * 100.0).floor();
-        let line = format!("{} {percent} %, {} {what}", self.doing, times(share, spent));
+        let text = format!("{} {percent} %, {} {what}", self.doing, times(share, spent));
         if self.is_terminal {
-            drop(write!(io::stderr(), "\r\x1b[2K{line}"));
+            drop(write!(io::stderr(), "\r\x1b[2K{text}"));
             drop(io::stderr().flush());
         } else {
-            notice(line.trim_end());
+            line(text.trim_end());
         }
     }
 }

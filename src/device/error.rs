@@ -37,8 +37,16 @@ pub enum BridgeError {
         source: io::Error,
     },
     /// The place of the emulator's link is taken.
-    #[error("{}: exists and is not a link to a terminal: choose another --link", .0.display())]
+    #[error("{}: exists and was not made by an emulator: choose another --link", .0.display())]
     LinkTaken(PathBuf),
+    /// A running emulator has the link's name.
+    #[error("{}: held by {holder}: end that one first, or choose another --link", link.display())]
+    LinkHeld {
+        /// The name.
+        link: PathBuf,
+        /// Whose it is.
+        holder: String,
+    },
     /// A pseudo-terminal could not be made.
     #[error("no pseudo-terminal: {0}")]
     Pty(String),

@@ -39,17 +39,21 @@ impl Packet {
     /// Header and payload, closed by CRC-32 and framed. A payload beyond the largest body gives
     /// `None`.
     pub fn encode(kind: u8, seq: u16, payload: &[u8]) -> Option<Self> {
-        let mut body = [0; LARGEST_BODY];
-        let crc_at = HEADER_LEN + payload.len();
-        let len = crc_at + CRC_LEN;
-        if len > LARGEST_BODY {
-            return None;
-        }
+        let mut covered = [0; LARGEST_BODY];
+        let len = HEADER_LEN + payload.len();
         let [seq_low, seq_high] = seq.to_le_bytes();
-        body[..HEADER_LEN].copy_from_slice(&[kind, 0, seq_low, seq_high]);
-        body[HEADER_LEN..crc_at].copy_from_slice(payload);
-        let crc = crc32fast::hash(&body[..crc_at]);
-        body[crc_at..len].copy_from_slice(&crc.to_le_bytes());
+        covered[..HEADER_LEN].copy_from_slice(&[kind, 0, seq_low, seq_high]);
+        covered.get_mut(HEADER_LEN..len)?.copy_from_slice(payload);
+        Self::sealed(&covered[..len])
+    }
+
+    /// Header and payload as they are, closed by CRC-32 and framed; `None` beyond the largest body.
+    pub(crate) fn sealed(covered: &[u8]) -> Option<Self> {
+        let mut body = [0; LARGEST_BODY];
+        let len = covered.len() + CRC_LEN;
+        let (head, crc) = body.get_mut(..len)?.split_at_mut(covered.len());
+        head.copy_from_slice(covered);
+        crc.copy_from_slice(&crc32fast::hash(covered).to_le_bytes());
         Some(Self::frame(&body[..len]))
     }
 

@@ -31,8 +31,10 @@
 
 mod actuator_model;
 mod array;
+mod certify;
 mod codes;
 mod device;
+mod driver;
 mod emulator;
 mod error;
 mod fields;
@@ -45,7 +47,6 @@ mod link;
 mod message;
 mod port;
 mod replay;
-mod self_test;
 mod session_log;
 mod wav;
 mod wav_parts;
@@ -57,11 +58,16 @@ pub use actuator_model::{
     MAX_QUALITY, SAMPLES_PER_S, Skin,
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
+pub use certify::{
+    Certificate, CertificateFolder, CheckOutcome, CheckResult, Extent, Line, Trial, VirtualLine,
+    certify, certify_port,
+};
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
-    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Lie, Load, Miswiring, Moment,
-    Sense,
+    AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, FirmwareLie, Load, Miswiring,
+    Moment, Sense,
 };
+pub use driver::{Driver, Ended, FrameSource, Pacer};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use error::{BridgeError, SinkError};
@@ -84,8 +90,6 @@ pub use port::{
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
 pub use replay::{ReplayedLink, ReplayedTick, replay_log};
-pub use self_test::SelfTestStep;
-pub use self_test::{SelfTestReport, self_test};
 pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
 pub use wav::{SampleFormat, WavSpec};

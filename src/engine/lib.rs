@@ -31,7 +31,6 @@ mod handle;
 mod input;
 mod link;
 mod meters;
-mod pacer;
 mod prepared;
 mod programs;
 mod ready;
@@ -47,7 +46,9 @@ mod track;
 mod velocity;
 mod vibration;
 
-pub use audio::{AudioEntry, AudioError, AudioOutput, audio_outputs};
+pub use audio::{
+    AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer, audio_outputs,
+};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, Notice};
 pub use engine_core::EngineCore;
@@ -59,7 +60,6 @@ pub use input::{
     open_input_device,
 };
 pub use meters::{DurationBucket, DurationHistogram};
-pub use pacer::PATIENCE;
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
 pub use recording::{RecordedSample, RecordedTick, Recording};

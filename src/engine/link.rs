@@ -4,19 +4,17 @@
 
 use std::time::{Duration, Instant};
 
-use super::{LinkView, Notice, TICK};
+use super::{LinkView, TICK};
 use selvedge_device::{
-    ArrayChange, Bridge, BridgeEvent, DeviceUid, LinkScale, SentFrame, StopHow, Timings,
+    ArrayChange, Bridge, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame, StopHow, Timings,
 };
 
 /// Ticks between two looks at the timings of the link: one second.
 const TIMINGS_EVERY: u64 = 40;
-/// Longest wait for the last STOP to be written.
-const LAST_WORD: Duration = Duration::from_millis(250);
 
-/// A device, or none.
-#[derive(Default)]
+/// A device, or none, and when to tick.
 pub(super) struct Link {
+    pub(super) pacer: Pacer,
     bridge: Option<Box<Bridge>>,
     /// The device that was last on a port.
     last_device: Option<DeviceUid>,
@@ -28,18 +26,21 @@ pub(super) struct Link {
     n_views: u64,
 }
 
-/// What a link has to say that concerns the clock or the core.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum News {
-    /// A device tick began; when its STATUS arrived, and when the answer is due.
-    Tick(u32, [Instant; 2]),
-    /// A device that makes this of codes is connected, or configured.
-    Scale(LinkScale),
-    /// The device is gone.
-    Gone,
-}
-
 impl Link {
+    /// No device yet; ticks come from `start` on.
+    pub(super) fn new(start: Instant) -> Self {
+        Self {
+            pacer: Pacer::with_own_clock(start),
+            bridge: None,
+            last_device: None,
+            sent: None,
+            is_identifying: false,
+            timings: Timings::default(),
+            n_unheard: 0,
+            n_views: 0,
+        }
+    }
+
     /// Takes a device; the last one comes back.
     pub(super) fn connect(&mut self, bridge: Option<Box<Bridge>>) -> Option<Box<Bridge>> {
         if let Some(last) = &mut self.bridge {
@@ -54,6 +55,7 @@ impl Link {
         });
         self.sent = None;
         self.timings = Timings::default();
+        self.pacer.forget_device();
         std::mem::replace(&mut self.bridge, bridge)
     }
 
@@ -62,29 +64,13 @@ impl Link {
         self.bridge.is_some()
     }
 
-    /// The next piece of news; notices go to `say`.
-    pub(super) fn hear(&mut self, say: &mut dyn FnMut(Notice)) -> Option<News> {
-        let bridge = self.bridge.as_mut()?;
-        loop {
-            let event = bridge.poll()?;
-            let news = match &event {
-                BridgeEvent::Tick {
-                    tick,
-                    received,
-                    due,
-                } => return Some(News::Tick(*tick, [*received, *due])),
-                BridgeEvent::Pong { .. } => continue,
-                BridgeEvent::Connected(_) | BridgeEvent::Ready(_) => {
-                    bridge.link_scale().map(News::Scale)
-                }
-                BridgeEvent::Lost(_) | BridgeEvent::Refused(_) => Some(News::Gone),
-                _ => None,
-            };
-            say(Notice::Bridge(event));
-            if news.is_some() {
-                return news;
-            }
-        }
+    /// Takes all news but ticks, and says whether a tick is due, and since when.
+    pub(super) fn turn(
+        &mut self,
+        now: Instant,
+        hear: &mut dyn FnMut(BridgeEvent),
+    ) -> Option<Instant> {
+        self.pacer.turn(self.bridge.as_deref_mut(), now, hear)
     }
 
     /// Arms; false if there is no device that is ready.
@@ -163,7 +149,8 @@ impl Link {
 
     /// What the device makes of codes, if one is connected.
     pub(super) fn scale(&self) -> Option<LinkScale> {
-        self.bridge.as_ref()?.link_scale()
+        let bridge = self.bridge.as_ref()?;
+        bridge.link_scale().filter(|_| bridge.state().is_open())
     }
 
     /// Frames not made because no armed device listened.
@@ -205,11 +192,9 @@ impl Drop for Link {
         else {
             return;
         };
-        let handle = bridge.stop_handle();
         bridge.stop(StopHow::Now);
-        if let Some(handle) = handle {
-            // If the port takes nothing the device's own silence rule is what is left.
-            handle.wait_written(LAST_WORD);
+        if let Some(handle) = bridge.stop_handle() {
+            handle.last_word();
         }
     }
 }

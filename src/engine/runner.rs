@@ -9,14 +9,13 @@ use std::time::{Duration, Instant};
 use rtrb::{Consumer, Producer};
 use triple_buffer::Input;
 
-use super::link::{Link, News};
+use super::link::Link;
 use super::meters::{DurationHistogram, RecentMedian};
-use super::pacer::{Due, Pacer};
 use super::ready::{CoreCommand, MAX_RETIRED, NextArray, NextScene, ReadyCommand, Retired};
 use super::snapshot_summary::{SnapshotSummary, Waker};
 use super::tick_sample::TickSampler;
 use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
-use selvedge_device::{Bridge, SentFrame, StopHow};
+use selvedge_device::{Bridge, BridgeEvent, SentFrame, StopHow};
 
 /// A tick that begins later than this after it was due is late.
 const LATE: Duration = Duration::from_millis(1);
@@ -75,7 +74,6 @@ pub(super) struct Runner {
     switch: StopSwitch,
     presses_heard: u64,
     pub(super) clock: Clock,
-    pacer: Pacer,
     link: Link,
     lateness: DurationHistogram,
     late: u64,
@@ -101,8 +99,7 @@ impl Runner {
             presses_heard: switch.presses(),
             switch,
             clock,
-            pacer: Pacer::new(clock.now()),
-            link: Link::default(),
+            link: Link::new(clock.now()),
             lateness: DurationHistogram::default(),
             late: 0,
             cost: RecentMedian::new(),
@@ -129,27 +126,36 @@ impl Runner {
     pub(super) fn step(&mut self) -> Instant {
         self.heed_stop();
         self.obey();
-        let device_tick = self.hear();
-        let answered = device_tick.map_or(Due::Nothing, |(number, [received, due])| {
-            self.pacer.device_tick(number, received, due)
-        });
-        let due = match answered {
-            Due::Nothing => self.pacer.own_tick(self.clock.now()),
-            due => due,
-        };
-        match due {
-            Due::Tick(due) => self.tick(due),
-            Due::Answer => {
-                self.send();
-            }
-            Due::Nothing => {}
+        if let Some(due) = self.turn() {
+            self.tick(due);
         }
         self.next_due()
     }
 
     /// When the next tick is due if no device tick comes first.
     pub(super) fn next_due(&self) -> Instant {
-        self.pacer.deadline()
+        let deadline = self.link.pacer.deadline();
+        deadline.unwrap_or_else(|| self.clock.now() + LONGEST_NAP)
+    }
+
+    /// Takes the news of the device, and says whether a tick is due, and since when.
+    fn turn(&mut self) -> Option<Instant> {
+        let (notices, mut is_other) = (&mut self.channels.notices, false);
+        let due = self.link.turn(self.clock.now(), &mut |event| {
+            match &event {
+                BridgeEvent::Connected(_)
+                | BridgeEvent::Ready(_)
+                | BridgeEvent::Lost(_)
+                | BridgeEvent::Refused(_) => is_other = true,
+                BridgeEvent::Pong { .. } => return,
+                _ => {}
+            }
+            notices.push(Notice::Bridge(event));
+        });
+        if is_other {
+            self.core.set_link(self.link.scale());
+        }
+        due
     }
 
     fn tick(&mut self, due: Instant) {
@@ -178,24 +184,6 @@ impl Runner {
 
     fn send(&mut self) -> Option<SentFrame> {
         self.link.send(self.core.felt_um(), self.core.fresh_stamp())
-    }
-
-    /// The last device tick that began, if one did.
-    fn hear(&mut self) -> Option<(u32, [Instant; 2])> {
-        let mut tick = None;
-        let notices = &mut self.channels.notices;
-        while let Some(news) = self.link.hear(&mut |notice| notices.push(notice)) {
-            match news {
-                News::Tick(number, times) => tick = Some((number, times)),
-                News::Scale(link) => self.core.set_link(Some(link)),
-                News::Gone => {
-                    tick = None;
-                    self.core.set_link(None);
-                    self.pacer.forget_device();
-                }
-            }
-        }
-        tick
     }
 
     /// Stops everything if the switch was pressed since it was last looked at.
@@ -284,7 +272,6 @@ impl Runner {
     fn connect(&mut self, bridge: Option<Box<Bridge>>) {
         let last = self.link.connect(bridge);
         self.core.set_link(None);
-        self.pacer.forget_device();
         self.retire(last.map(Retired::Bridge));
     }
 
@@ -312,11 +299,12 @@ impl Runner {
         snapshot.counters.tick_samples_lost = tick_samples_lost;
         snapshot.counters.commands_obeyed = self.commands_obeyed;
         snapshot.counters.frames_unheard = self.link.n_unheard();
+        let pacer = &self.link.pacer;
         snapshot.clock = ClockView {
-            is_device_paced: self.pacer.is_device_paced(),
+            is_device_paced: pacer.is_device_paced(),
             late: self.late,
-            missed: self.pacer.missed(),
-            fallbacks: self.pacer.fallbacks(),
+            missed: pacer.missed(),
+            fallbacks: pacer.fallbacks(),
             lateness: self.lateness.spread(),
             cost_ns: self.cost.median_ns(),
             costs: self.costs,

@@ -1,11 +1,11 @@
 //! The emergency stop: works from any thread, waits for nothing, overtakes every queue.
 
-use std::panic;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::Thread;
 
 use selvedge_device::{StopHandle, StopHow};
+use selvedge_foundation::panics::on_panic;
 
 /// Switches everything off. Clones are the same switch.
 ///
@@ -38,11 +38,15 @@ impl StopSwitch {
     /// Lets a panic on any thread of the process press it, before the panic is reported as it was.
     pub fn press_on_panic(&self) {
         let switch = self.clone();
-        let report = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
+        let press = move || {
             switch.press();
-            report(info);
-        }));
+            // Not while its lock is held: the wait may be as long as the port is stuck.
+            let device = switch.device().clone();
+            if let Some(device) = device {
+                device.last_word();
+            }
+        };
+        on_panic(press).for_good();
     }
 
     /// How often it was pressed.

@@ -16,6 +16,7 @@
 pub mod files;
 pub mod geometry;
 pub mod numerics;
+pub mod panics;
 pub mod progress;
 pub mod quantity;
 pub mod signals;

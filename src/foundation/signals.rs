@@ -1,6 +1,6 @@
-//! SIGINT and SIGTERM: the work is asked to end, and ends cleanly.
+//! SIGINT, SIGTERM and SIGHUP: the work is asked to end, and ends cleanly.
 //!
-//! Every signal asks for the same, so that one that is sent twice does not cut a clean end short.
+//! A program that was started to outlive its terminal (`nohup`) goes on when that closes.
 
 use std::io;
 use std::sync::Arc;
@@ -9,31 +9,38 @@ use std::sync::atomic::AtomicBool;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+/// What a shell calls the end by SIGINT.
+const KILLED_BY_INT: i32 = 130;
+
 /// The system does not let the program listen to signals.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot listen to signals: {0}; try again")]
 pub struct SignalError(#[from] io::Error);
 
-/// A flag that SIGINT and SIGTERM raise.
+/// A flag that SIGINT, SIGTERM and SIGHUP raise; a second SIGINT ends the program at once.
 ///
 /// # Errors
 /// The system does not let the program listen.
 pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
     let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    // In this order: the first SIGINT finds the flag down, and raises it.
+    flag::register_conditional_shutdown(SIGINT, KILLED_BY_INT, Arc::clone(&interrupted))?;
+    flag::register(SIGINT, interrupted)?;
+    for signal in ends() {
         flag::register(signal, Arc::clone(&stop))?;
     }
     Ok(stop)
 }
 
-/// Does `act` whenever SIGINT or SIGTERM arrives, on a thread of its own that ends with the
+/// Does `act` whenever SIGINT, SIGTERM or SIGHUP arrives, on a thread of its own that ends with the
 /// process.
 ///
 /// Where signals cannot be listened to they end the program as they always did, and the
 /// device falls silent by its own rule.
 #[cfg(unix)]
 pub fn on_signal(act: impl Fn() + Send + 'static) {
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else {
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(ends()) else {
         return;
     };
     let listen = move || signals.forever().for_each(|_signal| act());
@@ -45,3 +52,47 @@ pub fn on_signal(act: impl Fn() + Send + 'static) {
 /// This system has no such signals.
 #[cfg(not(unix))]
 pub fn on_signal(_act: impl Fn() + Send + 'static) {}
+
+/// The signals that ask for the end.
+fn ends() -> Vec<i32> {
+    let mut signals = vec![SIGINT, SIGTERM];
+    #[cfg(unix)]
+    if !ignores_hangup() {
+        signals.push(signal_hook::consts::SIGHUP);
+    }
+    signals
+}
+
+/// Whether whoever started the program wants it to outlive its terminal; asked before a signal is
+/// listened to, since that changes the answer.
+#[cfg(unix)]
+fn ignores_hangup() -> bool {
+    static IGNORES: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
+    *IGNORES.get_or_init(|| {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        ignored_signals(&status) & 1 << (signal_hook::consts::SIGHUP - 1) != 0
+    })
+}
+
+/// The set of ignored signals in a Linux process's status; empty where there is none.
+#[cfg(unix)]
+fn ignored_signals(status: &str) -> u64 {
+    let mut sets = status
+        .lines()
+        .filter_map(|line| line.strip_prefix("SigIgn:"));
+    let set = sets.next().unwrap_or_default();
+    u64::from_str_radix(set.trim(), 16).unwrap_or(0)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ignored_signals_are_read_from_the_status() {
+        let status = "Name:\tselvedge\nSigBlk:\t0000000000000002\nSigIgn:\t0000000000001001\n";
+        assert_eq!(ignored_signals(status), 0x1001);
+        assert_eq!(ignored_signals("Name:\tselvedge\n"), 0);
+        assert_eq!(ignored_signals("SigIgn: many\n"), 0);
+    }
+}

@@ -31,7 +31,7 @@ pub(crate) mod tools;
 pub use crate::bench::Drive;
 pub use crate::bench::error::AppError;
 pub use crate::bench::settings::build_cache;
-pub use crate::bench::settings::own_arrays;
+pub use crate::bench::settings::{own_arrays, own_certificates};
 pub use crate::shell::native::EndSwitch;
 pub use crate::shell::native::run;
 pub use crate::shell::raster::Picture;

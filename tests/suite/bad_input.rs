@@ -185,6 +185,7 @@ fn wrong_ports_are_refused_before_anything_moves() {
         for args in [
             [&play[..], &[port]].concat(),
             vec!["bridge", "test", "--port", port],
+            vec!["bridge", "certify", "--out", "new", "--port", port],
         ] {
             let line = lab.refuse(&args);
             assert!(
@@ -214,7 +215,34 @@ fn wrong_ports_are_refused_before_anything_moves() {
     }
 }
 
-const USAGE: [&str; 18] = [
+#[test]
+fn rates_and_channels_that_cannot_be_are_refused() {
+    let lab = Lab::with_scene();
+    let play = "play a.scene.toml --path a.csv";
+    for baud in ["0", "fast", "9600", "1e6", "99999999999"] {
+        for command in [
+            format!("{play} --port /dev/none"),
+            "bridge test --port /dev/none".to_owned(),
+            "bridge identify --port /dev/none --out b.toml".to_owned(),
+        ] {
+            let args = format!("{command} --baud {baud}");
+            let line = lab.refuse(&args.split(' ').collect::<Vec<_>>());
+            let mend = "115200 to 12000000 baud";
+            assert!(line.contains(baud) && line.contains(mend), "{args}: {line}");
+        }
+    }
+    for (channels, what) in [
+        ("0-23", "\"0\" is no channel"),
+        ("1,2,2", "channel 2 stands there twice"),
+        ("1,2", "2 channels are named for 24 contactors"),
+    ] {
+        let args = format!("{play} --audio card --channels {channels}");
+        let line = lab.refuse(&args.split(' ').collect::<Vec<_>>());
+        assert!(line.contains(what), "{args}: {line}");
+    }
+}
+
+const USAGE: [&str; 21] = [
     "render",
     "render a.scene.toml",
     "render a.scene.toml --path a.csv --speed 3",
@@ -222,11 +250,14 @@ const USAGE: [&str; 18] = [
     "render a.scene.toml --path a.csv --wav-rate 8000",
     "play a.scene.toml --path - --loop --port /dev/none",
     "play a.scene.toml --path a.csv --port /dev/none --audio card",
+    "play a.scene.toml --path a.csv --audio card --baud 115200",
+    "play a.scene.toml --path a.csv --port /dev/none --channels 1-24",
     "play a.scene.toml --path a.csv --input evdev:/dev/none --port /dev/none",
     "input",
     "textile",
     "bridge",
     "bridge test",
+    "bridge certify --port /dev/none",
     "bridge emulate",
     "screenshot",
     "screenshot --out a.png --width 1",

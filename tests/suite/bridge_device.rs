@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::program::{Lab, Rows};
+use crate::bridge_end_to_end::undisturbed;
+use crate::program::{Lab, Outcome, Rows};
 
 /// An emulated device that runs until it is told to end.
 pub(crate) struct Device(Child);
@@ -35,6 +36,11 @@ impl Device {
         BufReader::new(out).read_line(&mut line).unwrap();
         assert!(line.contains(" -> /dev/"), "{line}");
         Self(child)
+    }
+
+    /// Its process.
+    pub(crate) fn id(&self) -> u32 {
+        self.0.id()
     }
 
     /// As when the cable is pulled.
@@ -116,4 +122,151 @@ fn at_each_rest(rows: &Rows, column: &str) -> Vec<f64> {
         was_live = is_live;
     }
     found
+}
+
+const PLAY: &str = "play a.scene.toml --path a.csv --port array --loop --session-log link.csv";
+const IDENTIFY: &str = "bridge identify --port array --out rig.toml";
+
+fn n_frames(log: &str) -> usize {
+    log.lines().filter(|line| line.contains(",frame,")).count()
+}
+
+fn is_armed(log: &str) -> bool {
+    log.contains(",state,ARMED,")
+}
+
+/// Runs the program in a terminal of its own, which closes when `is_so` by the device's log; gives
+/// the exit code.
+fn in_a_terminal_that_closes(lab: &Lab, line: &str, is_so: impl Fn(&str) -> bool) -> i32 {
+    let code = lab.path("code.txt");
+    drop(std::fs::remove_file(&code));
+    let program = env!("CARGO_BIN_EXE_selvedge");
+    // The shell must outlive the hangup to tell the code; a program inherits no such trap.
+    let script = format!("trap : HUP; {program} {line}; echo $? > code.new; mv code.new code.txt");
+    let mut terminal = Command::new("script")
+        .args(["--quiet", "--command", &script, "/dev/null"])
+        .current_dir(lab.path(""))
+        .env("SHELL", "/bin/sh")
+        .env("XDG_CACHE_HOME", lab.path("cache"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_for_log(lab, is_so);
+    terminal.kill().unwrap();
+    terminal.wait().unwrap();
+    let deadline = Instant::now() + Duration::from_secs(30);
+    while !code.exists() && Instant::now() < deadline {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    lab.read("code.txt").trim().parse().unwrap()
+}
+
+/// STOP was acknowledged: the device was told to rest, and did not have to help itself.
+fn check_stopped(lab: &Lab, rows: &Rows) {
+    let link = lab.read("link.csv");
+    let last = link.rfind(",stop,").expect("a STOP");
+    assert!(link[last..].contains(",stopped,"), "{link}");
+    check_rest(rows);
+}
+
+/// The last that the device's log says: no output, and nothing that could begin it.
+fn check_rest(rows: &Rows) {
+    let last = rows.len() - 1;
+    let (state, sum) = (rows.text("state")[last], rows.text("amp_sum")[last]);
+    // Without its host it would be IDLE.
+    assert_eq!((state, sum), ("READY", "0"));
+}
+
+#[test]
+fn a_signal_ends_a_path_with_an_acknowledged_stop() {
+    let lab = Lab::with_scene();
+    for name in ["INT", "TERM", "HUP"] {
+        let (outcome, rows) = undisturbed(|| {
+            drop(std::fs::remove_file(lab.path("link.csv")));
+            let device = Device::start(&lab, &[]);
+            let words: Vec<&str> = PLAY.split(' ').collect();
+            let mut command = lab.command(&words);
+            let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+            let host = command.spawn().unwrap();
+            wait_for_log(&lab, |log| n_frames(log) >= 20 || log.contains(",READY,"));
+            signal(name, &host);
+            let outcome = Outcome::of(&host.wait_with_output().unwrap());
+            let rows = device.end(&lab);
+            let is_disturbed = outcome.err.contains("no frame reached it in time");
+            (!is_disturbed).then_some((outcome, rows))
+        });
+        assert_eq!(
+            (outcome.code, outcome.err.as_str()),
+            (0, ""),
+            "{name}: {outcome:?}"
+        );
+        assert!(outcome.out.contains(" frames in "), "{outcome:?}");
+        check_stopped(&lab, &rows);
+    }
+}
+
+#[test]
+fn a_signal_ends_a_walk_over_the_channels_at_rest_and_nothing_is_written() {
+    let lab = Lab::with_scene();
+    // Long enough that the walk lasts until the signal comes.
+    lab.write("answers.txt", "a\n".repeat(10_000));
+    for name in ["INT", "TERM", "HUP"] {
+        let device = Device::start(&lab, &[]);
+        let line = format!("{IDENTIFY} --answers answers.txt");
+        let words: Vec<&str> = line.split(' ').collect();
+        let mut command = lab.command(&words);
+        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let host = command.spawn().unwrap();
+        wait_for_log(&lab, is_armed);
+        signal(name, &host);
+        let outcome = Outcome::of(&host.wait_with_output().unwrap());
+        assert_eq!(outcome.code, 0, "{name}: {outcome:?}");
+        assert_eq!(outcome.one_line(), "stopped; nothing was written");
+        check_rest(&device.end(&lab));
+        assert!(!lab.path("rig.toml").exists());
+    }
+}
+
+#[test]
+fn a_terminal_that_closes_ends_path_and_walk_with_the_device_at_rest() {
+    let lab = Lab::with_scene();
+    let (code, rows) = undisturbed(|| {
+        drop(std::fs::remove_file(lab.path("link.csv")));
+        let device = Device::start(&lab, &[]);
+        let code = in_a_terminal_that_closes(&lab, PLAY, |log| n_frames(log) >= 20);
+        let rows = device.end(&lab);
+        let is_disturbed = lab.read("link.csv").contains(",disarmed-itself,");
+        (!is_disturbed).then_some((code, rows))
+    });
+    assert_eq!(code, 0);
+    check_stopped(&lab, &rows);
+
+    let device = Device::start(&lab, &[]);
+    assert_eq!(in_a_terminal_that_closes(&lab, IDENTIFY, is_armed), 0);
+    check_rest(&device.end(&lab));
+    assert!(!lab.path("rig.toml").exists());
+}
+
+#[test]
+fn a_program_that_is_to_outlive_its_terminal_does() {
+    let lab = Lab::with_scene();
+    let device = Device::start(&lab, &[]);
+    let line = format!("exec nohup {} {PLAY}", env!("CARGO_BIN_EXE_selvedge"));
+    let host = Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(lab.path(""))
+        .env("XDG_CACHE_HOME", lab.path("cache"))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    wait_for_log(&lab, |log| n_frames(log) >= 1);
+    signal("HUP", &host);
+    let before = n_frames(&lab.read("device.csv"));
+    wait_for_log(&lab, |log| n_frames(log) > before + 10);
+    signal("TERM", &host);
+    drop(host.wait_with_output().unwrap());
+    drop(device);
 }

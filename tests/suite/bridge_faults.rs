@@ -79,10 +79,13 @@ fn a_device_that_reboots_while_it_plays_is_lost_and_stays_silent() {
 #[test]
 fn a_device_that_lies_fails_its_test_with_the_reason() {
     let lab = Lab::with_scene();
-    let device = Device::start(&lab, &["--lie", "rows=5"]);
+    let device = Device::start(&lab, &["--firmware-lie", "caps.rows=5"]);
     let outcome = lab.run(&["bridge", "test", "--port", "array"]);
     assert_eq!(outcome.code, 1, "{outcome:?}");
-    assert!(outcome.out.contains("5 rows"), "{outcome:?}");
+    assert!(
+        outcome.out.contains("rows · cols is not n_ch"),
+        "{outcome:?}"
+    );
     drop(device.end(&lab));
 }
 
@@ -93,7 +96,7 @@ fn faults_that_cannot_be_are_refused_before_anything_starts() {
         (["--dead", "24"], "channels 0 to 23"),
         (["--drop", "1.5"], "0 to 1"),
         (["--reboot-at", "later"], "300ms"),
-        (["--lie", "colour=3"], "max-body"),
+        (["--firmware-lie", "caps.colour=3"], "caps.max-body"),
         (["--tick-jitter", "1s"], "10 ms"),
     ] {
         let args = [&["bridge", "emulate", "--link", "array"], &fault[..]].concat();
@@ -102,6 +105,35 @@ fn faults_that_cannot_be_are_refused_before_anything_starts() {
         assert!(outcome.one_line().contains(words), "{outcome:?}");
         assert!(!lab.path("array").is_symlink(), "nothing was made");
     }
+}
+
+#[test]
+fn a_second_emulator_does_not_take_the_link_of_a_running_one() {
+    let lab = Lab::with_scene();
+    let first = Device::start(&lab, &[]);
+    let terminal = std::fs::read_link(lab.path("array")).unwrap();
+    let outcome = lab.run(&["bridge", "emulate", "--link", "array"]);
+    assert_eq!(outcome.code, 2, "{outcome:?}");
+    let held = format!("held by another emulator, process {}", first.id());
+    assert!(outcome.one_line().contains(&held), "{outcome:?}");
+    assert_eq!(std::fs::read_link(lab.path("array")).unwrap(), terminal);
+    let outcome = lab.run(&["bridge", "test", "--port", "array"]);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    drop(first.end(&lab));
+    assert!(!lab.path("array.lock").exists(), "nothing is left");
+}
+
+#[test]
+fn the_link_of_a_killed_emulator_is_taken_over() {
+    let lab = Lab::with_scene();
+    let mut killed = Device::start(&lab, &[]);
+    killed.vanish();
+    assert!(lab.path("array").is_symlink(), "it could not clean up");
+    let device = Device::start(&lab, &[]);
+    let outcome = lab.run(&["bridge", "test", "--port", "array"]);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    drop(device.end(&lab));
+    assert!(!lab.path("array.lock").exists(), "nothing is left");
 }
 
 #[test]

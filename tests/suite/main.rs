@@ -12,6 +12,7 @@ mod bridge_arrays;
 mod bridge_device;
 mod bridge_end_to_end;
 mod bridge_faults;
+mod certify;
 mod commands;
 mod experiment;
 mod experiment_analyse;

@@ -83,6 +83,7 @@ impl Lab {
             .args(args)
             .current_dir(&self.folder)
             .env("XDG_CACHE_HOME", self.folder.join("cache"))
+            .env("XDG_DATA_HOME", self.folder.join("data"))
             .stdin(Stdio::null());
         for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
             command.env_remove(variable);

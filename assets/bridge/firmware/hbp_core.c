@@ -6,6 +6,7 @@
  * clock, so silence comes at a fixed age of the last frame whatever the phase of the tick.
  */
 #include "hbp_core.h"
+#include "hbp_defects.h" /* DEFECT(...) is 0 in every build but those of tests */
 
 enum { /* message types */
     HELLO = 0x01, CONFIG, ARM, FRAME, STOP, PING, CLEAR, SAMPLES, IDENT,
@@ -16,6 +17,7 @@ enum { NO_REPLY = 0x100, NOT_VALID = 0x101 }; /* what a packet leads to beside a
 enum { TEXT_EMPTY, TEXT_GROWING, TEXT_OVERSIZE };
 
 enum { VERSION = 1, LONGEST_SILENCE_MS = 100, LONGEST_IDENT_MS = 1000, FAULT_PERIOD_MS = 100 };
+enum { STALE_SAMPLES = 160, PROMPT_SAMPLES = 4 }; /* 20 ms, and half a ms, between two steps */
 #define MAGIC 0x31504248u /* "HBP1" */
 #define ARM_KEY 0xA5C30F96u
 #define NEXT_TICK 0xFFFFFFFFu
@@ -88,7 +90,8 @@ static void finish(hbp_device *d, writer *w) {
 }
 
 static void send_caps(hbp_device *d, const uint8_t *hello, uint8_t version) {
-    static const char uid[] = HBP_UID, name[] = HBP_NAME;
+    static const char default_uid[] = HBP_UID, name[] = HBP_NAME;
+    const uint8_t *uid = d->port.uid ? d->port.uid : (const uint8_t *)default_uid;
     unsigned i;
     writer w;
     begin(d, &w, CAPS);
@@ -98,7 +101,7 @@ static void send_caps(hbp_device *d, const uint8_t *hello, uint8_t version) {
     put8(&w, 12); put16(&w, HBP_IDENT ? 5 : 1); put32(&w, HBP_FS_MV);
     put16(&w, HBP_HV_MAX_DV); put16(&w, HBP_SLEW_MAX); put16(&w, HBP_MAX_BODY); put16(&w, 8000);
     put32(&w, 40000); put32(&w, 320000); put16(&w, HBP_LIMIT_40); put16(&w, HBP_LIMIT_320);
-    for (i = 0; i < 12; i++) put8(&w, (uint8_t)uid[i]);
+    for (i = 0; i < 12; i++) put8(&w, uid[i]);
     put8(&w, 1); put8(&w, 0); put8(&w, 0); put8(&w, sizeof name - 1);
     for (i = 0; i + 1u < sizeof name; i++) put8(&w, (uint8_t)name[i]);
     finish(d, &w);
@@ -135,7 +138,9 @@ static void send_fault(hbp_device *d) {
 /* ---- Output ------------------------------------------------------------------------------ */
 static int is_live(uint8_t state) { return state >= HBP_ARMED && state <= HBP_RAMP; }
 static int has_output(uint8_t state) { return state >= HBP_RUN && state <= HBP_RAMP; }
-static int may_sound(const hbp_device *d, unsigned ch) { return d->mask[ch / 32] >> ch % 32 & 1; }
+static int may_sound(const hbp_device *d, unsigned ch) {
+    return DEFECT(MASK_UNUSED) || (d->mask[ch / 32] >> ch % 32 & 1);
+}
 
 /* Writes what the sample interrupt reads. */
 static void refresh(hbp_device *d) {
@@ -185,17 +190,19 @@ static void silence(hbp_device *d, uint8_t state) {
 uint32_t hbp_amp_sum(const hbp_device *d) {
     uint32_t sum = 0; /* at most 253 * 65535, times a gain of at most 100 steps: fits */
     unsigned i;
-    if (!is_live(d->state)) return 0;
+    if (!is_live(d->state) || d->stale) return 0;
     if (d->ident_on) return d->ident_amp;
     for (i = 0; i < HBP_VALUES; i++) sum += d->slewed[i];
-    return sum * d->gain_step / d->gain_steps;
+    return DEFECT(SUM_BEFORE_GAIN) ? sum : sum * d->gain_step / d->gain_steps;
 }
 
 void hbp_sample(hbp_device *d, uint16_t codes[HBP_CHANNELS]) {
     unsigned i = d->sample, channel;
     int32_t sine_40 = sine(i), sine_320 = sine(8 * i % 200);
+    /* Nobody looks at hold, ramp and lease any more: silence. */
+    if (++d->n_sampled - d->n_sampled_at_step > STALE_SAMPLES) d->stale = 1;
     for (channel = 0; channel < HBP_CHANNELS; channel++) {
-        uint32_t pair = d->drive[channel]; /* together at most 65535: the sum fits */
+        uint32_t pair = d->stale ? 0 : d->drive[channel]; /* together <= 65535: the sum fits */
         int32_t value = (int32_t)(pair & 0xFFFF) * sine_40 + (int32_t)(pair >> 16) * sine_320;
         /* Half scale and half a step are added first: no shift of a negative number. */
         codes[channel] = (uint16_t)(((uint32_t)value + 0x80000000u + 0x80000u) >> 20);
@@ -205,27 +212,33 @@ void hbp_sample(hbp_device *d, uint16_t codes[HBP_CHANNELS]) {
 
 /* ---- What the host asks: each gives an ACK code, NO_REPLY or NOT_VALID -------------------- */
 static int hello(hbp_device *d, const uint8_t *p) {
-    int common = p[8] <= VERSION && VERSION <= p[9];
-    if (get32(p) != MAGIC || get32(p + 4) == 0) return NOT_VALID;
-    d->has_frame = d->has_seq = d->configured = 0;
-    silence(d, (uint8_t)(d->state == HBP_FAULT ? HBP_FAULT : common ? HBP_READY : HBP_IDLE));
+    int common = (p[8] <= VERSION && VERSION <= p[9]) || DEFECT(VERSION_NOT_ASKED);
+    uint8_t state = d->state == HBP_FAULT ? HBP_FAULT : common ? HBP_READY : HBP_IDLE;
+    if (get32(p) != MAGIC && !DEFECT(ANY_MAGIC)) return NOT_VALID;
+    if (get32(p + 4) == 0 && !DEFECT(SESSION_ZERO)) return NOT_VALID;
+    if (DEFECT(HELLO_COUNTS_ANEW)) d->underrun = d->late = d->dup = d->bad = d->clipped = 0;
+    d->has_frame = d->has_seq = 0;
+    if (!DEFECT(HELLO_KEEPS_CONFIG)) d->configured = 0;
+    if (!DEFECT(HELLO_KEEPS_STATE) || !is_live(d->state)) silence(d, state);
     d->has_session = (uint8_t)common;
     d->session = get32(p + 4);
-    d->wants_status = p[10] & 1;
+    d->wants_status = (p[10] & 1) || DEFECT(STATUS_NOT_ASKED);
     d->lease_ms = get16(p + 12) > 0 ? get16(p + 12) : 1000;
     send_caps(d, p, common ? VERSION : 0);
     return NO_REPLY;
 }
 
 static int configure(hbp_device *d, const uint8_t *p) {
-        uint16_t slew = get16(p + 6);
+    uint16_t slew = get16(p + 6);
     unsigned i;
     writer w;
-    if (d->state != HBP_READY) return d->state == HBP_FAULT ? FAULTED : WRONG_STATE;
-    d->hold_ms = min16(get16(p + 2), LONGEST_SILENCE_MS);
-    d->ramp_ms = min16(get16(p + 4), (uint16_t)(LONGEST_SILENCE_MS - d->hold_ms));
-    d->slew = min16(slew > 0 ? slew : HBP_SLEW_MAX, HBP_SLEW_MAX);
-    d->hv_dv = min16(get16(p + 8), HBP_HV_MAX_DV);
+    if (d->state == HBP_FAULT) return FAULTED;
+    if (d->state != HBP_READY && !DEFECT(CONFIG_ANY_TIME)) return WRONG_STATE;
+    d->hold_ms = min16(get16(p + 2), DEFECT(HOLD_UNBOUNDED) ? 0xFFFF : LONGEST_SILENCE_MS);
+    d->ramp_ms = d->hold_ms < LONGEST_SILENCE_MS ? LONGEST_SILENCE_MS - d->hold_ms : 0;
+    d->ramp_ms = min16(get16(p + 4), DEFECT(RAMP_UNBOUNDED) ? 0xFFFF : d->ramp_ms);
+    d->slew = min16(slew > 0 || DEFECT(SLEW_ZERO) ? slew : HBP_SLEW_MAX, HBP_SLEW_MAX);
+    d->hv_dv = min16(get16(p + 8), DEFECT(HV_UNBOUNDED) ? 0xFFFF : HBP_HV_MAX_DV);
     d->limit[0] = min16(get16(p + 10), HBP_LIMIT_40);
     d->limit[1] = min16(get16(p + 12), HBP_LIMIT_320);
     for (i = 0; i < HBP_MASK_WORDS; i++) {
@@ -244,8 +257,10 @@ static int configure(hbp_device *d, const uint8_t *p) {
 
 static int arm(hbp_device *d, const uint8_t *p) {
     if (d->state == HBP_FAULT) return FAULTED;
-    if ((d->state != HBP_READY && d->state != HBP_ARMED) || !d->configured) return WRONG_STATE;
-    if (get32(p) != d->session || get32(p + 4) != (d->session ^ ARM_KEY)) return BAD_SESSION;
+    if (d->state == HBP_ARMED ? DEFECT(ARM_NOT_TWICE) : d->state != HBP_READY) return WRONG_STATE;
+    if (!d->configured && !DEFECT(ARM_UNCONFIGURED)) return WRONG_STATE;
+    if (get32(p) != d->session && !DEFECT(ARM_ANY_SESSION)) return BAD_SESSION;
+    if (get32(p + 4) != (d->session ^ ARM_KEY) && !DEFECT(ARM_ANY_KEY)) return BAD_SESSION;
     if (d->state == HBP_READY) silence(d, HBP_ARMED);
     return ACK_OK;
 }
@@ -257,12 +272,14 @@ static void allow(hbp_device *d, const uint8_t *p, unsigned channel, uint16_t *o
     out[0] = out[1] = 0;
     if (!may_sound(d, channel)) return;
     for (band = 0; band < 2; band++) {
-        out[band] = min16(get16(p + 2 * band), d->limit[band]);
-        if (get16(p + 2 * band) > out[band]) d->clipped++;
+        uint16_t value = get16(p + 2 * band);
+        out[band] = DEFECT(LIMIT_UNUSED) ? value : min16(value, d->limit[band]);
+        if (value > d->limit[band] && !DEFECT(CLIPPED_UNCOUNTED)) d->clipped++;
     }
     sum = (uint32_t)out[0] + out[1];
     if (sum <= 65535u) return;
     d->clipped++;
+    if (DEFECT(SUM_UNGUARDED)) return;
     for (band = 0; band < 2; band++) out[band] = (uint16_t)(out[band] * 65535u / sum);
 }
 
@@ -271,19 +288,26 @@ static int frame(hbp_device *d, const uint8_t *p, uint16_t length, uint16_t seq)
     int late = ahead == 0 || ahead >= 0x80000000u; /* signed: not after the present tick */
     unsigned channel, slot;
     if (length > FRAME_LENGTH) return OUT_OF_RANGE;
-    if (!is_live(d->state) || d->descending) return d->state == HBP_FAULT ? FAULTED : WRONG_STATE;
-    if (d->has_seq && d->last_seq == seq) return d->dup++, NO_REPLY;
-    if (late) d->late++, ahead = 1;
-    if (ahead > HBP_QUEUE) return QUEUE_FULL;
+    if (d->state == HBP_FAULT) return FAULTED;
+    if (!is_live(d->state) || (d->descending && !DEFECT(STOP_LETS_FRAMES_IN))) return WRONG_STATE;
+    if (d->has_seq && d->last_seq == seq && !DEFECT(DUP_IS_TAKEN)) {
+        if (DEFECT(DUP_RENEWS_AGE)) d->age_steps = 0;
+        return d->dup++, NO_REPLY;
+    }
+    if (late) ahead = 1;
+    if (late && !DEFECT(LATE_UNCOUNTED)) d->late++;
+    if (late && DEFECT(LATE_IS_DROPPED)) return NO_REPLY;
+    if (ahead > HBP_QUEUE && !DEFECT(QUEUE_WITHOUT_END)) return QUEUE_FULL;
     slot = (d->tick + ahead) & (HBP_QUEUE - 1);
-    d->queue[slot].full = 1;
     for (channel = 0; channel < HBP_CHANNELS; channel++) {
+        if (DEFECT(FIRST_FRAME_STAYS) && d->queue[slot].full) break;
         allow(d, p + 4 + 4 * channel, channel, d->queue[slot].code + 2 * channel);
     }
-    d->has_seq = d->has_frame = 1;
+    d->queue[slot].full = d->has_seq = d->has_frame = 1;
     d->last_seq = seq;
     d->age_steps = 0;
     d->age_phase_us = d->phase_us;
+    if (d->state == HBP_RAMP && DEFECT(GAIN_JUMPS)) d->gain_step = d->gain_steps;
     if (d->state == HBP_ARMED || d->state == HBP_RAMP) enter(d, HBP_RUN);
     end_ident(d);
     return NO_REPLY;
@@ -291,10 +315,11 @@ static int frame(hbp_device *d, const uint8_t *p, uint16_t length, uint16_t seq)
 
 static int stop(hbp_device *d, const uint8_t *p) {
     uint8_t end = d->descending ? d->descent_end : HBP_READY;
-    if (has_output(d->state) && p[1] == 0) {
+    int ramps = (p[1] == 0 || DEFECT(STOP_ALWAYS_RAMPS)) && !DEFECT(STOP_NEVER_RAMPS);
+    if (has_output(d->state) && ramps) {
         descend(d, end);
         enter(d, HBP_RAMP);
-    } else if (is_live(d->state) || d->state == HBP_READY) {
+    } else if (d->state != HBP_FAULT && (d->state != HBP_IDLE || DEFECT(STOP_OPENS))) {
         silence(d, end);
     }
     return ACK_OK;
@@ -302,9 +327,10 @@ static int stop(hbp_device *d, const uint8_t *p) {
 
 static int ping(hbp_device *d, const uint8_t *p) {
     writer w;
+    if (DEFECT(PING_WANTS_SESSION) && !d->has_session) return NO_REPLY;
     begin(d, &w, PONG);
     put32(&w, get32(p)); put32(&w, d->dev_us + d->phase_us); put32(&w, d->tick);
-    put16(&w, d->ms_in_tick * 1000u + d->phase_us);
+    put16(&w, DEFECT(PHASE_IS_ZERO) ? 0 : d->ms_in_tick * 1000u + d->phase_us);
     finish(d, &w);
     return NO_REPLY;
 }
@@ -321,7 +347,7 @@ static int clear(hbp_device *d, const uint8_t *p) {
 static int ident(hbp_device *d, const uint8_t *p) {
     uint16_t channel = get16(p), ms = get16(p + 2);
     if (!HBP_IDENT) return UNKNOWN_TYPE;
-    if (d->state != HBP_ARMED) return WRONG_STATE;
+    if (d->state != (DEFECT(IDENT_UNARMED) ? HBP_READY : HBP_ARMED)) return WRONG_STATE;
     if (channel >= HBP_CHANNELS || ms > LONGEST_IDENT_MS) return OUT_OF_RANGE;
     d->ident_on = 1;
     d->ident_channel = channel;
@@ -333,7 +359,10 @@ static int ident(hbp_device *d, const uint8_t *p) {
 
 static int act(hbp_device *d, uint8_t type, uint16_t seq, const uint8_t *p, uint16_t length) {
     static const uint16_t shortest[] = { 0, 16, CONFIG_LENGTH, 8, FRAME_LENGTH, 2, 4, 2, 8, 6 };
-    if (type >= FIRST_OF_DEVICE || (type <= IDENT && length < shortest[type])) return NOT_VALID;
+    uint16_t least = type <= IDENT ? shortest[type] : 0;
+    if (type >= FIRST_OF_DEVICE && !DEFECT(UPPER_IS_ANSWERED)) return NOT_VALID;
+    if (length < least) return DEFECT(SHORT_IS_ANSWERED) ? OUT_OF_RANGE : NOT_VALID;
+    if (DEFECT(LONG_IS_REFUSED) && type <= IDENT && length > least) return OUT_OF_RANGE;
     switch (type) {
     case HELLO: return hello(d, p);
     case CONFIG: return configure(d, p);
@@ -343,7 +372,8 @@ static int act(hbp_device *d, uint8_t type, uint16_t seq, const uint8_t *p, uint
     case PING: return ping(d, p);
     case CLEAR: return clear(d, p);
     case IDENT: return ident(d, p);
-    default: return UNKNOWN_TYPE; /* SAMPLES too: no mode B here */
+    case SAMPLES: return DEFECT(SAMPLES_TAKEN) ? ACK_OK : UNKNOWN_TYPE; /* no mode B here */
+    default: return UNKNOWN_TYPE;
     }
 }
 
@@ -353,7 +383,7 @@ static void store(hbp_device *d, uint8_t byte) {
         d->body[d->body_length++] = byte;
     } else if (d->text == TEXT_GROWING) {
         d->text = TEXT_OVERSIZE;
-        d->bad++;
+        if (!DEFECT(OVERSIZE_UNCOUNTED)) d->bad++;
     }
 }
 
@@ -363,17 +393,16 @@ static void end_of_text(hbp_device *d) {
     uint8_t text = d->text;
     int answer = NOT_VALID;
     d->text = TEXT_EMPTY;
+    if (DEFECT(EMPTY_IS_BAD) && text == TEXT_EMPTY) d->bad++;
     if (text != TEXT_GROWING) return; /* empty, or oversize and counted already */
-    if (d->cobs_left == 0 && d->body_length >= HEADER + CRC
-        && crc32(d->body, covered) == get32(d->body + covered)) {
+    if ((d->cobs_left == 0 || DEFECT(CUT_BLOCK_TAKEN)) && d->body_length >= HEADER + CRC
+        && (crc32(d->body, covered) == get32(d->body + covered) || DEFECT(CRC_UNREAD))
+        && (d->body[1] == 0 || !DEFECT(FLAGS_ARE_BAD))) {
         answer = act(d, d->body[0], get16(d->body + 2), d->body + HEADER,
                      (uint16_t)(covered - HEADER));
     }
-    if (answer == NOT_VALID) {
-        d->bad++;
-        return;
-    }
-    d->quiet_ms = 0;
+    if (answer != NOT_VALID || DEFECT(BAD_RENEWS_LEASE)) d->quiet_ms = 0;
+    if (answer == NOT_VALID) d->bad++;
     if (answer < NO_REPLY) {
         writer w;
         begin(d, &w, ACK);
@@ -405,18 +434,20 @@ void hbp_receive(hbp_device *d, uint16_t phase_us, uint8_t byte) {
 /* ---- Time -------------------------------------------------------------------------------- */
 /* The lease ran out or the cable is gone: running output ramps down first. */
 static void end_session(hbp_device *d) {
-    if (has_output(d->state)) descend(d, HBP_IDLE), enter(d, HBP_RAMP);
+    if (has_output(d->state) && !DEFECT(LEASE_CUTS)) descend(d, HBP_IDLE), enter(d, HBP_RAMP);
     else if (d->state == HBP_FAULT) d->has_session = 0;
     else silence(d, HBP_IDLE);
 }
 
 /* One ms of hold, ramp, or the way back up. */
 static void step_gain(hbp_device *d) {
-    int silent = d->has_frame && d->age_steps > d->hold_ms;
+    int silent = d->has_frame && d->age_steps > d->hold_ms && !DEFECT(HOLD_WITHOUT_END);
+    uint8_t after = DEFECT(SILENCE_STAYS_ARMED) ? HBP_ARMED : HBP_READY;
+    if (DEFECT(SILENCE_AT_TICKS) && d->ms_in_tick > 0) return;
     if (silent || d->descending) {
         enter(d, HBP_RAMP);
-        d->gain_step = (uint16_t)(d->ramp_ms > 0 ? d->gain_step - 1 : 0);
-        if (d->gain_step == 0) silence(d, d->descending ? d->descent_end : HBP_READY);
+        d->gain_step = (uint16_t)(d->ramp_ms > 0 && !DEFECT(RAMP_SKIPPED) ? d->gain_step - 1 : 0);
+        if (d->gain_step == 0) silence(d, d->descending ? d->descent_end : after);
         else refresh(d);
     } else if (d->gain_step < d->gain_steps) {
         d->gain_step++;
@@ -435,14 +466,15 @@ static void apply_frame(hbp_device *d) {
     int applied = d->queue[slot].full;
     if (applied && d->state == HBP_HOLD) enter(d, HBP_RUN);
     if (!applied && d->has_frame) {
-        d->underrun++;
+        if (!DEFECT(UNDERRUN_UNCOUNTED)) d->underrun++;
         if (d->state == HBP_RUN) enter(d, HBP_HOLD);
     }
     for (i = 0; i < HBP_VALUES; i++) {
         if (applied) d->target[i] = d->queue[slot].code[i];
         /* A ramp without a new frame only falls. */
         if (applied || d->state != HBP_RAMP) {
-            d->slewed[i] = moved(d->slewed[i], d->target[i], d->slew);
+            uint16_t slew = DEFECT(SLEW_UNUSED) ? 0xFFFF : d->slew;
+            d->slewed[i] = moved(d->slewed[i], d->target[i], slew);
         }
     }
     d->queue[slot].full = 0;
@@ -450,6 +482,10 @@ static void apply_frame(hbp_device *d) {
 }
 
 void hbp_step_ms(hbp_device *d) {
+    uint32_t n_sampled = d->n_sampled - d->n_sampled_at_step;
+    d->n_sampled_at_step += n_sampled;
+    /* In time again, not merely making up for lost steps: output may sound. */
+    if (n_sampled >= PROMPT_SAMPLES && n_sampled <= STALE_SAMPLES) d->stale = 0;
     d->phase_us = 0;
     d->dev_us += 1000;
     d->ms_in_tick = (uint16_t)((d->ms_in_tick + 1) % HBP_MS_PER_TICK);
@@ -458,8 +494,8 @@ void hbp_step_ms(hbp_device *d) {
     if (d->quiet_ms < 0x10000u) d->quiet_ms++;
     if (d->ident_left_ms > 0) d->ident_left_ms--;
     if (d->fault_left_ms > 0) d->fault_left_ms--;
-    if (d->has_session && d->quiet_ms > d->lease_ms) end_session(d);
-    if (d->ident_left_ms == 0) end_ident(d);
+    if (d->has_session && d->quiet_ms > d->lease_ms && !DEFECT(LEASE_WITHOUT_END)) end_session(d);
+    if (d->ident_left_ms == 0 && !DEFECT(IDENT_WITHOUT_END)) end_ident(d);
     if (is_live(d->state)) step_gain(d);
     if (d->state == HBP_FAULT && d->has_session && d->fault_left_ms == 0) send_fault(d);
     if (d->ms_in_tick > 0) return;

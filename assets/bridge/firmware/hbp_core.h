@@ -7,7 +7,8 @@
  * hbp_sample 8000 times a second, hbp_raise_fault when something breaks. README.md tells how.
  *
  * All but hbp_sample must not interrupt each other: call them from one loop, or from interrupts of
- * one priority. hbp_sample may interrupt them: it only reads `drive`, one 32-bit word a channel.
+ * one priority. hbp_sample may interrupt them: it reads `drive`, one 32-bit word a channel, and
+ * falls silent by itself when hbp_step_ms has not run for 20 ms, until that runs in time again.
  */
 #ifndef HBP_CORE_H
 #define HBP_CORE_H
@@ -47,6 +48,7 @@ typedef struct {
     void (*send)(void *context, const uint8_t *bytes, uint16_t length);
     void (*high_voltage)(void *context, uint16_t dv);
     void (*measure)(void *context, hbp_measured *measured);
+    const uint8_t *uid; /* the chip's own number, 12 bytes that last; 0: HBP_UID */
 } hbp_port;
 
 /* One device. Read it freely, write nothing. */
@@ -79,6 +81,9 @@ typedef struct {
     uint16_t ident_channel, ident_amp, ident_left_ms;
     struct { uint8_t full; uint16_t code[HBP_VALUES]; } queue[HBP_QUEUE];
     volatile uint16_t sample;
+    volatile uint32_t n_sampled; /* since boot */
+    uint32_t n_sampled_at_step;
+    volatile uint8_t stale; /* hbp_sample found hbp_step_ms not running */
     /* Receiver. */
     uint8_t body[HBP_MAX_BODY];
     uint16_t body_length;

@@ -134,8 +134,8 @@ impl ArrayProfile {
     pub const LARGEST_FULL_SCALE_MV: u32 = 1_000_000;
     /// Symbols a second where a profile names none.
     pub const USUAL_BAUD: u32 = 1_000_000;
-    /// Fewest and most symbols a second of a serial line.
-    pub const BAUD: [u32; 2] = [9600, 12_000_000];
+    /// Slowest and fastest rate of a serial line: a slower one has no time for frames.
+    pub const BAUD: [u32; 2] = [115_200, 12_000_000];
     /// Temperatures outside of which no device works, °C.
     pub const TEMPERATURE_C: [f64; 2] = [-10.0, 70.0];
 

@@ -8,18 +8,24 @@
 
 mod clock;
 mod lie;
+mod lying;
+mod miswiring;
 mod model;
 mod output;
 mod queue;
+mod reception;
 mod requests;
 mod sense;
+mod session;
 mod sink;
 mod trouble;
 
 use super::framing::{Decoder, Packet};
 use super::message::{Config, DeviceState, Fault, LogText, Message, Status, fault_bit};
 use crate::fields::wrapped_u32;
-pub use lie::{Lie, Miswiring};
+pub use lie::FirmwareLie;
+use lie::{LieMemory, Rule};
+pub use miswiring::Miswiring;
 pub use model::DeviceModel;
 use output::{OutputStage, TICK};
 use queue::FrameQueue;
@@ -80,6 +86,7 @@ pub struct DeviceCore {
     sense: Sense,
     next_fault_us: u64,
     next_seq: u16,
+    lie_memory: LieMemory,
 }
 
 impl DeviceCore {
@@ -96,15 +103,16 @@ impl DeviceCore {
             comp_limit: [0; 2],
             mask: super::message::ChannelMask::default(),
         };
+        let (max_body, queue) = lie::room(&model.lies, model.max_body, model.queue);
         Self {
-            decoder: Decoder::new(usize::from(model.max_body)),
+            decoder: Decoder::new(max_body),
             now_us: 0,
-            state: DeviceState::Idle,
+            state: lie::boot_state(&model.lies),
             reported: DeviceState::Idle,
             session: None,
             config: nothing,
             output: OutputStage::new(n_channels),
-            queue: FrameQueue::new(model.queue, n_channels),
+            queue: FrameQueue::new(queue, n_channels),
             scratch: vec![[0; 2]; n_channels],
             counters: CoreCounters::default(),
             last_frame_us: None,
@@ -120,6 +128,7 @@ impl DeviceCore {
             sense: Sense::default(),
             next_fault_us: 0,
             next_seq: 0,
+            lie_memory: LieMemory::default(),
             model,
         }
     }
@@ -144,15 +153,21 @@ impl DeviceCore {
     /// Takes bytes that arrive at `now_us`.
     pub fn receive(&mut self, now_us: u64, bytes: &[u8], sink: &mut impl DeviceSink) {
         self.advance(now_us, sink);
+        if self.breaks(Rule::Echo) {
+            sink.packet(bytes);
+        }
+        let (lies, tick) = (&self.model.lies, self.tick());
+        let breaks = |rule| lie::value(lies, tick, rule).is_some();
+        let misheard = self.lie_memory.hearing.changed(breaks, bytes);
         // The decoder moves out while a packet borrows from it.
         let mut decoder = std::mem::replace(&mut self.decoder, Decoder::new(0));
-        for &byte in bytes {
+        for &byte in misheard.as_deref().unwrap_or(bytes) {
             if let Some(packet) = decoder.push(byte)
                 && !self.handle(packet, sink)
             {
                 decoder.count_bad();
             }
-            self.counters.bad = wrapped(decoder.bad());
+            self.count_bad(decoder.bad());
             self.report_change(sink);
         }
         self.decoder = decoder;
@@ -166,7 +181,8 @@ impl DeviceCore {
         }
         let next_ms = (self.now_us / MS_US + 1) * MS_US;
         let next_tick = (self.now_us / TICK + 1) * TICK;
-        let moving = self.descent.is_some()
+        let moving = !self.model.lies.is_empty()
+            || self.descent.is_some()
             || self.output.ident.is_some()
             || (self.state.is_live() && !self.output.is_gain_full());
         if moving {
@@ -192,7 +208,7 @@ impl DeviceCore {
     /// Writes [`output`](Self::output) to codes that are there already.
     pub(crate) fn write_output(&self, codes: &mut [[u16; 2]]) {
         codes.fill([0; 2]);
-        if self.state.is_live() {
+        if self.is_driven() {
             self.output.write_to(codes);
             self.model.wiring.connect(codes);
         }
@@ -200,11 +216,7 @@ impl DeviceCore {
 
     /// The voltage of the amplifiers' rails, V: 0 while high voltage is off.
     pub(crate) fn rail_v(&self) -> f64 {
-        if self.state.is_live() {
-            0.1 * f64::from(self.measured_hv_dv())
-        } else {
-            0.0
-        }
+        0.1 * f64::from(self.measured_hv_dv())
     }
 
     /// Where the device is.
@@ -237,24 +249,40 @@ impl DeviceCore {
 
     /// Whether time alone can change anything.
     fn is_awake(&self) -> bool {
-        self.session.is_some() || self.state.is_live()
+        self.session.is_some() || self.state.is_live() || !self.model.lies.is_empty()
+    }
+
+    /// Whether what the output stage holds goes out.
+    fn is_driven(&self) -> bool {
+        let ident_alone = self.output.ident.is_some() && self.breaks(Rule::IdentAnywhere);
+        self.state.is_live() || ident_alone
     }
 
     fn age_us(&self) -> Option<u64> {
-        self.last_frame_us.map(|last_us| self.now_us - last_us)
+        self.last_frame_us
+            .map(|last_us| self.now_us.saturating_sub(last_us))
     }
 
     fn age_ms(&self) -> u16 {
-        self.age_us().map_or(u16::MAX, |age_us| {
+        let without = if self.breaks(Rule::AgeZero) {
+            0
+        } else {
+            u16::MAX
+        };
+        self.age_us().map_or(without, |age_us| {
             u16::try_from(age_us / MS_US).unwrap_or(u16::MAX)
         })
     }
 
     fn amp_sum(&self) -> u32 {
-        if self.state.is_live() {
-            self.output.amp_sum()
-        } else {
+        if !self.is_driven() {
             0
+        } else if self.breaks(Rule::SumBeforeGain) {
+            self.output.sum_before_gain()
+        } else if self.breaks(Rule::SumOfTarget) {
+            self.output.target_sum()
+        } else {
+            self.output.amp_sum()
         }
     }
 
@@ -287,7 +315,7 @@ impl DeviceCore {
 
     fn send_fault(&mut self, sink: &mut impl DeviceSink) {
         self.next_fault_us = self.now_us + FAULT_PERIOD_US;
-        if self.session.is_some() {
+        if self.session.is_some() || self.breaks(Rule::FaultOutsideSession) {
             let fault = Fault {
                 faults: self.faults,
                 ..self.fault
@@ -303,21 +331,32 @@ impl DeviceCore {
 
     /// Tells people something, if the host wants to hear it.
     fn say(&mut self, text: &str, sink: &mut impl DeviceSink) {
-        if self
-            .session
-            .as_ref()
-            .is_some_and(|session| session.wants_log)
-        {
+        let wants_log = self.session.as_ref().map(|session| session.wants_log);
+        if wants_log.is_some_and(|wants| wants || self.breaks(Rule::LogUnasked)) {
             let packet = LogText::packet(self.next_seq, text);
             self.send_packet(packet.as_ref(), sink);
         }
     }
 
     fn send_packet(&mut self, packet: Option<&Packet>, sink: &mut impl DeviceSink) {
-        if let Some(packet) = packet {
-            self.next_seq = self.next_seq.wrapping_add(1);
+        let Some(packet) = packet else { return };
+        self.next_seq = self.next_seq.wrapping_add(1);
+        let (lies, tick) = (&self.model.lies, self.tick());
+        if lies.is_empty() {
             sink.packet(packet.as_bytes());
+        } else {
+            sink.packet(&self.lie_memory.packet(lies, tick, packet));
         }
+    }
+
+    /// Keeps the count of texts that were no packet.
+    fn count_bad(&mut self, bad: u64) {
+        let times = 1 + u64::from(self.breaks(Rule::BadTwice));
+        let told = wrapped(bad * times);
+        if told != self.counters.bad && self.breaks(Rule::BadRenewsLease) {
+            self.renew_lease();
+        }
+        self.counters.bad = told;
     }
 
     fn report_change(&mut self, sink: &mut impl DeviceSink) {

@@ -1,6 +1,7 @@
 //! What an emulated device says of itself in CAPS.
 
-use super::lie::{Lie, Miswiring};
+use super::lie::FirmwareLie;
+use super::miswiring::Miswiring;
 use super::sense::Load;
 use crate::codes::ArrayProfile;
 use crate::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
@@ -32,8 +33,8 @@ pub struct DeviceModel {
     pub hv_max_dv: u16,
     /// Name shown to people, at most 32 bytes.
     pub name: String,
-    /// What CAPS say although it is not so.
-    pub lies: Vec<Lie>,
+    /// What it says although it is not so, and the rules that it breaks.
+    pub lies: Vec<FirmwareLie>,
     /// How its contactors are connected.
     pub wiring: Miswiring,
     /// What its amplifiers take; `None`: it measures no current.

@@ -4,6 +4,7 @@
 //! The gain is a whole number of ramp steps, so that silence is reached exactly and never by
 //! rounding.
 
+use super::lie::Rule;
 use crate::message::{Config, TICK_US};
 
 /// A tick of the device, µs.
@@ -15,6 +16,14 @@ pub(super) struct IdentDrive {
     pub(super) channel: usize,
     pub(super) amp: u16,
     pub(super) until_us: u64,
+    /// 0 for A40, 1 for A320.
+    pub(super) band: usize,
+}
+
+impl IdentDrive {
+    fn codes(self) -> [u16; 2] {
+        [0, 1].map(|band| if band == self.band { self.amp } else { 0 })
+    }
 }
 
 /// Output before and after the gain.
@@ -94,6 +103,11 @@ impl OutputStage {
         self.steps = (self.steps + 1).min(self.steps_full);
     }
 
+    /// Full gain at once.
+    pub(super) fn fill_gain(&mut self) {
+        self.steps = self.steps_full;
+    }
+
     pub(super) fn is_gain_full(&self) -> bool {
         self.steps == self.steps_full
     }
@@ -107,14 +121,18 @@ impl OutputStage {
         if let Some(ident) = self.ident {
             return u32::from(ident.amp);
         }
-        let sum: u64 = self
-            .slewed
-            .iter()
-            .flatten()
-            .map(|code| u64::from(*code))
-            .sum();
-        let after_gain = sum * u64::from(self.steps) / u64::from(self.steps_full);
+        let after_gain = sum(&self.slewed) * u64::from(self.steps) / u64::from(self.steps_full);
         u32::try_from(after_gain).unwrap_or(u32::MAX)
+    }
+
+    /// The same without the gain.
+    pub(super) fn sum_before_gain(&self) -> u32 {
+        u32::try_from(sum(&self.slewed)).unwrap_or(u32::MAX)
+    }
+
+    /// The same of what it moves to.
+    pub(super) fn target_sum(&self) -> u32 {
+        u32::try_from(sum(&self.target)).unwrap_or(u32::MAX)
     }
 
     /// Output codes after gain, each rounded down.
@@ -127,7 +145,7 @@ impl OutputStage {
     /// A channel's codes after gain, each rounded down.
     pub(super) fn code(&self, channel: usize) -> [u16; 2] {
         match self.ident {
-            Some(ident) if ident.channel == channel => [0, ident.amp],
+            Some(ident) if ident.channel == channel => ident.codes(),
             Some(_) => [0, 0],
             None => self.moved(channel).map(|code| self.scaled(code)),
         }
@@ -152,12 +170,22 @@ impl OutputStage {
     }
 }
 
+fn sum(codes: &[[u16; 2]]) -> u64 {
+    codes.iter().flatten().map(|code| u64::from(*code)).sum()
+}
+
 /// Mask, component limit and sum guard of a received frame. Gives the number of values and channels
 /// that were clipped.
-pub(super) fn allow(received: &[[u16; 2]], config: &Config, allowed: &mut [[u16; 2]]) -> u16 {
+pub(super) fn allow(
+    received: &[[u16; 2]],
+    config: &Config,
+    breaks: impl Fn(Rule) -> bool,
+    allowed: &mut [[u16; 2]],
+) -> u16 {
     let mut clipped = 0u16;
     for (channel, (code, out)) in received.iter().zip(allowed).enumerate() {
-        if !config.mask.contains(channel) {
+        let is_on = config.mask.contains(channel);
+        if !is_on && !breaks(Rule::MaskClips) {
             *out = [0, 0];
             continue;
         }
@@ -166,12 +194,23 @@ pub(super) fn allow(received: &[[u16; 2]], config: &Config, allowed: &mut [[u16;
             out[band] = code[band].min(config.comp_limit[band]);
         }
         let sum = u32::from(out[0]) + u32::from(out[1]);
-        if sum > u32::from(u16::MAX) {
-            clipped = clipped.wrapping_add(1);
-            *out = out.map(|code| share(code, sum));
+        if sum > u32::from(u16::MAX) && !breaks(Rule::NoSumGuard) {
+            clipped = clipped.wrapping_add(u16::from(!breaks(Rule::SumGuardUncounted)));
+            *out = if breaks(Rule::SumGuardCuts) {
+                [out[0], u16::MAX - out[0]]
+            } else {
+                out.map(|code| share(code, sum))
+            };
+        }
+        if !is_on {
+            *out = [0, 0];
         }
     }
-    clipped
+    if breaks(Rule::ClippedOnce) {
+        clipped.min(1)
+    } else {
+        clipped
+    }
 }
 
 /// `code · 65535 / sum`, rounded down: two shares never exceed full drive.

@@ -9,6 +9,8 @@ pub(super) struct Waiting {
     pub(super) received: Vec<[u16; 2]>,
     /// After mask, limit and sum guard.
     pub(super) allowed: Vec<[u16; 2]>,
+    /// Values that are to be counted as clipped when it is played.
+    pub(super) clipped: u16,
     full: bool,
 }
 
@@ -25,6 +27,7 @@ impl FrameQueue {
             seq: 0,
             received: vec![[0; 2]; n_channels],
             allowed: vec![[0; 2]; n_channels],
+            clipped: 0,
             full: false,
         };
         Self {
@@ -60,7 +63,24 @@ impl FrameQueue {
         slot.full = true;
         slot.tick = tick;
         slot.seq = seq;
+        slot.clipped = 0;
         Some(slot)
+    }
+
+    /// Whether a frame waits for `tick`.
+    pub(super) fn holds(&self, tick: u32) -> bool {
+        self.slots.iter().any(|slot| slot.full && slot.tick == tick)
+    }
+
+    /// Puts the frames that wait in the order of their seqs.
+    pub(super) fn order_by_seq(&mut self) {
+        let waiting = || self.slots.iter().filter(|slot| slot.full);
+        let mut ticks: Vec<u32> = waiting().map(|slot| slot.tick).collect();
+        ticks.sort_unstable();
+        self.slots.sort_by_key(|slot| (!slot.full, slot.seq));
+        for (slot, tick) in self.slots.iter_mut().zip(ticks) {
+            slot.tick = tick;
+        }
     }
 
     /// Takes the frame of `tick` out; its contents stay readable until the slot is used again.

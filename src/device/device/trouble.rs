@@ -1,6 +1,7 @@
 //! What happens to a device from outside its protocol: its sensors show something, something in it
 //! breaks, its cable is pulled.
 
+use super::lie::Rule;
 use super::sense::{Load, Sense};
 use super::{DeviceCore, DeviceSink};
 use crate::message::{DeviceState, Fault, fault_bit};
@@ -44,7 +45,11 @@ impl DeviceCore {
 
     /// The high voltage that STATUS tells, 0.1 V.
     pub(super) fn measured_hv_dv(&self) -> u16 {
-        if !self.state.is_live() {
+        let was_armed = self.lie_memory.armed_us.is_some();
+        let is_on = self.state.is_live()
+            || self.breaks(Rule::NoHvOff) && was_armed
+            || self.breaks(Rule::HvInReady) && self.state == DeviceState::Ready;
+        if !is_on || self.breaks(Rule::NoHv) {
             return 0;
         }
         let wanted = u32::from(self.config.hv_dv);
@@ -63,7 +68,9 @@ impl DeviceCore {
             value,
             tick: self.tick(),
         };
-        self.silence(DeviceState::Fault);
+        if !self.breaks(Rule::FaultKeepsOutput) {
+            self.silence(DeviceState::Fault);
+        }
         self.send_fault(sink);
         self.report_change(sink);
     }
@@ -76,6 +83,9 @@ impl DeviceCore {
     /// The host's end of the cable is gone (DTR dropped, USB suspended): running output ramps down
     /// from the next ms on, then the session ends.
     pub fn hang_up(&mut self, sink: &mut impl DeviceSink) {
+        if self.breaks(Rule::HangUpIgnored) {
+            return;
+        }
         match self.state {
             DeviceState::Run | DeviceState::Hold | DeviceState::Ramp => {
                 self.descent = Some(DeviceState::Idle);

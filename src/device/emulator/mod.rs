@@ -5,6 +5,8 @@
 
 mod log;
 #[cfg(unix)]
+mod named_link;
+#[cfg(unix)]
 mod pty;
 
 use std::io;

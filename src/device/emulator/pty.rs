@@ -4,15 +4,14 @@
 //! no host is connected. A symbolic link gives the terminal a name that does not change from run to
 //! run.
 
-use std::fs;
 use std::io;
-use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use serialport::{SerialPort as _, TTYPort};
 
+use super::named_link::NamedLink;
 use super::{DeviceLog, Emulation, Ended};
 use crate::BridgeError;
 use crate::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
@@ -33,8 +32,8 @@ pub struct PtyEmulator {
 }
 
 impl PtyEmulator {
-    /// Makes a pseudo-terminal and the link to it. An older link to a terminal is replaced,
-    /// anything else is refused.
+    /// Makes a pseudo-terminal and the link to it. A link that a killed emulator left is replaced;
+    /// one of a running emulator, and anything else, is refused.
     pub fn new(model: DeviceModel, link: &Path, log: Option<&Path>) -> Result<Self, BridgeError> {
         Self::with_faults(model, &Faults::default(), link, log)
     }
@@ -161,42 +160,4 @@ impl Terminal {
 /// Closing a copy of the slave clears the mark; a living host keeps its lock on the file.
 fn release_exclusive(slave: &TTYPort) {
     drop(slave.try_clone_native());
-}
-
-/// A symbolic link that removes itself.
-#[derive(Debug)]
-struct NamedLink {
-    path: PathBuf,
-    target: PathBuf,
-}
-
-impl NamedLink {
-    fn new(path: &Path, target: &Path) -> Result<Self, BridgeError> {
-        if let Ok(found) = fs::symlink_metadata(path) {
-            if !found.is_symlink() || !points_to_terminal(path) {
-                return Err(BridgeError::LinkTaken(path.to_path_buf()));
-            }
-            fs::remove_file(path).map_err(BridgeError::file("replace the link", path))?;
-        }
-        symlink(target, path).map_err(BridgeError::file("make the link", path))?;
-        Ok(Self {
-            path: path.to_path_buf(),
-            target: target.to_path_buf(),
-        })
-    }
-}
-
-/// Whether a link leads to a pseudo-terminal, present or gone, or nowhere.
-fn points_to_terminal(path: &Path) -> bool {
-    let terminal = fs::read_link(path).is_ok_and(|target| target.starts_with("/dev/"));
-    terminal || !path.exists()
-}
-
-impl Drop for NamedLink {
-    fn drop(&mut self) {
-        // Another emulator may have taken the name over.
-        if fs::read_link(&self.path).is_ok_and(|target| target == self.target) {
-            drop(fs::remove_file(&self.path));
-        }
-    }
 }

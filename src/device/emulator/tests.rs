@@ -80,6 +80,8 @@ mod behind_a_pty {
     use crate::port::SerialLink;
     use selvedge_scratch::ScratchFolder;
 
+    const BAUD: u32 = 1_000_000;
+
     type Running = (Arc<AtomicBool>, JoinHandle<Result<(), BridgeError>>);
 
     fn run(emulator: PtyEmulator) -> Running {
@@ -96,7 +98,7 @@ mod behind_a_pty {
         let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
         let (stop, thread) = run(emulator);
         for session in [7, 8] {
-            let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+            let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
             greet(&mut port, session);
         }
         stop.store(true, Ordering::Release);
@@ -125,7 +127,7 @@ mod behind_a_pty {
         };
         let model = DeviceModel::default();
         let emulator = PtyEmulator::with_faults(model, &faults, &link, Some(&log)).unwrap();
-        let mut port = SerialLink::open(&link.display().to_string()).unwrap();
+        let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
         let (stop, thread) = run(emulator);
         let mut buffer = [0; 256];
         while port.read(&mut buffer, Duration::from_millis(50)).is_ok() {}
@@ -135,7 +137,7 @@ mod behind_a_pty {
             std::thread::sleep(Duration::from_millis(10));
         }
         assert!(fs::symlink_metadata(&link).is_err(), "the old name is gone");
-        let mut port = SerialLink::open(&again.display().to_string()).unwrap();
+        let mut port = SerialLink::open(&again.display().to_string(), BAUD).unwrap();
         greet(&mut port, 9);
         stop.store(true, Ordering::Release);
         thread.join().unwrap().unwrap();
@@ -152,29 +154,96 @@ mod behind_a_pty {
         assert!(log.lines().all(|line| line.split(',').count() == 8 + 48));
     }
 
+    fn refused(path: &std::path::Path) -> String {
+        let made = PtyEmulator::new(DeviceModel::default(), path, None);
+        let words = made.unwrap_err().to_string();
+        assert_eq!(words.lines().count(), 1, "{words}");
+        words
+    }
+
+    fn lock_of(link: &std::path::Path) -> PathBuf {
+        link.with_file_name("link.lock")
+    }
+
     #[test]
-    fn only_links_to_terminals_are_replaced() {
+    fn what_no_emulator_made_is_refused_and_stays() {
         let folder = ScratchFolder::made("taken");
         let (file, link) = (folder.join("file"), folder.join("link"));
         fs::write(&file, "precious").unwrap();
-        let refused = |path: &std::path::Path| {
-            PtyEmulator::new(DeviceModel::default(), path, None)
-                .unwrap_err()
-                .to_string()
-        };
-        assert!(refused(&file).contains("is not a link to a terminal"));
-        std::os::unix::fs::symlink(&file, &link).unwrap();
-        assert!(refused(&link).contains("is not a link to a terminal"));
+        assert!(refused(&file).contains("was not made by an emulator"));
+        let (_master, slave) = serialport::TTYPort::pair().unwrap();
+        let living = serialport::SerialPort::name(&slave).unwrap();
+        for target in [
+            file.display().to_string(),
+            living,
+            String::from("/dev/null"),
+            folder.join("away").display().to_string(),
+        ] {
+            std::os::unix::fs::symlink(&target, &link).unwrap();
+            assert!(refused(&link).contains("was not made by an emulator"));
+            assert_eq!(fs::read_link(&link).unwrap(), PathBuf::from(&target));
+            assert!(!lock_of(&link).exists(), "no lock is left");
+            fs::remove_file(&link).unwrap();
+        }
         assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
         assert!(refused(&folder.join("none/array")).contains("cannot make the link"));
-        fs::remove_file(&link).unwrap();
-        std::os::unix::fs::symlink("/dev/pts/999999", &link).unwrap();
-        let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
-        assert_eq!(
-            fs::read_link(&link).unwrap(),
-            PathBuf::from(emulator.device_path())
+        fs::write(lock_of(&link), "precious").unwrap();
+        assert!(refused(&link).contains("was not made by an emulator"));
+        assert_eq!(fs::read_to_string(lock_of(&link)).unwrap(), "precious");
+        fs::remove_file(lock_of(&link)).unwrap();
+        std::os::unix::fs::symlink(&file, lock_of(&link)).unwrap();
+        assert!(refused(&link).contains("was not made by an emulator"));
+        assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
+    }
+
+    #[test]
+    fn a_link_that_was_left_behind_is_taken_over() {
+        let folder = ScratchFolder::made("left");
+        let link = folder.join("link");
+        // A terminal that is gone, and one that another program was given since.
+        let (_master, slave) = serialport::TTYPort::pair().unwrap();
+        let given = serialport::SerialPort::name(&slave).unwrap();
+        let record = format!("selvedge bridge emulate, process 7 on {given}\n");
+        for (target, record) in [
+            ("/dev/pts/999999", None),
+            (given.as_str(), Some(record.as_str())),
+        ] {
+            std::os::unix::fs::symlink(target, &link).unwrap();
+            if let Some(record) = record {
+                fs::write(lock_of(&link), record).unwrap();
+            }
+            let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+            let path = emulator.device_path().to_owned();
+            assert_eq!(fs::read_link(&link).unwrap(), PathBuf::from(&path));
+            let line = fs::read_to_string(lock_of(&link)).unwrap();
+            let id = std::process::id();
+            assert_eq!(
+                line,
+                format!("selvedge bridge emulate, process {id} on {path}\n")
+            );
+            drop(emulator);
+            assert!(fs::symlink_metadata(&link).is_err());
+            assert!(!lock_of(&link).exists());
+        }
+    }
+
+    #[test]
+    fn a_name_is_held_by_one_emulator_at_a_time() {
+        let folder = ScratchFolder::made("held");
+        let link = folder.join("link");
+        let first = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+        let words = refused(&link);
+        let id = std::process::id();
+        let wanted = format!(
+            "held by another emulator, process {id} on {}",
+            first.device_path()
         );
-        drop(emulator);
+        assert!(words.contains(&wanted), "{words}");
+        // Even when the link was removed by hand.
+        fs::remove_file(&link).unwrap();
+        assert!(refused(&link).contains("held by another emulator"));
         assert!(fs::symlink_metadata(&link).is_err());
+        drop(first);
+        drop(PtyEmulator::new(DeviceModel::default(), &link, None).unwrap());
     }
 }

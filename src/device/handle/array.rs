@@ -3,8 +3,9 @@
 use std::time::Instant;
 
 use super::Bridge;
+use super::pulse::Pulse;
 use crate::array::DeviceUid;
-use crate::host::ArrayChange;
+use crate::host::{ArrayChange, BridgeEvent};
 
 impl Bridge {
     /// Tells when another device answers than `last` had, both on a port: call it before the first
@@ -33,14 +34,46 @@ impl Bridge {
     }
 
     /// Drives one channel alone, as
-    /// [`HostSession::identify`](crate::HostSession::identify): an amplitude in µm and a
-    /// time in ms.
+    /// [`HostSession::identify`](crate::HostSession::identify): an amplitude in µm and a time in
+    /// ms, reached softly within 400 ms. `Identified` tells of its beginning.
     ///
     /// # Errors
     /// As there.
     pub fn identify(&mut self, channel: u16, how: (f32, u16)) -> Result<(), &'static str> {
-        let outcome = self.session.identify(Instant::now(), channel, how);
+        let pulse = Pulse::new(channel, how);
+        let outcome = self.session.identify(Instant::now(), channel, pulse.how());
+        self.pulse = outcome.is_ok().then_some(pulse);
         self.flush();
         outcome
+    }
+
+    /// Lets a channel that is driven alone grow louder, if it is time.
+    pub(super) fn raise(&mut self, now: Instant) {
+        let is_louder = self.pulse.as_mut().is_some_and(|pulse| pulse.advance(now));
+        let Some(pulse) = self.pulse.filter(|_| is_louder) else {
+            return;
+        };
+        let taken = self.session.identify(now, pulse.channel, pulse.how());
+        // A device that is not armed any more ends it.
+        self.pulse = taken.is_ok().then_some(pulse);
+    }
+
+    /// Whether a piece of news is one for the owner: of the steps of a channel only the first is,
+    /// and one that the device does not take.
+    pub(super) fn is_news(&mut self, event: &BridgeEvent, now: Instant) -> bool {
+        match (event, &mut self.pulse) {
+            (BridgeEvent::Identified { channel }, Some(pulse)) if *channel == pulse.channel => {
+                let is_first = pulse.taken(now);
+                if pulse.is_whole() {
+                    self.pulse = None;
+                }
+                is_first
+            }
+            (BridgeEvent::NotIdentified { .. }, pulse) => {
+                *pulse = None;
+                true
+            }
+            _ => true,
+        }
     }
 }

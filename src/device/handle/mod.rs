@@ -6,6 +6,7 @@
 
 mod array;
 mod notes;
+mod pulse;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
@@ -26,6 +27,7 @@ use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
 use super::wire::Faults;
 use notes::Notes;
+use pulse::Pulse;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
 const BUSY_NAP: Duration = Duration::from_millis(20);
@@ -71,7 +73,7 @@ impl Target {
             Self::Emulator => emulate(&Faults::default()),
             Self::FaultyEmulator(faults) => emulate(faults),
             Self::Port(path) => {
-                let port = open_patiently(&path.display().to_string())?;
+                let port = open_patiently(&path.display().to_string(), profile.baud)?;
                 Ok((Box::new(port.try_clone()?), Box::new(port)))
             }
         }
@@ -87,6 +89,8 @@ pub struct Bridge {
     link: Option<Link>,
     actuators: Option<ActuatorWatch>,
     notes: Notes,
+    /// A channel that is driven alone, on its way to its amplitude.
+    pulse: Option<Pulse>,
 }
 
 impl Bridge {
@@ -124,15 +128,21 @@ impl Bridge {
             link,
             actuators,
             notes: Notes::default(),
+            pulse: None,
         }
     }
 
     /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
-        let event = self.next();
-        self.heed(event.as_ref());
-        event
+        loop {
+            let event = self.next();
+            self.heed(event.as_ref());
+            match event {
+                Some(event) if !self.is_news(&event, Instant::now()) => {}
+                event => return event,
+            }
+        }
     }
 
     fn next(&mut self) -> Option<BridgeEvent> {
@@ -161,6 +171,7 @@ impl Bridge {
             self.session.heard(now, link.heard());
         }
         self.session.on_time(now);
+        self.raise(now);
         self.flush();
         if !self.session.state().is_open() {
             self.release();
@@ -199,6 +210,7 @@ impl Bridge {
     }
 
     /// Sends a PING; `Pong` follows.
+    #[cfg(test)]
     pub(crate) fn ping(&mut self) {
         self.session.ping(Instant::now());
         self.flush();
@@ -256,6 +268,11 @@ impl Bridge {
     /// The last STATUS.
     pub fn status(&self) -> Option<&Status> {
         self.session.status()
+    }
+
+    /// The device's tick now, as frames are stamped by it; `None` before the first STATUS.
+    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
+        self.session.present_tick(now)
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -371,10 +388,10 @@ impl Drop for Bridge {
 }
 
 /// Opens a port that an earlier link of this program may still be letting go.
-fn open_patiently(path: &str) -> Result<SerialLink, BridgeError> {
+fn open_patiently(path: &str, baud: u32) -> Result<SerialLink, BridgeError> {
     let deadline = Instant::now() + BUSY_PATIENCE;
     loop {
-        match SerialLink::open(path) {
+        match SerialLink::open(path, baud) {
             Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
                 std::thread::sleep(BUSY_NAP);
             }

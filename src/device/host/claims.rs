@@ -130,31 +130,29 @@ pub(super) fn config_refusal(
     } else {
         asked.slew
     };
+    let volts = |dv: u16| f64::from(dv) / 10.0;
+    let limit = |band: usize| {
+        let asked = asked.comp_limit[band].min(caps.comp_limit[band]);
+        [effective.comp_limit[band], asked].map(f64::from)
+    };
+    let [hold_ms, ramp_ms] = [
+        [effective.hold_ms, asked.hold_ms].map(f64::from),
+        [effective.ramp_ms, asked.ramp_ms].map(f64::from),
+    ];
     let figures = [
-        ("hold of", effective.hold_ms, asked.hold_ms, " ms"),
-        ("ramp of", effective.ramp_ms, asked.ramp_ms, " ms"),
-        ("slew of", effective.slew, slew, " a tick"),
+        ("hold of", hold_ms, " ms"),
+        ("ramp of", ramp_ms, " ms"),
+        ("slew of", [effective.slew, slew].map(f64::from), " a tick"),
         (
             "high voltage of",
-            effective.hv_dv,
-            asked.hv_dv.min(caps.hv_max_dv),
-            " x 0.1 V",
+            [effective.hv_dv, asked.hv_dv.min(caps.hv_max_dv)].map(volts),
+            " V",
         ),
-        (
-            "limit at 40 Hz of",
-            effective.comp_limit[0],
-            asked.comp_limit[0].min(caps.comp_limit[0]),
-            "",
-        ),
-        (
-            "limit at 320 Hz of",
-            effective.comp_limit[1],
-            asked.comp_limit[1].min(caps.comp_limit[1]),
-            "",
-        ),
+        ("limit at 40 Hz of", limit(0), ""),
+        ("limit at 320 Hz of", limit(1), ""),
     ];
-    for (what, held, wanted, unit) in figures {
-        if held > wanted || (held == 0 && wanted > 0) {
+    for (what, [held, wanted], unit) in figures {
+        if held > wanted || (held <= 0.0 && wanted > 0.0) {
             return Some(format!(
                 "the device grants a {what} {held}{unit} where {wanted}{unit} was asked: check its \
                  firmware"
@@ -204,13 +202,17 @@ fn silencing_refusal(effective: &Config) -> Option<String> {
     })
 }
 
-/// The reason against a device that is in this state before it was armed, if there is one.
-pub(super) fn live_refusal(status: &Status) -> Option<String> {
+/// The reason against a device that is in this state before it was armed, if there is one. Once
+/// nothing is on its way (`is_settled`) it is to be ready.
+pub(super) fn live_refusal(status: &Status, is_settled: bool) -> Option<String> {
     match status.device_state() {
         None => Some(format!(
             "the device is in a state ({}) that protocol version 1 does not know: check its \
              firmware",
             status.state
+        )),
+        Some(DeviceState::Idle) if is_settled => Some(String::from(
+            "the device ended the session by itself: switch it off and on, and check its firmware",
         )),
         Some(state) if state.is_live() => Some(format!(
             "the device is {state} before it was armed: stopped; switch it off and on, and check \

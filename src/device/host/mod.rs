@@ -90,6 +90,8 @@ impl Outbox {
 #[derive(Debug)]
 struct Stopping {
     pending: Option<Pending>,
+    /// When it was acknowledged: the device is to come to rest.
+    obeyed: Option<Instant>,
     how: StopHow,
     /// Whether it ends output, rather than making sure of rest.
     ends_output: bool,
@@ -141,6 +143,7 @@ impl HostSession {
             request: None,
             stopping: Stopping {
                 pending: None,
+                obeyed: None,
                 how: StopHow::Ramp,
                 ends_output: false,
             },
@@ -203,6 +206,7 @@ impl HostSession {
         }
         let mut stopping = Pending::new(kind::STOP, now);
         self.send_stop(&mut stopping, now);
+        self.stopping.obeyed = None;
         // A device that has not answered HELLO cannot be expected to answer STOP.
         self.stopping.pending = self.device.caps.is_some().then_some(stopping);
     }
@@ -271,6 +275,11 @@ impl HostSession {
     /// The largest `amp_sum` that our own frames allow the device at its last tick.
     pub fn predicted_sum(&self) -> f64 {
         self.prediction.last_bound()
+    }
+
+    /// The device's tick now, by its last STATUS and the time since; `None` before the first.
+    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
+        self.device.status.map(|_| self.device.present_tick(now))
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -410,17 +419,10 @@ impl HostSession {
         self.disarmed(DisarmedBy::Device, reason);
     }
 
-    /// The device is not to be driven; one that moves is stopped.
+    /// The device is not to be driven; it may move for all we know.
     fn refuse(&mut self, now: Instant, reason: String) {
-        let is_live = self.device.status.is_some_and(|status| {
-            status
-                .device_state()
-                .is_none_or(crate::message::DeviceState::is_live)
-        });
         self.end(BridgeState::Refused);
-        if is_live {
-            self.send_stop(&mut Pending::new(kind::STOP, now), now);
-        }
+        self.send_stop(&mut Pending::new(kind::STOP, now), now);
         self.event(BridgeEvent::Refused(reason));
     }
 

@@ -81,7 +81,10 @@ impl Noise {
                  read; check the baud rate and what else uses the port"
             )
         } else {
-            format!("the ticks of the device stood still for {ms} ms: switch it off and on")
+            format!(
+                "no STATUS that advances for {ms} ms, though bytes arrive: switch the device off \
+                 and on"
+            )
         }
     }
 }
@@ -127,7 +130,7 @@ mod tests {
         let reason = |noise: &Noise| noise.silence_reason(now, Duration::from_millis(500));
         assert!(reason(&noise).contains("check the cable"));
         noise.heard(now, Heard { bytes: 40, bad: 0 });
-        assert!(reason(&noise).contains("stood still"));
+        assert!(reason(&noise).contains("advances"));
         noise.heard(now, Heard { bytes: 90, bad: 2 });
         assert!(reason(&noise).contains("noisy"));
     }

@@ -126,7 +126,7 @@ impl HostSession {
             .is_some_and(|stopping| is_obeyed && stopping.is_answered_by(ack.kind, ack.seq))
         {
             self.note(received, Note::Stopped);
-            self.on_stopped();
+            self.on_stopped(received);
         }
         if !self
             .request
@@ -162,8 +162,9 @@ impl HostSession {
 
     /// STOP is acknowledged. The device may still ramp: `Stopping` lasts until a STATUS shows it at
     /// rest.
-    fn on_stopped(&mut self) {
+    fn on_stopped(&mut self, received: Instant) {
         self.stopping.pending = None;
+        self.stopping.obeyed = Some(received);
         if self.stopping.ends_output {
             self.stopping.ends_output = false;
             self.disarmed(DisarmedBy::Host, String::from("stopped"));
@@ -240,7 +241,8 @@ impl HostSession {
         let faults = standing_faults(status.faults);
         match self.state {
             BridgeState::Configuring | BridgeState::Ready => {
-                if let Some(reason) = live_refusal(status) {
+                let is_based = self.ticks.is_set() && self.request.is_none();
+                if let Some(reason) = live_refusal(status, is_based) {
                     self.refuse(received, reason);
                 } else if device == Some(DeviceState::Fault) || faults != 0 {
                     self.fault_stands(received, faults);

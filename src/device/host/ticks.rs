@@ -28,8 +28,9 @@ pub(super) enum Worth {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ticks {
     last: Option<u32>,
-    /// Advancing ones since the base was lost.
+    /// Advancing ones since the base was lost, and strays since the last of them.
     n_advancing: u8,
+    n_lost: u8,
     n_strays: u64,
     /// When we were last there.
     seen: Option<Instant>,
@@ -43,7 +44,7 @@ impl Ticks {
             .map_or(Duration::ZERO, |seen| now.saturating_duration_since(seen));
         if away > PAUSE {
             self.last = None;
-            self.n_advancing = 0;
+            (self.n_advancing, self.n_lost) = (0, 0);
         }
         self.seen = self.seen.max(Some(now));
     }
@@ -53,21 +54,29 @@ impl Ticks {
         if let Some(last) = self.last {
             let step = tick.wrapping_sub(last);
             if step == 0 || step > LONGEST_JUMP {
-                self.n_strays += 1;
-                // Without a base nobody knows which of two is astray.
-                if !self.is_set() {
-                    self.last = Some(tick);
-                    self.n_advancing = 1;
-                }
+                self.stray(tick, step != 0);
                 return Worth::Stray;
             }
         }
         self.last = Some(tick);
+        self.n_lost = 0;
         self.n_advancing = self.n_advancing.saturating_add(1).min(N_BASE);
         if self.is_set() {
             Worth::Pacing
         } else {
             Worth::Advancing
+        }
+    }
+
+    /// Without a base the first may be the one astray: after three others it is begun anew.
+    fn stray(&mut self, tick: u32, is_other: bool) {
+        self.n_strays += 1;
+        if is_other && !self.is_set() {
+            self.n_lost += 1;
+            if self.n_lost >= N_BASE {
+                self.last = Some(tick);
+                (self.n_advancing, self.n_lost) = (1, 0);
+            }
         }
     }
 
@@ -127,7 +136,10 @@ mod tests {
     #[test]
     fn old_ticks_mixed_in_from_the_start_do_not_keep_a_base_from_being_set() {
         let mut ticks = Ticks::default();
-        let said = [900, 100, 101, 102].map(|tick| ticks.announced(tick));
-        assert_eq!(said[3], Worth::Pacing, "{said:?}");
+        let said = [900, 100, 101, 102, 103, 104].map(|tick| ticks.announced(tick));
+        assert_eq!(said[5], Worth::Pacing, "{said:?}");
+        let mut ticks = Ticks::default();
+        let said = [100, 99, 101, 101, 100, 102].map(|tick| ticks.announced(tick));
+        assert_eq!(said[5], Worth::Pacing, "{said:?}");
     }
 }

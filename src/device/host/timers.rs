@@ -19,6 +19,8 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SILENCE_ARMED: Duration = Duration::from_millis(500);
 /// The same while nothing moves; longer, since nothing is at stake.
 const SILENCE_IDLE: Duration = Duration::from_secs(2);
+/// From the acknowledgement of STOP to rest: the longest ramp, and STATUS on its way.
+const REST_PATIENCE: Duration = Duration::from_millis(500);
 /// A caller that was away longer than this cannot blame the device for the silence.
 const LONGEST_STEP: Duration = Duration::from_millis(100);
 
@@ -102,7 +104,7 @@ impl HostSession {
 
     fn check_stop(&mut self, now: Instant) {
         let Some(mut stopping) = self.stopping.pending else {
-            return;
+            return self.check_rest(now);
         };
         match stopping.verdict(now) {
             Verdict::Wait => {}
@@ -111,6 +113,19 @@ impl HostSession {
                 self.stopping.pending = Some(stopping);
             }
             Verdict::GiveUp => self.lose(String::from("the device did not acknowledge STOP")),
+        }
+    }
+
+    /// A device that acknowledged STOP comes to rest within its ramp.
+    fn check_rest(&mut self, now: Instant) {
+        let obeyed = self
+            .stopping
+            .obeyed
+            .filter(|_| self.state == BridgeState::Stopping);
+        if obeyed.is_some_and(|at| now.saturating_duration_since(at) > REST_PATIENCE) {
+            self.lose(String::from(
+                "the device acknowledged STOP and did not come to rest: switch its power off",
+            ));
         }
     }
 

@@ -33,6 +33,8 @@ use writer::{Outgoing, Writer};
 const INCOMING: usize = 256;
 const CONTROLS: usize = 16;
 const FRAMES: usize = 4;
+/// Longest wait for the STOP of a program that fails.
+const LAST_WORD: Duration = Duration::from_millis(250);
 
 /// The reading and the writing end of an open port.
 pub(super) type Ends = (Box<dyn Port>, Box<dyn Port>);
@@ -336,8 +338,14 @@ impl StopHandle {
         (self.shared.waker)();
     }
 
-    /// Waits until every STOP asked for so far is written, at most `patience`. For the last moments
-    /// of a program.
+    /// Zero now, and waits until that is written, for a moment at most: for the last moments of a
+    /// program or of a thread. If the port takes nothing the device's own silence rule is left.
+    pub fn last_word(&self) {
+        self.stop(StopHow::Now);
+        self.wait_written(LAST_WORD);
+    }
+
+    /// Waits until every STOP asked for so far is written, at most `patience`.
     pub fn wait_written(&self, patience: Duration) -> bool {
         let deadline = Instant::now() + patience;
         let asked = self.shared.stops_asked.load(Ordering::Acquire);

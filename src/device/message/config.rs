@@ -18,8 +18,13 @@ pub(crate) struct ChannelMask {
 impl ChannelMask {
     /// Channels `0..n_channels` on, the others off.
     pub(crate) fn first(n_channels: usize) -> Self {
+        Self::of(n_channels, |_| true)
+    }
+
+    /// Those of channels `0..n_channels` on that are said to be.
+    pub(crate) fn of(n_channels: usize, is_on: impl Fn(usize) -> bool) -> Self {
         let mut mask = Self::default();
-        for channel in 0..n_channels.min(32 * MASK_WORDS) {
+        for channel in (0..n_channels.min(32 * MASK_WORDS)).filter(|channel| is_on(*channel)) {
             mask.words[channel / 32] |= 1 << (channel % 32);
         }
         mask

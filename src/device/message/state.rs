@@ -16,6 +16,8 @@ pub mod fault_bit {
     pub(crate) const WATCHDOG: u16 = 1 << 4;
     /// The host's lease ran out (informative, never latched).
     pub(crate) const LEASE_LOST: u16 = 1 << 5;
+    /// Settings or self-test are not as they should be.
+    pub(crate) const SELF_TEST: u16 = 1 << 7;
 
     /// The bits' names for people, joined with commas.
     pub fn names(faults: u16) -> String {

@@ -13,8 +13,6 @@ use super::Port;
 use super::refusal::open_error;
 use crate::BridgeError;
 
-/// For bridges with a real UART; USB-CDC and ptys ignore it.
-const BAUD: u32 = 1_000_000;
 /// A terminal that takes anything has room for this much.
 const LARGEST_PIECE: usize = 128;
 const OPEN_PATIENCE: Duration = Duration::from_millis(50);
@@ -34,10 +32,10 @@ impl fmt::Debug for SerialLink {
 }
 
 impl SerialLink {
-    /// Opens `path` for this program alone and drops whatever input it holds. May block: not for a
-    /// GUI thread.
-    pub fn open(path: &str) -> Result<Self, BridgeError> {
-        let opened = serialport::new(path, BAUD).timeout(OPEN_PATIENCE).open();
+    /// Opens `path` at `baud` for this program alone and drops whatever input it holds. May block:
+    /// not for a GUI thread.
+    pub fn open(path: &str, baud: u32) -> Result<Self, BridgeError> {
+        let opened = serialport::new(path, baud).timeout(OPEN_PATIENCE).open();
         let port = opened.map_err(|error| open_error(path, &error))?;
         let link = Self::from_port(port, path);
         // What cannot be purged is ignored by the session until its own CAPS.
@@ -112,6 +110,8 @@ fn is_patience(error: &io::Error) -> bool {
 mod tests {
     use super::*;
 
+    const BAUD: u32 = 1_000_000;
+
     #[test]
     fn ports_that_do_not_open_say_why_in_one_line() {
         let folder = std::env::temp_dir();
@@ -124,7 +124,7 @@ mod tests {
             (folder.display().to_string(), "cannot be opened"),
             (String::new(), "no such port"),
         ] {
-            let message = SerialLink::open(&path).unwrap_err().to_string();
+            let message = SerialLink::open(&path, BAUD).unwrap_err().to_string();
             assert!(
                 message.contains(word) && !message.contains('\n'),
                 "{message}"
@@ -134,11 +134,21 @@ mod tests {
     }
 
     #[test]
+    fn a_port_has_the_rate_that_it_was_opened_with() {
+        let (_master, slave) = serialport::TTYPort::pair().unwrap();
+        let path = slave.name().unwrap();
+        for baud in [115_200, 250_000, 1_000_000] {
+            let link = SerialLink::open(&path, baud).unwrap();
+            assert_eq!(link.port.baud_rate().unwrap(), baud);
+        }
+    }
+
+    #[test]
     fn a_second_opener_is_told_that_the_port_is_in_use() {
         let (_master, slave) = serialport::TTYPort::pair().unwrap();
         let path = slave.name().unwrap();
-        let _first = SerialLink::open(&path).unwrap();
-        let message = SerialLink::open(&path).unwrap_err().to_string();
+        let _first = SerialLink::open(&path, BAUD).unwrap();
+        let message = SerialLink::open(&path, BAUD).unwrap_err().to_string();
         assert!(message.contains("in use by another program"), "{message}");
     }
 
@@ -146,7 +156,7 @@ mod tests {
     fn a_port_that_takes_nothing_times_out_for_packets_of_any_size() {
         for length in [16, 111, 500, 1031] {
             let (_master, slave) = serialport::TTYPort::pair().unwrap();
-            let mut link = SerialLink::open(&slave.name().unwrap()).unwrap();
+            let mut link = SerialLink::open(&slave.name().unwrap(), BAUD).unwrap();
             let packet = vec![7; length];
             let error = (0..10_000).find_map(|_| {
                 let patience = Duration::from_millis(5);
@@ -159,7 +169,7 @@ mod tests {
     #[test]
     fn a_vanished_device_is_an_error_and_silence_is_none() {
         let (master, slave) = serialport::TTYPort::pair().unwrap();
-        let mut link = SerialLink::open(&slave.name().unwrap()).unwrap();
+        let mut link = SerialLink::open(&slave.name().unwrap(), BAUD).unwrap();
         let mut buffer = [0; 8];
         assert_eq!(link.read(&mut buffer, Duration::ZERO).unwrap(), 0);
         drop(master);

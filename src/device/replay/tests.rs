@@ -1,7 +1,7 @@
 //! Sessions in virtual time, recorded and replayed.
 
 use super::*;
-use crate::device::{DeviceModel, Lie};
+use crate::device::{DeviceModel, FirmwareLie};
 use crate::host::BridgeState;
 use crate::message::StopHow;
 use crate::session_log::VirtualLog;
@@ -231,7 +231,7 @@ fn several_sessions_of_a_file_are_replayed_each_in_turn() {
 #[test]
 fn caps_that_no_emulator_can_have_are_said() {
     let faults = Faults {
-        lies: vec![Lie::Rows(5)],
+        lies: vec![FirmwareLie::read("caps.rows=5").unwrap()],
         ..Faults::default()
     };
     let mut simulation = recording(&faults, true);

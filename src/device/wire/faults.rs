@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use crate::device::{Lie, Miswiring};
+use crate::device::{FirmwareLie, Miswiring};
 
 /// Everything that is to go wrong with one emulated device and its link. The default: nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,8 +21,8 @@ pub struct Faults {
     pub clock_ppm: i32,
     /// How far each tick may lie from its place, µs, either way; at most 10 000.
     pub tick_jitter_us: u32,
-    /// What the device says in CAPS although it is not so.
-    pub lies: Vec<Lie>,
+    /// What the device says although it is not so, and the rules that it breaks.
+    pub lies: Vec<FirmwareLie>,
     /// Contactors that do not move, or move in place of another.
     pub wiring: Miswiring,
     /// The supply current above which the device reports over-current, mA.

@@ -1,10 +1,9 @@
-//! Faults as people write them: `5s`, `300ms`, `0.1%`, `5s+2s`, `rows=5`. Each refusal is one line
+//! Faults as people write them: `5s`, `300ms`, `0.1%`, `5s+2s`. Each refusal is one line
 //! that says what was expected.
 
 use std::time::Duration;
 
 use super::faults::{Latency, OneOff, OneOffKind};
-use crate::device::Lie;
 
 /// The longest time that can be asked for.
 const LONGEST: Duration = Duration::from_hours(1000);
@@ -84,20 +83,6 @@ pub(super) fn one_off(kind: OneOffKind, text: &str) -> Result<OneOff, String> {
     })
 }
 
-/// A lie in CAPS: `version=2`, `rows=5`, `cut=40`.
-pub(super) fn lie(text: &str) -> Result<Lie, String> {
-    const KEYS: &str =
-        "version, rows, cols, channels, components, tick-us, low-mhz, high-mhz, max-body or cut";
-    let (key, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("\"{text}\": write KEY=VALUE with a KEY of {KEYS}"))?;
-    let read = Lie::read(key, value);
-    let read = read.ok_or_else(|| format!("\"{key}\" is nothing that CAPS say: choose {KEYS}"))?;
-    read.map_err(|_no_number| {
-        format!("{key}=\"{value}\": write a whole number that fits its field")
-    })
-}
-
 /// Two channels that move each other's contactor: `3,7`.
 pub(super) fn swap(text: &str) -> Result<[u16; 2], String> {
     let channels = text.split_once(',');
@@ -128,7 +113,6 @@ mod tests {
         );
         assert_eq!(latency("ftdi").unwrap()[1], Latency::Timer(16_000));
         assert_eq!(swap("3, 7"), Ok([3, 7]));
-        assert_eq!(lie("rows=5"), Ok(Lie::Rows(5)));
     }
 
     #[test]
@@ -143,9 +127,6 @@ mod tests {
             (rate("NaN").unwrap_err(), "0 to 1"),
             (rate("often").unwrap_err(), "0.1%"),
             (latency("slow").unwrap_err(), "5ms~2ms"),
-            (lie("rows").unwrap_err(), "KEY=VALUE"),
-            (lie("colour=3").unwrap_err(), "max-body"),
-            (lie("rows=300").unwrap_err(), "fits its field"),
             (swap("3").unwrap_err(), "3,7"),
         ];
         for (line, word) in refusals {

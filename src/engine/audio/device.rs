@@ -1,13 +1,17 @@
 //! Sound cards through the system: which there are, and one that plays. The one home of `cpal`.
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
-use cpal::{Device, FromSample, SampleFormat, SizedSample, Stream, StreamConfig};
+use cpal::{
+    BufferSize, Device, FromSample, OutputCallbackInfo, SampleFormat, SizedSample, Stream,
+    StreamConfig, SupportedBufferSize,
+};
 
 use super::wave::{Wave, WaveFrames, wave};
-use super::{AudioEntry, AudioError};
+use super::{AudioEntry, AudioError, AudioLatency, CardChannels, Silencer};
 use selvedge_device::ArrayProfile;
 
 /// The rate that is taken where a card offers it: whole samples a tick and a period.
@@ -16,6 +20,9 @@ const SLOWEST_HZ: u32 = 8_000;
 const FASTEST_HZ: u32 = 192_000;
 /// Formats that we write, best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
+/// Samples a channel that a card takes at once, where it may be asked: two such blocks are its
+/// buffer, 21 ms at 48 kHz.
+const BLOCK: u32 = 512;
 /// Samples that are made at once, for formats that are not ours.
 const MAX_AT_ONCE: usize = 4096;
 
@@ -52,25 +59,25 @@ pub fn audio_outputs() -> Result<Vec<AudioEntry>, AudioError> {
 }
 
 impl AudioOutput {
-    /// Opens the card of this name, or the only one whose name holds it, for `n_contactors`
-    /// contactors of arrays like `profile`. The thread that calls is woken at every tick.
+    /// Opens the card of this name, or the only one whose name holds it, for the contactors of
+    /// arrays like `profile` on these channels. The thread that calls is woken at every tick.
     ///
     /// # Errors
     /// There is no such card, it has too few channels, or the system refuses.
     pub fn open(
         name: &str,
         profile: &ArrayProfile,
-        n_contactors: usize,
+        channels: &CardChannels,
     ) -> Result<Self, AudioError> {
         let device = find(name)?;
         let name = name_of(&device);
-        let (config, format) = config_of(&device, &name, n_contactors)?;
+        let (config, format) = config_of(&device, &name, channels.n_needed())?;
         let refused = |what: String| AudioError::System {
             name: name.clone(),
             what,
         };
         let maker = thread::current();
-        let (frames, wave) = wave(config.sample_rate, (profile, n_contactors), maker)
+        let (frames, wave) = wave(config.sample_rate, (profile, channels), maker)
             .map_err(|error| refused(error.to_string()))?;
         let (sender, failures) = sync_channel(1);
         let stream = match format {
@@ -103,14 +110,15 @@ impl AudioOutput {
         self.frames.push(amplitudes_um);
     }
 
-    /// Ramps to silence.
-    pub fn stop(&self) {
-        self.frames.stop();
+    /// A way to silence it.
+    pub fn silencer(&self) -> Silencer {
+        let shared = Arc::clone(self.frames.shared());
+        Box::new(move || shared.silence())
     }
 
-    /// Whether it is silent.
-    pub fn is_silent(&self) -> bool {
-        self.frames.is_silent()
+    /// How late what is felt was at most.
+    pub fn latency(&self) -> AudioLatency {
+        self.frames.shared().latency()
     }
 
     /// Ticks that began without a new frame.
@@ -166,11 +174,11 @@ fn find(name: &str) -> Result<Device, AudioError> {
 fn config_of(
     device: &Device,
     name: &str,
-    n_contactors: usize,
+    n_needed: usize,
 ) -> Result<(StreamConfig, SampleFormat), AudioError> {
     let refused = || AudioError::Channels {
         name: name.to_owned(),
-        n_channels: n_contactors,
+        n_channels: n_needed,
     };
     let configs = device
         .supported_output_configs()
@@ -180,7 +188,7 @@ fn config_of(
             .iter()
             .position(|format| *format == config.sample_format())?;
         let rate_hz = BEST_RATE_HZ.clamp(config.min_sample_rate(), config.max_sample_rate());
-        let is_usable = usize::from(config.channels()) >= n_contactors
+        let is_usable = usize::from(config.channels()) >= n_needed
             && (SLOWEST_HZ..=FASTEST_HZ).contains(&rate_hz);
         is_usable.then_some((config, rank, rate_hz))
     });
@@ -190,7 +198,15 @@ fn config_of(
         })
         .ok_or_else(refused)?;
     let format = config.sample_format();
-    Ok((config.with_sample_rate(rate_hz).config(), format))
+    let buffer_size = match *config.buffer_size() {
+        SupportedBufferSize::Range { min, max } if (min..=max).contains(&BLOCK) => {
+            BufferSize::Fixed(BLOCK)
+        }
+        _ => BufferSize::Default,
+    };
+    let mut config = config.with_sample_rate(rate_hz).config();
+    config.buffer_size = buffer_size;
+    Ok((config, format))
 }
 
 fn build<T: SizedSample + FromSample<f32>>(
@@ -202,7 +218,10 @@ fn build<T: SizedSample + FromSample<f32>>(
     let n_outputs = usize::from(config.channels);
     let n_at_once = MAX_AT_ONCE.max(n_outputs) / n_outputs * n_outputs;
     let mut block = vec![0.0; n_at_once];
-    let play = move |out: &mut [T], _: &cpal::OutputCallbackInfo| {
+    let play = move |out: &mut [T], info: &OutputCallbackInfo| {
+        let moment = info.timestamp();
+        let delay = moment.playback.saturating_duration_since(moment.callback);
+        wave.begin_block(delay, out.len() / n_outputs);
         for part in out.chunks_mut(n_at_once) {
             let samples = &mut block[..part.len()];
             wave.fill(samples, n_outputs);
@@ -227,7 +246,7 @@ mod tests {
     #[test]
     fn a_card_that_is_not_there_is_refused_by_name() {
         let profile = ArrayProfile::default();
-        let opened = AudioOutput::open("no card of this name", &profile, 24);
+        let opened = AudioOutput::open("no card of this name", &profile, &CardChannels::first(24));
         let text = opened.unwrap_err().to_string();
         assert!(
             text.contains("no card of this name") || text.contains("audio"),

@@ -8,17 +8,27 @@
 //!
 //! The card itself needs the feature `audio`; without it everything here says so.
 
+mod channels;
 #[cfg(feature = "audio")]
 mod device;
+mod latency;
 #[cfg(any(test, feature = "audio"))]
 mod wave;
 #[cfg(not(feature = "audio"))]
 mod without;
 
+pub use channels::CardChannels;
 #[cfg(feature = "audio")]
 pub use device::{AudioOutput, audio_outputs};
+pub use latency::AudioLatency;
 #[cfg(not(feature = "audio"))]
 pub use without::{AudioOutput, audio_outputs};
+
+use std::time::Duration;
+
+/// Asks a card for silence, from any thread and any number of times; touches only atomics. `None`
+/// while the sound falls, then how long the card still plays what it has taken.
+pub type Silencer = Box<dyn Fn() -> Option<Duration> + Send + Sync>;
 
 /// A sound card that could be played on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,6 +52,14 @@ pub enum AudioError {
         what: &'static str,
         /// What was asked for.
         name: String,
+    },
+    /// Not one channel a contactor.
+    #[error("{n_channels} channels are named for {n_contactors} contactors; give one for each")]
+    Map {
+        /// Channels that are named.
+        n_channels: usize,
+        /// Contactors that there are.
+        n_contactors: usize,
     },
     /// It has too few channels, or plays nothing that we can.
     #[error("{name} does not take {n_channels} channels at 8 to 192 kHz; choose another")]

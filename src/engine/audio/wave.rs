@@ -9,9 +9,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::Thread;
+use std::time::Duration;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
+use super::latency::Latency;
+use super::{AudioLatency, CardChannels};
 use selvedge_device::{ArrayProfile, Coder, FULL_CODE};
 use selvedge_render::RenderError;
 use selvedge_render::array::DriveSynth;
@@ -28,17 +31,34 @@ const RAMP_S: f64 = 0.040;
 const SOFT_START_S: f64 = 0.5;
 
 /// What both ends know.
-#[derive(Debug, Default)]
-struct Shared {
+#[derive(Debug)]
+pub(super) struct Shared {
     is_stopped: AtomicBool,
     is_silent: AtomicBool,
     n_missed: AtomicU64,
+    latency: Latency,
+}
+
+impl Shared {
+    /// Ramps to silence; frames are not heard any more. Once it is reached: how long the card still
+    /// plays what it has taken.
+    pub(super) fn silence(&self) -> Option<Duration> {
+        self.is_stopped.store(true, Ordering::Release);
+        let is_silent = self.is_silent.load(Ordering::Acquire);
+        is_silent.then(|| self.latency.told().card)
+    }
+
+    pub(super) fn latency(&self) -> AudioLatency {
+        self.latency.told()
+    }
 }
 
 /// The end that takes frames.
 #[derive(Debug)]
 pub(super) struct WaveFrames {
     ring: Producer<[u16; 2]>,
+    /// When each frame was handed over, as the card's samples.
+    stamps: Producer<u64>,
     coder: Coder,
     codes: Vec<[u16; 2]>,
     shared: Arc<Shared>,
@@ -48,6 +68,8 @@ pub(super) struct WaveFrames {
 #[derive(Debug)]
 pub(super) struct Wave {
     ring: Consumer<[u16; 2]>,
+    stamps: Consumer<u64>,
+    channels: CardChannels,
     shared: Arc<Shared>,
     maker: Thread,
     synth: DriveSynth,
@@ -56,6 +78,8 @@ pub(super) struct Wave {
     block: Vec<f32>,
     tick: u64,
     rate_hz: f64,
+    /// How long after the card asked for a block it plays it, samples.
+    delay: u64,
     /// Samples since the last frame was taken; `None` before the first.
     age: Option<u64>,
     /// The gain of the soft start and of the silence, 0…1.
@@ -63,27 +87,41 @@ pub(super) struct Wave {
     mute: f64,
 }
 
-/// Both ends, at `rate_hz` for `n_contactors` contactors of arrays like `profile`; `maker` is woken
-/// at every tick.
+/// Both ends, at `rate_hz` for the contactors of arrays like `profile` on these channels; `maker`
+/// is woken at every tick. The wiring of a profile is that of a bridge and has no say here.
 ///
 /// # Errors
 /// The rate makes no waveform.
 pub(super) fn wave(
     rate_hz: u32,
-    (profile, n_contactors): (&ArrayProfile, usize),
+    (profile, channels): (&ArrayProfile, &CardChannels),
     maker: Thread,
 ) -> Result<(WaveFrames, Wave), RenderError> {
+    let n_contactors = channels.n_contactors();
+    let unwired = ArrayProfile {
+        wiring: None,
+        ..profile.clone()
+    };
     let synth = DriveSynth::prepare(rate_hz, n_contactors, 1.0)?;
     let (sender, ring) = RingBuffer::new(MAX_FRAMES * n_contactors);
-    let shared = Arc::new(Shared::default());
+    let (stamp_sender, stamps) = RingBuffer::new(MAX_FRAMES);
+    let shared = Arc::new(Shared {
+        is_stopped: AtomicBool::new(false),
+        is_silent: AtomicBool::new(false),
+        n_missed: AtomicU64::new(0),
+        latency: Latency::new(rate_hz),
+    });
     let frames = WaveFrames {
         ring: sender,
-        coder: Coder::new(profile, n_contactors),
+        stamps: stamp_sender,
+        coder: Coder::new(&unwired, n_contactors),
         codes: vec![[0; 2]; n_contactors],
         shared: Arc::clone(&shared),
     };
     let wave = Wave {
         ring,
+        stamps,
+        channels: channels.clone(),
         shared,
         maker,
         block: vec![0.0; n_contactors * longest_tick(&synth)],
@@ -91,6 +129,7 @@ pub(super) fn wave(
         shares: vec![[0.0; 2]; n_contactors],
         tick: 0,
         rate_hz: f64::from(rate_hz),
+        delay: 0,
         age: None,
         start: 0.0,
         mute: 0.0,
@@ -114,19 +153,17 @@ impl WaveFrames {
     /// Hands over a frame: amplitudes [A40, A320], µm. One that finds no room is dropped.
     pub(super) fn push(&mut self, amplitudes_um: &[[f32; 2]]) {
         self.coder.encode_into(amplitudes_um, 1.0, &mut self.codes);
-        if let Ok(chunk) = self.ring.write_chunk_uninit(self.codes.len()) {
+        // The stamp goes first, so that every frame that is seen has its own.
+        if let Ok(chunk) = self.ring.write_chunk_uninit(self.codes.len())
+            && self.stamps.push(self.shared.latency.stamp()).is_ok()
+        {
             chunk.fill_from_iter(self.codes.iter().copied());
         }
     }
 
-    /// Ramps to silence; frames are not heard any more.
-    pub(super) fn stop(&self) {
-        self.shared.is_stopped.store(true, Ordering::Release);
-    }
-
-    /// Whether silence was reached.
-    pub(super) fn is_silent(&self) -> bool {
-        self.shared.is_silent.load(Ordering::Acquire)
+    /// What both ends know.
+    pub(super) fn shared(&self) -> &Arc<Shared> {
+        &self.shared
     }
 
     /// Ticks that began without a new frame.
@@ -136,11 +173,20 @@ impl WaveFrames {
 }
 
 impl Wave {
-    /// Writes whole frames of `n_outputs` channels: the contactors first, silence in the others.
+    /// The card asks for a block of so many samples a channel, and will play it after `delay`.
+    pub(super) fn begin_block(&mut self, delay: Duration, n_samples: usize) {
+        let latency = &self.shared.latency;
+        self.delay = latency.samples(delay);
+        let n_samples = u64::try_from(n_samples).unwrap_or(u64::MAX);
+        let next = self.synth.next_sample().saturating_add(n_samples);
+        latency.block_taken(next, n_samples, self.delay);
+    }
+
+    /// Writes whole frames of `n_outputs` channels: contactors on theirs, silence in the others.
     /// Neither allocates, locks nor fails.
     pub(super) fn fill(&mut self, out: &mut [f32], n_outputs: usize) {
         let n_channels = self.shares.len();
-        if n_outputs < n_channels {
+        if n_outputs < self.channels.n_needed() {
             return out.fill(0.0);
         }
         let mut outputs = out.chunks_exact_mut(n_outputs);
@@ -157,10 +203,8 @@ impl Wave {
             for frame in samples.chunks_exact(n_channels) {
                 let gain = self.next_gain();
                 if let Some(output) = outputs.next() {
-                    output.fill(0.0);
-                    for (slot, sample) in output.iter_mut().zip(frame) {
-                        *slot = (sample * gain).clamp(-1.0, 1.0);
-                    }
+                    let samples = frame.iter().map(|sample| (sample * gain).clamp(-1.0, 1.0));
+                    self.channels.spread(samples, output);
                 }
             }
             self.block = block;
@@ -183,6 +227,10 @@ impl Wave {
                     *slot = codes.map(share);
                 }
                 self.age = Some(0);
+                if let Ok(stamp) = self.stamps.pop() {
+                    let sample = self.synth.next_sample();
+                    self.shared.latency.frame_taken(stamp, sample, self.delay);
+                }
             }
             _ if self.age.is_some() && !is_stopped => {
                 self.shared.n_missed.fetch_add(1, Ordering::Relaxed);
@@ -230,7 +278,8 @@ mod tests {
 
     fn both(n_contactors: usize) -> (WaveFrames, Wave) {
         let maker = std::thread::current();
-        wave(RATE_HZ, (&ArrayProfile::default(), n_contactors), maker).unwrap()
+        let channels = CardChannels::first(n_contactors);
+        wave(RATE_HZ, (&ArrayProfile::default(), &channels), maker).unwrap()
     }
 
     /// The samples of so many ticks, a frame of `um` each while there are frames.
@@ -286,7 +335,6 @@ mod tests {
             // The ramp adds 1 over 40 ms.
             assert!((pair[1] - pair[0]).abs() < slope + 6e-4, "{pair:?}");
         }
-        assert!(ends.0.is_silent());
         assert_eq!(ends.0.n_missed(), 12);
         let again = play(&mut ends, Some([50.0, 0.0]), 2);
         assert!(peak(&again) < 0.12, "after silence it starts softly again");
@@ -296,10 +344,10 @@ mod tests {
     fn a_stop_is_silent_within_40_ms_and_stays_so() {
         let mut ends = both(2);
         play(&mut ends, Some([20.0, 20.0]), 40);
-        ends.0.stop();
+        assert_eq!(ends.0.shared().silence(), None, "it falls");
         let after = play(&mut ends, Some([20.0, 20.0]), 40);
         assert_eq!(peak(&after[2 * 2 * TICK..]), 0.0);
-        assert!(ends.0.is_silent());
+        assert_eq!(ends.0.shared().silence(), Some(Duration::ZERO));
     }
 
     #[test]
@@ -342,5 +390,59 @@ mod tests {
         let mut few = [1.0; 8];
         wave.fill(&mut few, 1);
         assert_eq!(few, [0.0; 8], "a card with too few channels plays nothing");
+    }
+
+    /// A card that takes blocks of so many samples and plays them so many later: how old frames
+    /// become, and what is in the card, samples.
+    fn told_by(block: usize, delay: u32) -> AudioLatency {
+        let (mut frames, mut wave) = both(1);
+        let delay = Duration::from_secs(1) * delay / RATE_HZ;
+        let mut out = vec![0.0; block];
+        for _ in 0..200_000 / block {
+            while frames.wants_frame() {
+                frames.push(&[[1.0, 1.0]]);
+            }
+            wave.begin_block(delay, block);
+            wave.fill(&mut out, 1);
+        }
+        assert_eq!(frames.n_missed(), 0);
+        frames.shared().latency()
+    }
+
+    #[test]
+    fn the_latency_is_the_wait_of_three_frames_and_the_cards_buffers() {
+        let ms = Duration::from_millis;
+        // A tick at a time: two frames are before it, and it waits for its own tick.
+        let tick = told_by(TICK, 0);
+        assert_eq!((tick.total, tick.card), (ms(50), ms(25)));
+        let later = told_by(TICK, 4800);
+        assert_eq!((later.total, later.card), (ms(150), ms(125)));
+        // Small blocks: no frame waits longer than three ticks, and a block is 10 ms.
+        let small = told_by(480, 480);
+        assert!(small.total > ms(60) && small.total <= ms(85), "{small:?}");
+        assert_eq!(small.card, ms(20));
+    }
+
+    #[test]
+    fn the_wiring_of_a_bridge_has_no_say_on_a_card() {
+        let wired = ArrayProfile {
+            wiring: Some(selvedge_device::Wiring {
+                device_uid: selvedge_device::DeviceUid([1; 12]),
+                channels: vec![1, 0],
+            }),
+            ..ArrayProfile::default()
+        };
+        let channels: CardChannels = "4,1".parse().unwrap();
+        let maker = std::thread::current();
+        let (mut frames, mut wave) = wave(RATE_HZ, (&wired, &channels), maker).unwrap();
+        for _ in 0..3 {
+            frames.push(&[[50.0, 0.0], [0.0, 0.0]]);
+        }
+        let mut out = vec![7.0; 3 * TICK * 4];
+        wave.fill(&mut out, 4);
+        for frame in out.chunks_exact(4) {
+            assert_eq!(frame[..3], [0.0; 3]);
+        }
+        assert!(out.iter().any(|sample| sample.abs() > 0.05));
     }
 }

@@ -1,6 +1,6 @@
 //! A program without audio: it says so.
 
-use super::{AudioEntry, AudioError};
+use super::{AudioEntry, AudioError, AudioLatency, CardChannels, Silencer};
 use selvedge_device::ArrayProfile;
 
 /// A sound card that plays; there is none in this program.
@@ -25,7 +25,7 @@ impl AudioOutput {
     pub fn open(
         _name: &str,
         _profile: &ArrayProfile,
-        _n_contactors: usize,
+        _channels: &CardChannels,
     ) -> Result<Self, AudioError> {
         Err(AudioError::Absent)
     }
@@ -45,13 +45,13 @@ impl AudioOutput {
         match self.never {}
     }
 
-    /// Ramps to silence.
-    pub fn stop(&self) {
+    /// A way to silence it.
+    pub fn silencer(&self) -> Silencer {
         match self.never {}
     }
 
-    /// Whether it is silent.
-    pub fn is_silent(&self) -> bool {
+    /// How late what is felt was at most.
+    pub fn latency(&self) -> AudioLatency {
         match self.never {}
     }
 

@@ -7,7 +7,7 @@
 use super::case::{Case, Verdict, verdict};
 use super::device::{once, refused_by_host};
 use selvedge_device::{
-    BridgeState, DeviceModel, Faults, InjectionKind, Latency, Lie, LinkFaults, OneOffKind,
+    BridgeState, DeviceModel, Faults, FirmwareLie, InjectionKind, Latency, LinkFaults, OneOffKind,
     Simulation,
 };
 use selvedge_foundation::quantity::fixed;
@@ -32,7 +32,7 @@ pub(super) fn cases() -> Vec<Case> {
         let should = "refused, with the reason";
         Case::new("link", tried, should, move || {
             let faults = Faults {
-                lies: vec![lie],
+                lies: FirmwareLie::read(lie).into_iter().collect(),
                 ..Faults::default()
             };
             refused_by_host(Simulation::of(DeviceModel::default(), &faults))
@@ -90,14 +90,14 @@ fn lasting() -> Vec<(&'static str, Faults)> {
     ]
 }
 
-fn lies() -> [(&'static str, Lie); 6] {
+fn lies() -> [(&'static str, &'static str); 6] {
     [
-        ("CAPS without a common version", Lie::Version(0)),
-        ("CAPS with 5 rows of 24 channels", Lie::Rows(5)),
-        ("CAPS with three components", Lie::Components(3)),
-        ("CAPS with 20 ms ticks", Lie::TickUs(20_000)),
-        ("CAPS with a carrier of 50 Hz", Lie::LowMhz(50_000)),
-        ("CAPS with bodies too short for a frame", Lie::MaxBody(64)),
+        ("CAPS without a common version", "caps.version=0"),
+        ("CAPS with 5 rows of 24 channels", "caps.rows=5"),
+        ("CAPS with three components", "caps.components=3"),
+        ("CAPS with 20 ms ticks", "caps.tick-us=20000"),
+        ("CAPS with a carrier of 50 Hz", "caps.low-mhz=50000"),
+        ("CAPS with bodies too short for a frame", "caps.max-body=64"),
     ]
 }
 

@@ -1,5 +1,7 @@
 //! The core in C against our own device: the same bytes at the same times, the same answers.
 
+use std::collections::BTreeMap;
+
 use selvedge_device::{Caps, DeviceModel, Packet, kind};
 
 use super::reference::{CCore, Obedient as _, OurCore, hex};
@@ -29,30 +31,45 @@ fn run_stream(core: &mut CCore) {
     }
 }
 
-/// Runs random scripts on both; the first difference fails with the lines that led to it.
-fn compare(defines: &[&str], model: &DeviceModel, n_scripts: u64) {
-    let Some((_lab, mut theirs)) = started("the core in C against our own device", defines) else {
-        return;
-    };
+/// How often our device was in each state when it answered.
+type Seen = BTreeMap<String, usize>;
+
+/// Runs random scripts on both up to the first difference, which it tells with the lines that led
+/// to it.
+pub(crate) fn first_difference(
+    theirs: &mut CCore,
+    model: &DeviceModel,
+    n_scripts: u64,
+) -> Result<Seen, String> {
     let mut ours = OurCore::new(model.clone());
-    let mut seen = std::collections::BTreeMap::new();
+    let mut seen = Seen::new();
     for seed in 0..n_scripts {
         let lines = Script::lines(seed, model.n_channels(), 250);
         for (index, line) in lines.iter().enumerate() {
             let (c, rust) = (theirs.obey(line), ours.obey(line));
-            let before = &lines[index.saturating_sub(12)..=index];
-            assert_eq!(
-                c,
-                rust,
-                "script {seed}, line {index} (C left, ours right):\n{}",
-                before.join("\n")
-            );
+            if c != rust {
+                let before = lines[index.saturating_sub(12)..=index].join("\n");
+                return Err(format!(
+                    "script {seed}, line {index}:\n{before}\nin C: {c}\nours: {rust}"
+                ));
+            }
             if line != "codes" {
                 let state = rust.split(' ').next().unwrap_or_default().to_owned();
                 *seen.entry(state).or_insert(0) += 1;
             }
         }
     }
+    Ok(seen)
+}
+
+fn compare(defines: &[&str], model: &DeviceModel, n_scripts: u64) {
+    let Some((_lab, mut theirs)) = started("the core in C against our own device", defines) else {
+        return;
+    };
+    let seen = match first_difference(&mut theirs, model, n_scripts) {
+        Ok(seen) => seen,
+        Err(difference) => panic!("{difference}"),
+    };
     for state in ["IDLE", "READY", "ARMED", "RUN", "HOLD", "RAMP", "FAULT"] {
         let n_answers = seen.get(state).copied().unwrap_or(0);
         assert!(
@@ -131,14 +148,15 @@ fn the_samples_are_sines_to_the_last_bit() {
         return;
     };
     run_stream(&mut core);
-    let numbers = |text: &str| -> Vec<f64> {
-        let parse = |number: &str| number.parse().unwrap();
-        text.split_whitespace().map(parse).collect()
-    };
     let codes = numbers(&core.obey("codes"));
     assert!(codes.iter().any(|code| *code > 0.0), "the stream runs");
-    let samples = numbers(&core.obey("samples 400"));
-    assert_eq!(samples.len(), 400 * 24);
+    // A little more than a tick, within the time of hold.
+    let mut samples = Vec::new();
+    for ms in 26..=60 {
+        samples.extend(numbers(&core.obey("samples 8")));
+        core.obey(&format!("at {ms}000"));
+    }
+    assert_eq!(samples.len(), 280 * 24);
     for (index, sample) in samples.iter().enumerate() {
         let (time, channel) = (index / 24 % 200, index % 24);
         let sine = |periods: usize| {
@@ -150,6 +168,66 @@ fn the_samples_are_sines_to_the_last_bit() {
         let wanted = 2048.0 + (sum / f64::from(1 << 20) + 0.5).floor();
         assert_eq!(*sample, wanted, "sample {time}, channel {channel}");
     }
+}
+
+/// The main loop died and the sample interrupt goes on: hold, ramp and lease are dead with the loop,
+/// so the samples themselves fall silent.
+#[test]
+fn samples_fall_silent_when_no_steps_run_and_sound_again_when_they_do() {
+    let Some((_lab, mut core)) = started("samples without steps in C", &[]) else {
+        return;
+    };
+    run_stream(&mut core);
+    let is_silent = |samples: &str| numbers(samples).iter().all(|sample| *sample == 2048.0);
+    let samples = numbers(&core.obey("samples 400"));
+    let last = samples.iter().rposition(|sample| *sample != 2048.0);
+    assert_eq!(
+        last.unwrap() / 24,
+        159,
+        "20 ms of samples after the last step"
+    );
+
+    // Making up for lost steps is not yet running: the rules are applied, nothing sounds.
+    for ms in 26..=40 {
+        let answer = core.obey(&format!("at {ms}000"));
+        assert!(
+            answer.starts_with("RUN 0 "),
+            "STATUS says what is felt: {answer}"
+        );
+    }
+    assert!(is_silent(&core.obey("samples 8")));
+    assert_eq!(core.obey("at 41000"), "RUN 414000 -", "in time again");
+    assert!(!is_silent(&core.obey("samples 8")));
+
+    // Silent again, and the rules say no output when the steps come back: no sound either.
+    core.obey("samples 400");
+    for ms in 42..=140 {
+        core.obey(&format!("at {ms}000"));
+        assert!(is_silent(&core.obey("samples 8")) || ms < 103, "at {ms} ms");
+    }
+    assert_eq!(
+        core.obey("at 141000"),
+        "READY 0 -",
+        "hold and ramp are over"
+    );
+}
+
+/// A loop that runs late by less than that is made up for and not heard.
+#[test]
+fn samples_go_on_through_a_loop_that_is_late() {
+    let Some((_lab, mut core)) = started("late steps in C", &[]) else {
+        return;
+    };
+    run_stream(&mut core);
+    core.obey("samples 152");
+    core.obey("at 44000");
+    let samples = numbers(&core.obey("samples 8"));
+    assert!(samples.iter().any(|sample| *sample != 2048.0), "19 ms late");
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    let parse = |number: &str| number.parse().unwrap();
+    text.split_whitespace().map(parse).collect()
 }
 
 #[test]

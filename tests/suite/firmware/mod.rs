@@ -5,9 +5,12 @@
 #![cfg(unix)]
 
 mod board;
+mod certified;
+mod defects;
 mod differential;
 mod kit;
 mod layout;
+mod pico;
 mod reference;
 mod script;
 mod sessions;

@@ -139,7 +139,7 @@ impl Script {
     fn configure(&mut self) {
         let mut config = vec![self.dice.of(&[0, 1]), self.dice.of(&[0, 1, 255])];
         let (hold, ramp) = (
-            self.dice.of(&[60u16, 20, 100, 0, 99]),
+            self.dice.of(&[60u16, 20, 100, 0, 99, 300]),
             self.dice.u16() % 120,
         );
         let slew = self.dice.of(&[0u16, 500, 20_000, u16::MAX]);

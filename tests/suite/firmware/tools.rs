@@ -1,8 +1,10 @@
 //! The tools that these tests borrow, where the kit lies, and how the core is built.
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 
 /// Where the kit lies.
 pub(crate) fn kit() -> PathBuf {
@@ -39,6 +41,34 @@ pub(crate) fn compile(compiler: &str, args: &[String]) {
 /// Compiles the core and its driver for this machine, with `defines` for `hbp_config.h`; it ends at
 /// the first undefined behaviour where the compiler can watch for that.
 pub(crate) fn build_host(program: &Path, defines: &[&str]) {
+    let args = host_args(program, defines);
+    let watched = ["-fsanitize=undefined", "-fno-sanitize-recover=all"].map(String::from);
+    let all = [args.as_slice(), &watched].concat();
+    let built = Command::new("cc").args(&all).output().unwrap();
+    if !built.status.success() {
+        compile("cc", &args);
+    }
+}
+
+/// The core and its driver with one defect (0: none), compiled once in a run of the tests. Must
+/// compile without a word.
+pub(crate) fn host_with_defect(defect: usize) -> PathBuf {
+    static BUILT: Mutex<BTreeMap<usize, PathBuf>> = Mutex::new(BTreeMap::new());
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    let program = built.entry(defect).or_insert_with(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
+        std::fs::create_dir_all(&folder).unwrap();
+        let program = folder.join(format!("hbp_host_{defect}"));
+        // Another run of the tests may be at it: each compiles its own, and the name changes hands.
+        let own = folder.join(format!("hbp_host_{defect}.{}", std::process::id()));
+        compile("cc", &host_args(&own, &[&format!("HBP_DEFECT={defect}")]));
+        std::fs::rename(&own, &program).unwrap();
+        program
+    });
+    program.clone()
+}
+
+fn host_args(program: &Path, defines: &[&str]) -> Vec<String> {
     let folder = kit().join("firmware");
     let mut args: Vec<String> = [
         "-std=c99",
@@ -57,10 +87,5 @@ pub(crate) fn build_host(program: &Path, defines: &[&str]) {
     for source in ["host/hbp_host.c", "hbp_core.c"] {
         args.push(folder.join(source).display().to_string());
     }
-    let watched = ["-fsanitize=undefined", "-fno-sanitize-recover=all"].map(String::from);
-    let all = [args.as_slice(), &watched].concat();
-    let built = Command::new("cc").args(&all).output().unwrap();
-    if !built.status.success() {
-        compile("cc", &args);
-    }
+    args
 }

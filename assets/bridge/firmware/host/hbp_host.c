@@ -5,9 +5,12 @@
  *   hbp_host vectors.txt    runs every session of the file; exit code 1 if one goes wrong
  *   hbp_host                obeys standard input; every line is answered by one line
  *
- * Lines: boot | at US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes
+ * Lines: boot | at US | wait US | in HEX... | fault BITS CHANNEL VALUE | cured BITS | lost | codes
  *        | samples N
  * An answer is STATE AMP_SUM BYTES, the bytes in hex or "-"; of codes and samples, the numbers.
+ * `wait` is `at` that ends early, after the first millisecond in which the device sent something;
+ * its answer begins with the time.
+ * Only `samples` calls hbp_sample, and it makes no step: time passes by `at`.
  * Sessions add what must hold: out HEX... | state NAME AMP_SUM | drive CHANNEL A40 A320.
  */
 #include <stdio.h>
@@ -52,7 +55,7 @@ static void measure(void *context, hbp_measured *measured)
 
 static void boot(void)
 {
-    static const hbp_port port = { 0, take, high_voltage, measure };
+    static const hbp_port port = { 0, take, high_voltage, measure, 0 };
     now_ms = 0;
     phase_us = 0;
     n_sent = 0;
@@ -67,6 +70,13 @@ static void advance(unsigned long long us)
         hbp_step_ms(&device);
     }
     if (now_ms == us / 1000 && us % 1000 > phase_us) phase_us = (unsigned)(us % 1000);
+}
+
+static unsigned long long wait_until(unsigned long long us)
+{
+    while (n_sent == 0 && now_ms < us / 1000) advance((now_ms + 1) * 1000);
+    if (n_sent == 0) advance(us);
+    return now_ms * 1000 + phase_us;
 }
 
 static unsigned low(uint32_t pair) { return pair & 0xFFFF; }
@@ -135,6 +145,7 @@ static void print_samples(unsigned n)
 static int obey_input(void)
 {
     static char line[1 << 19];
+    unsigned long long us;
     unsigned n, i;
     boot();
     while (fgets(line, sizeof line, stdin)) {
@@ -145,6 +156,9 @@ static int obey_input(void)
             puts("");
         } else if (sscanf(line, "samples %u", &n) == 1) {
             print_samples(n);
+        } else if (sscanf(line, "wait %llu", &us) == 1) {
+            printf("%llu ", wait_until(us));
+            answer();
         } else if (obey(line)) {
             answer();
         } else {

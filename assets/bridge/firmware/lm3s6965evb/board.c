@@ -1,17 +1,19 @@
 /* board.c - the core on a Stellaris LM3S6965 evaluation board, real or emulated:
  *
- *   qemu-system-arm -M lm3s6965evb -nographic -monitor none -serial pty -kernel hbp.elf
+ *   qemu-system-arm -M lm3s6965evb -nographic -monitor none -serial pty -kernel hbp_emulated.elf
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
  * UART0 is the link (1,000,000 baud, 8N1), SysTick the 1 ms clock, PF0 (the status LED) stands for
- * the high-voltage enable. The board has no converters: samples are made and thrown away where a
- * real array would clock them out.
+ * the high-voltage enable: a resistor of 10 kOhm pulls it to ground, so that it is off whenever
+ * this program does not drive it. The board has no converters: samples are made and thrown away
+ * where a real array would clock them out.
  *
  * Interrupts only move bytes and count: SysTick counts ms and makes samples, the UART fills and
  * drains rings. The loop in main does everything else and sleeps in between.
  */
 #include "../hbp_core.h"
+#include "restart.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(address))
 
@@ -23,8 +25,10 @@
 #define SYSTICK(offset) REGISTER(0xE000E010u + (offset))
 #define NVIC_ENABLE REGISTER(0xE000E100u)
 
-enum { SYSTEM_RESC = 0x05C, SYSTEM_RIS = 0x050, SYSTEM_RCC = 0x060, SYSTEM_RCGC0 = 0x100 };
-enum { SYSTEM_RCGC1 = 0x104, SYSTEM_RCGC2 = 0x108 };
+enum { SYSTEM_PBORCTL = 0x030, SYSTEM_RIS = 0x050, SYSTEM_RESC = 0x05C, SYSTEM_RCC = 0x060 };
+enum { SYSTEM_RCGC0 = 0x100, SYSTEM_RCGC1 = 0x104, SYSTEM_RCGC2 = 0x108 };
+enum { RESC_POWER_ON = 1 << 1, RESC_BROWN_OUT = 1 << 2, RESC_WATCHDOG = 1 << 3 };
+enum { GPIO_PF0 = 0x004, GPIO_DIRECTION = 0x400, GPIO_FUNCTION = 0x420, GPIO_DIGITAL = 0x51C };
 enum { UART_DATA = 0x00, UART_FLAGS = 0x18, UART_INTEGER = 0x24, UART_FRACTION = 0x28 };
 enum { UART_LINE = 0x2C, UART_CONTROL = 0x30, UART_MASK = 0x38, UART_CLEAR = 0x44 };
 enum { UART_RX_EMPTY = 1 << 4, UART_TX_FULL = 1 << 5 };
@@ -102,7 +106,7 @@ static void high_voltage(void *context, uint16_t dv)
 {
     (void)context;
     volts_dv = dv;
-    GPIO_F(0x004) = dv > 0; /* PF0 alone */
+    GPIO_F(GPIO_PF0) = dv > 0; /* PF0 alone */
 }
 
 /* Nothing to measure with: the voltage is what was asked for. */
@@ -128,16 +132,23 @@ static void start_clock(void)
     SYSTEM(SYSTEM_RCC) = rcc & ~(1u << 11);
 }
 
-static void start_board(void)
+/* PF0 drives the enable from here on, low; until now it was an input, and the resistor held it. */
+static void start_high_voltage_pin(void)
 {
-    start_clock();
+    SYSTEM(SYSTEM_RCGC2) |= 1u << 5;
+    (void)SYSTEM(SYSTEM_RCGC2); /* a port is not touched before its clock runs: a bus fault */
+    GPIO_F(GPIO_PF0) = 0;
+    GPIO_F(GPIO_DIRECTION) |= 1u;
+    GPIO_F(GPIO_DIGITAL) |= 1u;
+}
+
+static void start_uart(void)
+{
     SYSTEM(SYSTEM_RCGC1) |= 1u;
-    SYSTEM(SYSTEM_RCGC2) |= 1u | 1u << 5;
-    (void)SYSTEM(SYSTEM_RCGC2); /* the clocks need a few cycles */
-    GPIO_F(0x400) |= 1u;
-    GPIO_F(0x51C) |= 1u;
-    GPIO_A(0x420) |= 3u;
-    GPIO_A(0x51C) |= 3u;
+    SYSTEM(SYSTEM_RCGC2) |= 1u;
+    (void)SYSTEM(SYSTEM_RCGC2);
+    GPIO_A(GPIO_FUNCTION) |= 3u;
+    GPIO_A(GPIO_DIGITAL) |= 3u;
     UART(UART_CONTROL) = 0;
     UART(UART_INTEGER) = 3; /* 50 MHz / 16 / 1 MHz = 3 + 8/64 */
     UART(UART_FRACTION) = 8;
@@ -145,17 +156,22 @@ static void start_board(void)
     UART(UART_MASK) = 0x70; /* receive, receive time-out, transmit */
     UART(UART_CONTROL) = 0x301;
     NVIC_ENABLE = 1u << 5;
+}
+
+static void start_systick(void)
+{
     SYSTICK(4) = 1000u * CLOCKS_PER_US - 1;
     SYSTICK(8) = 0;
     SYSTICK(0) = 7;
 }
 
-/* Resets the board when the loop has not come round for 50 ms. Not under an emulator: it would
- * take a busy desktop for a hung loop. */
+/* Resets the board when the loop has not come round for 50 ms. HBP_NO_WATCHDOG is for emulators
+ * alone: on a busy desktop an emulated loop can take longer than that. */
 static void start_watchdog(void)
 {
-#ifdef HBP_WITH_WATCHDOG
+#ifndef HBP_NO_WATCHDOG
     SYSTEM(SYSTEM_RCGC0) |= 1u << 3;
+    (void)SYSTEM(SYSTEM_RCGC0);
     WATCHDOG(0x000) = 25000u * CLOCKS_PER_US; /* resets at the second expiry */
     WATCHDOG(0x008) = 3;
 #endif
@@ -163,9 +179,21 @@ static void start_watchdog(void)
 
 static void kick_watchdog(void)
 {
-#ifdef HBP_WITH_WATCHDOG
+#ifndef HBP_NO_WATCHDOG
     WATCHDOG(0x00C) = 1;
 #endif
+}
+
+/* Was this no wanted start: a hard fault, the watchdog, a brown-out? Asked once, then forgotten.
+ * When the power came on, the other bits and the mark are what chance left there. */
+static int restarted_by_trouble(void)
+{
+    uint32_t causes = SYSTEM(SYSTEM_RESC);
+    int marked = restart_mark == RESTARTED_BY_FAULT;
+    restart_mark = 0;
+    SYSTEM(SYSTEM_RESC) = 0;
+    SYSTEM(SYSTEM_PBORCTL) |= 1u << 1; /* a brown-out resets; it would only interrupt */
+    return !(causes & RESC_POWER_ON) && (marked || causes & (RESC_BROWN_OUT | RESC_WATCHDOG));
 }
 
 static uint16_t phase_us(void)
@@ -176,16 +204,18 @@ static uint16_t phase_us(void)
 
 int main(void)
 {
-    static const hbp_port port = { 0, send, high_voltage, measure };
+    static const hbp_port port = { 0, send, high_voltage, measure, 0 };
     uint32_t stepped = 0;
+    start_high_voltage_pin();
+    start_clock();
     hbp_init(&device, &port);
-    start_board();
-    if (SYSTEM(SYSTEM_RESC) & 1u << 3) {
-        SYSTEM(SYSTEM_RESC) = 0;
+    if (restarted_by_trouble()) {
         hbp_raise_fault(&device, 0, HBP_WATCHDOG, 0xFFFF, 0);
-        hbp_end_fault_cause(&device, HBP_WATCHDOG);
+        hbp_end_fault_cause(&device, HBP_WATCHDOG); /* it is over: CLEAR will do */
     }
     start_watchdog();
+    start_uart();
+    start_systick();
     for (;;) {
         kick_watchdog();
         while (stepped != ms) {

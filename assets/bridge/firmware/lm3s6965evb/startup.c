@@ -2,7 +2,9 @@
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
-#include <stdint.h>
+#include "restart.h"
+
+volatile uint32_t restart_mark __attribute__((section(".noinit")));
 
 extern uint32_t stack_top, data_start, data_end, data_in_flash, bss_start, bss_end;
 
@@ -11,22 +13,24 @@ void systick_interrupt(void);
 void uart_interrupt(void);
 void reset(void);
 
+/* Whatever should not happen: start anew. The reset makes every pin an input, so that the high
+ * voltage is off at once, and the mark tells main to report it. */
+static void restart(void)
+{
+    restart_mark = RESTARTED_BY_FAULT;
+    __asm volatile("dsb" ::: "memory");
+    *(volatile uint32_t *)0xE000ED0Cu = 0x05FA0004u;
+    for (;;) {
+    }
+}
+
 void reset(void)
 {
     uint32_t *from = &data_in_flash, *to;
     for (to = &data_start; to < &data_end;) *to++ = *from++;
     for (to = &bss_start; to < &bss_end;) *to++ = 0;
     main();
-    for (;;) {
-    }
-}
-
-/* Whatever should not happen: start anew, with the high voltage off. */
-static void restart(void)
-{
-    *(volatile uint32_t *)0xE000ED0Cu = 0x05FA0004u;
-    for (;;) {
-    }
+    restart(); /* main does not end */
 }
 
 /* Stack, exceptions 1 to 15, interrupts 0 to 5. */

@@ -1,6 +1,7 @@
 //! The device in virtual time, on a bench that decodes what it sends and logs.
 
 mod frames;
+mod lies;
 mod random;
 mod requests;
 mod silence;

@@ -260,7 +260,7 @@ fn a_device_whose_ticks_stand_still_is_lost_after_half_a_second() {
         BridgeEvent::Lost(reason) => Some(reason.clone()),
         _ => None,
     });
-    assert!(lost.unwrap().contains("stood still"));
+    assert!(lost.unwrap().contains("advances"));
 }
 
 #[test]

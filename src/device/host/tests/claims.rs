@@ -129,8 +129,8 @@ fn settings_that_exceed_or_silence_what_was_asked_are_refused() {
         (|cfg| cfg.hold_ms = 24, "24 ms only"),
         (|cfg| cfg.ramp_ms = 41, "ramp of 41 ms"),
         (|cfg| cfg.ramp_ms = 0, "ramp of 0 ms"),
-        (|cfg| cfg.hv_dv = 65_530, "65530"),
-        (|cfg| cfg.hv_dv = 601, "601"),
+        (|cfg| cfg.hv_dv = 65_530, "6553 V"),
+        (|cfg| cfg.hv_dv = 601, "60.1 V"),
         (|cfg| cfg.hv_dv = 0, "high voltage of 0"),
         (|cfg| cfg.slew = 0, "slew of 0"),
         (|cfg| cfg.comp_limit[0] = 60_001, "limit at 40 Hz of 60001"),
@@ -196,14 +196,7 @@ fn configured() -> (HostSession, Instant) {
 #[test]
 fn arm_waits_for_three_advancing_status_of_which_the_last_says_ready() {
     let (mut host, now) = configured();
-    for (tick, is_ready) in [
-        (7, false),
-        (7, false),
-        (8, false),
-        (6, false),
-        (7, false),
-        (8, true),
-    ] {
+    for (tick, is_ready) in [(7, false), (7, false), (8, false), (6, false), (9, true)] {
         assert!(!host.arm(now));
         host.on_message(now, &at(tick, DeviceState::Ready));
         assert_eq!(host.state() == BridgeState::Ready, is_ready, "tick {tick}");

@@ -9,6 +9,7 @@ mod table;
 use std::collections::BTreeMap;
 
 use super::Faults;
+use crate::device::FirmwareLie;
 use table::{OPTIONS, Spoken};
 
 /// The text that switches an option on.
@@ -31,11 +32,13 @@ pub enum FaultGroup {
     Device,
     /// Which channel moves what.
     Channels,
+    /// What the firmware does wrong.
+    Firmware,
 }
 
 impl FaultGroup {
     /// All of them, in the order in which they are shown.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::All,
         Self::Latency,
         Self::Bytes,
@@ -43,6 +46,7 @@ impl FaultGroup {
         Self::Stalls,
         Self::Device,
         Self::Channels,
+        Self::Firmware,
     ];
 
     /// A word or two for people.
@@ -54,7 +58,8 @@ impl FaultGroup {
             Self::Clock => "Clock",
             Self::Stalls => "Stalls and cable",
             Self::Device => "Device troubles",
-            Self::Channels => "Channels and CAPS",
+            Self::Channels => "Channels",
+            Self::Firmware => "Firmware",
         }
     }
 
@@ -70,7 +75,8 @@ impl FaultGroup {
                  5s,20s for two)"
             }
             Self::Device => "Faults: the device (TIME as above)",
-            Self::Channels => "Faults: channels and CAPS",
+            Self::Channels => "Faults: channels",
+            Self::Firmware => "Faults: the firmware",
         }
     }
 }
@@ -115,6 +121,12 @@ impl FaultOption {
     /// Whether a text can be read; otherwise one line says what was expected.
     pub fn check(&self, text: &str) -> Result<(), String> {
         (self.read)(&mut Spoken::default(), text)
+    }
+
+    /// Everything that can be said, a line each, for an option with too many values to be told in a
+    /// sentence.
+    pub fn listing(&self) -> Option<String> {
+        (self.name == table::FIRMWARE_LIE).then(FirmwareLie::listing)
     }
 
     /// Whether a text makes anything go wrong by itself.

@@ -1,12 +1,15 @@
 //! The table of everything that can be asked to go wrong, and how each text is read.
 
 use super::{FaultGroup, FaultKind, FaultOption, ON};
-use crate::device::{Lie, Miswiring};
+use crate::device::{FirmwareLie, Miswiring};
 use crate::wire::faults::{Direction, Faults, Latency, LinkFaults, OneOff, OneOffKind};
 use crate::wire::parse;
 
 /// How much longer a write takes when nothing else is said, µs.
 const HICCUP_US: u64 = 50_000;
+/// The option whose values are a table of their own.
+pub(super) const FIRMWARE_LIE: &str = "firmware-lie";
+
 /// What was said, before it is dealt out to the directions of the link.
 #[derive(Debug)]
 pub(super) struct Spoken {
@@ -128,8 +131,9 @@ fn swapped(wiring: &mut Miswiring, text: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn lies(lies: &mut Vec<Lie>, text: &str) -> Result<(), String> {
-    let described: Result<Vec<Lie>, String> = text.split_whitespace().map(parse::lie).collect();
+fn lies(lies: &mut Vec<FirmwareLie>, text: &str) -> Result<(), String> {
+    let described: Result<Vec<FirmwareLie>, String> =
+        text.split_whitespace().map(FirmwareLie::read).collect();
     lies.extend(described?);
     Ok(())
 }
@@ -187,7 +191,7 @@ macro_rules! switch {
 
 /// An option of another kind: name, label, group, kind, value, usual text, example, help, reader.
 macro_rules! option {
-    ($name:literal, $label:literal, $group:ident, $kind:ident, $value:literal,
+    ($name:expr, $label:literal, $group:ident, $kind:ident, $value:literal,
      $usual:literal, $example:literal, $help:literal, $read:expr) => {
         FaultOption {
             name: $name,
@@ -260,8 +264,8 @@ pub(super) const OPTIONS: &[FaultOption] = &[
     option!("swap", "Swapped channels", Channels, Many, "A,B", "", "5,6",
         "Two channels that move each other's contactor",
         |said, text| swapped(&mut said.faults.wiring, text)),
-    option!("lie", "Lies in CAPS", Channels, Many, "KEY=VALUE", "", "rows=5",
-        "What CAPS say although it is not so: version=2, rows=5, cols, channels, components, \
-         tick-us, low-mhz, high-mhz, max-body; cut=40 cuts them short",
+    option!(FIRMWARE_LIE, "Firmware lies", Firmware, Many, "NAME[=VALUE]", "", "caps.rows=5",
+        "What the firmware says although it is not so, or a rule that it breaks: caps.rows=5, \
+         status.tick=-1, no-ramp; @TICK at the end: from that tick on; list: all there are",
         |said, text| lies(&mut said.faults.lies, text)),
 ];

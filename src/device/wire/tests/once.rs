@@ -144,7 +144,7 @@ fn a_reboot_starts_tick_and_counters_anew_and_keeps_no_session() {
     assert_eq!(trial.device.counters_of_boots().len(), 2);
     trial.run(1000);
     // It answers PINGs, so that nobody is sent to look after the cable.
-    assert!(trial.lost().unwrap().contains("stood still for 500 ms"));
+    assert!(trial.lost().unwrap().contains("advances for 500 ms"));
 }
 
 #[test]

@@ -60,6 +60,13 @@ pub(crate) fn session_log() -> Option<PathBuf> {
     Some(folders.data_dir().join("logs").join("bridge.csv"))
 }
 
+/// The folder of the certificates of devices that were tried for this user. `None` on a system
+/// without such a place.
+pub fn own_certificates() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("certificates"))
+}
+
 /// The folder of the user's array profiles. `None` on a system without such a place.
 pub fn own_arrays() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "selvedge")?;

@@ -1,0 +1,217 @@
+//! Certifies a device: tries it as its maker would fear, and says what held.
+//!
+//! ```text
+//! checks ── says, wants ── client ── bytes ── Line ── a port, or a device in virtual time
+//!    └── predict: what is right    └── watch: what must hold in all that comes
+//! ```
+//!
+//! The client speaks packets, good and bad, and trusts no clock but the device's: between two
+//! PONGs it knows when something was heard, and STATUS tells what came of it. Where host or link
+//! were too late to tell, a check is tried again; what cannot be told after that is not tested,
+//! never passed. It knows nothing of folders and terminals.
+
+mod answers;
+mod checks;
+mod client;
+mod line;
+mod link_times;
+mod moments;
+mod predict;
+mod report;
+mod say;
+mod speech;
+mod store;
+mod tally;
+#[cfg(test)]
+mod tests;
+mod verdict;
+mod watch;
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use crate::BridgeError;
+use crate::port::SerialLink;
+use checks::{Check, When};
+use client::Client;
+use line::PortLine;
+pub use line::{Line, VirtualLine};
+pub use report::{Certificate, CheckOutcome, CheckResult};
+pub use store::CertificateFolder;
+use verdict::{Trouble, Verdict};
+
+/// How often a check is tried when host or link were late.
+const N_TRIES: u32 = 8;
+/// All of it ends within a minute of the host's time, the last STOP included.
+const LONGEST_US: u64 = 57_000_000;
+/// How long a device may take to answer the first HELLO, µs.
+const HANDSHAKE_US: u64 = 5_000_000;
+
+/// How much of a device is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// The quick half, a few seconds: what a user runs before a session.
+    Quick,
+    /// Everything.
+    Full,
+}
+
+/// What is tried: how much, and the session numbers that it begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// How much.
+    pub extent: Extent,
+    /// Where session numbers and tokens begin; another one for every trial.
+    pub nonce: u32,
+}
+
+/// Tries the device at the end of a line. `progress` hears the name of each section as it begins.
+/// Whatever happens, the last thing that the device hears is a STOP.
+pub fn certify(
+    line: &mut dyn Line,
+    trial: Trial,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(&str),
+) -> Certificate {
+    let end_us = line.now_us() + LONGEST_US;
+    let mut client = Client::new(line, trial.nonce, end_us, stop);
+    let opened = client.open(HANDSHAKE_US);
+    let mut results = vec![CheckResult {
+        section: String::from("handshake"),
+        name: String::from("HELLO"),
+        expected: String::from("CAPS with the session of HELLO within 5 s"),
+        outcome: outcome_of(&opened),
+        came: came_of(&opened),
+        device_ms: 0,
+    }];
+    let mut over = opened.err().map(|trouble| reason_of(&trouble));
+    let mut section = "";
+    for check in
+        checks::all().filter(|check| check.when != When::Full || trial.extent == Extent::Full)
+    {
+        if section != check.section && over.is_none() {
+            section = check.section;
+            progress(section);
+        }
+        let result = over.as_ref().map_or_else(
+            || try_check(&mut client, check),
+            |reason| not_tested(check, reason),
+        );
+        if result.ends {
+            over = Some(format!("nothing more was tried: {}", result.result.came));
+        }
+        results.push(result.result);
+    }
+    let ended = match over {
+        None => client.end(),
+        Some(reason) => Err(Trouble::Untested(reason)),
+    };
+    results.push(CheckResult {
+        section: String::from("STOP"),
+        name: String::from("the last STOP"),
+        expected: String::from("ACK 0"),
+        outcome: outcome_of(&ended),
+        came: came_of(&ended),
+        device_ms: 0,
+    });
+    Certificate::new(&client.caps, trial.extent == Extent::Full, results)
+}
+
+/// Tries the device behind the serial port at `path`.
+///
+/// # Errors
+/// The port cannot be opened.
+pub fn certify_port(
+    (path, baud): (&Path, u32),
+    trial: Trial,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Certificate, BridgeError> {
+    let mut port = SerialLink::open(&path.display().to_string(), baud)?;
+    Ok(certify(
+        &mut PortLine::new(&mut port),
+        trial,
+        stop,
+        progress,
+    ))
+}
+
+/// What a check gave, and whether nothing more can be tried.
+struct Tried {
+    result: CheckResult,
+    ends: bool,
+}
+
+fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
+    let from_ms = client.device_ms();
+    let mut verdict = Err(Trouble::Late);
+    for _ in 0..N_TRIES {
+        let tried = client
+            .begin_check()
+            .and_then(|()| (check.run)(client))
+            .and_then(|()| client.end_check());
+        match tried {
+            // A device that was wrong once is not right because host and link were late later.
+            Err(Trouble::Late) => {}
+            Err(Trouble::Wrong(what)) if client.is_late() => verdict = Err(Trouble::Wrong(what)),
+            done => {
+                verdict = done;
+                break;
+            }
+        }
+    }
+    Tried {
+        // No host would go on with a device that is refused by its CAPS.
+        ends: matches!(verdict, Err(Trouble::Over(_)))
+            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_)))),
+        result: CheckResult {
+            outcome: outcome_of(&verdict),
+            came: came_of(&verdict),
+            device_ms: client.device_ms().saturating_sub(from_ms),
+            ..blank(check)
+        },
+    }
+}
+
+fn not_tested(check: &Check, reason: &str) -> Tried {
+    Tried {
+        ends: false,
+        result: CheckResult {
+            came: reason.to_owned(),
+            ..blank(check)
+        },
+    }
+}
+
+fn blank(check: &Check) -> CheckResult {
+    CheckResult {
+        section: check.section.to_owned(),
+        name: check.name.to_owned(),
+        expected: check.expects.to_owned(),
+        outcome: CheckOutcome::NotTested,
+        came: String::new(),
+        device_ms: 0,
+    }
+}
+
+fn outcome_of(verdict: &Verdict) -> CheckOutcome {
+    match verdict {
+        Ok(()) => CheckOutcome::Passed,
+        Err(Trouble::Wrong(_)) => CheckOutcome::Failed,
+        Err(_) => CheckOutcome::NotTested,
+    }
+}
+
+fn came_of(verdict: &Verdict) -> String {
+    match verdict {
+        Ok(()) => String::from("as expected"),
+        Err(trouble) => reason_of(trouble),
+    }
+}
+
+fn reason_of(trouble: &Trouble) -> String {
+    match trouble {
+        Trouble::Wrong(what) | Trouble::Untested(what) | Trouble::Over(what) => what.clone(),
+        Trouble::Late => format!("host or link were too late to tell, {N_TRIES} times running"),
+    }
+}
