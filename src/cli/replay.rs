@@ -59,12 +59,11 @@ struct Rows<'a> {
 impl Rows<'_> {
     fn add(&mut self, tick: &ReplayedTick) -> Result<(), CliError> {
         let n_channels = tick.codes.len();
-        let table = match &mut self.table {
-            Some(table) => table,
-            None => {
-                self.n_channels = n_channels;
-                self.table.insert(open(self.out, n_channels)?)
-            }
+        let table = if let Some(table) = &mut self.table {
+            table
+        } else {
+            self.n_channels = n_channels;
+            self.table.insert(open(self.out, n_channels)?)
         };
         if n_channels != self.n_channels {
             let (link, columns) = (tick.link, self.n_channels);
