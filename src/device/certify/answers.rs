@@ -1,7 +1,7 @@
 //! What a device says, compared with what must come.
 
 use super::say::{Say, Want, kind_name};
-use super::verdict::{Trouble, Verdict, ensure};
+use super::verdict::{Trouble, ensure};
 use crate::message::{Ack, Config, Message as _, Pong, Status, kind};
 
 /// Something that the device said.

@@ -204,6 +204,7 @@ impl Bridge {
     }
 
     /// Sends a PING; `Pong` follows.
+    #[cfg(test)]
     pub(crate) fn ping(&mut self) {
         self.session.ping(Instant::now());
         self.flush();

@@ -177,6 +177,7 @@ fn clipped(c: &mut Client<'_>) -> Verdict {
     c.tell(&says)?;
     let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
     c.tally.due.clipped = c
+        .tally
         .due
         .clipped
         .wrapping_add(Allowed::of(&codes, &config).clipped);
