@@ -9,6 +9,7 @@ use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
+use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, terminal};
 use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
 use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
@@ -26,6 +27,9 @@ pub(super) enum BridgeCommand {
     Test(TestArgs),
     /// Certify a device: all that its firmware must do, in a report; at most a minute
     Certify(CertifyArgs),
+    /// Play a session log to the emulator: what the finger got, tick by tick, and whether the
+    /// device told the truth
+    Replay(ReplayArgs),
     /// Write what a firmware engineer needs: protocol, golden vectors, a device core in C
     Kit {
         /// A new folder
@@ -66,6 +70,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test(args) => certify::test(args),
         BridgeCommand::Certify(args) => certify::certify(args),
+        BridgeCommand::Replay(args) => replay::run(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
     }

@@ -23,12 +23,19 @@ const MOST_BESIDE: usize = 5;
 /// Letters of a cell.
 const CELL: usize = 7;
 
-/// The contactors of an emulated device.
+/// The contactors of an emulated device, and whether they are shown.
 #[derive(Debug, Args)]
 pub(super) struct PlantArgs {
     /// Show displacement and current of every contactor, a model estimate, on the terminal
     #[arg(long)]
     show: bool,
+    #[command(flatten)]
+    contactors: ContactorArgs,
+}
+
+/// What is assumed of contactors.
+#[derive(Debug, Args)]
+pub(super) struct ContactorArgs {
     /// The finger on them: free, light, firm, or KS,CS or KS,CS,PRELOAD in N/m, N s/m and µm
     #[arg(long, value_name = "SKIN", default_value = "light", value_parser = skin)]
     skin: Skin,
@@ -58,7 +65,7 @@ fn bimorph(text: &str) -> Result<Bimorph, String> {
     Ok(bimorph)
 }
 
-impl PlantArgs {
+impl ContactorArgs {
     /// The contactors that are asked for.
     pub(super) fn model(&self) -> Result<ContactorModel, CliError> {
         let model = ContactorModel {
@@ -69,6 +76,13 @@ impl PlantArgs {
         };
         model.check()?;
         Ok(model)
+    }
+}
+
+impl PlantArgs {
+    /// The contactors that are asked for.
+    pub(super) fn model(&self) -> Result<ContactorModel, CliError> {
+        self.contactors.model()
     }
 
     /// Whether they are to be shown and there is a terminal for it.

@@ -147,6 +147,8 @@ fn code_of_bridge(error: &BridgeError) -> u8 {
     match error {
         BridgeError::Profile(error) => code_of_file(error),
         BridgeError::Open { .. }
+        | BridgeError::LogPlace { .. }
+        | BridgeError::LogContent { .. }
         | BridgeError::LinkTaken(_)
         | BridgeError::LinkHeld { .. }
         | BridgeError::Model(_)

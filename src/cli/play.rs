@@ -13,6 +13,7 @@ use super::method::MethodArgs;
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::play_source::{Moving, SourceArgs};
+use super::record::{self, RecordArgs};
 use super::{CliError, array, output, play_audio, signals, terminal};
 
 use selvedge_device::{
@@ -20,10 +21,6 @@ use selvedge_device::{
 };
 use selvedge_engine::{CardChannels, Notice, PreparedScene};
 use selvedge_render::scene::LoadedScene;
-
-/// What `--session-log` does.
-pub(super) const SESSION_LOG_HELP: &str = "Every setting, arming, stop, fault, refusal and change \
-    of a counter of the link, as CSV; added to a file that is there";
 
 /// What to play, and where.
 #[derive(Debug, Args)]
@@ -49,10 +46,21 @@ pub(super) struct PlayArgs {
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
     log: Option<PathBuf>,
-    #[arg(long, value_name = "F.csv", help = SESSION_LOG_HELP)]
-    session_log: Option<PathBuf>,
+    #[command(flatten)]
+    record: RecordArgs,
     #[command(flatten)]
     how: MethodArgs,
+}
+
+impl PlayArgs {
+    /// The files whose hashes a session log holds.
+    fn files(&self) -> Vec<(&'static str, &Path)> {
+        let path = self.source.path_file().map(|path| ("path", path));
+        [("scene", self.scene.as_path())]
+            .into_iter()
+            .chain(path)
+            .collect()
+    }
 }
 
 /// Plays, and says how punctual it was.
@@ -70,11 +78,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         Some(place) => Some(PlayLog::create(place, scene.profile(), scene.n_felt())?),
         None => None,
     };
-    let session_log = args
-        .session_log
-        .as_deref()
-        .map(|path| SessionLog::append(path, None));
-    let session_log = session_log.transpose()?;
+    let session_log = args.record.open()?;
     let stop = signals::stop_flag()?;
     let mut profile = scene.profile().clone();
     args.baud.set(&mut profile);
@@ -87,9 +91,10 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
         (port, None) => port.clone().unwrap_or_default(),
     };
     let n_felt = moving.core.felt_um().len();
-    let mut driver = Driver::open(Target::Port(port), profile, n_felt);
+    let mut driver = Driver::open(Target::Port(port), profile.clone(), n_felt);
     if let Some(session_log) = &session_log {
-        let feed = session_log.feed(driver.bridge().target());
+        let mut feed = session_log.feed(driver.bridge().target());
+        record::say_what(&mut feed, &profile, &args.files());
         driver.bridge_mut().log_to(feed);
     }
     let mut player = Player {

@@ -50,6 +50,14 @@ pub(super) struct SourceArgs {
     does_loop: bool,
 }
 
+impl SourceArgs {
+    /// The path's file, if there is one.
+    pub(super) fn path_file(&self) -> Option<&Path> {
+        let path = self.path.as_deref();
+        path.filter(|path| *path != Path::new("-"))
+    }
+}
+
 /// A device as it is named on the command line.
 fn device(text: &str) -> Result<PathBuf, String> {
     let path = text.strip_prefix("evdev:").filter(|path| !path.is_empty());

@@ -75,6 +75,27 @@ pub enum BridgeError {
         /// Why not.
         reason: String,
     },
+    /// A session log cannot stand where it should.
+    #[error(
+        "cannot write the session log: {reason}; name a file in a folder that is there: {}",
+        path.display()
+    )]
+    LogPlace {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the place.
+        reason: String,
+    },
+    /// What should be a session log is none, or cannot be read.
+    #[error("{}{}: {reason}", path.display(), line_words(*line))]
+    LogContent {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1; 0 for the file as a whole.
+        line: u64,
+        /// What is wrong and how to mend it.
+        reason: String,
+    },
     /// An array profile.
     #[error(transparent)]
     Profile(#[from] FileError),
@@ -102,6 +123,14 @@ pub enum BridgeError {
     /// Writing samples failed.
     #[error("cannot write the WAV file: {0}")]
     Wav(io::Error),
+}
+
+/// Where in a file, if it is somewhere.
+fn line_words(line: u64) -> String {
+    match line {
+        0 => String::new(),
+        line => format!(":{line}"),
+    }
 }
 
 /// Who holds a port and how to get it.

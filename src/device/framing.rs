@@ -162,6 +162,11 @@ impl Decoder {
         self.bad += 1;
     }
 
+    /// The flags of the packet that was completed last; 0 before the first.
+    pub(crate) fn flags(&self) -> u8 {
+        self.body.get(1).copied().unwrap_or(0)
+    }
+
     /// Takes one byte; gives the packet that it completes.
     pub fn push(&mut self, byte: u8) -> Option<Received<'_>> {
         if byte == 0 {

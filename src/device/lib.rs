@@ -46,6 +46,7 @@ mod host;
 mod link;
 mod message;
 mod port;
+mod replay;
 mod session_log;
 mod wav;
 mod wav_parts;
@@ -88,6 +89,7 @@ pub use port::{
     FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
+pub use replay::{ReplayedLink, ReplayedTick, replay_log};
 pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
 pub use wav::{SampleFormat, WavSpec};

@@ -183,6 +183,15 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
     for event in ["hello", "caps", "cfg", "armed", "stop", "stopped"] {
         assert!(link.contains(&format!(",{event},")), "{event}: {link}");
     }
+    let replayed = lab.run(&["bridge", "replay", "link.csv", "--out", "felt.csv"]);
+    assert_eq!(replayed.code, 0, "{replayed:?}");
+    assert!(replayed.out.contains("agrees in"), "{}", replayed.out);
+    assert!(
+        link.contains("scene_sha256=") && link.contains("path_sha256="),
+        "{link}"
+    );
+    let felt = Rows::read(&lab.path("felt.csv")).numbers("peak_um_0");
+    assert!(felt.iter().copied().fold(0.0, f64::max) > 5.0, "{felt:?}");
     let n_applied = check_frames(&host, &device);
     assert_eq!(host.len(), 61, "one frame a tick of the path");
     assert!(n_applied >= 40, "{n_applied} of 61 frames applied");

@@ -1,8 +1,8 @@
 //! Certifies a device: tries it as its maker would fear, and says what held.
 //!
 //! ```text
-//! checks ── says, wants ── client ── bytes ── Line ── a port, or an emulated device in virtual time
-//!    └── predict: what a right device does    └── watch: what must hold in all that comes
+//! checks ── says, wants ── client ── bytes ── Line ── a port, or a device in virtual time
+//!    └── predict: what is right    └── watch: what must hold in all that comes
 //! ```
 //!
 //! The client speaks packets, good and bad, and trusts no clock but the device's: between two
@@ -10,15 +10,21 @@
 //! were too late to tell, a check is tried again; what cannot be told after that is not tested,
 //! never passed. It knows nothing of folders and terminals.
 
+mod answers;
 mod checks;
 mod client;
 mod line;
+mod link_times;
+mod moments;
 mod predict;
 mod report;
 mod say;
+mod speech;
 mod store;
+mod tally;
 #[cfg(test)]
 mod tests;
+mod verdict;
 mod watch;
 
 use std::path::Path;
@@ -26,12 +32,13 @@ use std::sync::atomic::AtomicBool;
 
 use crate::BridgeError;
 use crate::port::SerialLink;
-use checks::Check;
-use client::{Client, Trouble, Verdict};
+use checks::{Check, When};
+use client::Client;
 use line::PortLine;
 pub use line::{Line, VirtualLine};
 pub use report::{Certificate, CheckOutcome, CheckResult};
 pub use store::CertificateFolder;
+use verdict::{Trouble, Verdict};
 
 /// How often a check is tried when host or link were late.
 const N_TRIES: u32 = 8;
@@ -78,11 +85,10 @@ pub fn certify(
         device_ms: 0,
     }];
     let mut over = opened.err().map(|trouble| reason_of(&trouble));
-    if over.is_none() {
-        client.know_largest_body();
-    }
     let mut section = "";
-    for check in checks::all().filter(|check| check.is_quick || trial.extent == Extent::Full) {
+    for check in
+        checks::all().filter(|check| check.when != When::Full || trial.extent == Extent::Full)
+    {
         if section != check.section && over.is_none() {
             section = check.section;
             progress(section);
@@ -157,7 +163,7 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
     Tried {
         // No host would go on with a device that is refused by its CAPS.
         ends: matches!(verdict, Err(Trouble::Over(_)))
-            || (check.ends_all && matches!(verdict, Err(Trouble::Wrong(_)))),
+            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_)))),
         result: CheckResult {
             outcome: outcome_of(&verdict),
             came: came_of(&verdict),

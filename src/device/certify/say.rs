@@ -41,6 +41,13 @@ pub(super) enum Want {
     Pong(u32),
 }
 
+impl Want {
+    /// Whether anything comes back.
+    pub(super) fn is_answered(self) -> bool {
+        !matches!(self, Self::Nothing | Self::Bad | Self::NoPacket)
+    }
+}
+
 /// Bytes for the device, and its answer.
 #[derive(Clone, Debug)]
 pub(super) struct Say {

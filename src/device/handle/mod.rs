@@ -375,6 +375,7 @@ impl Bridge {
 
     /// Lets the threads write what is left and end.
     fn release(&mut self) {
+        self.note_end();
         self.flush();
         if let Some(link) = &self.link {
             link.quit();

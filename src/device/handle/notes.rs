@@ -1,10 +1,14 @@
 //! What a bridge measures and writes down of its news.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::Bridge;
 use crate::host::{BridgeEvent, DisarmedBy};
-use crate::session_log::{HostCounters, LogFeed, Note};
+use crate::link::Link;
+use crate::session_log::{HostCounters, LogFeed, Note, event};
+
+/// From one line of telemetry to the next.
+const TELEMETRY_EVERY: Duration = Duration::from_secs(1);
 
 /// A bridge's end of a log, if there is one.
 #[derive(Debug, Default)]
@@ -12,12 +16,18 @@ pub(super) struct Notes {
     log: Option<LogFeed>,
     /// What the log knows of this side's counters.
     counted: HostCounters,
+    /// When telemetry was written last.
+    told: Option<Instant>,
+    has_ended: bool,
 }
 
 impl Bridge {
     /// Writes to a log what happens from now on: call it before the first [`poll`](Self::poll).
     pub fn log_to(&mut self, log: LogFeed) {
         self.session.keep_notes();
+        if let Some(taps) = self.link.as_mut().and_then(Link::take_taps) {
+            log.follow(taps);
+        }
         self.notes.log = Some(log);
     }
 
@@ -38,33 +48,73 @@ impl Bridge {
     /// Writes down what only an event tells.
     fn note(&mut self, event: &BridgeEvent) {
         let now = Instant::now();
-        let said = match event {
-            BridgeEvent::Refused(reason) => ("refused-device", reason),
-            BridgeEvent::Lost(reason) => ("lost", reason),
-            BridgeEvent::Log(text) => ("device-log", text),
+        let (name, reason) = match event {
+            BridgeEvent::Refused(reason) => (event::REFUSED_DEVICE, reason),
+            BridgeEvent::Lost(reason) => (event::LOST, reason),
+            BridgeEvent::Log(text) => (event::DEVICE_LOG, text),
             BridgeEvent::Disarmed {
                 by: DisarmedBy::Device,
                 reason,
-            } => ("disarmed-itself", reason),
-            BridgeEvent::Disarmed { reason, .. } => ("disarmed", reason),
-            BridgeEvent::Tick { .. } => return self.note_counters(now),
+            } => (event::DISARMED_ITSELF, reason),
+            BridgeEvent::Disarmed { reason, .. } => (event::DISARMED, reason),
+            BridgeEvent::Tick { .. } => return self.note_tick(now),
             _ => return,
         };
-        self.session.note(now, Note::Said(said.0, said.1.clone()));
+        self.session.note(now, Note::Said(name, reason.clone()));
+        if name != event::DEVICE_LOG {
+            self.note_last(now);
+        }
     }
 
-    fn note_counters(&mut self, now: Instant) {
+    fn note_tick(&mut self, now: Instant) {
+        let counted = self.host_counters();
+        if self.notes.counted != counted {
+            self.notes.counted = counted;
+            self.session.note(now, Note::HostCounters(counted));
+        }
+        let since = |told: Instant| now.saturating_duration_since(told);
+        if self
+            .notes
+            .told
+            .is_none_or(|told| since(told) >= TELEMETRY_EVERY)
+        {
+            self.note_telemetry(now);
+        }
+    }
+
+    fn note_telemetry(&mut self, now: Instant) {
+        self.notes.told = Some(now);
+        if let Some(status) = self.session.status().copied() {
+            let predicted = self.session.predicted_sum();
+            self.session.note(now, Note::Telemetry(status, predicted));
+        }
+    }
+
+    /// Output or the link has ended: what was measured and counted last, whether it changed or not.
+    fn note_last(&mut self, now: Instant) {
+        self.note_telemetry(now);
+        let device = self.session.counters().device;
+        self.session.note(now, Note::DeviceCounters(device));
+        self.notes.counted = self.host_counters();
+        self.session
+            .note(now, Note::HostCounters(self.notes.counted));
+    }
+
+    /// The link is let go: the same, once.
+    pub(super) fn note_end(&mut self) {
+        if self.notes.log.is_some() && !std::mem::replace(&mut self.notes.has_ended, true) {
+            self.note_last(Instant::now());
+        }
+    }
+
+    fn host_counters(&self) -> HostCounters {
         let counters = self.counters();
-        let counted = HostCounters {
+        HostCounters {
             rejected: counters.frames_rejected,
             superseded: counters.frames_superseded,
             bad_received: counters.bad_received,
             events_dropped: counters.events_dropped,
             write_timeouts: counters.write_timeouts,
-        };
-        if self.notes.counted != counted {
-            self.notes.counted = counted;
-            self.session.note(now, Note::HostCounters(counted));
         }
     }
 

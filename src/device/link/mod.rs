@@ -24,6 +24,7 @@ use super::framing::Packet;
 use super::host::{BridgeCounters, Heard, Sequence};
 use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
+use super::session_log::{TapEnd, tap};
 use reader::Reader;
 use timings::Histogram;
 pub use timings::{Distribution, DistributionBar, Spread, Timings};
@@ -170,6 +171,8 @@ pub(super) struct Link {
     failures: Consumer<String>,
     controls: Producer<Packet>,
     frames: Producer<QueuedFrame>,
+    /// For a log: what is really written, and what really arrives.
+    taps: Option<[TapEnd; 2]>,
 }
 
 impl fmt::Debug for Link {
@@ -192,8 +195,9 @@ impl Link {
         let (controls, controls_out) = RingBuffer::new(CONTROLS);
         let (frames, frames_out) = RingBuffer::new(FRAMES);
         let outgoing = Outgoing::new(controls_out, frames_out);
-        let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
-        let reader = Reader::new(Arc::clone(&shared), to_owner, n_channels);
+        let [(sent, sent_end), (received, received_end)] = [tap(), tap()];
+        let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
+        let reader = Reader::new(Arc::clone(&shared), to_owner, n_channels, received);
         let running = Running::new(&shared);
         Builder::new()
             .name(String::from("bridge-reader"))
@@ -208,7 +212,13 @@ impl Link {
             failures,
             controls,
             frames,
+            taps: Some([sent_end, received_end]),
         })
+    }
+
+    /// What a log follows; `None` when one does.
+    pub(super) fn take_taps(&mut self) -> Option<[TapEnd; 2]> {
+        self.taps.take()
     }
 
     pub(super) fn next(&mut self) -> Option<Incoming> {

@@ -12,6 +12,7 @@ use super::{Incoming, Opener, Running, Shared, Writer, count};
 use crate::framing::{Decoder, LARGEST_BODY};
 use crate::message::{DeviceMessage, Unreadable};
 use crate::port::Port;
+use crate::session_log::{Body, Passed, Tap};
 
 /// How long a read waits before it looks whether to end.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -22,6 +23,7 @@ pub(super) struct Reader {
     to_owner: Producer<Incoming>,
     n_channels: usize,
     decoder: Decoder,
+    tap: Tap,
 }
 
 impl Reader {
@@ -29,12 +31,14 @@ impl Reader {
         shared: Arc<Shared>,
         to_owner: Producer<Incoming>,
         n_channels: usize,
+        tap: Tap,
     ) -> Self {
         Self {
             shared,
             to_owner,
             n_channels,
             decoder: Decoder::new(LARGEST_BODY),
+            tap,
         }
     }
 
@@ -77,11 +81,18 @@ impl Reader {
 
     fn take(&mut self, bytes: &[u8], received: Instant) {
         let mut found = false;
+        let bad_before = self.decoder.bad();
         for &byte in bytes {
             let Some(packet) = self.decoder.push(byte) else {
                 continue;
             };
-            match DeviceMessage::decode(&packet, self.n_channels) {
+            let body = Body::new(&packet);
+            let message = DeviceMessage::decode(&packet, self.n_channels);
+            if let Some(body) = body {
+                let body = body.with_flags(self.decoder.flags());
+                self.tap.put(received, &Passed::Received(body));
+            }
+            match message {
                 Ok(message) => {
                     found = true;
                     let incoming = Incoming::Message { message, received };
@@ -93,6 +104,10 @@ impl Reader {
                 Err(Unreadable::UnknownKind) => {}
                 Err(Unreadable::Short) => self.decoder.count_bad(),
             }
+        }
+        let n_bad = self.decoder.bad() - bad_before;
+        if n_bad > 0 {
+            self.tap.put(received, &Passed::Bad(n_bad));
         }
         let n_bytes = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         self.shared

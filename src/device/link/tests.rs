@@ -43,7 +43,8 @@ fn desk() -> Desk {
     let (controls, controls_out) = RingBuffer::new(CONTROLS);
     let (frames, frames_out) = RingBuffer::new(FRAMES);
     let outgoing = Outgoing::new(controls_out, frames_out);
-    let writer = Writer::new(Arc::clone(&shared), outgoing, failed);
+    let [(sent, sent_end), (_, received_end)] = [tap(), tap()];
+    let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
     Desk {
         link: Link {
             shared,
@@ -51,6 +52,7 @@ fn desk() -> Desk {
             failures,
             controls,
             frames,
+            taps: Some([sent_end, received_end]),
         },
         writer,
         port: Notes::default(),

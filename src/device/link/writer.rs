@@ -10,6 +10,7 @@ use rtrb::{Consumer, Producer};
 use super::{QueuedFrame, Shared, count};
 use crate::framing::Packet;
 use crate::port::Port;
+use crate::session_log::{Passed, Tap};
 
 /// How long a port may take for one packet.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -45,16 +46,23 @@ pub(super) struct Writer {
     timed_out: bool,
     /// When the last frame was written, since the last STOP.
     last_frame: Option<Instant>,
+    tap: Tap,
 }
 
 impl Writer {
-    pub(super) fn new(shared: Arc<Shared>, outgoing: Outgoing, failed: Producer<String>) -> Self {
+    pub(super) fn new(
+        shared: Arc<Shared>,
+        outgoing: Outgoing,
+        failed: Producer<String>,
+        tap: Tap,
+    ) -> Self {
         Self {
             shared,
             outgoing,
             failed,
             timed_out: false,
             last_frame: None,
+            tap,
         }
     }
 
@@ -129,7 +137,13 @@ impl Writer {
     }
 
     fn write(&mut self, port: &mut dyn Port, packet: &Packet) -> Written {
-        let reason = match port.write(packet.as_bytes(), PATIENCE) {
+        let result = port.write(packet.as_bytes(), PATIENCE);
+        let what = match result {
+            Ok(()) => Passed::Sent(*packet),
+            Err(_) => Passed::Unsent(*packet),
+        };
+        self.tap.put(Instant::now(), &what);
+        let reason = match result {
             Ok(()) => {
                 self.timed_out = false;
                 return Written::Yes;

@@ -1,15 +1,25 @@
-//! An entry as a line of CSV: `utc,monotonic_s,device_tick,device_us,event,detail`.
+//! A line of CSV and what stands in it: see [`COLUMNS`].
 //!
-//! The detail is `name=value` pairs with the unit in the name, or a text in quotes.
+//! The detail of a note is `name=value` pairs with the unit in the name, or a text, in quotes; that
+//! of a packet has neither commas nor quotes. The lines of packets have no `utc`: it follows from
+//! the other time, and they are most of a log.
 
+use std::fmt::Write as _;
 use std::time::{Instant, SystemTime};
 
+use super::bodies::kind_name;
+use super::events::{COLUMNS, event};
 use super::note::{Entry, HostCounters, Note};
-use crate::message::{Caps, Config, DeviceCounters, DeviceState, StopHow, fault_bit, kind};
+use super::packets::PacketWords;
+use crate::message::{
+    Caps, Config, DeviceCounters, DeviceState, LARGEST_CHANNELS, Status, StopHow, fault_bit,
+};
 use selvedge_foundation::quantity::rfc3339;
 
 /// The first line of a log.
-pub(super) const HEADER: &str = "utc,monotonic_s,device_tick,device_us,event,detail\n";
+pub(super) fn header() -> String {
+    format!("{}\n", COLUMNS.join(","))
+}
 
 /// The moment that a log's times count from, by both clocks of the system.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +38,7 @@ impl Epoch {
 }
 
 /// Appends the line of an entry.
-pub(super) fn write(line: &mut String, entry: &Entry, epoch: Epoch) {
+pub(super) fn write_entry(lines: &mut String, entry: &Entry, epoch: Epoch) {
     let since = entry.at.saturating_duration_since(epoch.monotonic);
     let (event, detail) = words(&entry.note);
     let detail = detail.replace('"', "\"\"");
@@ -41,26 +51,35 @@ pub(super) fn write(line: &mut String, entry: &Entry, epoch: Epoch) {
         event.to_owned(),
         format!("\"{detail}\""),
     ];
-    line.push_str(&fields.join(","));
-    line.push('\n');
+    lines.push_str(&fields.join(","));
+    lines.push('\n');
+}
+
+/// Appends the line of a packet.
+pub(super) fn write_packet(lines: &mut String, at: Instant, words: &PacketWords, epoch: Epoch) {
+    let since_s = at.saturating_duration_since(epoch.monotonic).as_secs_f64();
+    let tick = words.tick.map_or_else(String::new, |tick| tick.to_string());
+    let PacketWords { event, detail, .. } = words;
+    let written = writeln!(lines, ",{since_s:.4},{tick},,{event},{detail}");
+    debug_assert!(written.is_ok(), "a String takes everything");
 }
 
 fn words(note: &Note) -> (&'static str, String) {
     match note {
-        Note::Hello(nonce) => ("hello", format!("session={nonce:08x}")),
-        Note::Caps(caps) => ("caps", caps_words(caps)),
-        Note::Config(config) => ("config", config_words(config)),
-        Note::Effective(config) => ("cfg", config_words(config)),
-        Note::Arm => ("arm", String::new()),
-        Note::Armed => ("armed", String::new()),
-        Note::Stop(how) => ("stop", format!("how={}", how_word(*how))),
-        Note::StopBySwitch(how) => ("stop-switch", format!("how={}", how_word(*how))),
-        Note::Stopped => ("stopped", String::new()),
-        Note::Clear => ("clear", String::new()),
-        Note::Cleared => ("cleared", String::new()),
+        Note::Hello(nonce) => (event::HELLO, format!("session={nonce:08x}")),
+        Note::Caps(caps) => (event::CAPS, caps_words(caps)),
+        Note::Config(config) => (event::CONFIG, config_words(config)),
+        Note::Effective(config) => (event::CFG, config_words(config)),
+        Note::Arm => (event::ARM, String::new()),
+        Note::Armed => (event::ARMED, String::new()),
+        Note::Stop(how) => (event::STOP, format!("how={}", how_word(*how))),
+        Note::StopBySwitch(how) => (event::STOP_SWITCH, format!("how={}", how_word(*how))),
+        Note::Stopped => (event::STOPPED, String::new()),
+        Note::Clear => (event::CLEAR, String::new()),
+        Note::Cleared => (event::CLEARED, String::new()),
         Note::Refused(kind, code) => {
             let what = format!("message={} code={}", kind_name(*kind), code.code());
-            ("refused", format!("{what} ({})", code.describe()))
+            (event::REFUSED, format!("{what} ({})", code.describe()))
         }
         Note::Fault(fault) => {
             let channel = match fault.channel {
@@ -70,21 +89,25 @@ fn words(note: &Note) -> (&'static str, String) {
             let (names, value) = (fault_bit::names(fault.faults), fault.value);
             let bits = fault.faults;
             let what = format!("bits={bits:#06x} channel={channel} value={value} ({names})");
-            ("fault", what)
+            (event::FAULT, what)
         }
-        Note::State(code) => {
-            let name = DeviceState::from_code(*code).map_or("unknown", DeviceState::name);
-            ("state", format!("state={name}"))
+        Note::State(code) => (event::STATE, format!("state={}", state_name(*code))),
+        Note::Telemetry(status, predicted) => {
+            (event::TELEMETRY, telemetry_words(status, *predicted))
         }
-        Note::DeviceCounters(counters) => ("device-counters", device_words(counters)),
-        Note::HostCounters(counters) => ("host-counters", host_words(counters)),
+        Note::DeviceCounters(counters) => (event::DEVICE_COUNTERS, device_words(counters)),
+        Note::HostCounters(counters) => (event::HOST_COUNTERS, host_words(counters)),
         Note::Depth(depth, lead) => {
             let lead_ms = lead.as_secs_f64() * 1e3;
-            ("depth", format!("ticks={depth} lead_ms={lead_ms:.2}"))
+            (event::DEPTH, format!("ticks={depth} lead_ms={lead_ms:.2}"))
         }
         Note::Said(event, text) => (event, one_line(text)),
-        Note::Missing(n) => ("entries-lost", format!("n={n}")),
+        Note::Missing(n) => (event::ENTRIES_LOST, format!("n={n}")),
     }
+}
+
+fn state_name(code: u8) -> &'static str {
+    DeviceState::from_code(code).map_or("unknown", DeviceState::name)
 }
 
 fn one_line(text: &str) -> String {
@@ -102,33 +125,37 @@ fn caps_words(caps: &Caps) -> String {
     let [major, minor, patch] = caps.firmware;
     let uid = caps.uid.map(|byte| format!("{byte:02x}")).concat();
     format!(
-        "name={:?} firmware={major}.{minor}.{patch} uid={uid} version={} channels={} rows={} \
-         cols={} queue={} modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} \
-         sample_hz={} comp_limit={}/{}",
+        "name=\"{}\" firmware={major}.{minor}.{patch} uid={uid} session={:08x} version={} \
+         components={} channels={} rows={} cols={} pitch_um={} tick_us={} queue={} dac_bits={} \
+         modes={:#06x} fs_mv={} hv_max_dv={} slew_max={} max_body={} sample_hz={} freq_mhz={}/{} \
+         comp_limit={}/{}",
         caps.shown_name(),
+        caps.session,
         caps.version,
+        caps.n_comp,
         caps.n_ch,
         caps.rows,
         caps.cols,
+        caps.pitch_um,
+        caps.tick_us,
         caps.queue,
+        caps.dac_bits,
         caps.modes,
         caps.fs_mv,
         caps.hv_max_dv,
         caps.slew_max,
         caps.max_body,
         caps.sample_hz,
+        caps.freq_mhz[0],
+        caps.freq_mhz[1],
         caps.comp_limit[0],
         caps.comp_limit[1],
     )
 }
 
 fn config_words(config: &Config) -> String {
-    let n_on = (0..crate::message::LARGEST_CHANNELS)
-        .filter(|&channel| config.mask.contains(channel))
-        .count();
     format!(
-        "mode={} flags={} hold_ms={} ramp_ms={} slew={} hv_dv={} comp_limit={}/{} \
-         channels_on={n_on}",
+        "mode={} flags={} hold_ms={} ramp_ms={} slew={} hv_dv={} comp_limit={}/{} mask={}",
         config.mode,
         config.flags,
         config.hold_ms,
@@ -137,6 +164,38 @@ fn config_words(config: &Config) -> String {
         config.hv_dv,
         config.comp_limit[0],
         config.comp_limit[1],
+        mask_words(config),
+    )
+}
+
+/// The mask: its words from channel 0 on, 32 channels each, in hexadecimal digits. Which of them
+/// exist is told by CAPS.
+fn mask_words(config: &Config) -> String {
+    let word = |first: usize| {
+        let bits = (first..first + 32).map(|channel| config.mask.contains(channel));
+        bits.rev()
+            .fold(0_u32, |word, is_on| word << 1 | u32::from(is_on))
+    };
+    let mut words: Vec<u32> = (0..LARGEST_CHANNELS).step_by(32).map(word).collect();
+    while words.len() > 1 && words.last() == Some(&0) {
+        words.pop();
+    }
+    let digits: Vec<String> = words.iter().map(|word| format!("{word:08x}")).collect();
+    digits.join("/")
+}
+
+fn telemetry_words(status: &Status, predicted: f64) -> String {
+    format!(
+        "hv_v={:.1} i_ma={} temp_c={:.2} amp_sum={} predicted_sum={predicted:.0} state={} \
+         queued={} age_ms={} faults={:#06x}",
+        f64::from(status.hv_dv) / 10.0,
+        status.i_ma,
+        f64::from(status.temp_cdeg) / 100.0,
+        status.amp_sum,
+        state_name(status.state),
+        status.queued,
+        status.age_ms,
+        status.faults,
     )
 }
 
@@ -158,25 +217,10 @@ fn host_words(counters: &HostCounters) -> String {
     )
 }
 
-fn kind_name(kind: u8) -> &'static str {
-    match kind {
-        kind::HELLO => "HELLO",
-        kind::CONFIG => "CONFIG",
-        kind::ARM => "ARM",
-        kind::FRAME => "FRAME",
-        kind::STOP => "STOP",
-        kind::PING => "PING",
-        kind::CLEAR => "CLEAR",
-        kind::SAMPLES => "SAMPLES",
-        kind::IDENT => "IDENT",
-        _ => "unknown",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::message::AckCode;
+    use crate::message::{AckCode, kind};
     use std::time::{Duration, UNIX_EPOCH};
 
     fn line_of(note: Note) -> String {
@@ -191,7 +235,7 @@ mod tests {
             note,
         };
         let mut line = String::new();
-        write(&mut line, &entry, epoch);
+        write_entry(&mut line, &entry, epoch);
         line
     }
 
@@ -215,6 +259,6 @@ mod tests {
             "{line}"
         );
         assert_eq!(line.lines().count(), 1);
-        assert_eq!(HEADER.split(',').count(), 6);
+        assert_eq!(header().split(',').count(), 6);
     }
 }

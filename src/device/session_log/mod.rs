@@ -1,16 +1,26 @@
-//! The log of a link: every setting, arming, stop, fault, refusal and change of a counter, with the
-//! device's tick and the host's time, one line each.
+//! The log of a link: every packet both ways, every setting, arming, stop, fault, refusal and
+//! change of a counter, by host and device time, one line each; and what reads it.
 //!
-//! Entries travel from the session's thread in a bounded ring (one without room is counted, and the
-//! number is written); a thread of its own makes lines of them a few times a second. The file only
-//! ever grows at its end, so that what stands in it stays, whatever becomes of the program.
+//! Packets come from the link's threads, where they were really written and really arrived; entries
+//! from the session's. All travel in bounded rings (what finds no room is counted, and the number
+//! is written); a thread of its own makes lines of them a few times a second. The file only ever
+//! grows at its end, so that what stands in it stays, whatever becomes of the program.
 
+mod bodies;
+mod digits;
+mod events;
 mod file;
 mod line;
 mod note;
+mod packets;
+mod read;
+mod recorder;
+mod tap;
+#[cfg(test)]
+mod virtual_log;
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, Builder, JoinHandle};
 use std::time::{Duration, Instant};
@@ -18,13 +28,26 @@ use std::time::{Duration, Instant};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::BridgeError;
+use crate::ArrayProfile;
+pub(super) use events::event;
 pub use file::LogBound;
 use file::LogFile;
 use line::Epoch;
 pub(super) use note::{Entry, HostCounters, Note};
+pub(super) use packets::HashedFrame;
+pub(super) use read::{LogReader, Seen};
+pub(super) use recorder::CONTINUED;
+use recorder::Recorder;
+use selvedge_foundation::files::sha256_hex;
+use tap::Passing;
+pub(super) use tap::{Body, Passed, Tap, TapEnd, tap};
+#[cfg(test)]
+pub(super) use virtual_log::VirtualLog;
 
 /// Room for entries on their way: seconds of a link on which everything goes wrong.
 const MAX_ENTRIES: usize = 256;
+/// Stands in the first line of a link whose log has hashes of frames instead of frames.
+pub(super) const HASHED: &str = " frames=hashes";
 /// Between two looks at what is to be written.
 const NAP: Duration = Duration::from_millis(100);
 
@@ -34,19 +57,85 @@ pub struct SessionLog {
     shared: Arc<Shared>,
     path: PathBuf,
     writer: Option<JoinHandle<()>>,
+    epoch: Epoch,
+    keeps_frames: bool,
+    n_links: AtomicU32,
 }
 
 #[derive(Debug, Default)]
 struct Shared {
-    /// Ends of the rings of all links; only the owner and the writer ever look.
-    feeds: Mutex<Vec<Consumer<Entry>>>,
+    /// Ends of the rings of all links; only owners, at their beginning, and the writer ever look.
+    sources: Mutex<Vec<Source>>,
     is_over: AtomicBool,
     failure: Mutex<Option<String>>,
 }
 
+/// What comes from one link.
+#[derive(Debug)]
+struct Source {
+    number: u32,
+    entries: Consumer<Entry>,
+    /// Of the thread that reads and of the one that writes.
+    taps: Option<[TapEnd; 2]>,
+    recorder: Recorder,
+}
+
+/// One thing to write.
+enum Item {
+    Entry(Entry),
+    Passing(Box<Passing>),
+}
+
+impl Item {
+    fn at(&self) -> Instant {
+        match self {
+            Self::Entry(entry) => entry.at,
+            Self::Passing(passing) => passing.at,
+        }
+    }
+}
+
+impl Source {
+    fn is_over(&self) -> bool {
+        let is_silent = |taps: &[TapEnd; 2]| taps.iter().all(TapEnd::is_over);
+        self.entries.is_abandoned() && self.taps.as_ref().is_none_or(is_silent)
+    }
+
+    /// Everything that waits, in the order of time; and how many packets found no room.
+    fn take(&mut self) -> (Vec<Item>, u64) {
+        let mut items = Vec::new();
+        let mut n_lost = 0;
+        while let Ok(entry) = self.entries.pop() {
+            items.push(Item::Entry(entry));
+        }
+        for tap in self.taps.iter_mut().flatten() {
+            n_lost += tap.take_lost();
+            let passing = std::iter::from_fn(|| tap.next());
+            items.extend(passing.map(|passing| Item::Passing(Box::new(passing))));
+        }
+        items.sort_by_key(Item::at);
+        (items, n_lost)
+    }
+
+    /// The lines of everything that waits.
+    fn write(&mut self, lines: &mut String) {
+        let (items, n_lost) = self.take();
+        for item in items {
+            match item {
+                Item::Entry(entry) => self.recorder.entry(entry, lines),
+                Item::Passing(passing) => self.recorder.passing(&passing, lines),
+            }
+        }
+        if n_lost > 0 {
+            self.recorder.lost(Instant::now(), n_lost, lines);
+        }
+        self.recorder.settle(Instant::now(), lines);
+    }
+}
+
 impl Shared {
-    fn feeds(&self) -> MutexGuard<'_, Vec<Consumer<Entry>>> {
-        self.feeds.lock().unwrap_or_else(PoisonError::into_inner)
+    fn sources(&self) -> MutexGuard<'_, Vec<Source>> {
+        self.sources.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn failure(&self) -> MutexGuard<'_, Option<String>> {
@@ -58,20 +147,34 @@ impl SessionLog {
     /// Continues the log at `path`, or begins it.
     ///
     /// # Errors
-    /// The file cannot be written; the system gives no thread.
+    /// Its folder is not there; the file cannot be written; the system gives no thread.
     pub fn append(path: &Path, bound: Option<LogBound>) -> Result<Self, BridgeError> {
         let file = LogFile::open(path, bound)?;
         let shared = Arc::new(Shared::default());
         let (for_writer, epoch) = (Arc::clone(&shared), Epoch::now());
         let writer = Builder::new()
             .name(String::from("bridge-log"))
-            .spawn(move || write(&for_writer, file, epoch))
+            .spawn(move || {
+                if let Err(error) = write(&for_writer, file, epoch) {
+                    *for_writer.failure() = Some(error.to_string());
+                }
+            })
             .map_err(BridgeError::Thread)?;
         Ok(Self {
             shared,
             path: path.to_path_buf(),
             writer: Some(writer),
+            epoch,
+            keeps_frames: true,
+            n_links: AtomicU32::new(0),
         })
+    }
+
+    /// From the next link on, hashes of frames are written instead of frames.
+    #[must_use]
+    pub fn without_frames(mut self) -> Self {
+        self.keeps_frames = false;
+        self
     }
 
     /// The file.
@@ -87,18 +190,26 @@ impl SessionLog {
     /// An end for one link; `target` is what it is opened to. Allocates.
     pub fn feed(&self, target: &str) -> LogFeed {
         let (entries, end) = RingBuffer::new(MAX_ENTRIES);
-        self.shared.feeds().push(end);
+        let number = self.n_links.fetch_add(1, Ordering::Relaxed) + 1;
+        self.shared.sources().push(Source {
+            number,
+            entries: end,
+            taps: None,
+            recorder: Recorder::new(self.epoch, self.keeps_frames),
+        });
         if let Some(writer) = &self.writer {
             writer.thread().unpark();
         }
-        let mut feed = LogFeed { entries, n_lost: 0 };
+        let mut feed = LogFeed {
+            entries,
+            n_lost: 0,
+            number,
+            shared: Arc::clone(&self.shared),
+        };
         let program = selvedge_foundation::PROGRAM;
-        feed.push(Entry {
-            at: Instant::now(),
-            tick: None,
-            device_us: None,
-            note: Note::Said("link", format!("target={target} program={program}")),
-        });
+        let frames = if self.keeps_frames { "" } else { HASHED };
+        let text = format!("n={number} target={target:?} program={program}{frames}");
+        feed.say(event::LINK, text);
         feed
     }
 
@@ -138,9 +249,45 @@ impl Drop for SessionLog {
 pub struct LogFeed {
     entries: Producer<Entry>,
     n_lost: u64,
+    number: u32,
+    shared: Arc<Shared>,
 }
 
 impl LogFeed {
+    /// Says what is played and on what: `name` with its unit or kind, such as `scene_sha256`.
+    pub fn about(&mut self, name: &str, value: &str) {
+        self.say(event::ABOUT, format!("{name}={value}"));
+    }
+
+    /// Says on which array, and with which settings of it.
+    pub fn about_array(&mut self, profile: &ArrayProfile) {
+        if let Ok(text) = profile.to_toml() {
+            self.about("profile", &format!("{:?}", profile.name));
+            self.about("profile_sha256", &sha256_hex([text.as_bytes()]));
+        }
+    }
+
+    fn say(&mut self, event: &'static str, text: String) {
+        self.push(Entry {
+            at: Instant::now(),
+            tick: None,
+            device_us: None,
+            note: Note::Said(event, text),
+        });
+    }
+
+    /// From now on what passes the port is recorded too.
+    pub(super) fn follow(&self, taps: [TapEnd; 2]) {
+        let mut sources = self.shared.sources();
+        let source = sources
+            .iter_mut()
+            .find(|source| source.number == self.number);
+        if let Some(source) = source {
+            taps.iter().for_each(TapEnd::open);
+            source.taps = Some(taps);
+        }
+    }
+
     /// Adds an entry; without room it is counted. Neither allocates nor waits.
     pub(super) fn push(&mut self, entry: Entry) {
         if self.n_lost > 0 && self.entries.slots() > 1 {
@@ -155,21 +302,23 @@ impl LogFeed {
     }
 }
 
-fn write(shared: &Shared, mut file: LogFile, epoch: Epoch) {
-    let mut lines = String::new();
+fn write(shared: &Shared, mut file: LogFile, epoch: Epoch) -> std::io::Result<()> {
+    let mut order = OfLink {
+        number: None,
+        epoch,
+    };
     loop {
         // Asked first: what was added before the end is written.
         let is_over = shared.is_over.load(Ordering::Acquire);
-        let is_fed = gather(&mut shared.feeds(), &mut lines, epoch);
-        if !lines.is_empty()
-            && let Err(error) = file.add(&lines)
-        {
-            *shared.failure() = Some(error.to_string());
-            return;
+        let (lines, is_fed) = gather(shared, &mut order, is_over || file.is_full());
+        file.add(&lines)?;
+        if file.is_full() && !is_over {
+            let lines = heads(shared, &mut order);
+            file.make_way()?;
+            file.add(&lines)?;
         }
-        lines.clear();
         if is_over {
-            return;
+            return Ok(());
         }
         if is_fed {
             thread::park_timeout(NAP);
@@ -179,16 +328,62 @@ fn write(shared: &Shared, mut file: LogFile, epoch: Epoch) {
     }
 }
 
-/// Makes lines of all entries; whether more may come.
-fn gather(feeds: &mut Vec<Consumer<Entry>>, lines: &mut String, epoch: Epoch) -> bool {
-    feeds.retain_mut(|feed| {
-        let is_abandoned = feed.is_abandoned();
-        while let Ok(entry) = feed.pop() {
-            line::write(lines, &entry, epoch);
+/// Makes lines of everything that waits; whether more may come.
+fn gather(shared: &Shared, order: &mut OfLink, is_end: bool) -> (String, bool) {
+    let mut lines = String::new();
+    let mut sources = shared.sources();
+    sources.retain_mut(|source| {
+        let mut own = String::new();
+        // Asked first, as above.
+        let is_over = source.is_over();
+        source.write(&mut own);
+        if is_end || is_over {
+            source.recorder.end_run(&mut own);
         }
-        !is_abandoned
+        order.add(source.number, &own, &mut lines);
+        !is_over
     });
-    !feeds.is_empty()
+    (lines, !sources.is_empty())
+}
+
+/// What stands at the head of another file.
+fn heads(shared: &Shared, order: &mut OfLink) -> String {
+    let mut lines = String::new();
+    for source in shared.sources().iter_mut() {
+        let mut own = String::new();
+        source.recorder.head(&mut own);
+        order.add(source.number, &own, &mut lines);
+    }
+    lines
+}
+
+/// Says whose lines come next where that changes.
+struct OfLink {
+    number: Option<u32>,
+    epoch: Epoch,
+}
+
+impl OfLink {
+    fn add(&mut self, number: u32, own: &str, lines: &mut String) {
+        if own.is_empty() {
+            return;
+        }
+        // Whose first line it is says so itself.
+        if self
+            .number
+            .replace(number)
+            .is_some_and(|last| last != number)
+        {
+            let entry = Entry {
+                at: Instant::now(),
+                tick: None,
+                device_us: None,
+                note: Note::Said(event::OF_LINK, format!("n={number}")),
+            };
+            line::write_entry(lines, &entry, self.epoch);
+        }
+        lines.push_str(own);
+    }
 }
 
 #[cfg(test)]

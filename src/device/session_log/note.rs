@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::message::{AckCode, Caps, Config, DeviceCounters, Fault, StopHow};
+use crate::message::{AckCode, Caps, Config, DeviceCounters, Fault, Status, StopHow};
 
 /// One thing that happened on a link.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +48,8 @@ pub(crate) enum Note {
     Fault(Fault),
     /// The device is in another state, by its code.
     State(u8),
+    /// What the device measures of itself, and the largest `amp_sum` that our frames predict.
+    Telemetry(Status, f64),
     /// Counters of the device since the session began, after a change.
     DeviceCounters(DeviceCounters),
     /// Counters of this side since the link was opened, after a change.

@@ -53,6 +53,9 @@ pub struct Simulation {
     bytes_received: u64,
     /// ARM packets that the host wrote.
     pub arms_written: u32,
+    /// What a log of the link holds, if one is kept.
+    #[cfg(test)]
+    pub(crate) record: Option<crate::session_log::VirtualLog>,
     decoder: Decoder,
     n_visits: u32,
 }
@@ -118,6 +121,8 @@ impl Simulation {
             bad_received: 0,
             bytes_received: 0,
             arms_written: 0,
+            #[cfg(test)]
+            record: None,
             decoder: Decoder::new(LARGEST_BODY),
             n_visits: 0,
         }
@@ -255,6 +260,12 @@ impl Simulation {
             let Some(packet) = self.decoder.push(byte) else {
                 continue;
             };
+            #[cfg(test)]
+            if let Some(record) = &mut self.record
+                && let Some(body) = crate::session_log::Body::new(&packet)
+            {
+                record.received(now, &body);
+            }
             match DeviceMessage::decode(&packet, N_CONTACTORS) {
                 Ok(message) => self.host.on_message(now, &message),
                 Err(_) => self.bad_received += 1,
@@ -293,6 +304,8 @@ impl Simulation {
 
     fn write(&mut self, packet: &Packet) {
         self.arms_written += u32::from(is_arm(packet));
+        #[cfg(test)]
+        self.record_sent(packet);
         if self.cut {
             return;
         }
@@ -305,6 +318,17 @@ impl Simulation {
         Heard {
             bytes: self.bytes_received,
             bad: self.bad_texts_received(),
+        }
+    }
+
+    #[cfg(test)]
+    fn record_sent(&mut self, packet: &Packet) {
+        let now = self.now();
+        if let Some(record) = &mut self.record {
+            record.sent(now, packet);
+            while let Some(entry) = self.host.next_note() {
+                record.entry(entry);
+            }
         }
     }
 

@@ -27,7 +27,8 @@ impl DeviceHandle {
         let mut bridge = Bridge::open(target, driven.profile.clone(), driven.n_felt, wake);
         self.actuators = bridge.take_actuators();
         if let Some(log) = &self.session_log {
-            let feed = log.feed(bridge.target());
+            let mut feed = log.feed(bridge.target());
+            feed.about_array(&driven.profile);
             bridge.log_to(feed);
         }
         switch.set_device(bridge.stop_handle());

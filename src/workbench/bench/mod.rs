@@ -88,7 +88,7 @@ pub(crate) const FRAME: Duration = Duration::from_nanos(33_333_333);
 
 /// How much the log of links may take: five files of 1 MB.
 const LOG_BOUND: LogBound = LogBound {
-    bytes: 1_000_000,
+    bytes: 16_000_000,
     n_older: 4,
 };
 
@@ -233,6 +233,8 @@ impl Bench {
     /// Lets every link to a device be logged in the user's own folder.
     fn log_links(&mut self) {
         let Some(path) = session_log() else { return };
+        // The program's own folder is made; what is wrong with it is said below.
+        drop(path.parent().map(std::fs::create_dir_all));
         match SessionLog::append(&path, Some(LOG_BOUND)) {
             Ok(log) => self.engine.log_links_to(log),
             Err(error) => self.notices.give(error.to_string()),

@@ -1,7 +1,8 @@
 //! What a device says of itself, and that it says the same again.
 
-use super::checks;
-use crate::certify::client::{Client, Verdict, ensure};
+use super::check::checks;
+use crate::certify::client::Client;
+use crate::certify::verdict::{Verdict, ensure};
 use crate::message::{Caps, MAGIC, TICK_US};
 
 checks! { "handshake":

@@ -1,11 +1,12 @@
 //! FRAMEs: which is played when, and what is counted.
 
-use super::checks;
+use super::check::checks;
 use super::session::frame_codes;
 use super::steps::{expect, status_of};
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::Allowed;
 use crate::certify::say::{Say, Want, packet};
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Config, DeviceState, NEXT_TICK, kind};
 
 checks! { "frames":
@@ -147,14 +148,14 @@ fn late(c: &mut Client<'_>) -> Verdict {
             seq = frame.seq;
             vec![frame]
         })?;
-        c.due.late += 1;
+        c.tally.due.late += 1;
         let status = status_of(c, tick + 1)?;
         let expected = sum(c, &codes);
         expect(&status, DeviceState::Run, expected)?;
         ensure(status.last_seq == seq, || {
             String::from("a late FRAME is not in last_seq")
         })?;
-        c.count(&status)?;
+        c.tally.compare(&status)?;
     }
     Ok(())
 }
@@ -170,7 +171,7 @@ fn far(c: &mut Client<'_>) -> Verdict {
             c.frame(tick.wrapping_sub(0x7fff_fffe), &codes),
         ]
     })?;
-    c.due.late += 1;
+    c.tally.due.late += 1;
     let expected = sum(c, &codes);
     expect(&status_of(c, tick + 1)?, DeviceState::Run, expected)
 }
@@ -195,14 +196,14 @@ fn duplicates(c: &mut Client<'_>) -> Verdict {
         seq = frame.seq;
         vec![frame, with_seq(&second, seq)]
     })?;
-    c.due.dup += 1;
+    c.tally.due.dup += 1;
     let expected = sum(c, &first);
     expect(&status_of(c, tick + 1)?, DeviceState::Run, expected)?;
     let says = [with_seq(&second, seq), with_seq(&second, seq)];
     c.tell_at(tick + 1, 12_000, &says)?;
-    c.due.dup += 2;
+    c.tally.due.dup += 2;
     let status = status_of(c, tick + 2)?;
-    c.count(&status)?;
+    c.tally.compare(&status)?;
     expect(&status, DeviceState::Hold, expected)?;
     let ages_ms = heard.ages_ms(u64::from(tick + 2) * 25_000);
     ensure(

@@ -1,9 +1,11 @@
 //! Texts between zeros: what is a packet, what is not, and that only itself is lost.
 
-use super::checks;
+use super::check::checks;
 use super::steps::expect;
-use crate::certify::client::{Client, Verdict};
+use crate::certify::client::Client;
 use crate::certify::say::{Say, Want, packet};
+use crate::certify::speech::Speech;
+use crate::certify::verdict::Verdict;
 use crate::message::{DeviceState, NEXT_TICK, kind};
 
 checks! { "framing":
@@ -33,7 +35,7 @@ fn tell_all(c: &mut Client<'_>, says: &[Say]) -> Verdict {
 }
 
 fn empties(c: &mut Client<'_>) -> Verdict {
-    c.tell(&[Client::noise(&[0; 40])]).map(drop)
+    c.tell(&[Speech::noise(&[0; 40])]).map(drop)
 }
 
 fn garbage(c: &mut Client<'_>) -> Verdict {
@@ -50,15 +52,15 @@ fn garbage(c: &mut Client<'_>) -> Verdict {
     ];
     let mut says = Vec::new();
     for text in texts {
-        says.push(Client::noise(text));
+        says.push(Speech::noise(text));
         says.push(c.ping());
     }
     c.tell(&says).map(drop)
 }
 
 /// A packet that is broken, so that nothing may answer it.
-fn broken(bytes: Vec<u8>) -> Say {
-    Client::noise(&bytes)
+fn broken(bytes: &[u8]) -> Say {
+    Speech::noise(bytes)
 }
 
 fn truncations(c: &mut Client<'_>) -> Verdict {
@@ -67,7 +69,7 @@ fn truncations(c: &mut Client<'_>) -> Verdict {
         let step = (say.bytes.len() / 20).max(1);
         let mut says = Vec::new();
         for length in (2..say.bytes.len() - 1).step_by(step) {
-            says.push(broken(say.bytes[..length].to_vec()));
+            says.push(broken(&say.bytes[..length]));
             says.push(c.ping());
         }
         tell_all(c, &says)?;
@@ -81,7 +83,7 @@ fn flipped(c: &mut Client<'_>, say: &Say, step: usize) -> Vec<Say> {
     for bit in (8..8 * (say.bytes.len() - 1)).step_by(step) {
         let mut bytes = say.bytes.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
-        says.push(broken(bytes));
+        says.push(broken(&bytes));
         if bit % 3 == 0 {
             says.push(c.ping());
         }
@@ -124,8 +126,8 @@ fn oversize(c: &mut Client<'_>) -> Verdict {
     let says = [
         longer,
         c.ping(),
-        Client::noise(&[7; 700]),
-        Client::noise(&[7; 900]),
+        Speech::noise(&[7; 700]),
+        Speech::noise(&[7; 900]),
         c.ping(),
     ];
     c.tell(&says).map(drop)
@@ -210,7 +212,7 @@ fn pieces(c: &mut Client<'_>) -> Verdict {
     let ping = c.ping();
     let (last, head) = ping.bytes.split_last().unwrap_or((&0, &[]));
     for byte in head {
-        c.write(&Client::noise(&[*byte]))?;
+        c.write(&Speech::noise(&[*byte]))?;
         c.pass(700)?;
     }
     let mut end = ping.clone();
@@ -223,8 +225,8 @@ fn short(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     let arming = c.arming(&config);
     c.tell(&arming)?;
-    let hello = Client::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
-    let arm = Client::arm_payload(c.session);
+    let hello = Speech::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
+    let arm = Speech::arm_payload(c.session);
     let config = c.config_payload(&config);
     let frame = [&NEXT_TICK.to_le_bytes()[..], &vec![1; 4 * c.n_ch()]].concat();
     let kinds: [(u8, &[u8]); 8] = [
@@ -258,9 +260,9 @@ fn trailing(c: &mut Client<'_>) -> Verdict {
         c.say(say.kind, &payload).wants(say.want)
     };
     let hello = c.hello();
-    let hello_payload = Client::hello_payload(c.session, [1, 1], 1, 0);
+    let hello_payload = Speech::hello_payload(c.session, [1, 1], 1, 0);
     let ask = c.config(&config);
-    let (config_payload, arm_payload) = (c.config_payload(&config), Client::arm_payload(c.session));
+    let (config_payload, arm_payload) = (c.config_payload(&config), Speech::arm_payload(c.session));
     let (arm, ping) = (c.arm(), c.ping());
     let Want::Pong(token) = ping.want else {
         return Ok(());

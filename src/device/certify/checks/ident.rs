@@ -1,9 +1,10 @@
 //! IDENT: one contactor at a time, for a while.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go, status_of};
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::say::{Say, Want};
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Caps, ChannelMask, Config, DeviceState, TICK_US, kind};
 
 checks! { "IDENT":

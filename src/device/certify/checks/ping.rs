@@ -1,8 +1,9 @@
 //! The device's clock: PONG at every phase of a tick, STATUS at every tick.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go};
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 
 checks! { "clock":
     Quick "pacing" pacing, "a STATUS at every tick, 25 ms of dev_us apart";

@@ -1,9 +1,11 @@
 //! HELLO, its nonce and its versions, and what arms.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, expect, go};
-use crate::certify::client::{Client, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::say::Want;
+use crate::certify::speech::Speech;
+use crate::certify::verdict::{Verdict, ensure};
 use crate::message::{DeviceState, NEXT_TICK, kind};
 
 checks! { "sessions":
@@ -30,10 +32,10 @@ fn wrong_hello(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     let says = c.arming(&config);
     c.tell(&says)?;
-    let right = Client::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
+    let right = Speech::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
     let mut other_magic = right.clone();
     other_magic[3] = b'2';
-    let no_session = Client::hello_payload(0, [1, 1], 1, 0);
+    let no_session = Speech::hello_payload(0, [1, 1], 1, 0);
     let says = [&other_magic[..], &no_session, &right[..15], &[]]
         .map(|payload| c.say(kind::HELLO, payload).wants(Want::Bad));
     c.tell(&says)?;
@@ -47,13 +49,13 @@ fn wrong_arm(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     let mut says = vec![c.hello(), c.config(&config)];
     let session = c.session;
-    let right = Client::arm_payload(session);
+    let right = Speech::arm_payload(session);
     let mut other_key = right.clone();
     other_key[4] ^= 1;
     let mut other_session = right.clone();
     other_session[0] ^= 2;
     let same_twice = [session.to_le_bytes(), session.to_le_bytes()].concat();
-    let stale = Client::arm_payload(old);
+    let stale = Speech::arm_payload(old);
     for payload in [stale, other_key, other_session, same_twice, vec![0; 8]] {
         says.push(c.say(kind::ARM, &payload).wants(Want::Ack(1)));
     }
@@ -161,13 +163,13 @@ fn counters(c: &mut Client<'_>) -> Verdict {
             c.say(kind::PING, &[1]).wants(Want::Bad),
         ]
     })?;
-    c.due.late += 1;
-    c.due.dup += 1;
+    c.tally.due.late += 1;
+    c.tally.due.dup += 1;
     let before = c.status()?;
     let hello = c.hello();
     c.tell(&[hello])?;
     let after = c.status()?;
-    c.count(&after)?;
+    c.tally.compare(&after)?;
     let n_missed = after.underrun.wrapping_sub(before.underrun);
     ensure(n_missed <= 1, || {
         format!("underrun rose by {n_missed} over HELLO")

@@ -1,10 +1,11 @@
 //! Hold and ramp by the age of the last FRAME, at every phase of a tick.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{follow_silence, play_at};
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::Allowed;
 use crate::certify::say::Want;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::DeviceState;
 
 checks! { "hold and ramp":
@@ -27,7 +28,7 @@ fn silence(c: &mut Client<'_>, hold: u16, ramp: u16, phase_us: u64) -> Result<u6
     let played = match play_at(c, &config, &codes, phase_us) {
         // It fell on a tick's edge: nothing can be said of it.
         Err(Trouble::Late) => {
-            c.due.clipped += Allowed::of(&codes, &config).clipped;
+            c.tally.due.clipped += Allowed::of(&codes, &config).clipped;
             return Ok(25);
         }
         played => played?,

@@ -1,9 +1,10 @@
 //! Every type in every state: its answer, and that a refusal changes nothing.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, go, judge_silence, status_of};
-use crate::certify::client::{Client, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::say::{Say, Want};
+use crate::certify::verdict::{Verdict, ensure};
 use crate::message::{Caps, DeviceState, kind};
 
 checks! { "types and states":

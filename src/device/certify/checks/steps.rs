@@ -1,8 +1,9 @@
 //! Steps that many checks share: how to come into a state, and what STATUS must show then.
 
-use crate::certify::client::{Client, Trouble, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::predict::{Allowed, Between, fits_ramp, ramped};
 use crate::certify::say::Say;
+use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Config, DeviceState, Status, TICK_US};
 
 /// A FRAME that runs, and what it comes to.
@@ -40,7 +41,7 @@ pub(super) fn play_at(
     let heard = c.tell(&[frame])?;
     let tick = tick_of(heard)?;
     let allowed = Allowed::of(codes, config);
-    c.due.clipped += allowed.clipped;
+    c.tally.due.clipped += allowed.clipped;
     Ok(Played {
         config: *config,
         sum: allowed.sum(),
@@ -52,7 +53,7 @@ pub(super) fn play_at(
 
 /// The tick in which all of it was heard.
 pub(super) fn tick_of(heard: Between) -> Result<u32, Trouble> {
-    let tick = u32::try_from(heard.from_us / u64::from(TICK_US)).map_err(|_| Trouble::Late)?;
+    let tick = crate::fields::wrapped_u32(heard.from_us / u64::from(TICK_US));
     if heard.is_in(tick) {
         Ok(tick)
     } else {

@@ -1,9 +1,10 @@
 //! STOP in every state, and what it leaves.
 
-use super::checks;
+use super::check::checks;
 use super::steps::{Place, There, expect, go, judge_ramp, status_of};
-use crate::certify::client::{Client, Verdict, ensure};
+use crate::certify::client::Client;
 use crate::certify::say::Want;
+use crate::certify::verdict::{Verdict, ensure};
 use crate::message::{DeviceState, TICK_US};
 
 checks! { "STOP":

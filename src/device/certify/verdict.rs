@@ -1,0 +1,26 @@
+//! How a check ends.
+
+/// Why a check ends before it is passed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Trouble {
+    /// The device is wrong.
+    Wrong(String),
+    /// The host or the link was too late to tell; to be tried again.
+    Late,
+    /// It cannot be tried on this device.
+    Untested(String),
+    /// The link is gone, or time is up, or somebody said stop: nothing more can be tried.
+    Over(String),
+}
+
+/// What a check gives.
+pub(super) type Verdict = Result<(), Trouble>;
+
+/// Wrong, unless.
+pub(super) fn ensure(is_right: bool, what: impl FnOnce() -> String) -> Verdict {
+    if is_right {
+        Ok(())
+    } else {
+        Err(Trouble::Wrong(what()))
+    }
+}

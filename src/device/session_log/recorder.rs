@@ -1,0 +1,151 @@
+//! One link's part of a log: entries and packets in, lines out.
+//!
+//! Frames that are equal but for their numbers are counted; the count is written once the frames
+//! end to be equal, and every half second, so that a log that ends anywhere ends late.
+
+use std::time::{Duration, Instant};
+
+use super::events::event;
+use super::line::{Epoch, write_entry, write_packet};
+use super::note::{Entry, Note};
+use super::packets::{MAX_AGAIN, PacketCode, PacketWords};
+use super::tap::{Body, Passed, Passing};
+use crate::message::kind;
+
+/// How long equal frames are counted before the number is written.
+const LONGEST_RUN: Duration = Duration::from_millis(500);
+/// The most headings that are written again at the head of another file.
+const MAX_HEADINGS: usize = 16;
+
+/// Ends the first heading of a link that began in an earlier file.
+pub(crate) const CONTINUED: &str = " continued";
+
+/// Frames equal to the one that was written last.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    n: u16,
+    began: Instant,
+    last: Instant,
+}
+
+/// Turns what happens on a link into lines.
+#[derive(Debug)]
+pub(crate) struct Recorder {
+    epoch: Epoch,
+    keeps_frames: bool,
+    code: PacketCode,
+    run: Option<Run>,
+    /// What a reader must know before anything else: the link, what is played on what, CAPS, CFG.
+    headings: Vec<Entry>,
+}
+
+impl Recorder {
+    /// Of a link whose log counts its times from `epoch`; without frames only their hashes are
+    /// kept.
+    pub(super) fn new(epoch: Epoch, keeps_frames: bool) -> Self {
+        Self {
+            epoch,
+            keeps_frames,
+            code: PacketCode::default(),
+            run: None,
+            headings: Vec::new(),
+        }
+    }
+
+    /// Adds the line of an entry.
+    pub(super) fn entry(&mut self, entry: Entry, lines: &mut String) {
+        write_entry(lines, &entry, self.epoch);
+        let is_said = |event| matches!(entry.note, Note::Said(said, _) if said == event);
+        let is_link = is_said(event::LINK);
+        if is_link {
+            self.code = PacketCode::default();
+            self.headings.clear();
+        }
+        let is_heading = matches!(entry.note, Note::Caps(_) | Note::Effective(_));
+        if is_link || is_heading || is_said(event::ABOUT) {
+            let same = std::mem::discriminant(&entry.note);
+            let is_told = |told: &Entry| is_heading && std::mem::discriminant(&told.note) == same;
+            self.headings.retain(|told| !is_told(told));
+            if self.headings.len() < MAX_HEADINGS {
+                self.headings.push(entry);
+            }
+        }
+    }
+
+    /// Adds what stands at the head of a file in which the log goes on.
+    pub(super) fn head(&mut self, lines: &mut String) {
+        for mut heading in std::mem::take(&mut self.headings) {
+            if let Note::Said(event::LINK, text) = &mut heading.note
+                && !text.ends_with(CONTINUED)
+            {
+                text.push_str(CONTINUED);
+            }
+            self.entry(heading, lines);
+        }
+    }
+
+    /// Adds what passed the port.
+    pub(super) fn passing(&mut self, passing: &Passing, lines: &mut String) {
+        let at = passing.at;
+        let words = match &passing.what {
+            Passed::Sent(packet) => match Body::of_wire(packet.as_bytes()) {
+                Some(body) => return self.sent(at, &body, lines),
+                None => return,
+            },
+            Passed::Unsent(packet) => match Body::of_wire(packet.as_bytes()) {
+                Some(body) => PacketCode::unsent(&body),
+                None => return,
+            },
+            Passed::Received(body) => self.code.received(body),
+            Passed::Bad(n) => count_words(event::BAD, *n),
+        };
+        write_packet(lines, at, &words, self.epoch);
+    }
+
+    fn sent(&mut self, at: Instant, body: &Body, lines: &mut String) {
+        let n = self.run.map_or(1, |run| run.n + 1);
+        if body.kind == kind::FRAME && n <= MAX_AGAIN && self.code.is_again(body, n) {
+            let began = self.run.map_or(at, |run| run.began);
+            let run = Run { n, began, last: at };
+            self.run = Some(run);
+            if at.saturating_duration_since(began) >= LONGEST_RUN {
+                self.end_run(lines);
+            }
+            return;
+        }
+        self.end_run(lines);
+        let words = self.code.sent(body, self.keeps_frames);
+        write_packet(lines, at, &words, self.epoch);
+    }
+
+    /// So many packets could not be taken: what comes next may be unlike what came before.
+    pub(super) fn lost(&mut self, at: Instant, n: u64, lines: &mut String) {
+        self.end_run(lines);
+        let words = count_words(event::PACKETS_LOST, n);
+        write_packet(lines, at, &words, self.epoch);
+    }
+
+    /// Writes how many frames were equal, if that waits for longer than it may.
+    pub(super) fn settle(&mut self, now: Instant, lines: &mut String) {
+        let waits = |run: Run| now.saturating_duration_since(run.began) >= LONGEST_RUN;
+        if self.run.is_some_and(waits) {
+            self.end_run(lines);
+        }
+    }
+
+    /// Writes how many frames were equal.
+    pub(super) fn end_run(&mut self, lines: &mut String) {
+        if let Some(run) = self.run.take() {
+            let words = self.code.again(run.n);
+            write_packet(lines, run.last, &words, self.epoch);
+        }
+    }
+}
+
+fn count_words(event: &'static str, n: u64) -> PacketWords {
+    PacketWords {
+        event,
+        tick: None,
+        detail: n.to_string(),
+    }
+}
