@@ -65,7 +65,6 @@ pub struct LinkScale {
 }
 
 /// Full scale and limits in µm, made safe: no NaN, no negative limit, full scale above 0.
-#[expect(clippy::struct_field_names, reason = "names carry their unit")]
 #[derive(Clone, Copy, Debug)]
 struct Scale {
     full_scale_um: [f64; 2],

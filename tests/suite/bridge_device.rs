@@ -204,7 +204,7 @@ fn check_rest(rows: &Rows) {
     let last = rows.len() - 1;
     let (state, sum) = (rows.text("state")[last], rows.text("amp_sum")[last]);
     // Without its host it would be IDLE.
-    assert_eq!((state, sum), ("READY", "0"));
+    assert_eq!((state, sum), ("READY", "0"), "at rest");
 }
 
 #[cfg(target_os = "linux")]

@@ -6,7 +6,7 @@
 use selvedge_device::{Certificate, CheckOutcome};
 
 use crate::bridge_device::{Device, signal, wait_for_log};
-use crate::program::{Lab, Outcome};
+use crate::program::Lab;
 
 const CERTIFY: [&str; 6] = ["bridge", "certify", "--port", "array", "--out", "reports"];
 /// Tries on a machine that is busy with something else.
@@ -63,7 +63,7 @@ fn a_device_with_a_defect_is_not_certified() {
     ] {
         let lab = Lab::with_scene();
         let device = Device::start(&lab, &["--firmware-lie", lie]);
-        let outcome: Outcome = lab.run(&CERTIFY);
+        let outcome = lab.run(&CERTIFY);
         assert_eq!(outcome.code, 1, "{outcome:?}");
         assert!(
             failed(&certificate(&lab)).contains(&name),

@@ -10,11 +10,11 @@ fn coder() -> Coder {
 }
 
 /// A device of the profile's own voltage with these limits.
-fn of_50_v(comp_limit: [u16; 2]) -> Option<LinkScale> {
-    Some(LinkScale {
+fn of_50_v(comp_limit: [u16; 2]) -> LinkScale {
+    LinkScale {
         comp_limit,
         fs_mv: 50_000,
-    })
+    }
 }
 
 fn code(a40: f32, a320: f32) -> [u16; 2] {
@@ -103,7 +103,7 @@ fn limits_are_counted_per_band_and_the_link_lowers_them() {
     assert_eq!(coder.limited()[0].limited, [true, false]);
     assert!(!coder.limited()[1].any());
     for limit in [0, 1, 999, 32768, 65535] {
-        coder.set_link(of_50_v([65535, limit]));
+        coder.set_link(Some(of_50_v([65535, limit])));
         let expected = limit.min(52428);
         assert_eq!(coder.encode(&[[0.0, 50.0]], 1.0)[0], [0, expected]);
     }
@@ -242,7 +242,7 @@ fn the_devices_limit_holds_the_drive_and_the_profiles_the_contactor() {
         &[gains(2.0, 2.0), gains(1.0, 1.0), gains(0.5, 0.5)],
     );
     let mut coder = Coder::new(&profile, 3);
-    coder.set_link(of_50_v([13107, 65535]));
+    coder.set_link(Some(of_50_v([13107, 65535])));
     let codes = coder.encode(&[[10.0, 0.0], [10.0, 0.0], [10.0, 0.0]], 1.0);
     assert_eq!(codes, [[13107, 0], [13107, 0], [6554, 0]]);
     let limited: Vec<bool> = coder
@@ -279,7 +279,7 @@ fn an_identified_channel_keeps_to_every_limit_and_knows_no_calibration() {
     assert_eq!(coder.ident_code(10.0), 13107);
     assert_eq!(coder.ident_code(40.0), 26214);
     assert_eq!(coder.ident_code(f32::NAN), 0);
-    coder.set_link(of_50_v([0, 1000]));
+    coder.set_link(Some(of_50_v([0, 1000])));
     assert_eq!(coder.ident_code(40.0), 1000);
 }
 
@@ -314,8 +314,8 @@ proptest! {
         };
         let [mut a, mut b] = [plain, spelt].map(|profile| Coder::new(&profile, 24));
         prop_assert_eq!(a.encode(&amplitudes, gain), b.encode(&amplitudes, gain));
-        a.set_link(of_50_v(limit));
-        b.set_link(of_50_v(limit));
+        a.set_link(Some(of_50_v(limit)));
+        b.set_link(Some(of_50_v(limit)));
         prop_assert_eq!(a.encode(&amplitudes, gain), b.encode(&amplitudes, gain));
         prop_assert_eq!(a.comp_limit(50_000), b.comp_limit(50_000));
         // The formula of one contactor, spelt out: what the program has always sent.

@@ -1,4 +1,4 @@
-//! How loud the device may be by our own frames: the bound that its amp_sum is held against.
+//! How loud the device may be by our own frames: the bound that its `amp_sum` is held against.
 //!
 //! A device that plays what it was sent shows at tick t at most the largest sum of the frames whose
 //! turn may still last then: hold and ramp after the last one, and a tick for each that may come

@@ -12,7 +12,7 @@ const HV_SLACK_DV: f64 = 20.0;
 /// Why a session ends, and how output is to end.
 pub(super) type End = (StopHow, String);
 
-/// The contradiction in a STATUS of an armed device, amp_sum left out, if there is one.
+/// The contradiction in a STATUS of an armed device, `amp_sum` left out, if there is one.
 pub(super) fn contradiction(
     status: &Status,
     profile: &ArrayProfile,

@@ -322,7 +322,6 @@ pub(crate) struct BridgeView {
 
 /// What a device measures, and how loud our own frames allow it to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "two of them count codes")]
 pub(crate) struct Telemetry {
     /// High voltage, V.
     pub(crate) high_v: f64,

@@ -95,6 +95,10 @@ impl Headless {
         }
     }
 
+    #[cfg_attr(
+        not(test),
+        expect(clippy::needless_pass_by_ref_mut, reason = "tests take events out")
+    )]
     fn input(&mut self) -> RawInput {
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),

@@ -119,10 +119,13 @@ fn a_device_of_another_voltage_gets_other_codes_or_is_refused_with_both_voltages
     }
 }
 
+/// Changes what a device says that it granted.
+type Lie = fn(&mut Config);
+
 #[test]
 fn settings_that_exceed_or_silence_what_was_asked_are_refused() {
     let asked = |host: &HostSession| host.drive.wanted_config(&host.device);
-    let lies: [(fn(&mut Config), &str); 17] = [
+    let lies: [(Lie, &str); 17] = [
         (|cfg| cfg.hold_ms = 65_000, "hold of 65000 ms"),
         (|cfg| cfg.hold_ms = 61, "hold of 61 ms"),
         (|cfg| cfg.hold_ms = 0, "hold of 0 ms"),

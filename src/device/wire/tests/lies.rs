@@ -143,10 +143,8 @@ fn outcome(lie: &FirmwareLie) -> String {
 /// `lie | outcome` of every lie of the table with every value to try it with.
 #[test]
 fn every_lie_ends_as_it_is_written() {
-    let mut table = String::new();
-    for lie in FirmwareLie::examples() {
-        table += &format!("{lie} | {}\n", outcome(&lie));
-    }
+    let rows = FirmwareLie::examples().map(|lie| format!("{lie} | {}\n", outcome(&lie)));
+    let table: String = rows.collect();
     let written = include_str!("lies.txt");
     if table != written {
         let place = std::env::temp_dir().join("selvedge-lies.txt");

@@ -29,6 +29,7 @@ const HEIGHT: [f32; 2] = [600.0, 16_384.0];
 /// What is kept between two runs. A key that a file does not state is as at first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub(crate) struct Preferences {
     /// Dark, light, or as the system.
     #[serde(with = "ThemeWord")]
