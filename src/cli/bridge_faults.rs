@@ -140,7 +140,8 @@ mod tests {
         let faults = read(
             "--seed 7 --latency ftdi --hiccup 1%:20ms --drop 0.1 --flip 0.2 --insert 0.3 \
              --lose-usb 0.4 --repeat 0.5 --garbage-every 2s --way to-host --chatter --banner \
-             --clock-ppm -100 --tick-jitter 3ms --firmware-lie caps.rows=5 --firmware-lie no-ramp --dead 3,4 --swap 5,6 \
+             --clock-ppm -100 --tick-jitter 3ms --firmware-lie caps.rows=5 \
+             --firmware-lie no-ramp --dead 3,4 --swap 5,6 \
              --stall-reading-at 1s,2s+1s --stall-writing-at 3s --unplug-at 4s --reboot-at 5s \
              --watchdog-at 6s --over-temperature-at 7s --over-current-at 8s --hv-sag-at 9s",
         )

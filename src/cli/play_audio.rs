@@ -36,19 +36,21 @@ pub(super) fn play(
     let opened = AudioOutput::open(name, profile, &channels);
     let mut card = opened.map_err(EngineError::from)?;
     let silencer = card.silencer();
-    let _on_panic = on_panic(move || fall_silent(&silencer));
+    let last_act = on_panic(move || fall_silent(&silencer));
     let started = Instant::now();
     let played = serve(&mut card, &mut moving, stop);
     fall_silent(&card.silencer());
+    drop(last_act);
     let n_frames = played?;
     let seconds = fixed(started.elapsed().as_secs_f64(), 2);
     let late = card.latency();
     let ms = |time: Duration| fixed(time.as_secs_f64() * 1e3, 0);
     output::print(&format!(
-        "{}: {n_frames} frames in {seconds} s; ticks without a new frame: {}; felt at most {} ms \
-         late, up to {} ms of them in the card\n",
+        "{}: {n_frames} frames in {seconds} s; ticks without a new frame: {}; hiccups of the \
+         card: {}; felt at most {} ms late, up to {} ms of them in the card\n",
         card.name(),
         card.n_missed(),
+        card.n_hiccups(),
         ms(late.total),
         ms(late.card)
     ))

@@ -40,7 +40,9 @@ fn tell(said: impl FnOnce(&mut Repeats, Instant) -> Vec<String>) {
     // A panic elsewhere leaves texts and counts, which cannot be wrong.
     let mut repeats = REPEATS.lock().unwrap_or_else(PoisonError::into_inner);
     let lines = said(repeats.get_or_insert_default(), Instant::now());
-    lines.iter().for_each(|text| line(text));
+    for text in &lines {
+        line(text);
+    }
 }
 
 /// One line on stderr, whatever was said before.

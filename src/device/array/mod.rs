@@ -17,8 +17,8 @@ use std::fmt;
 
 /// What the host assumes of an array: shape, scale, limits, calibration and wiring.
 ///
-/// The scale is an assumption of this program (50 µm at 50 V), not a property that a device reports;
-/// what voltage a code stands for is.
+/// The scale is an assumption of this program (50 µm at 50 V), not a property that a device
+/// reports; what voltage a code stands for is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrayProfile {
     /// Name for people, `exeter-24`.

@@ -233,9 +233,16 @@ impl<'a> Client<'a> {
             kind::PONG => Pong::decode(payload).map(Heard::Pong),
             _ => None,
         };
+        let now_us = self.line.now_us();
         match &heard {
-            Some(Heard::Status(status)) => self.watch.status(status, &self.speech.caps),
-            Some(Heard::Pong(pong)) => self.watch.pong(pong),
+            Some(Heard::Status(status)) => {
+                self.times.came(u64::from(status.tick) * TICK, now_us);
+                self.watch.status(status, &self.speech.caps);
+            }
+            Some(Heard::Pong(pong)) => {
+                self.times.came(time_us(pong), now_us);
+                self.watch.pong(pong);
+            }
             _ => {}
         }
         let reply = || Heard::Reply(kind, payload.to_vec());

@@ -176,12 +176,12 @@ impl Driver {
         self.bridge.stop(StopHow::Ramp);
         let deadline = Instant::now() + REPLY_PATIENCE;
         let mut wrong = None;
-        while self.bridge.state().is_live() && Instant::now() < deadline {
+        while self.bridge.is_ending() && Instant::now() < deadline {
             let error = self.turn(source).err();
             wrong = wrong.or(error);
             self.wait();
         }
-        if self.bridge.state().is_live() {
+        if self.bridge.is_ending() {
             if let Some(handle) = self.bridge.stop_handle() {
                 handle.last_word();
             }

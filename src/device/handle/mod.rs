@@ -7,78 +7,24 @@
 mod array;
 mod notes;
 mod pulse;
+mod target;
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::BridgeError;
-use super::actuator_model::{ActuatorFeed, ActuatorWatch, ContactorModel, actuator_watch};
+use super::actuator_model::{ActuatorWatch, ContactorModel, actuator_watch};
 use super::codes::{ArrayProfile, LimiterState, LinkScale};
-use super::device::DeviceModel;
-use super::emulator::EmulatorThread;
 use super::host::{
     BridgeCounters, BridgeEvent, BridgeState, ClockFit, HostSession, SentFrame, Sequence,
 };
-use super::link::{Ends, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
+use super::link::{Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::{Caps, Config, Status, StopHow};
-use super::port::{SerialLink, holder_of};
 use super::session_log::Note;
-use super::wire::Faults;
 use notes::Notes;
 use pulse::Pulse;
-
-const BUSY_PATIENCE: Duration = Duration::from_secs(1);
-const BUSY_NAP: Duration = Duration::from_millis(20);
-
-/// Which device to talk to.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Target {
-    /// An emulated device inside this process, shaped like the profile.
-    Emulator,
-    /// The same with faults.
-    FaultyEmulator(Box<Faults>),
-    /// A serial port, or anything that looks like one.
-    Port(PathBuf),
-}
-
-impl Target {
-    /// Whether it is a device inside this process.
-    pub fn is_emulator(&self) -> bool {
-        !matches!(self, Self::Port(_))
-    }
-
-    /// A name for people: `emulator`, `emulator with faults` or the path.
-    pub fn name(&self) -> String {
-        match self {
-            Self::Emulator => String::from("emulator"),
-            Self::FaultyEmulator(_) => String::from("emulator with faults"),
-            Self::Port(path) => path.display().to_string(),
-        }
-    }
-
-    /// Opens both ends. May block.
-    fn open(
-        &self,
-        profile: &ArrayProfile,
-        actuators: Option<ActuatorFeed>,
-    ) -> Result<Ends, BridgeError> {
-        let emulate = |faults: &Faults| -> Result<Ends, BridgeError> {
-            let model = DeviceModel::for_array(profile);
-            let port = EmulatorThread::start(model, faults, actuators)?;
-            Ok((Box::new(port.clone()), Box::new(port)))
-        };
-        match self {
-            Self::Emulator => emulate(&Faults::default()),
-            Self::FaultyEmulator(faults) => emulate(faults),
-            Self::Port(path) => {
-                let port = open_patiently(&path.display().to_string(), profile.baud)?;
-                Ok((Box::new(port.try_clone()?), Box::new(port)))
-            }
-        }
-    }
-}
+pub use target::Target;
 
 /// One device and the session with it.
 #[derive(Debug)]
@@ -270,6 +216,11 @@ impl Bridge {
         self.session.status()
     }
 
+    /// Whether the device may still be moving, or has not acknowledged the last STOP.
+    pub(crate) fn is_ending(&self) -> bool {
+        self.session.is_ending()
+    }
+
     /// The device's tick now, as frames are stamped by it; `None` before the first STATUS.
     pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
         self.session.present_tick(now)
@@ -384,23 +335,6 @@ impl Drop for Bridge {
             self.stop(StopHow::Ramp);
         }
         self.release();
-    }
-}
-
-/// Opens a port that an earlier link of this program may still be letting go.
-fn open_patiently(path: &str, baud: u32) -> Result<SerialLink, BridgeError> {
-    let deadline = Instant::now() + BUSY_PATIENCE;
-    loop {
-        match SerialLink::open(path, baud) {
-            Err(BridgeError::Busy { .. }) if Instant::now() < deadline => {
-                std::thread::sleep(BUSY_NAP);
-            }
-            Err(BridgeError::Busy { port, .. }) => {
-                let holder = holder_of(Path::new(path));
-                return Err(BridgeError::Busy { port, holder });
-            }
-            result => return result,
-        }
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::*;
 #[cfg(unix)]
 use crate::Coder;
+use crate::device::DeviceModel;
 use crate::message::DeviceState;
 use selvedge_scratch::ScratchFolder;
 

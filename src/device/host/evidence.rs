@@ -1,5 +1,5 @@
-//! What tells how long that which is sent takes until the device has it: STATUS names the last FRAME
-//! that was accepted and says how long ago that was.
+//! What tells how long that which is sent takes until the device has it: STATUS names the last
+//! FRAME that was accepted and says how long ago that was.
 
 use std::time::{Duration, Instant};
 

@@ -7,9 +7,11 @@
 //! never arms on its own.
 
 mod array;
+mod asking;
 mod claims;
 mod clock;
 mod drive;
+mod ending;
 mod evidence;
 mod frames;
 mod ident;
@@ -32,9 +34,7 @@ use std::time::{Duration, Instant};
 
 use super::codes::{ArrayProfile, LimiterState, LinkScale};
 use super::framing::Packet;
-use super::message::{
-    Arm, Caps, Clear, Config, Hello, Message as _, Ping, Status, Stop, StopHow, kind,
-};
+use super::message::{Caps, Config, Message as _, Ping, Status, StopHow, kind};
 use super::session_log::{Entry, Note};
 pub use array::ArrayChange;
 pub use clock::ClockFit;
@@ -277,6 +277,11 @@ impl HostSession {
         self.prediction.last_bound()
     }
 
+    /// Whether the device may still be moving, or has not acknowledged the last STOP.
+    pub(crate) fn is_ending(&self) -> bool {
+        self.state.is_live() || self.stopping.pending.is_some()
+    }
+
     /// The device's tick now, by its last STATUS and the time since; `None` before the first.
     pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
         self.device.status.map(|_| self.device.present_tick(now))
@@ -347,85 +352,6 @@ impl HostSession {
         });
     }
 
-    /// The note of a request that is sent.
-    fn note_of(&self, request: u8) -> Note {
-        match request {
-            kind::HELLO => Note::Hello(self.nonce),
-            kind::CONFIG => Note::Config(self.drive.wanted_config(&self.device)),
-            kind::CLEAR => Note::Clear,
-            _ => Note::Arm,
-        }
-    }
-
-    fn request(&mut self, kind: u8, now: Instant) {
-        let mut request = Pending::new(kind, now);
-        self.send_request(&mut request, now);
-        self.request = Some(request);
-    }
-
-    fn send_request(&mut self, request: &mut Pending, now: Instant) {
-        let seq = self.outbox.sequence.next();
-        request.sent(seq, now);
-        self.note(now, self.note_of(request.kind()));
-        let packet = match request.kind() {
-            kind::HELLO => Hello {
-                host_flags: Hello::WANT_STATUS | Hello::WANT_LOG,
-                ..Hello::new(self.nonce)
-            }
-            .packet(seq),
-            kind::CONFIG => self
-                .drive
-                .wanted_config(&self.device)
-                .request(seq, self.drive.n_contactors),
-            kind::CLEAR => Clear { bits: u16::MAX }.packet(seq),
-            _ => Arm::new(self.nonce).packet(seq),
-        };
-        self.outbox.queue(packet.as_ref(), now);
-    }
-
-    fn send_stop(&mut self, stopping: &mut Pending, now: Instant) {
-        let seq = self.outbox.sequence.next();
-        stopping.sent(seq, now);
-        self.note(now, Note::Stop(self.stopping.how));
-        self.outbox.stop_packet = Stop {
-            reason: 0,
-            how: self.stopping.how,
-        }
-        .packet(seq);
-        self.outbox.last_sent = Some(now);
-    }
-
-    fn lose(&mut self, reason: String) {
-        if !self.state.is_open() {
-            return;
-        }
-        if self.state.is_live() {
-            // Perhaps only the way back is broken.
-            self.outbox.stop_packet = Stop {
-                reason: 0,
-                how: StopHow::Now,
-            }
-            .packet(self.outbox.sequence.next());
-        }
-        self.end(BridgeState::Lost);
-        self.event(BridgeEvent::Lost(reason));
-    }
-
-    /// The device contradicts itself, the profile or what was asked: output ends, STOP first.
-    fn contradicted(&mut self, now: Instant, (how, reason): watch::End) {
-        self.stop(now, how);
-        self.stopping.ends_output = false;
-        self.note(now, Note::Said("contradiction", reason.clone()));
-        self.disarmed(DisarmedBy::Device, reason);
-    }
-
-    /// The device is not to be driven; it may move for all we know.
-    fn refuse(&mut self, now: Instant, reason: String) {
-        self.end(BridgeState::Refused);
-        self.send_stop(&mut Pending::new(kind::STOP, now), now);
-        self.event(BridgeEvent::Refused(reason));
-    }
-
     /// What makes amplitudes last in the device.
     fn lasting(&self) -> Lasting {
         let config = self.device.config.unwrap_or_default();
@@ -435,17 +361,6 @@ impl HostSession {
             depth: self.latching.depth(),
             fall: n_codes as f64 * f64::from(config.slew),
         }
-    }
-
-    fn end(&mut self, state: BridgeState) {
-        self.state = state;
-        self.request = None;
-        self.stopping.pending = None;
-        self.outbox.packets.clear();
-    }
-
-    fn disarmed(&mut self, by: DisarmedBy, reason: String) {
-        self.event(BridgeEvent::Disarmed { by, reason });
     }
 
     fn event(&mut self, event: BridgeEvent) {

@@ -273,8 +273,8 @@ impl HostSession {
             self.contradicted(received, end);
         } else if is_louder {
             let reason = format!(
-                "the device puts out {} codes in all where {bound:.0} were asked at most: check its \
-                 firmware",
+                "the device puts out {} codes in all where {bound:.0} were asked at most: check \
+                 its firmware",
                 status.amp_sum
             );
             self.contradicted(received, (StopHow::Now, reason));

@@ -1,8 +1,8 @@
 //! Which STATUS pace: those whose tick advances. Repeated, old and wildly jumping ones are counted
 //! and pace nothing.
 //!
-//! Three advancing ones set a base; after a pause of our own, in which anything may have passed, the
-//! next three set a new one.
+//! Three advancing ones set a base; after a pause of our own, in which anything may have passed,
+//! the next three set a new one.
 
 use std::time::{Duration, Instant};
 

@@ -4,8 +4,8 @@
 //! Towards the owner, messages travel in a bounded ring (when it is full the newest is dropped
 //! and counted: STATUS repeats itself, requests are repeated). Towards the port there are three
 //! ways, in this order: the STOP slot, a ring of control packets, then a ring of frames of which
-//! only the newest is written. A STOP empties the others, so that nothing queued earlier can follow it. What the
-//! messages mean is the session's business.
+//! only the newest is written. A STOP empties the others, so that nothing queued earlier can follow
+//! it. What the messages mean is the session's business.
 
 mod reader;
 mod timings;

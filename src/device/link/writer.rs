@@ -1,4 +1,5 @@
-//! The writer's thread: STOP first, then control packets, then the newest frame; one packet a write.
+//! The writer's thread: STOP first, then control packets, then the newest frame; one packet a
+//! write.
 
 use std::io;
 use std::sync::Arc;

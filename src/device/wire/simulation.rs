@@ -1,8 +1,8 @@
 //! A host and a device at the two ends of a failing link, in virtual time: what tests and studies
 //! try the protocol with.
 //!
-//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame, and does
-//! nothing else by itself: whoever runs the simulation arms, opens anew and clears faults.
+//! The host acts whenever something arrives and every 5 ms, answers each tick with one frame, and
+//! does nothing else by itself: whoever runs the simulation arms, opens anew and clears faults.
 
 use std::time::{Duration, Instant};
 

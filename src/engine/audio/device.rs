@@ -1,6 +1,7 @@
 //! Sound cards through the system: which there are, and one that plays. The one home of `cpal`.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -31,6 +32,7 @@ pub struct AudioOutput {
     name: String,
     frames: WaveFrames,
     failures: Receiver<String>,
+    n_hiccups: Arc<AtomicU64>,
     // Ends the sound when dropped.
     _stream: Stream,
 }
@@ -80,10 +82,12 @@ impl AudioOutput {
         let (frames, wave) = wave(config.sample_rate, (profile, channels), maker)
             .map_err(|error| refused(error.to_string()))?;
         let (sender, failures) = sync_channel(1);
+        let n_hiccups = Arc::new(AtomicU64::new(0));
+        let faults = (sender, Arc::clone(&n_hiccups));
         let stream = match format {
-            SampleFormat::I32 => build::<i32>(&device, config, wave, sender),
-            SampleFormat::I16 => build::<i16>(&device, config, wave, sender),
-            _ => build::<f32>(&device, config, wave, sender),
+            SampleFormat::I32 => build::<i32>(&device, config, wave, faults),
+            SampleFormat::I16 => build::<i16>(&device, config, wave, faults),
+            _ => build::<f32>(&device, config, wave, faults),
         };
         let stream = stream.map_err(|error| refused(error.to_string()))?;
         stream.play().map_err(|error| refused(error.to_string()))?;
@@ -91,6 +95,7 @@ impl AudioOutput {
             name,
             frames,
             failures,
+            n_hiccups,
             _stream: stream,
         })
     }
@@ -124,6 +129,11 @@ impl AudioOutput {
     /// Ticks that began without a new frame.
     pub fn n_missed(&self) -> u64 {
         self.frames.n_missed()
+    }
+
+    /// How often the card ran dry or gave an error and went on.
+    pub fn n_hiccups(&self) -> u64 {
+        self.n_hiccups.load(Ordering::Relaxed)
     }
 
     /// What broke it, if something did.
@@ -213,7 +223,7 @@ fn build<T: SizedSample + FromSample<f32>>(
     device: &Device,
     config: StreamConfig,
     mut wave: Wave,
-    failures: SyncSender<String>,
+    (failures, n_hiccups): (SyncSender<String>, Arc<AtomicU64>),
 ) -> Result<Stream, cpal::Error> {
     let n_outputs = usize::from(config.channels);
     let n_at_once = MAX_AT_ONCE.max(n_outputs) / n_outputs * n_outputs;
@@ -231,9 +241,12 @@ fn build<T: SizedSample + FromSample<f32>>(
         }
     };
     let fail = move |error: cpal::Error| {
-        // A missed deadline of the card is heard and counted elsewhere; the rest ends the sound.
-        if error.kind() != cpal::ErrorKind::Xrun {
+        // Sound servers give errors and go on; one that does not takes no more samples, which
+        // whoever makes frames sees.
+        if error.kind() == cpal::ErrorKind::DeviceNotAvailable {
             drop(failures.try_send(error.to_string()));
+        } else {
+            n_hiccups.fetch_add(1, Ordering::Relaxed);
         }
     };
     device.build_output_stream(config, play, fail, None)

@@ -9,6 +9,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use super::AudioLatency;
+
 /// What both ends know of the time between them.
 #[derive(Debug)]
 pub(super) struct Latency {
@@ -19,15 +21,6 @@ pub(super) struct Latency {
     buffered: AtomicU64,
     /// The oldest frame when its first sample was played.
     oldest: AtomicU64,
-}
-
-/// How late what is felt is at most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AudioLatency {
-    /// From the handing over of a frame to its first sample, in all.
-    pub total: Duration,
-    /// The part of the card: samples that it has taken and not played.
-    pub card: Duration,
 }
 
 impl Latency {

@@ -11,6 +11,7 @@
 mod channels;
 #[cfg(feature = "audio")]
 mod device;
+#[cfg(any(test, feature = "audio"))]
 mod latency;
 #[cfg(any(test, feature = "audio"))]
 mod wave;
@@ -20,7 +21,6 @@ mod without;
 pub use channels::CardChannels;
 #[cfg(feature = "audio")]
 pub use device::{AudioOutput, audio_outputs};
-pub use latency::AudioLatency;
 #[cfg(not(feature = "audio"))]
 pub use without::{AudioOutput, audio_outputs};
 
@@ -29,6 +29,15 @@ use std::time::Duration;
 /// Asks a card for silence, from any thread and any number of times; touches only atomics. `None`
 /// while the sound falls, then how long the card still plays what it has taken.
 pub type Silencer = Box<dyn Fn() -> Option<Duration> + Send + Sync>;
+
+/// How late what is felt is at most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AudioLatency {
+    /// From the handing over of a frame to its first sample, in all.
+    pub total: Duration,
+    /// The part of the card: samples that it has taken and not played.
+    pub card: Duration,
+}
 
 /// A sound card that could be played on.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -60,6 +60,11 @@ impl AudioOutput {
         match self.never {}
     }
 
+    /// How often the card ran dry or gave an error and went on.
+    pub fn n_hiccups(&self) -> u64 {
+        match self.never {}
+    }
+
     /// What broke it, if something did.
     pub fn failure(&self) -> Option<AudioError> {
         match self.never {}

@@ -321,7 +321,8 @@ impl Terminal {
         }
     }
 
-    /// Says HELLO until a STATUS is as `wanted`. The emulator is deaf for a second after an opening.
+    /// Says HELLO until a STATUS is as `wanted`. The emulator is deaf for a second after an
+    /// opening.
     fn status(&mut self, session: u32, wanted: impl Fn(&Status) -> bool) {
         let deadline = Instant::now() + PATIENCE;
         let hello = Hello::new(session).packet(1).unwrap();

@@ -170,8 +170,8 @@ fn the_samples_are_sines_to_the_last_bit() {
     }
 }
 
-/// The main loop died and the sample interrupt goes on: hold, ramp and lease are dead with the loop,
-/// so the samples themselves fall silent.
+/// The main loop died and the sample interrupt goes on: hold, ramp and lease are dead with the
+/// loop, so the samples themselves fall silent.
 #[test]
 fn samples_fall_silent_when_no_steps_run_and_sound_again_when_they_do() {
     let Some((_lab, mut core)) = started("samples without steps in C", &[]) else {

@@ -59,8 +59,8 @@ fn garbage(c: &mut Client<'_>) -> Verdict {
 }
 
 /// A packet that is broken, so that nothing may answer it.
-fn broken(bytes: Vec<u8>) -> Say {
-    Speech::noise(&bytes)
+fn broken(bytes: &[u8]) -> Say {
+    Speech::noise(bytes)
 }
 
 fn truncations(c: &mut Client<'_>) -> Verdict {
@@ -69,7 +69,7 @@ fn truncations(c: &mut Client<'_>) -> Verdict {
         let step = (say.bytes.len() / 20).max(1);
         let mut says = Vec::new();
         for length in (2..say.bytes.len() - 1).step_by(step) {
-            says.push(broken(say.bytes[..length].to_vec()));
+            says.push(broken(&say.bytes[..length]));
             says.push(c.ping());
         }
         tell_all(c, &says)?;
@@ -83,7 +83,7 @@ fn flipped(c: &mut Client<'_>, say: &Say, step: usize) -> Vec<Say> {
     for bit in (8..8 * (say.bytes.len() - 1)).step_by(step) {
         let mut bytes = say.bytes.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
-        says.push(broken(bytes));
+        says.push(broken(&bytes));
         if bit % 3 == 0 {
             says.push(c.ping());
         }

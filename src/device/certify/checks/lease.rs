@@ -6,7 +6,7 @@ use crate::certify::predict::Between;
 use crate::certify::say::{Say, Want};
 use crate::certify::speech::Speech;
 use crate::certify::verdict::{Trouble, Verdict, ensure};
-use crate::message::{Config, TICK_US, fault_bit, kind};
+use crate::message::{Config, Status, TICK_US, fault_bit, kind};
 
 checks! { "lease":
     Full "READY" ready, "no valid packet for lease_ms: STATUS stops, IDLE";
@@ -71,10 +71,13 @@ fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
     })
 }
 
+/// A packet that is valid, whatever comes of it.
+type Sign = fn(&mut Client<'_>, &Config, &[[u16; 2]]) -> Say;
+
 fn renewed(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
     let codes = c.faint(0);
-    let signs: [fn(&mut Client<'_>, &Config, &[[u16; 2]]) -> Say; 6] = [
+    let signs: [Sign; 6] = [
         |c, _, _| c.ping(),
         |c, _, _| c.arm().wants(Want::Ack(2)),
         |c, _, codes| c.frame_next(codes).wants(Want::Ack(2)),
@@ -86,7 +89,7 @@ fn renewed(c: &mut Client<'_>) -> Verdict {
         // What is said alone has no PONG that tells when it was heard, so it is tried again.
         let mut verdict = Err(Trouble::Late);
         for _ in 0..3 {
-            let hello = [c.hello_with([1, 1], 1, 95, 1)];
+            let hello = [c.hello_with([1, 1], 1, 120, 1)];
             c.tell(&hello)?;
             let say = sign(c, &config, &codes);
             verdict = renews(c, say);
@@ -98,6 +101,8 @@ fn renewed(c: &mut Client<'_>) -> Verdict {
     }
     let mut verdict = Err(Trouble::Late);
     for _ in 0..3 {
+        // How far the counters rose in vain is not known.
+        c.begin_check()?;
         verdict = duplicate_renews(c, &codes);
         if verdict.is_ok() {
             break;
@@ -108,11 +113,16 @@ fn renewed(c: &mut Client<'_>) -> Verdict {
 
 /// The same for a FRAME with the seq of the last.
 fn duplicate_renews(c: &mut Client<'_>, codes: &[[u16; 2]]) -> Verdict {
-    let config = c.usual();
+    // At 80 ms the FRAME is still held.
+    let config = Config {
+        hold_ms: 100,
+        ramp_ms: 0,
+        ..c.usual()
+    };
     let frame = c.frame_next(codes);
     let seq = frame.seq;
     let says = [
-        c.hello_with([1, 1], 1, 95, 1),
+        c.hello_with([1, 1], 1, 120, 1),
         c.config(&config),
         c.arm(),
         frame,
@@ -122,18 +132,19 @@ fn duplicate_renews(c: &mut Client<'_>, codes: &[[u16; 2]]) -> Verdict {
     renews(c, super::frames::with_seq(codes, seq))
 }
 
-/// Whether a session of 95 ms outlasts 160 ms with this in the middle.
+/// Whether a session of 120 ms outlasts 160 ms with this in the middle.
 fn renews(c: &mut Client<'_>, sign: Say) -> Verdict {
     let before = c.mark();
-    c.pass(60_000)?;
+    c.pass(80_000)?;
     c.write(&sign)?;
-    c.pass(100_000)?;
+    c.pass(80_000)?;
     // Where the session ended nevertheless, STATUS did too.
     c.watch.pause();
     let kind = sign.kind;
     c.tell_after(&[sign], &[])?;
     let n_ticks = c.statuses_since(before).len();
-    ensure(n_ticks >= 5, || {
+    // Six ticks begin in any 160 ms, five in 120 ms at most.
+    ensure(n_ticks >= 6, || {
         format!("the session ended although type {kind:02X} came")
     })
 }
@@ -154,12 +165,11 @@ fn not_renewed(c: &mut Client<'_>) -> Verdict {
     expires(c, heard, 130)
 }
 
-/// The lease is shorter than the hold, so that it ends first; the ramp is longer than a tick, so that
-/// a STATUS shows it.
+/// The lease is shorter than the hold, so that it ends first.
 fn running(c: &mut Client<'_>) -> Verdict {
-    let (lease_ms, ramp_ms) = (55, 40);
+    let (lease_ms, ramp_ms) = (40, 20);
     let config = Config {
-        hold_ms: 60,
+        hold_ms: 80,
         ramp_ms,
         ..c.usual()
     };
@@ -188,8 +198,11 @@ fn running(c: &mut Client<'_>) -> Verdict {
         to_us: heard.to_us,
     };
     let statuses = c.statuses_since(mark);
-    ensure(!statuses.is_empty(), || {
-        String::from("no STATUS came while it ran")
+    // The last tick that begins in the ramp.
+    let end_us = last.from_us + u64::from(lease_ms + ramp_ms - 1) * 1000;
+    let is_heard = |status: &Status| u64::from(status.tick) == end_us / u64::from(TICK_US);
+    ensure(statuses.iter().any(is_heard), || {
+        String::from("STATUS stopped before the ramp was over")
     })?;
     for status in &statuses {
         let at_us = u64::from(status.tick) * u64::from(TICK_US);
@@ -206,10 +219,5 @@ fn running(c: &mut Client<'_>) -> Verdict {
             String::from("STATUS after the ramp of a lost lease")
         })?;
     }
-    let is_told = statuses
-        .iter()
-        .any(|status| status.faults & fault_bit::LEASE_LOST != 0);
-    ensure(is_told, || {
-        String::from("output was cut: no STATUS of a ramp with bit 5")
-    })
+    Ok(())
 }

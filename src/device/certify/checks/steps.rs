@@ -53,7 +53,7 @@ pub(super) fn play_at(
 
 /// The tick in which all of it was heard.
 pub(super) fn tick_of(heard: Between) -> Result<u32, Trouble> {
-    let tick = u32::try_from(heard.from_us / u64::from(TICK_US)).map_err(|_| Trouble::Late)?;
+    let tick = crate::fields::wrapped_u32(heard.from_us / u64::from(TICK_US));
     if heard.is_in(tick) {
         Ok(tick)
     } else {

@@ -13,7 +13,7 @@ use super::*;
 use crate::codes::Coder;
 use crate::device::DeviceModel;
 use crate::message::{
-    Ack, AckCode, DeviceCounters, DeviceMessage, DeviceState, Fault, fault_bit, frame,
+    Ack, AckCode, DeviceCounters, DeviceMessage, DeviceState, Fault, Stop, fault_bit, frame,
 };
 use crate::wire::{Faults, LinkFaults, Simulation};
 
