@@ -65,14 +65,15 @@ impl Rows<'_> {
             self.n_channels = n_channels;
             self.table.insert(open(self.out, n_channels)?)
         };
-        if n_channels != self.n_channels {
+        // Of a link without frames nothing is known of a channel.
+        if n_channels != self.n_channels && n_channels > 0 {
             let (link, columns) = (tick.link, self.n_channels);
             return Err(CliError::Input(format!(
                 "link {link} has {n_channels} channels, the rows before {columns}; \
                  divide the log at its \"link\" lines"
             )));
         }
-        write(table.rows(), tick)
+        write(table.rows(), tick, self.n_channels)
     }
 
     fn finish(self) -> Result<(), CliError> {
@@ -105,7 +106,11 @@ fn open(out: Option<&Path>, n_channels: usize) -> Result<TableOut, CliError> {
     TableOut::new(out, &header)
 }
 
-fn write<W: std::io::Write>(row: &mut TableWriter<W>, tick: &ReplayedTick) -> Result<(), CliError> {
+fn write<W: std::io::Write>(
+    row: &mut TableWriter<W>,
+    tick: &ReplayedTick,
+    n_channels: usize,
+) -> Result<(), CliError> {
     row.number(tick.link).number(tick.tick);
     row.text(tick.state.name()).number(tick.gain);
     match tick.amp_sum {
@@ -118,6 +123,9 @@ fn write<W: std::io::Write>(row: &mut TableWriter<W>, tick: &ReplayedTick) -> Re
     };
     for ([low, high], peak_um) in tick.codes.iter().zip(&tick.peak_um) {
         row.number(low).number(high).number(peak_um);
+    }
+    for _ in tick.codes.len()..n_channels {
+        row.text("").text("").text("");
     }
     Ok(row.end_row()?)
 }

@@ -191,6 +191,16 @@ fn every_frame_that_the_device_applies_has_the_codes_of_the_logged_amplitudes() 
         "{link}"
     );
     let felt = Rows::read(&lab.path("felt.csv")).numbers("peak_um_0");
+    // A link without frames behind one with them, and a line that was cut.
+    let hashed = link.replacen("program=", "frames=hashes program=", 1);
+    let cut = &link[..link.len() - 30];
+    lab.write("both.csv", format!("{link}{hashed}{cut}"));
+    let both = lab.run(&["bridge", "replay", "both.csv", "--out", "both-felt.csv"]);
+    assert!(both.out.matches("agrees in").count() == 3, "{both:?}");
+    for (name, content) in [("nonsense.csv", "a,b\n1,2\n"), ("empty.csv", "")] {
+        lab.write(name, content);
+        assert!(lab.refuse(&["bridge", "replay", name]).contains(name));
+    }
     assert!(felt.iter().copied().fold(0.0, f64::max) > 5.0, "{felt:?}");
     let n_applied = check_frames(&host, &device);
     assert_eq!(host.len(), 61, "one frame a tick of the path");

@@ -73,7 +73,12 @@ impl ReplayedLink {
                 "nothing to judge: no STATUS of a session that begins in this log",
             );
         }
-        format!("agrees in {judged} STATUS: state, amp_sum, age, queue, underrun, late, clipped")
+        let of_codes = if self.is_hashed {
+            ""
+        } else {
+            ", amp_sum, clipped"
+        };
+        format!("agrees in {judged} STATUS: state, age, queue, underrun, late{of_codes}")
     }
 
     /// What the log does not tell.
