@@ -12,9 +12,12 @@ use std::thread;
 
 use clap::Args;
 
+use super::record::{self, RecordArgs};
 use super::{CliError, array, output, play, signals, terminal};
 use selvedge_device::wiring::{Answer, WiringWalk};
-use selvedge_device::{ArrayProfile, Bridge, BridgeEvent, DeviceUid, Driver, FrameSource, Target};
+use selvedge_device::{
+    ArrayProfile, Bridge, BridgeEvent, DeviceUid, Driver, FrameSource, SessionLog, Target,
+};
 use selvedge_foundation::files;
 
 /// How long one channel is driven, ms.
@@ -39,6 +42,8 @@ pub(super) struct IdentifyArgs {
     /// Answers, one a line, instead of asking on the terminal
     #[arg(long, value_name = "FILE")]
     answers: Option<PathBuf>,
+    #[command(flatten)]
+    record: RecordArgs,
 }
 
 /// Walks the channels, and writes the profile.
@@ -49,11 +54,18 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     let mut array = (*args.array).clone();
     args.baud.set(&mut array);
     let n = array.n_contactors();
-    let mut driver = Driver::open(Target::Port(args.port.clone()), array, n);
+    let log = args.record.open()?;
+    let mut driver = Driver::open(Target::Port(args.port.clone()), array.clone(), n);
+    if let Some(log) = &log {
+        let mut feed = log.feed(driver.bridge().target());
+        record::say_what(&mut feed, &array, &[]);
+        driver.bridge_mut().log_to(feed);
+    }
     let mut bench = Bench::of(args, answers, driver.bridge().target());
     let ended = driver.run(&mut bench, &stop);
     let uid = driver.bridge().caps().map(|caps| DeviceUid(caps.uid));
     driver.close();
+    log.map_or(Ok(()), SessionLog::finish)?;
     ended?;
     // A signal, or a terminal that closed: nobody is there to answer.
     let Some((found, uid)) = bench.walk.found().zip(uid) else {

@@ -9,24 +9,18 @@ use std::sync::atomic::AtomicBool;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// What a shell calls the end by SIGINT.
-const KILLED_BY_INT: i32 = 130;
-
 /// The system does not let the program listen to signals.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot listen to signals: {0}; try again")]
 pub struct SignalError(#[from] io::Error);
 
-/// A flag that SIGINT, SIGTERM and SIGHUP raise; a second SIGINT ends the program at once.
+/// A flag that SIGINT, SIGTERM and SIGHUP raise, however often they come: what is under way ends
+/// cleanly, and a device gets its STOP.
 ///
 /// # Errors
 /// The system does not let the program listen.
 pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
     let stop = Arc::new(AtomicBool::new(false));
-    let interrupted = Arc::new(AtomicBool::new(false));
-    // In this order: the first SIGINT finds the flag down, and raises it.
-    flag::register_conditional_shutdown(SIGINT, KILLED_BY_INT, Arc::clone(&interrupted))?;
-    flag::register(SIGINT, interrupted)?;
     for signal in ends() {
         flag::register(signal, Arc::clone(&stop))?;
     }

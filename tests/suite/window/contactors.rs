@@ -19,6 +19,8 @@ fn contactors_are_shown_while_the_section_is_open_and_a_finger_is_a_click_away()
     harness.state_mut().connect_emulator();
     wait(&mut harness, Workbench::is_ready);
     assert_eq!(words(&harness), "", "the section is closed");
+    harness.get_by_label("Developer tools").click_accesskit();
+    harness.run_steps(2);
     let title = "Displacement by a model";
     harness.get_by_label(title).click_accesskit();
     for _ in 0..400 {

@@ -7,6 +7,7 @@
 pub(crate) mod actuators;
 pub(crate) mod array;
 pub(crate) mod calibration;
+pub(crate) mod certificate;
 pub(crate) mod counters;
 pub(crate) mod export;
 pub(crate) mod faults;
@@ -32,11 +33,13 @@ use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{Command, Commands};
 use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
+use crate::bench::settings::own_certificates;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::{framed, scrolled};
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
 use crate::tools::bridge::actuators::ActuatorPeek;
+use crate::tools::bridge::certificate::CertificateMark;
 use crate::tools::bridge::ports::Ports;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
@@ -55,6 +58,8 @@ pub(crate) struct Bridge {
     faults: FaultWords,
     /// The emulator's contactors.
     actuators: ActuatorPeek,
+    /// Whether the device passed everything.
+    certificate: CertificateMark,
 }
 
 impl Tool for Bridge {
@@ -70,6 +75,12 @@ impl Tool for Bridge {
         if let Some(found) = self.ports.follow(&bench.ctx, is_lost, uid) {
             bench.notices.give(port::back_notice(&found));
         }
+        let caps = link
+            .filter(|link| link.state.is_open())
+            .and_then(|link| link.caps);
+        let caps = caps.filter(|_| bench.device.faults.is_none());
+        let tried = caps.as_ref().zip(own_certificates());
+        self.certificate.follow(&bench.ctx, &bench.executor, tried);
         let is_in_sight = bench.shows(Pane::Bridge);
         self.actuators.rest(&mut bench.engine, is_in_sight);
     }
@@ -106,7 +117,10 @@ impl Tool for Bridge {
                 has_developer_tools,
                 stops_on_focus_loss: bench.settings.preferences.stops_on_focus_loss,
             };
-            framed(ui, 12, |ui| show_device(ui, &view, context.commands));
+            framed(ui, 12, |ui| {
+                show_device(ui, &view, context.commands);
+                certificate::show(ui, self.certificate.state());
+            });
             scrolled(ui, pane.title(), |ui| {
                 self.show(ui, &view, context.commands);
                 ui.add_space(STEP);
