@@ -1,7 +1,7 @@
 //! Whether the device that is connected passed everything with the firmware that it has now.
 //!
-//! Certificates are what `selvedge bridge certify` leaves in the user's folder. The emulator in this
-//! program needs none.
+//! Certificates are what `selvedge bridge certify` leaves in the user's folder. The emulator in
+//! this program needs none.
 
 use std::path::PathBuf;
 
