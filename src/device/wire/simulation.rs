@@ -193,6 +193,10 @@ impl Simulation {
     pub fn open_anew(&mut self) {
         self.n_visits += 1;
         self.host = session(NONCE.wrapping_add(self.n_visits));
+        #[cfg(test)]
+        if self.record.is_some() {
+            self.host.keep_notes();
+        }
         self.decoder = Decoder::new(LARGEST_BODY);
         self.host.opened(self.now());
         self.exchange();

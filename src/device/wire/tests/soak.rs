@@ -2,6 +2,9 @@
 
 use super::ledger::{Ledger, ledger};
 use super::*;
+use crate::device::FirmwareLie;
+use crate::host::BridgeEvent;
+use crate::session_log::VirtualLog;
 use selvedge_foundation::numerics::Random;
 
 const HOUR_MS: u64 = 3_600_000;
@@ -172,4 +175,66 @@ fn without_faults_the_ledger_is_clean() {
         ..Ledger::default()
     };
     assert_eq!(found, clean);
+}
+
+/// A link that mostly works.
+fn worn() -> LinkFaults {
+    LinkFaults {
+        latency: Latency::Normal {
+            mean_us: 2000,
+            deviation_us: 800,
+        },
+        drop_rate: 1e-5,
+        flip_rate: 1e-5,
+        usb_loss_rate: 2e-4,
+        repeat_rate: 1e-3,
+        ..LinkFaults::default()
+    }
+}
+
+/// Somebody tries for 35 s to feel something on a device that lies so. Gives how often the session
+/// ended for a reason of the device; the log has the words of each.
+fn ends_of(lie: FirmwareLie, seed: u64) -> usize {
+    let faults = Faults {
+        seed,
+        to_device: worn(),
+        to_host: worn(),
+        lies: vec![lie],
+        ..Faults::default()
+    };
+    let mut trial = Simulation::of(DeviceModel::default(), &faults);
+    trial.host.keep_notes();
+    trial.record = Some(VirtualLog::new(trial.start, false));
+    let n_armed = attend(&mut trial, EACH_MS);
+    // ARM is sent again eight times at most; nobody else arms.
+    assert!(trial.arms_written <= 9 * n_armed, "{lie}");
+    let log = trial.record.take().unwrap().finish();
+    let ends = trial.events.iter().filter_map(|event| match event {
+        BridgeEvent::Disarmed {
+            by: DisarmedBy::Device,
+            reason,
+        } if !reason.contains("ARM") => Some(reason),
+        _ => None,
+    });
+    let ends: Vec<&String> = ends.collect();
+    let told = log.matches(",contradiction,").count();
+    assert_eq!(told, ends.len(), "{lie}: {ends:?}");
+    for reason in &ends {
+        assert!(log.contains(reason.as_str()), "{lie}: {reason}");
+    }
+    ends.len()
+}
+
+/// How long each lie is tried: all of them take four hours.
+const EACH_MS: u64 = 35_000;
+
+#[test]
+fn in_four_hours_of_lies_over_a_worn_link_the_log_has_the_reason_of_every_end() {
+    let (mut n_lies, mut n_ends) = (0, 0);
+    for (seed, lie) in (1..).zip(FirmwareLie::examples()) {
+        n_ends += ends_of(lie, seed);
+        n_lies += 1;
+    }
+    assert!(n_lies * EACH_MS >= 4 * HOUR_MS, "{n_lies} lies");
+    assert!(n_ends > 200, "it was worth four hours: {n_ends}");
 }
