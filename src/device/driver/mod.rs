@@ -148,8 +148,13 @@ impl Driver {
             let state = self.bridge.state();
             match state {
                 BridgeState::Faulted => {
-                    let what = "the device has a fault and cannot be armed; switch it off and on";
-                    return Err(self.failed(what).into());
+                    let faults = self.bridge.status().map_or(0, |status| status.faults);
+                    let what = format!(
+                        "the device has a fault ({}) and cannot be armed: mend it, then clear it \
+                         (CLEAR in the Bridge pane) or switch the device off and on",
+                        fault_bit::names(faults)
+                    );
+                    return Err(self.failed(&what).into());
                 }
                 BridgeState::Ready if !is_asked => {
                     is_asked = self.bridge.arm();
