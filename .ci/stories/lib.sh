@@ -1,0 +1,92 @@
+# What every story needs: a virtual display, the program on it, and hands. Sourced by a story, which
+# then speaks in these words:
+#
+#   display [WIDTHxHEIGHT]      a display of its own
+#   start [ARGUMENT…]           the program, its window found and focused
+#   slowly 'key r' 'click 1'…   xdotool's words, slowly enough for software drawing
+#   answer PATH                 answers the field that asks for a path
+#   shot NAME                   a screenshot, in the folder that SELVEDGE_SHOTS names, if it does
+#   crash | stop                SIGKILL; SIGTERM and a clean end
+#   fail WHY                    ends the story
+#
+# Settings, own textiles and what is kept between runs lie in $work, which goes with the story.
+set -euo pipefail
+selvedge=$(realpath "$1")
+story=$(basename "$0" .sh)
+work=$(mktemp -d)
+server=
+program=
+device=
+trap 'kill $program $device $server 2> /dev/null || true; rm -rf "$work"' EXIT
+export XDG_CONFIG_HOME=$work/config XDG_DATA_HOME=$work/data XDG_STATE_HOME=$work/state
+export XDG_CACHE_HOME=$work/cache SELVEDGE_DIALOGS=field
+unset WAYLAND_DISPLAY WAYLAND_SOCKET
+
+fail() {
+  echo "$story: $1"
+  cat "$work/err.txt" 2> /dev/null || true
+  shot failed
+  exit 1
+}
+
+display() {
+  export DISPLAY=:$((90 + RANDOM % 4000))
+  Xvfb "$DISPLAY" -screen 0 "${1:-1400x900}x24" > "$work/xvfb.log" 2>&1 &
+  server=$!
+  for _ in $(seq 100); do
+    xdotool getdisplaygeometry > /dev/null 2>&1 && return
+    sleep 0.1
+  done
+  fail "no display"
+}
+
+start() {
+  "$selvedge" "$@" > "$work/out.txt" 2> "$work/err.txt" &
+  program=$!
+  window=
+  for _ in $(seq 300); do
+    window=$(xdotool search --onlyvisible --name 'Selvedge' 2> /dev/null | head -n 1) || true
+    [ -n "$window" ] && break
+    kill -0 "$program" 2> /dev/null || fail "the program ended"
+    sleep 0.1
+  done
+  [ -n "$window" ] || fail "no window came up"
+  xdotool windowfocus "$window"
+  sleep 1.5
+}
+
+slowly() {
+  for step in "$@"; do
+    eval "xdotool $step"
+    sleep 0.4
+  done
+}
+
+answer() {
+  slowly "key ctrl+a" "type --delay 30 '$1'" "key Return"
+  sleep 0.6
+}
+
+shot() {
+  [ -n "${SELVEDGE_SHOTS:-}" ] && command -v import > /dev/null || return 0
+  mkdir -p "$SELVEDGE_SHOTS"
+  import -window root "$SELVEDGE_SHOTS/$story-$1.png" 2> /dev/null || true
+}
+
+crash() {
+  kill -KILL "$program"
+  wait "$program" 2> /dev/null || true
+  program=
+}
+
+stop() {
+  kill -TERM "$program"
+  for _ in $(seq 100); do
+    kill -0 "$program" 2> /dev/null || break
+    sleep 0.1
+  done
+  local code=0
+  wait "$program" || code=$?
+  program=
+  [ "$code" = 0 ] || fail "exit code $code"
+}

@@ -1,0 +1,20 @@
+# A gain that was changed and never saved survives SIGKILL: it is offered and restored.
+source "$(dirname "$0")/lib.sh"
+display
+start
+slowly "mousemove 1247 85" "mousedown 1" "mousemove 1225 85" "mousemove 1215 85" "mouseup 1"
+sleep 9
+crash
+work_file=$(ls "$work"/state/selvedge/unsaved/*/work.json) || fail "nothing was kept"
+grep -q 'master gain' "$work_file" || fail "the step was not kept"
+start
+shot offer
+# The last but two of the buttons at the right end of the line below the header.
+slowly "mousemove 1232 62" "click 1"
+sleep 4
+shot restored
+slowly "key ctrl+shift+s"
+answer "$work/restored.scene.toml"
+grep -q '^gain_db = -' "$work/restored.scene.toml" || fail "the gain is not as it was"
+stop
+[ -z "$(ls "$work/state/selvedge/unsaved" 2> /dev/null)" ] || fail "saved work is still kept"
