@@ -63,7 +63,11 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     }
     let mut bench = Bench::of(args, answers, driver.bridge().target());
     let ended = driver.run(&mut bench, &stop);
-    let uid = driver.bridge().caps().map(|caps| DeviceUid(caps.uid));
+    let uid = driver
+        .bridge()
+        .session()
+        .caps()
+        .map(|caps| DeviceUid(caps.uid));
     driver.close();
     log.map_or(Ok(()), SessionLog::finish)?;
     ended?;

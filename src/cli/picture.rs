@@ -8,7 +8,6 @@ use clap::Args;
 use super::picture_relief::{Origin, ReliefArgs, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output};
-use selvedge_foundation::files;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::n_threads;
@@ -116,7 +115,7 @@ impl PictureArgs {
 pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     let px_per_mm = args.px_per_mm();
     args.relief.check(px_per_mm)?;
-    let bytes = files::read(&args.image)?;
+    let bytes = selvedge_textile::read_measurement(&args.image)?;
     let loaded = picture::load(&bytes, &args.image)?;
     let origin = Origin::of(&args.image, &bytes);
     drop(bytes);

@@ -182,7 +182,7 @@ impl FrameSource for Player {
         if let Some(sent) = bridge.send(felt_um, self.moving.core.fresh_stamp()) {
             self.n_frames += 1;
             if let Some(log) = &mut self.log {
-                log.set_link(bridge.link_scale());
+                log.set_link(bridge.session().link_scale());
                 log.frame(&sent, &self.moving.core.pose(), felt_um)?;
             }
         }

@@ -86,9 +86,7 @@ pub enum Command {
     /// Everything off: the device stops at once, the display is silent until armed again, a replay
     /// is held and a recording ended.
     StopAll,
-    /// Begins to record the exploration.
-    StartRecording,
-    /// Ends the recording; [`Engine::take_recording`](super::Engine::take_recording) has it.
+    /// Ends the recording that [`Engine::record`](super::Engine::record) began.
     StopRecording,
     /// Whether somebody takes [samples of ticks](super::Engine::next_tick_sample); nobody does at
     /// first.

@@ -1,4 +1,4 @@
-//! The handle on the engine: commands in, snapshots, notices and recordings out.
+//! The handle on the engine: commands in, snapshots and notices out.
 //!
 //! It belongs to the window or to a command line. It prepares what commands need, and drops what
 //! they replaced; the engine's thread does neither.
@@ -54,7 +54,6 @@ pub struct Engine {
     coming: Vec<Output<Snapshot>>,
     switch: StopSwitch,
     pointer: Option<PointerSender>,
-    recording: Option<Recording>,
     news: Option<JoinHandle<()>>,
     driven: DrivenArray,
     device: DeviceHandle,
@@ -128,7 +127,6 @@ impl Engine {
             coming: Vec::new(),
             switch,
             pointer: Some(pointer),
-            recording: None,
             news,
             driven,
             device: DeviceHandle::default(),
@@ -206,7 +204,6 @@ impl Engine {
                 self.switch.press();
                 return Ok(());
             }
-            Command::StartRecording => self.ready_recording(),
             Command::SetTuning(tuning) => ReadyCommand::Core(CoreCommand::Tuning(tuning)),
             Command::SetTextileGain { textile, gain_db } => {
                 ReadyCommand::Core(CoreCommand::TextileGain { textile, gain_db })
@@ -274,17 +271,16 @@ impl Engine {
         self.switch.clone()
     }
 
-    /// The recording as far as it was collected. Call this or [`snapshot`](Self::snapshot) every
-    /// few seconds while one runs: the engine has room for thirty.
-    pub fn recording(&mut self) -> Option<&Recording> {
+    /// Begins to record the exploration from the next tick on, whether it is felt or only shown. A
+    /// recording that runs ends.
+    ///
+    /// # Errors
+    /// The queue of commands is full; nothing happened then.
+    pub fn record(&mut self) -> Result<Recording, EngineError> {
         self.collect();
-        self.recording.as_ref()
-    }
-
-    /// Takes the recording, if it has ended.
-    pub fn take_recording(&mut self) -> Option<Recording> {
-        self.collect();
-        self.recording.take_if(|recording| recording.has_ended())
+        let (recorder, recording) = recording(self.driven.n_contactors);
+        self.push(ReadyCommand::Core(CoreCommand::Record(Box::new(recorder))))?;
+        Ok(recording)
     }
 
     /// The array profile in force for the scene's first display: the one that was set last, or the
@@ -335,23 +331,10 @@ impl Engine {
         ReadyCommand::Scene(NextScene { scene, is_edited }, input)
     }
 
-    fn ready_recording(&mut self) -> ReadyCommand {
-        let (recorder, recording) = recording(self.driven.n_contactors);
-        self.recording = Some(recording);
-        ReadyCommand::Core(CoreCommand::Record(Box::new(recorder)))
-    }
-
     /// Takes what came back.
     fn collect(&mut self) {
-        if let Some(recording) = &mut self.recording {
-            recording.collect();
-        }
         while let Ok(retired) = self.retired.pop() {
-            if let (Retired::Recorder(recorder), Some(recording)) = (&retired, &mut self.recording)
-                && recording.is_of(recorder)
-            {
-                recording.end();
-            }
+            drop(retired);
         }
         // Commands may have waited for room among the retired.
         if self.commands.slots() < MAX_COMMANDS {

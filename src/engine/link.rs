@@ -150,7 +150,8 @@ impl Link {
     /// What the device makes of codes, if one is connected.
     pub(super) fn scale(&self) -> Option<LinkScale> {
         let bridge = self.bridge.as_ref()?;
-        bridge.link_scale().filter(|_| bridge.state().is_open())
+        let scale = bridge.session().link_scale();
+        scale.filter(|_| bridge.state().is_open())
     }
 
     /// Frames not made because no armed device listened.
@@ -165,15 +166,16 @@ impl Link {
             self.timings = bridge.timings();
         }
         self.n_views += 1;
+        let session = bridge.session();
         Some(LinkView {
-            state: bridge.state(),
-            caps: bridge.caps().copied(),
-            scale: bridge.link_scale(),
-            predicted_sum: bridge.predicted_sum(),
-            status: bridge.status().copied(),
-            depth: bridge.depth(),
-            lead: bridge.lead(),
-            clock: bridge.clock(),
+            state: session.state(),
+            caps: session.caps().copied(),
+            scale: session.link_scale(),
+            predicted_sum: session.predicted_sum(),
+            status: session.status().copied(),
+            depth: session.depth(),
+            lead: session.lead(),
+            clock: session.clock(),
             counters: bridge.counters(),
             timings: self.timings,
             sent: self.sent,

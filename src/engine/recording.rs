@@ -1,12 +1,12 @@
 //! Recording an exploration: what was done at every tick, handed over in blocks.
 //!
-//! The engine fills blocks that were made before; whoever owns the [`Engine`](super::Engine) takes
-//! full ones away and gives empty ones back. A recording is one exploration with a clock of its
-//! own: its n-th row is at n/40 s exactly, so that replaying it meets every row on a tick and gives
-//! the same amplitudes bit for bit, with the same scene, method and tuning: it does not hold those.
+//! The engine fills blocks that were made before; whoever holds the [`Recording`] takes full ones
+//! away and gives empty ones back, on any thread. A recording is one exploration with a clock of
+//! its own: its n-th row is at n/40 s exactly, so that replaying it meets every row on a tick and
+//! gives the same amplitudes bit for bit, with the same scene, method and tuning: it does not hold
+//! those.
 
 use std::fmt;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -16,12 +16,12 @@ use selvedge_device::SentFrame;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
 
-/// Ticks in a block: ten seconds.
-const BLOCK_TICKS: usize = 400;
+/// Ticks in a block: half a second, which is all that a crash may take of a recording.
+const BLOCK_TICKS: usize = 20;
 /// Reports in a block: those of a tablet that sends one and a half thousand a second.
-const BLOCK_SAMPLES: usize = 15_000;
+const BLOCK_SAMPLES: usize = 750;
 /// Blocks on the way: 30 s may pass between two collections.
-const N_BLOCKS: usize = 4;
+const N_BLOCKS: usize = 61;
 /// The longest recording, ticks: four hours.
 const LONGEST: u64 = 4 * 3600 * 40;
 
@@ -32,7 +32,7 @@ pub struct RecordedTick {
     pub tick: u64,
     /// The pose that was rendered.
     pub pose: Pose,
-    /// The frame that went to the device, if one did.
+    /// The frame that went to an armed device; `None` when the tick was only shown.
     pub sent: Option<SentFrame>,
 }
 
@@ -64,7 +64,6 @@ impl Block {
 
 /// The engine's side of a recording.
 pub(super) struct Recorder {
-    id: u64,
     current: Option<Block>,
     spares: Consumer<Block>,
     full: Producer<Block>,
@@ -76,7 +75,6 @@ pub(super) struct Recorder {
 
 /// A recording, as far as its blocks were collected.
 pub struct Recording {
-    id: u64,
     spares: Producer<Block>,
     full: Consumer<Block>,
     n_contactors: usize,
@@ -88,7 +86,6 @@ pub struct Recording {
 
 /// Both sides of a recording of `n_contactors` contactors, those of all displays together.
 pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
-    static ID: AtomicU64 = AtomicU64::new(0);
     let (mut spares, spares_out) = RingBuffer::new(N_BLOCKS);
     // Every block that exists finds room among the full ones.
     let (full_in, full) = RingBuffer::new(N_BLOCKS + 1);
@@ -96,9 +93,7 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
         // Room for all of them was just made.
         drop(spares.push(Block::new(n_contactors)));
     }
-    let id = ID.fetch_add(1, Ordering::Relaxed);
     let recorder = Recorder {
-        id,
         current: Some(Block::new(n_contactors)),
         spares: spares_out,
         full: full_in,
@@ -107,7 +102,6 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
         began: None,
     };
     let recording = Recording {
-        id,
         spares,
         full,
         n_contactors,
@@ -252,13 +246,12 @@ impl Recording {
         }
     }
 
-    /// Whether this is the other side of it.
-    pub(super) fn is_of(&self, recorder: &Recorder) -> bool {
-        self.id == recorder.id
-    }
-
-    /// Takes full blocks away and gives empty ones back.
-    pub(super) fn collect(&mut self) {
+    /// Takes full blocks away and gives empty ones back: to be called every few seconds until it
+    /// has ended, for the engine has room for thirty.
+    pub fn collect(&mut self) {
+        // The engine's side is dropped by the engine's owner once it is over: what it handed over
+        // before is all.
+        let is_over = self.full.is_abandoned();
         while let Ok(mut block) = self.full.pop() {
             self.ticks.append(&mut block.ticks);
             self.samples.append(&mut block.samples);
@@ -266,12 +259,7 @@ impl Recording {
             // A full ring only means that the engine has enough.
             drop(self.spares.push(block));
         }
-    }
-
-    /// The engine gave its side back: what is collected now is all.
-    pub(super) fn end(&mut self) {
-        self.collect();
-        self.has_ended = true;
+        self.has_ended = is_over;
     }
 }
 
@@ -319,13 +307,15 @@ mod tests {
             recorder
                 .push(tick(n), [&amplitudes(n)[..]].into_iter())
                 .unwrap();
-            if n % 1000 == 0 {
+            if n % 500 == 0 {
                 recording.collect();
             }
         }
         recorder.hand_over();
-        recording.end();
-        assert_eq!((recording.ticks().len(), recorder.n_ticks()), (5000, 5000));
+        assert_eq!(recorder.n_ticks(), 5000);
+        drop(recorder);
+        recording.collect();
+        assert!(recording.has_ended() && recording.ticks().len() == 5000);
         assert_eq!(recording.amplitudes_um(4321), amplitudes(4321));
         let path = recording.to_path().unwrap();
         assert_eq!(path.n_ticks(), 5000);
@@ -345,17 +335,17 @@ mod tests {
         });
         assert_eq!(
             failed,
-            Some((1600, "nobody collected the recording in time"))
+            Some((1220, "nobody collected the recording in time"))
         );
-        recording.end();
-        assert_eq!(recording.ticks().len(), 1600);
+        recording.collect();
+        assert_eq!(recording.ticks().len(), 1220);
     }
 
     #[test]
     fn an_empty_recording_is_no_path() {
         let (mut recorder, mut recording) = recording(1);
         recorder.hand_over();
-        recording.end();
+        recording.collect();
         assert!(recording.to_path().is_err());
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Pure: a function of the design and the trial. Labels are numbers of places, never of stimuli.
 
-use super::design::{Design, Method, Source, Standard, TunedParameter};
+use super::design::{Design, Source, Standard, TunedParameter};
 use super::trial::Task;
 use selvedge_engine::{TICKS_PER_S, VibrationStep};
 use selvedge_foundation::geometry::Point;
@@ -50,7 +50,10 @@ impl Layout {
             Task::Rank {
                 target,
                 alternatives,
-            } => four(alternatives, has_virtual_target(design).then_some(*target)),
+            } => {
+                let is_virtual = design.method.standard() == Some(Standard::Virtual);
+                four(alternatives, is_virtual.then_some(*target))
+            }
             Task::OddOne { items, .. } => in_a_row(items),
             Task::JudgePair { items, .. } => in_a_row(items),
             Task::Adjust { item, .. }
@@ -112,10 +115,6 @@ impl Place {
     pub const SIZE_MM: [f64; 2] = [SIDE_MM; 2];
 }
 
-fn has_virtual_target(design: &Design) -> bool {
-    matches!(&design.method, Method::Ranking(ranking) if ranking.target == Standard::Virtual)
-}
-
 /// Positions 1 and 2 above, 3 and 4 below; a target in the middle takes as much room as a gap.
 fn four(alternatives: &[usize], target: Option<usize>) -> Layout {
     let gap_mm = if target.is_some() {
@@ -170,23 +169,15 @@ fn in_a_row(items: &[usize]) -> Layout {
 /// What the experimenter lays on the table for a task: the position, `None` for what is compared
 /// with, and the cloth.
 pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)> {
-    let material = |stimulus: usize| {
-        let found = design.stimuli.get(stimulus);
-        found.map_or_else(String::new, |stimulus| stimulus.material.clone())
-    };
-    let standard = match (&design.method, task) {
-        (Method::Ranking(ranking), Task::Rank { target, .. })
-            if ranking.target == Standard::RealCloth =>
-        {
-            Some(material(*target))
-        }
-        (Method::Adjustment(adjusting), Task::Adjust { item, .. })
-            if adjusting.standard == Standard::RealCloth =>
-        {
-            Some(material(*item))
-        }
+    let compared = match task {
+        Task::Rank { target: item, .. } | Task::Adjust { item, .. } => Some(*item),
         _ => None,
     };
+    let is_real = design.method.standard() == Some(Standard::RealCloth);
+    let standard = compared.filter(|_| is_real).map(|item| {
+        let found = design.stimuli.get(item);
+        found.map_or_else(String::new, |stimulus| stimulus.material.clone())
+    });
     let mut cloths: Vec<(Option<usize>, String)> =
         standard.into_iter().map(|cloth| (None, cloth)).collect();
     for place in Layout::of(design, task).places {
@@ -219,39 +210,32 @@ pub fn vibrations(design: &Design, task: &Task) -> Vec<VibrationStep> {
             n_ticks: ticks(ms),
         }
     };
-    match (task, &design.method) {
-        (
-            Task::Interval {
-                level_db, signal, ..
-            },
-            Method::Levels(levels),
-        ) => {
-            let mut steps = Vec::new();
+    let mut steps = Vec::new();
+    match task {
+        Task::Interval {
+            level_db, signal, ..
+        } => {
+            let Some(levels) = design.method.levels() else {
+                return steps;
+            };
             for interval in 0..levels.intervals {
                 if interval > 0 {
                     steps.push(step(levels.band, None, PAUSE_MS));
                 }
                 let is_signal = interval == *signal;
-                let level_db = if is_signal {
-                    Some(*level_db)
-                } else {
-                    levels.reference_db
-                };
+                let level_db = is_signal.then_some(*level_db).or(levels.reference_db);
                 steps.push(step(levels.band, level_db, levels.interval_ms));
             }
-            steps
         }
-        (Task::Estimate { item } | Task::Rate { item } | Task::Judge { item, .. }, _) => {
+        Task::Estimate { item } | Task::Rate { item } | Task::Judge { item, .. } => {
             let found = design.stimuli.get(*item).map(|stimulus| &stimulus.source);
-            match found {
-                Some(Source::Vibration { band, level_db }) => {
-                    vec![step(*band, Some(*level_db), ALONE_MS)]
-                }
-                _ => Vec::new(),
+            if let Some(Source::Vibration { band, level_db }) = found {
+                steps.push(step(*band, Some(*level_db), ALONE_MS));
             }
         }
-        _ => Vec::new(),
+        _ => {}
     }
+    steps
 }
 
 /// A level as a peak amplitude, µm.

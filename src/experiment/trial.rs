@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::named::named;
+pub use selvedge_statistics::ranking::Grade;
 
 /// Alternatives of a ranking.
 pub const N_RANKED: usize = 4;
@@ -79,18 +79,6 @@ pub enum Task {
         /// The stimulus.
         item: usize,
     },
-}
-
-named! { "grade",
-    /// How hard it was to find the odd one.
-    pub enum Grade {
-        /// Easy.
-        Easy = "easy",
-        /// Neither.
-        Normal = "normal",
-        /// Hard.
-        Hard = "hard",
-    }
 }
 
 /// A change of a parameter on the way to an adjustment.

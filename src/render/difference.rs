@@ -197,11 +197,16 @@ impl DifferenceMeter {
         if let (Some(a), Some(b)) = (a.first(), b.first()) {
             let n_contactors = a.n_contactors().min(b.n_contactors());
             let pair = |contactor| [a.amplitude_um(contactor), b.amplitude_um(contactor)];
-            self.add_tick(tick, (0..n_contactors).map(pair));
+            self.add_amplitudes(tick, (0..n_contactors).map(pair));
         }
     }
 
-    fn add_tick(&mut self, tick: u64, pairs_um: impl Iterator<Item = [[f64; 2]; 2]> + Clone) {
+    /// Takes a tick of both runs: the amplitudes of every contactor in A and B, µm.
+    pub fn add_amplitudes(
+        &mut self,
+        tick: u64,
+        pairs_um: impl Iterator<Item = [[f64; 2]; 2]> + Clone,
+    ) {
         let found = &mut self.found;
         let mut sums_um = [[0.0; 2]; 2];
         for (contactor, [a, b]) in pairs_um.clone().enumerate() {
@@ -357,7 +362,7 @@ mod tests {
         let mut meter = DifferenceMeter::new(n_ticks);
         for tick in 0..n_ticks {
             let b_um = if tick == 100_000 { 100.0 } else { 1.0 };
-            meter.add_tick(tick, std::iter::once([[1.0, 0.0], [b_um, 0.0]]));
+            meter.add_amplitudes(tick, std::iter::once([[1.0, 0.0], [b_um, 0.0]]));
         }
         let found = meter.finish();
         assert_eq!((found.n_ticks, found.ticks_per_entry), (n_ticks, 3));

@@ -49,8 +49,9 @@ pub use kes::{
     StrokeSide, TextileAxis,
 };
 pub use library::{
-    Appearance, BuildCache, Index, IndexEntry, Library, Textile, build_library, id_of,
-    is_of_the_program, kind_of, most_typical, n_threads, nth_id,
+    Appearance, BuildCache, Change, Index, IndexEntry, Library, LibraryFolder, Textile, Version,
+    build_library, called, elsewhere, files_of, id_in, id_of, is_of_the_program, kind_of,
+    most_typical, n_threads, nth_id,
 };
 pub use manifest::{
     AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,

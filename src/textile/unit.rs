@@ -94,7 +94,7 @@ const LENGTHS: [Row; 7] = {
 
 /// The unit of a column: a length, or what else a tester records. Places take lengths alone;
 /// heights take a voltage too, with a sensitivity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unit {
     /// A length.
     Length(LengthUnit),

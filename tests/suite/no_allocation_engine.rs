@@ -73,9 +73,9 @@ fn push(pointer: &mut PointerSender, stamp: Instant, since_s: f64) {
 fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
-    engine.send(Command::StartRecording).unwrap();
+    let _recording = engine.record().unwrap();
     engine.send(Command::SampleTicks(true)).unwrap();
-    // Fewer than a block of the recording: collecting one is the window's affair.
+    // Fewer than all blocks of the recording: collecting them is the window's affair.
     for n in 0..390_u32 {
         let gain_db = f64::from(n % 20);
         engine
@@ -181,7 +181,7 @@ fn a_new_scene_is_taken_over_without_allocating() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
     engine.advance(start);
-    engine.send(Command::StartRecording).unwrap();
+    let _recording = engine.record().unwrap();
     engine.advance(start + TICK);
     let scene = prepared(vec![Displacement::default(); 100]);
     // What comes back is dropped by the owner, whose memory it is: only the take-over is guarded.

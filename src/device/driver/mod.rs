@@ -132,8 +132,7 @@ impl Driver {
 
     /// Ends the link's threads, so that the port is free again.
     pub fn close(self) {
-        // Whether the device came to rest `run` has already told.
-        drop(self.bridge.close(GOODBYE));
+        self.bridge.close(GOODBYE);
     }
 
     fn play<S: FrameSource>(
@@ -148,7 +147,11 @@ impl Driver {
             let state = self.bridge.state();
             match state {
                 BridgeState::Faulted => {
-                    let faults = self.bridge.status().map_or(0, |status| status.faults);
+                    let faults = self
+                        .bridge
+                        .session()
+                        .status()
+                        .map_or(0, |status| status.faults);
                     let what = format!(
                         "the device has a fault ({}) and cannot be armed: mend it, then clear it \
                          (CLEAR in the Bridge pane) or switch the device off and on",
@@ -181,12 +184,12 @@ impl Driver {
         self.bridge.stop(StopHow::Ramp);
         let deadline = Instant::now() + REPLY_PATIENCE;
         let mut wrong = None;
-        while self.bridge.is_ending() && Instant::now() < deadline {
+        while self.bridge.session().is_ending() && Instant::now() < deadline {
             let error = self.turn(source).err();
             wrong = wrong.or(error);
             self.wait();
         }
-        if self.bridge.is_ending() {
+        if self.bridge.session().is_ending() {
             if let Some(handle) = self.bridge.stop_handle() {
                 handle.last_word();
             }

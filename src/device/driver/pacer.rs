@@ -5,24 +5,19 @@
 //! young when it is felt. A tick that is put off so is done before anything else is.
 //!
 //! A device tick that is 12 ms overdue (37 ms after the last) is given up and the own clock ticks
-//! in its stead, every 25 ms from there, until a device tick comes again. Which tick the device is
-//! in is the word of whoever stamps frames ([`Bridge::present_tick`]): one that was ticked for, by
-//! whichever clock, is never ticked for again. A device is believed no number that repeats, goes
-//! back or jumps, and no clock that runs away. Pure: it is told what time it is.
+//! in its stead, every 25 ms from there, until a device tick comes again. Which STATUS is a tick
+//! that paces, and which tick the device is in, is the word of the session, which stamps frames
+//! too: one that was ticked for, by whichever clock, is never ticked for again, and no clock that
+//! runs away is followed. Pure: it is told what time it is.
 
 use std::time::{Duration, Instant};
 
 use super::TICK;
 use crate::handle::Bridge;
-use crate::host::BridgeEvent;
+use crate::host::{BridgeEvent, LONGEST_JUMP};
 
 /// How long a device tick may be overdue.
 const PATIENCE: Duration = Duration::from_millis(12);
-/// A step of the device's tick number beyond this is no gap: one second.
-const LONGEST_GAP: u32 = 40;
-/// Numbers in a row that set a new base, once none has followed the old one for `AWAY`.
-const NEW_BASE: u8 = 3;
-const AWAY: Duration = Duration::from_millis(75);
 /// No device ticks faster in the long run: 4 %. Ticks whose news was held up may come a whole tick
 /// closer than that.
 const FASTEST: Duration = Duration::from_millis(24);
@@ -33,9 +28,6 @@ const MAX_NEWS: usize = 256;
 #[derive(Debug)]
 pub struct Pacer {
     own: Option<OwnClock>,
-    last_news: Option<News>,
-    /// The last number that did not follow, and how many followed each other up to it.
-    aside: Option<(u32, u8)>,
     /// When the tick that answers the last device tick is due, until it is done.
     put_off: Option<Instant>,
     /// The device's tick at the last tick.
@@ -52,19 +44,11 @@ struct OwnClock {
     fallbacks: u64,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct News {
-    number: u32,
-    received: Instant,
-}
-
 impl Pacer {
     /// A pacer that waits for its device.
     pub fn waiting() -> Self {
         Self {
             own: None,
-            last_news: None,
-            aside: None,
             put_off: None,
             answered: None,
             earliest: None,
@@ -97,11 +81,7 @@ impl Pacer {
         };
         for _ in 0..MAX_NEWS {
             match bridge.poll() {
-                Some(BridgeEvent::Tick {
-                    tick,
-                    received,
-                    due,
-                }) => self.announce(tick, received, due),
+                Some(BridgeEvent::Tick { received, due }) => self.announce(received, due),
                 Some(event) => {
                     if matches!(event, BridgeEvent::Lost(_) | BridgeEvent::Refused(_)) {
                         self.forget_device();
@@ -111,16 +91,11 @@ impl Pacer {
                 None => break,
             }
         }
-        self.due(now, bridge.present_tick(now))
+        self.due(now, bridge.session().present_tick(now))
     }
 
-    /// A STATUS with this tick number arrived; its answer is `due` then or later.
-    pub(super) fn announce(&mut self, number: u32, received: Instant, due: Instant) {
-        if !self.follows(number, received) {
-            return;
-        }
-        self.aside = None;
-        self.last_news = Some(News { number, received });
+    /// A STATUS that paces arrived; its answer is `due` then or later.
+    pub(super) fn announce(&mut self, received: Instant, due: Instant) {
         self.put_off = Some(due.max(received));
         if let Some(own) = &mut self.own {
             own.due = received + TICK + PATIENCE;
@@ -128,38 +103,9 @@ impl Pacer {
         }
     }
 
-    /// Whether a number follows the last one, or sets a new base.
-    fn follows(&mut self, number: u32, received: Instant) -> bool {
-        let Some(last) = self.last_news else {
-            return true;
-        };
-        if is_step(last.number, number) {
-            return true;
-        }
-        if number == last.number {
-            return false;
-        }
-        let n = match self.aside {
-            Some((before, n)) if is_step(before, number) => n.saturating_add(1),
-            _ => 1,
-        };
-        self.aside = Some((number, n));
-        let is_base = n >= NEW_BASE && received >= last.received + AWAY;
-        // A clock that only faltered comes by the ticks that are done already once more.
-        let is_near = |answered: &u32| {
-            let apart = number.wrapping_sub(*answered).cast_signed();
-            apart.unsigned_abs() <= LONGEST_GAP
-        };
-        if is_base {
-            self.answered = self.answered.filter(is_near);
-        }
-        is_base
-    }
-
     /// Whether a tick is due, and since when; the device, if its clock is known, is in the
     /// `present` tick.
     pub(super) fn due(&mut self, now: Instant, present: Option<u32>) -> Option<Instant> {
-        let present = present.filter(|_| self.last_news.is_some());
         if let Some(due) = self.put_off.take_if(|due| *due <= now) {
             let is_early = self.earliest.is_some_and(|earliest| now + TICK < earliest);
             if !is_early && self.is_new(present) {
@@ -183,10 +129,14 @@ impl Pacer {
         Some(due)
     }
 
-    /// Whether no tick was done for this tick of the device.
+    /// Whether no tick was done for this tick of the device. One from further away than a gap is of
+    /// a clock that began anew, which comes by no tick a second time.
     fn is_new(&self, present: Option<u32>) -> bool {
         let span = present.zip(self.answered);
-        span.is_none_or(|(present, answered)| present.wrapping_sub(answered).cast_signed() > 0)
+        span.is_none_or(|(present, answered)| {
+            let step = present.wrapping_sub(answered).cast_signed();
+            step > 0 || step.unsigned_abs() > LONGEST_JUMP
+        })
     }
 
     /// A tick is done, for this tick of the device.
@@ -194,7 +144,10 @@ impl Pacer {
         let earliest = self.earliest.map_or(now, |earliest| earliest.max(now));
         self.earliest = Some(earliest + FASTEST);
         if let Some((present, answered)) = present.zip(self.answered) {
-            self.missed += u64::from(present.wrapping_sub(answered).saturating_sub(1));
+            let n_steps = present.wrapping_sub(answered);
+            if n_steps <= LONGEST_JUMP {
+                self.missed += u64::from(n_steps.saturating_sub(1));
+            }
         }
         self.answered = present.or(self.answered);
     }
@@ -207,8 +160,6 @@ impl Pacer {
             }
             own.is_device_paced = false;
         }
-        self.last_news = None;
-        self.aside = None;
         self.put_off = None;
         self.answered = None;
     }
@@ -234,11 +185,6 @@ impl Pacer {
     pub fn fallbacks(&self) -> u64 {
         self.own.map_or(0, |own| own.fallbacks)
     }
-}
-
-/// Whether a tick number comes after another, with no more than a second between them.
-fn is_step(from: u32, to: u32) -> bool {
-    (1..=LONGEST_GAP).contains(&to.wrapping_sub(from))
 }
 
 #[cfg(test)]
@@ -271,12 +217,8 @@ mod tests {
 
         /// News of the device's present tick arrive at this time, to be answered `held` later.
         fn news(&mut self, at: Duration, held: Duration) -> Option<Duration> {
-            self.news_of(self.number(at), at, held)
-        }
-
-        fn news_of(&mut self, number: u32, at: Duration, held: Duration) -> Option<Duration> {
             let received = self.start + at;
-            self.pacer.announce(number, received, received + held);
+            self.pacer.announce(received, received + held);
             self.at(at)
         }
 
@@ -357,36 +299,14 @@ mod tests {
         assert!(bench.news(75 * MS, Duration::ZERO).is_some());
         assert_eq!(bench.pacer.missed(), 2, "the number wraps");
         assert_eq!(bench.news(76 * MS, Duration::ZERO), None, "again the same");
-        // A clock that begins anew is believed when three of its ticks followed each other.
-        bench.first = 4_000_000;
-        for number in 7..9 {
-            assert_eq!(bench.news(TICK * number, Duration::ZERO), None);
-        }
-        for number in 9..12 {
-            assert!(bench.news(TICK * number, Duration::ZERO).is_some());
+        for (first, number) in [(4_000_000, 4), (7, 5), (50, 7)] {
+            bench.first = first;
+            for number in number..number + 2 {
+                let tick = bench.news(TICK * number, Duration::ZERO);
+                assert!(tick.is_some(), "tick {number} of a clock at {first}");
+            }
         }
         assert_eq!(bench.pacer.missed(), 2);
-    }
-
-    #[test]
-    fn numbers_that_repeat_go_back_or_jump_pace_nothing() {
-        let mut bench = Bench::new(1000);
-        let mut ticks = Vec::new();
-        for number in 0..200 {
-            let at = TICK * number;
-            for stray in [0, 1, 41, 5000, u32::MAX / 2].map(|back| (999 + number) - back.min(990)) {
-                ticks.extend(bench.news_of(stray, at, Duration::ZERO));
-            }
-            for jump in [41, 42, 43, 3000, u32::MAX / 2] {
-                ticks.extend(bench.news_of(1000 + number + jump, at, Duration::ZERO));
-            }
-            ticks.extend(bench.news(at, Duration::ZERO));
-            ticks.extend(bench.news(at + MS, Duration::ZERO));
-        }
-        let wanted: Vec<Duration> = (1..200).map(|number| TICK * number).collect();
-        assert_eq!(ticks[ticks.len() - wanted.len()..], wanted);
-        assert!(ticks.len() <= 201, "{}", ticks.len());
-        assert_eq!(bench.pacer.missed(), 0);
     }
 
     #[test]
@@ -397,7 +317,7 @@ mod tests {
         // Four ticks of the device in one of ours, for ten seconds.
         for number in 0..1600 {
             let now = start + TICK * number / 4;
-            pacer.announce(number, now, now);
+            pacer.announce(now, now);
             n_ticks += u32::from(pacer.due(now, Some(number)).is_some());
         }
         assert!((400..=420).contains(&n_ticks), "{n_ticks} in 400 ticks");
@@ -410,7 +330,7 @@ mod tests {
         assert!(bench.news(Duration::ZERO, Duration::ZERO).is_some());
         let ticks = (11..15).filter_map(|number| {
             let at = 100 * MS + MS / 4 * (number - 11);
-            bench.news_of(number, at, Duration::ZERO)
+            bench.news(at, Duration::ZERO)
         });
         assert_eq!(ticks.count(), 1);
         assert_eq!(bench.pacer.missed(), 3);

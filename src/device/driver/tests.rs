@@ -123,13 +123,8 @@ impl Scripted {
     fn turn(&mut self, us: u64) {
         let now = self.at(us);
         while let Some(event) = self.host.next_event() {
-            if let BridgeEvent::Tick {
-                tick,
-                received,
-                due,
-            } = event
-            {
-                self.pacer.announce(tick, received, due);
+            if let BridgeEvent::Tick { received, due } = event {
+                self.pacer.announce(received, due);
             }
         }
         if self.pacer.due(now, self.host.present_tick(now)).is_some() {
@@ -212,6 +207,29 @@ fn a_flood_and_old_status_make_no_frame_more_than_there_are_ticks() {
     script.assert_one_frame_a_tick();
     assert_eq!(u64::from(script.n_ticks), n);
     assert_eq!(u64::try_from(script.sent.len()).unwrap(), n);
+}
+
+#[test]
+fn after_a_pause_of_our_own_the_third_status_brings_a_frame() {
+    for pacer in [|_| Pacer::waiting(), Pacer::with_own_clock] {
+        let mut script = Scripted::armed(pacer);
+        script.status(ARMED, ARMED * 25_000);
+        let n_before = script.sent.len();
+        assert!(n_before > 0, "a frame before the pause");
+        for (nth, k) in (ARMED + 12..).take(5).enumerate() {
+            let us = k * 25_000;
+            script.status(k, us);
+            script.pass(us + 1000..us + 24_000);
+            let n_frames = script.sent.len() - n_before;
+            assert_eq!(
+                n_frames,
+                (nth + 1).saturating_sub(2),
+                "after {} STATUS",
+                nth + 1
+            );
+        }
+        script.assert_one_frame_a_tick();
+    }
 }
 
 #[test]

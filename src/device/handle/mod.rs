@@ -13,14 +13,11 @@ use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::BridgeError;
 use super::actuator_model::{ActuatorWatch, ContactorModel, actuator_watch};
-use super::codes::{ArrayProfile, LimiterState, LinkScale};
-use super::host::{
-    BridgeCounters, BridgeEvent, BridgeState, ClockFit, HostSession, SentFrame, Sequence,
-};
+use super::codes::ArrayProfile;
+use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
 use super::link::{Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
-use super::message::{Caps, Config, Status, StopHow};
+use super::message::StopHow;
 use super::session_log::Note;
 use notes::Notes;
 use pulse::Pulse;
@@ -63,7 +60,7 @@ impl Bridge {
         let link = match Link::open(opener, n_contactors, sequence, waker) {
             Ok(link) => Some(link),
             Err(error) => {
-                session.link_gone(&error.to_string());
+                session.link_gone(Instant::now(), error.to_string());
                 None
             }
         };
@@ -106,7 +103,7 @@ impl Bridge {
                 Incoming::Message { message, received } => {
                     self.session.on_message(received, &message);
                 }
-                Incoming::Gone(reason) => self.session.link_gone(&reason),
+                Incoming::Gone(reason) => self.session.link_gone(now, reason),
             }
             if let Some(event) = self.session.next_event() {
                 self.flush();
@@ -122,18 +119,7 @@ impl Bridge {
         if !self.session.state().is_open() {
             self.release();
         }
-        self.session.next_event().map(|event| self.explained(event))
-    }
-
-    /// A device that was never heard of, on a port that says something, is another device.
-    fn explained(&self, event: BridgeEvent) -> BridgeEvent {
-        let is_stranger = self.session.caps().is_none() && self.counters().bad_received > 0;
-        match event {
-            BridgeEvent::Lost(reason) if is_stranger => {
-                BridgeEvent::Lost(format!("{reason}; what comes from it is not this protocol"))
-            }
-            event => event,
-        }
+        self.session.next_event()
     }
 
     /// Asks for output; `Armed` or `Disarmed` follows. False when the device is not `Ready`.
@@ -191,59 +177,9 @@ impl Bridge {
         &self.target
     }
 
-    /// The device's CAPS, once accepted.
-    pub fn caps(&self) -> Option<&Caps> {
-        self.session.caps()
-    }
-
-    /// The device's effective settings, once configured.
-    pub fn config(&self) -> Option<&Config> {
-        self.session.config()
-    }
-
-    /// What the device makes of codes: its limits in force, or before it is configured its largest.
-    pub fn link_scale(&self) -> Option<LinkScale> {
-        self.session.link_scale()
-    }
-
-    /// The largest `amp_sum` that our own frames allow the device at its last tick.
-    pub fn predicted_sum(&self) -> f64 {
-        self.session.predicted_sum()
-    }
-
-    /// The last STATUS.
-    pub fn status(&self) -> Option<&Status> {
-        self.session.status()
-    }
-
-    /// Whether the device may still be moving, or has not acknowledged the last STOP.
-    pub(crate) fn is_ending(&self) -> bool {
-        self.session.is_ending()
-    }
-
-    /// The device's tick now, as frames are stamped by it; `None` before the first STATUS.
-    pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
-        self.session.present_tick(now)
-    }
-
-    /// How many ticks ahead frames are sent, 1…3.
-    pub fn depth(&self) -> u8 {
-        self.session.depth()
-    }
-
-    /// How long before the tick in which it is felt a frame is due.
-    pub fn lead(&self) -> Duration {
-        self.session.lead()
-    }
-
-    /// What is known of the device's clock.
-    pub fn clock(&self) -> ClockFit {
-        self.session.clock()
-    }
-
-    /// What the last frame's amplitudes ran into, per contactor.
-    pub fn limited(&self) -> &[LimiterState] {
-        self.session.limited()
+    /// The session: what the device says of itself, and what was made of it.
+    pub fn session(&self) -> &HostSession {
+        &self.session
     }
 
     /// Everything that is counted on this link.
@@ -274,38 +210,15 @@ impl Bridge {
         self.link.as_ref().map(Link::stop_handle)
     }
 
-    /// Ends output if there is any, waits for the acknowledgement at most `patience`, and ends the
-    /// threads.
-    ///
-    /// An error when the device did not confirm that it is at rest, or was lost. Dropping does the
-    /// same without waiting.
-    pub fn close(mut self, patience: Duration) -> Result<(), BridgeError> {
+    /// Ends the link's threads and waits for that, at most `patience`. Dropping does the same
+    /// without waiting; whether a device came to rest, the [`Driver`](crate::Driver) asks first.
+    pub fn close(mut self, patience: Duration) {
+        self.leave();
+        let link = self.link.take();
         let deadline = Instant::now() + patience;
-        let was_live = self.state().is_live();
-        if was_live {
-            self.stop(StopHow::Ramp);
-        }
-        let mut lost = None;
-        while self.state().is_live() && Instant::now() < deadline {
-            match self.poll() {
-                Some(BridgeEvent::Lost(reason)) => lost = Some(reason),
-                Some(_) => {}
-                None => std::thread::sleep(Duration::from_millis(1)),
-            }
-        }
-        let unconfirmed = was_live && (lost.is_some() || self.state().is_live());
-        self.release();
-        while self.link.as_ref().is_some_and(Link::is_running) && Instant::now() < deadline {
+        while link.as_ref().is_some_and(Link::is_running) && Instant::now() < deadline {
             std::thread::sleep(Duration::from_millis(1));
         }
-        if unconfirmed {
-            let reason = lost.unwrap_or_else(|| String::from("the device did not come to rest"));
-            return Err(BridgeError::Link {
-                port: self.target.clone(),
-                reason,
-            });
-        }
-        Ok(())
     }
 
     fn flush(&mut self) {
@@ -317,6 +230,14 @@ impl Bridge {
         while let Some(packet) = self.session.next_packet() {
             link.send_control(&packet);
         }
+    }
+
+    /// Leaves the device, with a STOP if it may be moving.
+    fn leave(&mut self) {
+        if self.state().is_live() {
+            self.stop(StopHow::Ramp);
+        }
+        self.release();
     }
 
     /// Lets the threads write what is left and end.
@@ -331,10 +252,7 @@ impl Bridge {
 
 impl Drop for Bridge {
     fn drop(&mut self) {
-        if self.state().is_live() {
-            self.stop(StopHow::Ramp);
-        }
-        self.release();
+        self.leave();
     }
 }
 
@@ -346,4 +264,4 @@ fn nonce() -> u32 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::Bridge;
-use crate::host::{BridgeEvent, DisarmedBy};
+use crate::host::BridgeEvent;
 use crate::link::Link;
-use crate::session_log::{HostCounters, LogFeed, Note, event};
+use crate::session_log::{HostCounters, LogFeed, Note};
 
 /// From one line of telemetry to the next.
 const TELEMETRY_EVERY: Duration = Duration::from_secs(1);
@@ -39,31 +39,13 @@ impl Bridge {
                     link.record_round_trip(*round_trip);
                 }
             }
-            Some(event) if self.notes.log.is_some() => self.note(event),
+            Some(BridgeEvent::Tick { .. }) => self.note_tick(Instant::now()),
+            Some(BridgeEvent::Refused(_) | BridgeEvent::Lost(_) | BridgeEvent::Disarmed { .. }) => {
+                self.note_last(Instant::now());
+            }
             _ => {}
         }
         self.write_notes();
-    }
-
-    /// Writes down what only an event tells.
-    fn note(&mut self, event: &BridgeEvent) {
-        let now = Instant::now();
-        let (name, reason) = match event {
-            BridgeEvent::Refused(reason) => (event::REFUSED_DEVICE, reason),
-            BridgeEvent::Lost(reason) => (event::LOST, reason),
-            BridgeEvent::Log(text) => (event::DEVICE_LOG, text),
-            BridgeEvent::Disarmed {
-                by: DisarmedBy::Device,
-                reason,
-            } => (event::DISARMED_ITSELF, reason),
-            BridgeEvent::Disarmed { reason, .. } => (event::DISARMED, reason),
-            BridgeEvent::Tick { .. } => return self.note_tick(now),
-            _ => return,
-        };
-        self.session.note(now, Note::Said(name, reason.clone()));
-        if name != event::DEVICE_LOG {
-            self.note_last(now);
-        }
     }
 
     fn note_tick(&mut self, now: Instant) {

@@ -9,7 +9,7 @@ use super::*;
 #[cfg(unix)]
 use crate::Coder;
 use crate::device::DeviceModel;
-use crate::message::DeviceState;
+use crate::message::{DeviceState, Status};
 use selvedge_scratch::ScratchFolder;
 
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -41,6 +41,20 @@ fn until(bridge: &mut Bridge, wanted: impl Fn(&BridgeEvent) -> bool) -> BridgeEv
     panic!("not seen in state {}", bridge.state());
 }
 
+/// Ends output, waits until the device is at rest, and lets go of it.
+pub(crate) fn rested(mut bridge: Bridge) {
+    bridge.stop(StopHow::Ramp);
+    let deadline = Instant::now() + PATIENCE;
+    while bridge.session().is_ending() {
+        assert!(Instant::now() < deadline, "not at rest: {}", bridge.state());
+        if bridge.poll().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+    assert_eq!(bridge.state(), BridgeState::Ready);
+    bridge.close(PATIENCE);
+}
+
 fn streaming() -> Bridge {
     let (mut bridge, _) = emulated();
     until(&mut bridge, |event| matches!(event, BridgeEvent::Ready(_)));
@@ -68,7 +82,7 @@ fn streaming() -> Bridge {
 fn an_emulated_device_streams_and_stops() {
     let mut bridge = streaming();
     assert_eq!(bridge.state(), BridgeState::Streaming);
-    let device = bridge.status().and_then(Status::device_state);
+    let device = bridge.session().status().and_then(Status::device_state);
     assert!(device.is_some_and(DeviceState::is_live));
     bridge.stop(StopHow::Ramp);
     until(&mut bridge, |event| {
@@ -80,7 +94,7 @@ fn an_emulated_device_streams_and_stops() {
     let timings = bridge.timings();
     assert_eq!(timings.due_to_write.n, timings.stamp_to_write.n);
     assert!(timings.due_to_write.n > 0);
-    bridge.close(PATIENCE).unwrap();
+    rested(bridge);
 }
 
 #[test]
@@ -119,8 +133,11 @@ fn a_stop_handle_stops_from_another_thread() {
 }
 
 #[test]
-fn a_closed_bridge_has_left_the_device_at_rest() {
-    streaming().close(PATIENCE).unwrap();
+fn a_bridge_that_is_closed_while_it_streams_says_stop() {
+    let bridge = streaming();
+    let shared = bridge.stop_handle().unwrap();
+    bridge.close(PATIENCE);
+    assert!(shared.wait_written(Duration::ZERO), "STOP was written");
 }
 
 #[test]
@@ -133,7 +150,6 @@ fn a_port_that_is_not_there_is_lost_with_a_line() {
     };
     assert!(reason.contains("no such port"), "{reason}");
     assert_eq!(bridge.state(), BridgeState::Lost);
-    bridge.close(PATIENCE).unwrap();
 }
 
 #[test]
@@ -213,7 +229,7 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
             sent.insert(stamp.seq, (stamp, amplitudes_um));
         }
     }
-    bridge.close(PATIENCE).unwrap();
+    rested(bridge);
     ended.store(true, Ordering::Release);
     device.join().unwrap().unwrap();
 

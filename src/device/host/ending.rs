@@ -7,12 +7,16 @@ use super::pending::Pending;
 use super::report::{BridgeEvent, BridgeState, DisarmedBy};
 use super::watch;
 use crate::message::{Message as _, Stop, StopHow, kind};
-use crate::session_log::Note;
+use crate::session_log::{Note, event};
 
 impl HostSession {
-    pub(super) fn lose(&mut self, reason: String) {
+    pub(super) fn lose(&mut self, now: Instant, mut reason: String) {
         if !self.state.is_open() {
             return;
+        }
+        // A device that was never heard of, on a port that says something, is another device.
+        if self.device.caps.is_none() && self.noise.is_any() {
+            reason.push_str("; what comes from it is not this protocol");
         }
         if self.state.is_live() {
             // Perhaps only the way back is broken.
@@ -23,6 +27,7 @@ impl HostSession {
             .packet(self.outbox.sequence.next());
         }
         self.end(BridgeState::Lost);
+        self.note(now, Note::Said(event::LOST, reason.clone()));
         self.event(BridgeEvent::Lost(reason));
     }
 
@@ -30,14 +35,14 @@ impl HostSession {
     pub(super) fn contradicted(&mut self, now: Instant, (how, reason): watch::End) {
         self.stop(now, how);
         self.stopping.ends_output = false;
-        self.note(now, Note::Said("contradiction", reason.clone()));
-        self.disarmed(DisarmedBy::Device, reason);
+        self.disarmed(now, DisarmedBy::Device, reason);
     }
 
     /// The device is not to be driven; it may move for all we know.
     pub(super) fn refuse(&mut self, now: Instant, reason: String) {
         self.end(BridgeState::Refused);
         self.send_stop(&mut Pending::new(kind::STOP, now), now);
+        self.note(now, Note::Said(event::REFUSED_DEVICE, reason.clone()));
         self.event(BridgeEvent::Refused(reason));
     }
 
@@ -48,7 +53,12 @@ impl HostSession {
         self.outbox.packets.clear();
     }
 
-    pub(super) fn disarmed(&mut self, by: DisarmedBy, reason: String) {
+    pub(super) fn disarmed(&mut self, now: Instant, by: DisarmedBy, reason: String) {
+        let event = match by {
+            DisarmedBy::Device => event::DISARMED_ITSELF,
+            DisarmedBy::Host => event::DISARMED,
+        };
+        self.note(now, Note::Said(event, reason.clone()));
         self.event(BridgeEvent::Disarmed { by, reason });
     }
 }

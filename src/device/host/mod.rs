@@ -32,9 +32,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use super::codes::{ArrayProfile, LimiterState, LinkScale};
+use super::codes::{ArrayProfile, LinkScale};
 use super::framing::Packet;
-use super::message::{Caps, Config, Message as _, Ping, Status, StopHow, kind};
+use super::message::{Caps, Message as _, Ping, Status, StopHow, kind};
 use super::session_log::{Entry, Note};
 pub use array::ArrayChange;
 pub use clock::ClockFit;
@@ -49,6 +49,7 @@ use pending::{Identifying, Pending, Pings, Presence};
 use prediction::{Lasting, Prediction};
 pub use report::{BridgeCounters, BridgeEvent, BridgeState, DisarmedBy, SentFrame};
 use reported::Reported;
+pub(crate) use ticks::LONGEST_JUMP;
 use ticks::Ticks;
 
 const MAX_EVENTS: usize = 64;
@@ -173,8 +174,8 @@ impl HostSession {
     }
 
     /// The port failed or could not be opened.
-    pub(crate) fn link_gone(&mut self, reason: &str) {
-        self.lose(String::from(reason));
+    pub(crate) fn link_gone(&mut self, now: Instant, reason: String) {
+        self.lose(now, reason);
     }
 
     /// Asks for output. True when ARM went out; `Armed` or `Disarmed` follows. Only from `Ready`.
@@ -252,13 +253,8 @@ impl HostSession {
         self.device.caps.as_ref()
     }
 
-    /// The device's effective settings.
-    pub fn config(&self) -> Option<&Config> {
-        self.device.config.as_ref()
-    }
-
     /// What the device makes of codes: its limits in force, or before it is configured its largest.
-    pub(crate) fn link_scale(&self) -> Option<LinkScale> {
+    pub fn link_scale(&self) -> Option<LinkScale> {
         let caps = self.device.caps?;
         let config = self.device.config;
         Some(LinkScale {
@@ -282,9 +278,10 @@ impl HostSession {
         self.state.is_live() || self.stopping.pending.is_some()
     }
 
-    /// The device's tick now, by its last STATUS and the time since; `None` before the first.
+    /// The device's tick now, by its last STATUS and the time since; `None` without a base.
     pub(crate) fn present_tick(&self, now: Instant) -> Option<u32> {
-        self.device.status.map(|_| self.device.present_tick(now))
+        let is_known = self.state.is_open() && self.ticks.is_set();
+        is_known.then(|| self.device.present_tick(now))
     }
 
     /// How many ticks ahead frames are sent, 1…3.
@@ -306,11 +303,6 @@ impl HostSession {
     /// of the last two minutes; zero before the first.
     pub fn delay(&self) -> Duration {
         self.latching.delay().0
-    }
-
-    /// What the last frame's amplitudes ran into, per contactor.
-    pub fn limited(&self) -> &[LimiterState] {
-        self.drive.coder.limited()
     }
 
     /// The counters that a session knows; those of the link's threads are 0.

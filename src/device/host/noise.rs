@@ -67,6 +67,11 @@ impl Noise {
         self.n_noisy_seconds >= 2
     }
 
+    /// Whether anything came that was no message.
+    pub(super) fn is_any(&self) -> bool {
+        self.now.bad > 0
+    }
+
     /// Why no STATUS came for so long.
     pub(super) fn silence_reason(&self, now: Instant, silent_for: Duration) -> String {
         let ms = silent_for.as_millis();

@@ -14,7 +14,7 @@ use crate::message::{
     Ack, AckCode, Caps, Config, DeviceMessage, DeviceState, Fault, MAGIC, Pong, Status, StopHow,
     kind,
 };
-use crate::session_log::Note;
+use crate::session_log::{Note, event};
 
 /// A line of the device's clock that moved further than this makes what was measured by it void.
 const MOVED: Duration = Duration::from_millis(1);
@@ -35,7 +35,11 @@ impl HostSession {
             DeviceMessage::Status(status) => self.on_status(received, status),
             DeviceMessage::Fault(fault) => self.on_fault(received, *fault),
             DeviceMessage::Pong(pong) => self.on_pong(received, *pong),
-            DeviceMessage::Log(text) => self.event(BridgeEvent::Log(text.to_line())),
+            DeviceMessage::Log(text) => {
+                let text = text.to_line();
+                self.note(received, Note::Said(event::DEVICE_LOG, text.clone()));
+                self.event(BridgeEvent::Log(text));
+            }
         }
     }
 
@@ -144,7 +148,7 @@ impl HostSession {
             (kind::ARM, code) => {
                 self.state = BridgeState::Ready;
                 let reason = format!("the device refused ARM: {}", code.describe());
-                self.disarmed(DisarmedBy::Device, reason);
+                self.disarmed(received, DisarmedBy::Device, reason);
             }
             (kind::CONFIG, AckCode::Faulted) => self.state = BridgeState::Faulted,
             (kind::CONFIG, code) => {
@@ -167,7 +171,7 @@ impl HostSession {
         self.stopping.obeyed = Some(received);
         if self.stopping.ends_output {
             self.stopping.ends_output = false;
-            self.disarmed(DisarmedBy::Host, String::from("stopped"));
+            self.disarmed(received, DisarmedBy::Host, String::from("stopped"));
         }
     }
 
@@ -199,11 +203,7 @@ impl HostSession {
             let start = self.device.tick_start.unwrap_or(received);
             let due = self.latching.due(start, received);
             self.drive.due = Some(due);
-            self.event(BridgeEvent::Tick {
-                tick: status.tick,
-                received,
-                due,
-            });
+            self.event(BridgeEvent::Tick { received, due });
         }
     }
 

@@ -99,8 +99,6 @@ pub enum BridgeEvent {
     Refused(String),
     /// A device tick began: answer with a frame.
     Tick {
-        /// Ticks since the device's boot.
-        tick: u32,
         /// When the STATUS arrived.
         received: Instant,
         /// When to make the frame, so that it comes just in time; answering at once is safe too.

@@ -7,7 +7,7 @@
 use std::time::{Duration, Instant};
 
 /// A tick further than this after the last is no gap: one second.
-const LONGEST_JUMP: u32 = 40;
+pub(crate) const LONGEST_JUMP: u32 = 40;
 /// Advancing STATUS that make a base.
 const N_BASE: u8 = 3;
 /// Who was away for longer has missed what passed.
@@ -118,6 +118,21 @@ mod tests {
         }
         assert_eq!(ticks.n_strays(), 5);
         assert_eq!(ticks.announced(142), Worth::Pacing, "40 later is a gap");
+    }
+
+    #[test]
+    fn every_tick_paces_once_whatever_is_mixed_in() {
+        let mut ticks = based(997);
+        for tick in 1000..1200 {
+            let old = [0, 1, 41, 900].map(|back| tick - 1 - back);
+            let far = [40, 41, 3000, u32::MAX / 2].map(|jump| tick + jump);
+            for stray in old.into_iter().chain(far) {
+                assert_eq!(ticks.announced(stray), Worth::Stray, "{stray} in {tick}");
+            }
+            assert_eq!(ticks.announced(tick), Worth::Pacing, "{tick}");
+            assert_eq!(ticks.announced(tick), Worth::Stray, "{tick} again");
+        }
+        assert_eq!(ticks.n_strays(), 200 * 9);
     }
 
     #[test]

@@ -86,18 +86,19 @@ impl HostSession {
             Verdict::GiveUp => self.request = None,
         }
         match request.kind() {
-            kind::HELLO => self.lose(String::from(
+            kind::HELLO => self.lose(now, String::from(
                 "no answer within 5 s: check that the bridge is powered and that this is its port",
             )),
             kind::ARM => {
                 self.stop(now, StopHow::Now);
                 self.stopping.ends_output = false;
                 self.disarmed(
+                    now,
                     DisarmedBy::Device,
                     String::from("the device did not answer ARM"),
                 );
             }
-            kind::CONFIG => self.lose(String::from("the device did not answer CONFIG")),
+            kind::CONFIG => self.lose(now, String::from("the device did not answer CONFIG")),
             _ => {}
         }
     }
@@ -112,7 +113,7 @@ impl HostSession {
                 self.send_stop(&mut stopping, now);
                 self.stopping.pending = Some(stopping);
             }
-            Verdict::GiveUp => self.lose(String::from("the device did not acknowledge STOP")),
+            Verdict::GiveUp => self.lose(now, String::from("the device did not acknowledge STOP")),
         }
     }
 
@@ -123,9 +124,12 @@ impl HostSession {
             .obeyed
             .filter(|_| self.state == BridgeState::Stopping);
         if obeyed.is_some_and(|at| now.saturating_duration_since(at) > REST_PATIENCE) {
-            self.lose(String::from(
-                "the device acknowledged STOP and did not come to rest: switch its power off",
-            ));
+            self.lose(
+                now,
+                String::from(
+                    "the device acknowledged STOP and did not come to rest: switch its power off",
+                ),
+            );
         }
     }
 
@@ -142,7 +146,7 @@ impl HostSession {
             SILENCE_IDLE
         };
         if self.presence.silent_for >= patience && self.state.is_open() {
-            self.lose(self.noise.silence_reason(now, patience));
+            self.lose(now, self.noise.silence_reason(now, patience));
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::*;
+use crate::handle::tests::rested;
 use crate::host::BridgeState;
 use crate::message::{Message as _, Status, StopHow, frame, kind};
 use crate::wire::{Faults, Simulation};
@@ -55,7 +56,7 @@ fn a_link_tells_its_whole_life() {
             None => thread::sleep(Duration::from_millis(1)),
         }
     }
-    bridge.close(Duration::from_secs(20)).unwrap();
+    rested(bridge);
     log.finish().unwrap();
     let text = fs::read_to_string(&path).unwrap();
     let events: Vec<_> = text
@@ -196,8 +197,8 @@ fn a_link_s_packets_are_recorded_to_the_byte() {
         assert!(Instant::now() < deadline);
         match bridge.poll() {
             Some(BridgeEvent::Ready(_)) => assert!(bridge.arm()),
-            Some(BridgeEvent::Tick { tick, .. }) => {
-                let um = f32::from(u8::try_from(tick / 4 % 100).unwrap());
+            Some(BridgeEvent::Tick { .. }) => {
+                let um = f32::from(u8::try_from(written.len() / 4 % 100).unwrap());
                 written.extend(bridge.send(&[[um, 1.0]; 24], None));
             }
             Some(_) => {}
@@ -205,7 +206,7 @@ fn a_link_s_packets_are_recorded_to_the_byte() {
         }
     }
     let n_sent = bridge.counters().frames_sent;
-    bridge.close(Duration::from_secs(20)).unwrap();
+    rested(bridge);
     log.finish().unwrap();
     let lines = read(&fs::read(&path).unwrap()).unwrap();
     let frames: Vec<&Body> = lines

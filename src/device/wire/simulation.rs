@@ -247,7 +247,8 @@ impl Simulation {
         self.loudest_age_us = loud_us.unwrap_or(self.loudest_age_us);
         if !self.device.is_plugged() {
             // What a reader of the port would find at once.
-            self.host.link_gone("the device is gone: check the cable");
+            let reason = String::from("the device is gone: check the cable");
+            self.host.link_gone(self.now(), reason);
         }
         self.deliver();
         self.exchange();

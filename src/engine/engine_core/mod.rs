@@ -161,7 +161,8 @@ impl EngineCore {
         let recorder = self.recorder.as_mut()?;
         let tick = RecordedTick {
             tick: self.tick,
-            pose: self.rendered,
+            // While everything is off the display is rendered at rest, but it goes on moving.
+            pose: self.pose,
             sent,
         };
         let Err(why) = recorder.push(tick, self.scene.amplitudes_um()) else {

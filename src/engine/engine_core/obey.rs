@@ -42,10 +42,6 @@ impl EngineCore {
             CoreCommand::Angle(angle_deg) => self.set_angle(angle_deg, say),
             CoreCommand::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
             CoreCommand::Control(control) => self.control(control),
-            CoreCommand::Record(recorder) if self.is_stopped => {
-                say(Notice::Refused("everything is off: arm before recording"));
-                retired[0] = Some(Retired::Recorder(recorder));
-            }
             CoreCommand::Record(recorder) => {
                 retired[0] = self.end_recording();
                 self.recorder = Some(recorder);

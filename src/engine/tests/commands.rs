@@ -11,7 +11,7 @@ fn the_switch_silences_holds_and_ends_until_armed_again() {
         .send(Command::SetSource(InputSource::Replay(path())))
         .unwrap();
     engine.send(Command::Play).unwrap();
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(10);
     assert!(!is_silent(engine.snapshot()), "it plays");
     // An arm that was on its way when the switch was pressed is void.
@@ -24,7 +24,8 @@ fn the_switch_silences_holds_and_ends_until_armed_again() {
         "{snapshot:?}"
     );
     assert!(!snapshot.playback.is_playing && !snapshot.recording.is_recording);
-    assert_eq!(engine.take_recording().unwrap().ticks().len(), 10);
+    recording.collect();
+    assert!(recording.has_ended() && recording.ticks().len() == 10);
     let notices: Vec<String> = std::iter::from_fn(|| engine.next_notice())
         .map(|n| format!("{n:?}"))
         .collect();
@@ -39,12 +40,17 @@ fn the_switch_silences_holds_and_ends_until_armed_again() {
         is_silent(engine.snapshot()),
         "playing alone does not end the silence"
     );
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(1);
-    assert!(
-        engine.take_recording().unwrap().ticks().is_empty(),
-        "nor is silence recorded"
-    );
+    engine.send(Command::StopRecording).unwrap();
+    engine.advance_ticks(1);
+    recording.collect();
+    let [shown] = recording.ticks() else {
+        panic!("one tick: {recording:?}")
+    };
+    assert!(shown.sent.is_none(), "it was shown and not felt");
+    assert!(shown.pose.velocity.speed_mm_per_s() > 0.0, "it moved");
+    assert!(recording.amplitudes_um(0).iter().all(|um| *um == [0.0; 2]));
     engine.send(Command::Arm).unwrap();
     engine.advance_ticks(3);
     assert!(

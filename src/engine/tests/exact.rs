@@ -32,11 +32,11 @@ fn a_replay_gives_the_amplitudes_of_an_offline_rendering_bit_for_bit() {
 fn a_recorded_live_exploration_replays_bit_for_bit() {
     let (mut engine, start) = engine(Method::Auto);
     engine.advance(start);
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     explore(&mut engine, start, 120);
     engine.send(Command::StopRecording).unwrap();
     engine.advance(start + TICK * 121);
-    let recording = engine.take_recording().unwrap();
+    recording.collect();
     assert_eq!(recording.ticks().len(), 120);
 
     let csv = recording.to_path().unwrap().to_csv().unwrap();
@@ -68,7 +68,7 @@ fn a_recording_that_begins_in_a_turn_and_crosses_a_loop_replays_too() {
     engine.send(Command::SetLoop(true)).unwrap();
     engine.send(Command::Play).unwrap();
     engine.advance_ticks(20);
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(150);
     engine.send(Command::Pause).unwrap();
     engine.advance_ticks(10);
@@ -76,7 +76,7 @@ fn a_recording_that_begins_in_a_turn_and_crosses_a_loop_replays_too() {
     engine.advance_ticks(10);
     engine.send(Command::StopRecording).unwrap();
     engine.advance_ticks(1);
-    let recording = engine.take_recording().unwrap();
+    recording.collect();
     assert_eq!(recording.ticks().len(), 160, "what is held is not recorded");
     for (n, expected) in offline(&recording.to_path().unwrap(), Method::Banded)
         .iter()
@@ -127,7 +127,7 @@ fn two_runs_give_the_same_snapshots() {
 #[test]
 fn another_scene_brings_snapshots_of_its_size_and_ends_the_recording() {
     let (mut engine, _) = engine(Method::Auto);
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(4);
     let offsets = vec![Displacement::default(); 100];
     let scene = Box::new(prepared(offsets, Method::Table));
@@ -144,14 +144,15 @@ fn another_scene_brings_snapshots_of_its_size_and_ends_the_recording() {
         (snapshot.displays[0].contactors.len(), snapshot.scene_serial),
         (100, serial)
     );
-    assert_eq!(engine.take_recording().unwrap().ticks().len(), 4);
+    recording.collect();
+    assert!(recording.has_ended() && recording.ticks().len() == 4);
 }
 
 #[test]
 fn a_pose_that_a_recording_may_hold_is_always_finite() {
     let (mut engine, start) = engine(Method::Auto);
     let mut pointer = engine.take_pointer().unwrap();
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     for n in 0..20_u32 {
         let stamp = start + TICK * n;
         let x_mm = if n % 2 == 0 { 1e308 } else { -1e308 };
@@ -171,6 +172,7 @@ fn a_pose_that_a_recording_may_hold_is_always_finite() {
     }
     engine.send(Command::StopRecording).unwrap();
     engine.advance(start + TICK * 20);
-    assert!(engine.take_recording().unwrap().to_path().is_ok());
+    recording.collect();
+    assert!(recording.to_path().is_ok());
     assert_eq!(engine.snapshot().pointer.samples.not_finite, 20);
 }

@@ -24,12 +24,12 @@ fn a_masked_contactor_is_silent_everywhere_and_the_others_are_as_before() {
         engine.send(without(&[3, 11])).unwrap();
         engine.send(Command::SampleTicks(true)).unwrap();
         engine.send(Command::Watch(11)).unwrap();
-        engine.send(Command::StartRecording).unwrap();
+        let mut recording = engine.record().unwrap();
         engine.send(Command::Play).unwrap();
         engine.advance_ticks(40);
         engine.send(Command::StopRecording).unwrap();
         engine.advance_ticks(1);
-        let recording = engine.take_recording().unwrap();
+        recording.collect();
         for (n, felt) in felt.iter().take(40).enumerate() {
             let mut expected = felt.clone();
             expected[3] = [0.0; 2];

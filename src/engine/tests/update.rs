@@ -24,7 +24,7 @@ fn playing() -> Engine {
 #[test]
 fn a_recording_goes_on_through_edits_and_feels_them() {
     let mut engine = playing();
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(10);
     let before = engine.snapshot().rendering.counters;
     let (scene, edited) = dragged(exeter(), 4.0);
@@ -44,7 +44,7 @@ fn a_recording_goes_on_through_edits_and_feels_them() {
     );
     engine.send(Command::StopRecording).unwrap();
     engine.advance_ticks(1);
-    let recording = engine.take_recording().unwrap();
+    recording.collect();
     assert_eq!(recording.ticks().len(), 30);
     let felt = offline(&path(), Method::Table);
     let mut renderer = ArrayRenderer::prepare(&scene, Method::Table, &Accuracy::default()).unwrap();
@@ -60,14 +60,15 @@ fn a_recording_goes_on_through_edits_and_feels_them() {
 #[test]
 fn a_recording_ends_when_a_display_has_other_contactors() {
     let mut engine = playing();
-    engine.send(Command::StartRecording).unwrap();
+    let mut recording = engine.record().unwrap();
     engine.advance_ticks(10);
     let (_, edited) = dragged(vec![Displacement::default(); 5], 0.0);
     engine.send(Command::UpdateScene(edited)).unwrap();
     engine.advance_ticks(1);
     assert_eq!(engine.snapshot().displays[0].contactors.len(), 5);
     assert!(!engine.snapshot().recording.is_recording);
-    assert_eq!(engine.take_recording().unwrap().ticks().len(), 10);
+    recording.collect();
+    assert!(recording.has_ended() && recording.ticks().len() == 10);
 }
 
 #[test]

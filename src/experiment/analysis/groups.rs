@@ -1,8 +1,8 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
+use super::answers::{Rankings, rankings};
 use super::included_trials::{Experiment, Subject};
 use super::model::Section;
-use super::ranking_answers::{Rankings, rankings};
 use super::tables::{summaries, tests};
 use crate::design::Method;
 use selvedge_statistics::{

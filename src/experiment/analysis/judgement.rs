@@ -1,8 +1,8 @@
 //! Real or generated (Cai et al. 2021, phase 2): sensitivity and bias by subject, confidence, and
 //! whether material and condition matter to what is called real.
 
+use super::answers::judgements;
 use super::included_trials::{Experiment, Subject};
-use super::judgement_answers::judgements;
 use super::model::{Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::tables::tests;

@@ -1,8 +1,8 @@
 //! What was called real by material and condition: percentages and their analysis of variance.
 
+use super::answers::judgements;
 use super::draw::{Bar, bars};
 use super::included_trials::{Experiment, Subject};
-use super::judgement_answers::judgements;
 use super::model::Section;
 use super::tables::{summaries, tests};
 use super::variance::effects;

@@ -1,8 +1,8 @@
 //! Confidence in judgements: the receiver operating characteristic.
 
+use super::answers::{Judgement, judgements};
 use super::draw::scatter;
 use super::included_trials::{Experiment, Subject};
-use super::judgement_answers::{Judgement, judgements};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::tables::tests;
 use crate::design::Judging;

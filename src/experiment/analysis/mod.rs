@@ -11,12 +11,12 @@
 //! - the same logs and options give the same bytes
 
 mod adjustment;
+mod answers;
 mod draw;
 mod draw_map;
 mod groups;
 mod included_trials;
 mod judgement;
-mod judgement_answers;
 mod judgement_cells;
 mod judgement_confidence;
 mod judgement_pairs;
@@ -28,7 +28,6 @@ mod map_speeds;
 mod map_turn;
 mod model;
 mod odd_one_out;
-mod odd_one_out_answers;
 mod odd_one_out_craven;
 mod odd_one_out_variants;
 mod options;
@@ -37,7 +36,6 @@ mod pairs;
 mod properties;
 mod random_data;
 mod ranking;
-mod ranking_answers;
 mod ranking_confusions;
 mod ranking_scale;
 mod rating;
@@ -47,14 +45,12 @@ mod write;
 
 use std::path::Path;
 
+pub(super) use answers::{judgements, rank_trial, triad_answer};
 pub(super) use draw::scatter;
-pub(super) use judgement_answers::judgements;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};
-pub(super) use odd_one_out_answers::{grade_weights, triad_answer};
 pub use options::Options;
 pub use random_data::RandomData;
-pub(super) use ranking_answers::rank_trial;
 
 use super::ExperimentError;
 use super::design::Method;

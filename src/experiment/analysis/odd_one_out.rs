@@ -1,11 +1,11 @@
 //! The odd one of three (Allerkamp et al.): how often it was found and how easily, which fabrics
 //! were mistaken, and the distances that follow.
 
+use super::answers::{n_right, percent, triad_answer, triads};
 use super::draw::{Bar, bars};
 use super::included_trials::{Experiment, Session, Subject};
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, cells, known, percent_interval, percent_of};
-use super::odd_one_out_answers::{grade_weights, n_right, percent, triad_answer, triads};
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
 use super::properties::Measures;
@@ -33,7 +33,7 @@ pub(super) fn sections(
     let names = experiment.ids();
     let all: Vec<TriadAnswer> = experiment.subjects.iter().flat_map(triads).collect();
     let mut sections = vec![accuracy(experiment, options), grades(experiment)];
-    let found = match OddOneOut::of(names.len(), &all, grade_weights(own_weights)) {
+    let found = match OddOneOut::of(names.len(), &all, own_weights.into()) {
         Ok(found) => found,
         Err(why) => {
             sections[0].note(format!("No distances: {}.", why.reason));
@@ -47,7 +47,7 @@ pub(super) fn sections(
     ));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |subject: &Subject<'_>| {
-        let own = OddOneOut::of(names.len(), &triads(subject), grade_weights(own_weights)).ok()?;
+        let own = OddOneOut::of(names.len(), &triads(subject), own_weights.into()).ok()?;
         Some(own.mean_weights())
     };
     let subjects: Vec<Vec<Option<f64>>> =
@@ -225,9 +225,9 @@ fn grades(experiment: &Experiment<'_>) -> Section {
     let mut table = Table::new("grades", "Grades of right and wrong answers", &columns);
     let mut shown = Vec::new();
     for (name, is_correct) in [("right", true), ("wrong", false)] {
-        for grade in [Grade::Easy, Grade::Normal, Grade::Hard] {
+        for grade in Grade::ALL {
             let (count, shares) = graded(experiment, is_correct, grade);
-            let described = crate::Grade::ALL[grade as usize].name();
+            let described = grade.name();
             let se = Summary::of(&shares).map(|s| s.se);
             let mean = mean(&shares);
             table.push(cells![name, described, count, shares.len(), &mean, &se]);

@@ -4,7 +4,6 @@
 use super::included_trials::Experiment;
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, cells, or_undefined};
-use super::odd_one_out_answers::grade_weights;
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
 use selvedge_foundation::numerics::Random;
@@ -117,7 +116,7 @@ pub(super) fn section(
 }
 
 fn variants(n_items: usize, all: &[TriadAnswer], craven: &Craven) -> Vec<Variant> {
-    let weighted = |other: [f64; 3]| OddOneOut::of(n_items, all, grade_weights(other)).ok();
+    let weighted = |other: [f64; 3]| OddOneOut::of(n_items, all, other.into()).ok();
     let others = OTHER_WEIGHTS.into_iter().filter_map(weighted);
     let mut variants: Vec<Variant> = others.map(|found| Variant::weighted(&found)).collect();
     variants.push(Variant {

@@ -1,6 +1,7 @@
 //! Ranking against a target (Philpott & Summers 2012): how often and how nearly the target was
 //! found, what was taken for what, and the map that follows.
 
+use super::answers::{CHANCE_PERCENT, Rankings, rankings};
 use super::draw::{Bar, bars};
 use super::included_trials::Experiment;
 use super::map::Mapping;
@@ -8,7 +9,6 @@ use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval};
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
-use super::ranking_answers::{CHANCE_PERCENT, Rankings, rankings};
 use super::tables::tests;
 use super::{ranking_confusions, ranking_scale};
 use crate::design::{Ranking, Standard};

@@ -1,10 +1,10 @@
 //! What was taken for what: confusions, mean ranks, and how far they are from symmetric.
 
+use super::answers::CHANCE_PERCENT;
 use super::draw::{Bar, bars};
 use super::draw_map::heat;
 use super::included_trials::Experiment;
 use super::model::{Cell, Drawn, Section, Table, cells, known, percent_interval, percent_of};
-use super::ranking_answers::CHANCE_PERCENT;
 use super::tables::matrix;
 use crate::design::{Ranking, Standard};
 use selvedge_foundation::quantity::fixed;

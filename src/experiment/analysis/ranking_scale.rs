@@ -2,10 +2,10 @@
 //! (Plackett & Luce, and Bradley & Terry of the same rankings in pairs), and how rankings by chance
 //! would look.
 
+use super::answers::Rankings;
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::pairs::over_subjects;
-use super::ranking_answers::Rankings;
 use super::tables::tests;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::progress::{Cancelled, Progress};

@@ -38,10 +38,8 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
             target,
             alternatives,
         } => {
-            let target = match design.method {
-                Method::Ranking(ranking) if ranking.target == Standard::RealCloth => {
-                    cloth(design, *target)
-                }
+            let target = match design.method.standard() {
+                Some(Standard::RealCloth) => cloth(design, *target),
                 _ => named(design, *target),
             };
             let mut placed = vec![Placed::new("target", target)];
@@ -68,21 +66,19 @@ fn positions(design: &Design, items: &[usize]) -> Vec<Placed> {
 }
 
 fn adjusted(design: &Design, item: usize, starts: &[f64]) -> Vec<Placed> {
-    let Method::Adjustment(adjusting) = &design.method else {
-        return Vec::new();
-    };
     let mut placed = vec![Placed::new("to be adjusted", named(design, item))];
-    if adjusting.standard == Standard::RealCloth {
+    if design.method.standard() == Some(Standard::RealCloth) {
         placed.push(Placed::new("compared with", cloth(design, item)));
     }
-    let keys = adjusting.parameters.iter().map(|turned| turned.what.name());
+    let parameters = design.method.parameters().iter();
+    let keys = parameters.map(|turned| turned.what.name());
     let begun = keys.zip(starts);
     placed.extend(begun.map(|(key, start)| Placed::new("begins at", format!("{key} = {start}"))));
     placed
 }
 
 fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
-    let Method::Levels(levels) = &design.method else {
+    let Some(levels) = design.method.levels() else {
         return Vec::new();
     };
     let hz = levels.band.carrier_hz();
@@ -94,12 +90,9 @@ fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
         || format!("nothing for {} ms", levels.interval_ms),
         vibration,
     );
+    let signals = vibration(level_db);
     let placed = |at: usize| {
-        let what = if at == signal {
-            vibration(level_db)
-        } else {
-            others.clone()
-        };
+        let what = if at == signal { &signals } else { &others };
         Placed::new(format!("interval {}", at + 1), what)
     };
     (0..levels.intervals).map(placed).collect()
@@ -107,13 +100,7 @@ fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
 
 /// The real cloth that a stimulus is or stands for.
 fn cloth(design: &Design, item: usize) -> String {
-    let material = design
-        .stimuli
-        .get(item)
-        .map(|stimulus| match &stimulus.source {
-            Source::RealCloth(cloth) => cloth.as_str(),
-            _ => stimulus.material.as_str(),
-        });
+    let material = design.stimuli.get(item).map(Stimulus::cloth);
     format!("the real {}", material.unwrap_or_default())
 }
 

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::design::{Adjusting, Design, Method, Rating, Scale};
+use crate::design::{Design, Method, Scale, TunedParameter};
 use crate::trial::{Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task};
 
 /// How an answer is typed, as an imperative with an example.
@@ -14,21 +14,16 @@ pub fn form(design: &Design, task: &Task) -> String {
         Task::OddOne { .. } => {
             "type the odd position, and how hard that was: 2 easy, 2 normal or 2 hard".to_owned()
         }
-        Task::Adjust { .. } => match &design.method {
-            Method::Adjustment(adjusting) => adjusted_form(adjusting),
-            _ => String::new(),
-        },
-        Task::Judge { .. } => match grades(design) {
+        Task::Adjust { .. } => adjusted_form(design.method.parameters()),
+        Task::Judge { .. } => match design.method.confidence_grades() {
             0 => "type real or generated".to_owned(),
             most => format!("type real or generated, and how sure from 1 to {most}: real {most}"),
         },
-        Task::JudgePair { .. } => match grades(design) {
+        Task::JudgePair { .. } => match design.method.confidence_grades() {
             0 => "type the position of the real one: 1 or 2".to_owned(),
-            most => {
-                format!(
-                    "type the position of the real one, and how sure from 1 to {most}: 1 {most}"
-                )
-            }
+            most => format!(
+                "type the position of the real one, and how sure from 1 to {most}: 1 {most}"
+            ),
         },
         Task::Interval { .. } => format!("type the interval: 1 to {}", intervals(design)),
         Task::Estimate { .. } => match design.method {
@@ -38,10 +33,7 @@ pub fn form(design: &Design, task: &Task) -> String {
             } => format!("type a number above 0 for how strong it is; the first was {modulus}"),
             _ => "type a number above 0 for how strong it is: 12.5".to_owned(),
         },
-        Task::Rate { .. } => match &design.method {
-            Method::Rating(rating) => rating_form(rating),
-            _ => String::new(),
-        },
+        Task::Rate { .. } => rating_form(design.method.scales()),
     }
 }
 
@@ -56,33 +48,30 @@ pub fn typed_answer(design: &Design, task: &Task, line: &str) -> Result<Answer, 
         words: &words,
         form: form(design, task),
     };
-    let answer = match (task, &design.method) {
-        (Task::Rank { .. }, _) => described.ranks()?,
-        (Task::OddOne { .. }, _) => described.odd()?,
-        (Task::Adjust { .. }, Method::Adjustment(adjusting)) => described.adjusted(adjusting)?,
-        (Task::Judge { .. }, _) => {
+    let grades = design.method.confidence_grades();
+    let answer = match task {
+        Task::Rank { .. } => described.ranks()?,
+        Task::OddOne { .. } => described.odd()?,
+        Task::Adjust { .. } => described.adjusted(design.method.parameters())?,
+        Task::Judge { .. } => {
             let word = described.words.first().copied().unwrap_or_default();
             let known = ["real", "generated"];
             let said = known.iter().position(|known| is_short_for(word, known));
             Answer::Judged {
                 is_real: said.ok_or_else(|| described.wrong())? == 0,
-                confidence: described.confidence(grades(design))?,
+                confidence: described.confidence(grades)?,
             }
         }
-        (Task::JudgePair { .. }, _) => Answer::Chosen {
+        Task::JudgePair { .. } => Answer::Chosen {
             position: described.position(2)?,
-            confidence: described.confidence(grades(design))?,
+            confidence: described.confidence(grades)?,
         },
-        (Task::Interval { .. }, _) => Answer::Chosen {
+        Task::Interval { .. } => Answer::Chosen {
             position: described.position(intervals(design))?,
             confidence: described.confidence(0)?,
         },
-        (Task::Estimate { .. }, _) => match described.numbers(1)?[..] {
-            [value] => Answer::Magnitude(value),
-            _ => return Err(described.wrong()),
-        },
-        (Task::Rate { .. }, Method::Rating(rating)) => described.ratings(rating)?,
-        _ => return Err(described.wrong()),
+        Task::Estimate { .. } => Answer::Magnitude(described.numbers(1)?[0]),
+        Task::Rate { .. } => described.ratings(design.method.scales())?,
     };
     task.verdict(&answer)?;
     Ok(answer)
@@ -106,14 +95,11 @@ impl Told<'_> {
 
     /// Four ranks: `2 1 3 4`, `2,1,3,4` or `2134`.
     fn ranks(&self) -> Result<Answer, AnswerError> {
-        let digits: Vec<u8> = self
-            .line
-            .chars()
-            .filter(|c| !c.is_whitespace() && *c != ',')
-            .map(|c| c.to_digit(10).and_then(|digit| u8::try_from(digit).ok()))
-            .collect::<Option<_>>()
-            .ok_or_else(|| self.wrong())?;
-        let ranks: Option<[u8; N_RANKED]> = digits.try_into().ok();
+        let letters = self.line.chars();
+        let letters = letters.filter(|c| !c.is_whitespace() && *c != ',');
+        let digit = |c: char| u8::try_from(c.to_digit(10)?).ok();
+        let digits: Option<Vec<u8>> = letters.map(digit).collect();
+        let ranks = digits.and_then(|digits| <[u8; N_RANKED]>::try_from(digits).ok());
         ranks.map(Answer::Ranks).ok_or_else(|| self.wrong())
     }
 
@@ -122,18 +108,15 @@ impl Told<'_> {
         let [_, word] = self.words else {
             return Err(self.wrong());
         };
-        let grade = Grade::ALL
-            .into_iter()
-            .find(|grade| is_short_for(word, grade.name()));
-        Ok(Answer::Odd {
-            position,
-            grade: grade.ok_or_else(|| self.wrong())?,
-        })
+        let mut grades = Grade::ALL.into_iter();
+        let grade = grades.find(|grade| is_short_for(word, grade.name()));
+        let grade = grade.ok_or_else(|| self.wrong())?;
+        Ok(Answer::Odd { position, grade })
     }
 
-    fn adjusted(&self, adjusting: &Adjusting) -> Result<Answer, AnswerError> {
-        let values = self.numbers(adjusting.parameters.len())?;
-        for (parameter, value) in adjusting.parameters.iter().zip(&values) {
+    fn adjusted(&self, parameters: &[TunedParameter]) -> Result<Answer, AnswerError> {
+        let values = self.numbers(parameters.len())?;
+        for (parameter, value) in parameters.iter().zip(&values) {
             if !(parameter.from..=parameter.to).contains(value) {
                 let what = format!("{} is {value}", parameter.what.name());
                 let mend = format!("stay between {} and {}", parameter.from, parameter.to);
@@ -145,9 +128,9 @@ impl Told<'_> {
         Ok(Answer::Adjusted { values, steps })
     }
 
-    fn ratings(&self, rating: &Rating) -> Result<Answer, AnswerError> {
-        let values = self.numbers(rating.scales.len())?;
-        for (scale, &value) in rating.scales.iter().zip(&values) {
+    fn ratings(&self, scales: &[Scale]) -> Result<Answer, AnswerError> {
+        let values = self.numbers(scales.len())?;
+        for (scale, &value) in scales.iter().zip(&values) {
             check_rating(scale, value)?;
         }
         Ok(Answer::Ratings(values))
@@ -177,11 +160,8 @@ impl Told<'_> {
             return Err(self.wrong());
         }
         let number = |at: usize| {
-            let value: f64 = self.parsed(at)?;
-            value
-                .is_finite()
-                .then_some(value)
-                .ok_or_else(|| self.wrong())
+            let value = Some(self.parsed(at)?).filter(|value: &f64| value.is_finite());
+            value.ok_or_else(|| self.wrong())
         };
         (0..n).map(number).collect()
     }
@@ -210,41 +190,27 @@ fn is_short_for(word: &str, whole: &str) -> bool {
     !word.is_empty() && whole.starts_with(&word.to_ascii_lowercase())
 }
 
-fn grades(design: &Design) -> u8 {
-    match &design.method {
-        Method::Judgement(judging) => judging.confidence_grades,
-        _ => 0,
-    }
-}
-
 fn intervals(design: &Design) -> usize {
-    match &design.method {
-        Method::Levels(levels) => levels.intervals,
-        _ => 0,
-    }
+    design.method.levels().map_or(0, |levels| levels.intervals)
 }
 
-fn adjusted_form(adjusting: &Adjusting) -> String {
-    let described = adjusting.parameters.iter().map(|parameter| {
+fn adjusted_form(parameters: &[TunedParameter]) -> String {
+    let described = parameters.iter().map(|parameter| {
         let name = parameter.what.name();
         format!("{name} ({} to {})", parameter.from, parameter.to)
     });
-    format!(
-        "type what was left: {}",
-        described.collect::<Vec<_>>().join(" ")
-    )
+    let described = described.collect::<Vec<_>>().join(" ");
+    format!("type what was left: {described}")
 }
 
-fn rating_form(rating: &Rating) -> String {
-    let described = rating.scales.iter().map(|scale| {
+fn rating_form(scales: &[Scale]) -> String {
+    let described = scales.iter().map(|scale| {
         let [low, high] = scale.bounds();
         let (begin, end) = (&scale.low, &scale.high);
         format!("{} ({low} {begin} … {high} {end})", scale.key)
     });
-    format!(
-        "type a number for each: {}",
-        described.collect::<Vec<_>>().join(", ")
-    )
+    let described = described.collect::<Vec<_>>().join(", ");
+    format!("type a number for each: {described}")
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::check::check;
-use super::method::{two, unity};
+use super::method::{count, unity};
 use super::{
     Adjusting, Choosing, CourseSettings, Design, Judging, Levels, Medium, Method, QuestPlusTrack,
     Ranking, Rating, Rules, Source, StaircaseTrack, Stimulus, Stopping, Track,
@@ -208,7 +208,7 @@ impl StimulusKeys {
 #[serde(deny_unknown_fields)]
 struct LevelsKeys {
     band_hz: f64,
-    #[serde(default = "two")]
+    #[serde(default = "count::<2>")]
     intervals: usize,
     reference_db: Option<f64>,
     #[serde(default = "interval_ms")]
@@ -250,7 +250,7 @@ struct ConstantKeys {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MagnitudeKeys {
-    #[serde(default = "two")]
+    #[serde(default = "count::<2>")]
     repeats: usize,
     modulus: Option<f64>,
 }

@@ -44,6 +44,47 @@ impl Method {
             Self::Rating(_) => "rating",
         }
     }
+
+    /// What is turned; nothing unless that is asked.
+    pub fn parameters(&self) -> &[TunedParameter] {
+        match self {
+            Self::Adjustment(adjusting) => &adjusting.parameters,
+            _ => &[],
+        }
+    }
+
+    /// The scales that are asked for.
+    pub fn scales(&self) -> &[Scale] {
+        match self {
+            Self::Rating(rating) => &rating.scales,
+            _ => &[],
+        }
+    }
+
+    /// Intervals, where one of them is to be found.
+    pub fn levels(&self) -> Option<&Levels> {
+        match self {
+            Self::Levels(levels) => Some(levels),
+            _ => None,
+        }
+    }
+
+    /// Grades of confidence that are asked for; 0 asks for none.
+    pub fn confidence_grades(&self) -> u8 {
+        match self {
+            Self::Judgement(judging) => judging.confidence_grades,
+            _ => 0,
+        }
+    }
+
+    /// What the stimuli are compared with; `None` where a method knows no such thing.
+    pub(crate) fn standard(&self) -> Option<Standard> {
+        match self {
+            Self::Ranking(ranking) => Some(ranking.target),
+            Self::Adjustment(adjusting) => Some(adjusting.standard),
+            _ => None,
+        }
+    }
 }
 
 /// Ranking against a target.
@@ -87,7 +128,7 @@ pub struct Adjusting {
     /// What it is compared with.
     pub standard: Standard,
     /// How often every stimulus comes, half of them begun high, half low.
-    #[serde(default = "two")]
+    #[serde(default = "count::<2>")]
     pub repeats: usize,
     /// What is turned, one or two at once.
     #[serde(rename = "parameter")]
@@ -144,7 +185,7 @@ pub struct Judging {
     /// One at a time, or two side by side.
     pub protocol: JudgingProtocol,
     /// How often every stimulus comes.
-    #[serde(default = "one")]
+    #[serde(default = "count::<1>")]
     pub repeats: usize,
     /// Grades of confidence that are asked for; 0 asks for none.
     #[serde(default)]
@@ -246,7 +287,7 @@ pub struct StaircaseTrack {
     /// Where each of the interleaved series begins, dB re 1 µm.
     pub(crate) starts_db: Vec<f64>,
     /// The last reversals that the threshold is the mean of; an even number.
-    #[serde(default = "six")]
+    #[serde(default = "count::<6>")]
     pub(crate) reversals_averaged: usize,
 }
 
@@ -308,7 +349,7 @@ named! { "needs",
 #[serde(deny_unknown_fields)]
 pub struct Rating {
     /// How often every stimulus comes.
-    #[serde(default = "one")]
+    #[serde(default = "count::<1>")]
     pub repeats: usize,
     /// The scales, asked together.
     #[serde(rename = "scale")]
@@ -340,16 +381,8 @@ impl Scale {
     }
 }
 
-fn one() -> usize {
-    1
-}
-
-pub(super) fn two() -> usize {
-    2
-}
-
-fn six() -> usize {
-    6
+pub(super) fn count<const N: usize>() -> usize {
+    N
 }
 
 pub(super) fn unity() -> f64 {

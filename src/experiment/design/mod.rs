@@ -139,6 +139,16 @@ pub struct Stimulus {
     pub source: Source,
 }
 
+impl Stimulus {
+    /// The cloth on the table that it is, or that it stands for.
+    pub(crate) fn cloth(&self) -> &str {
+        match &self.source {
+            Source::RealCloth(cloth) => cloth,
+            _ => &self.material,
+        }
+    }
+}
+
 /// What presents a stimulus.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Source {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Procedure;
-use crate::design::Subject;
+use crate::design::{Method, Subject};
 
 fn subject() -> Subject {
     Subject {

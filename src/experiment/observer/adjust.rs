@@ -7,7 +7,7 @@
 
 use super::answer::Participant;
 use super::percept::look;
-use crate::design::{Adjusting, Method, TunedParameter};
+use crate::design::TunedParameter;
 use crate::trial::{Adjustment, Answer};
 use selvedge_foundation::numerics::Random;
 
@@ -64,7 +64,7 @@ impl Participant<'_> {
     ) -> Option<(usize, f64, f64)> {
         let mut best = None;
         let mut nearest = now;
-        for (at, parameter) in self.parameters().iter().enumerate() {
+        for (at, parameter) in self.design.method.parameters().iter().enumerate() {
             for way in [-1.0, 1.0] {
                 let mut tried = values.to_vec();
                 let to = values.get(at)? + way * strides * stride(parameter);
@@ -82,20 +82,13 @@ impl Participant<'_> {
     /// Where a stimulus lies with the parameters at these values.
     fn tuned_place(&self, item: usize, values: &[f64]) -> Vec<f64> {
         let mut tuning = self.stimuli.tuning();
-        for (parameter, value) in self.parameters().iter().zip(values) {
+        for (parameter, value) in self.design.method.parameters().iter().zip(values) {
             parameter.what.set(&mut tuning, *value);
         }
         let gains_db = self.stimuli.gains_db(item, &tuning);
         let observer = self.observer;
         let levels = self.stimuli.levels(item);
         observer.strategy.place(observer.jnd, levels, gains_db)
-    }
-
-    fn parameters(&self) -> &[TunedParameter] {
-        match &self.design.method {
-            Method::Adjustment(Adjusting { parameters, .. }) => parameters,
-            _ => &[],
-        }
     }
 
     /// Parameters left on any of their steps.
@@ -105,7 +98,14 @@ impl Participant<'_> {
             let steps = ((value - parameter.from) / parameter.step).round();
             (parameter.from + steps * parameter.step).min(parameter.to)
         };
-        let values: Vec<f64> = self.parameters().iter().map(anywhere).take(n).collect();
+        let values: Vec<f64> = self
+            .design
+            .method
+            .parameters()
+            .iter()
+            .map(anywhere)
+            .take(n)
+            .collect();
         Answer::Adjusted {
             values,
             steps: Vec::new(),

@@ -3,7 +3,7 @@
 use super::percept::{distance, look};
 use super::scale::{Jnd, NOISE_JND};
 use super::{Observer, Stimuli, Strategy};
-use crate::design::{Design, Levels, Method, Scale, Standard, Subject};
+use crate::design::{Design, Method, Scale, Standard, Subject};
 use crate::trial::{Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
 use selvedge_foundation::numerics::Random;
 
@@ -68,11 +68,11 @@ impl<'a> Participant<'a> {
         };
         let items = 0..design.stimuli.len();
         let places: Vec<Vec<f64>> = items.clone().map(presented).collect();
-        let standards = match standard_of(&design.method) {
-            Standard::Virtual => places.clone(),
-            Standard::RealCloth => items.map(cloth).collect(),
+        let standards = match design.method.standard() {
+            None | Some(Standard::Virtual) => places.clone(),
+            Some(Standard::RealCloth) => items.map(cloth).collect(),
             // A mind of one's own: what the library's tuning is for.
-            Standard::None => items
+            Some(Standard::None) => items
                 .map(|item| place(observer, stimuli, item, stimuli.cloth_gains_db(item)))
                 .collect(),
         };
@@ -250,15 +250,12 @@ impl<'a> Participant<'a> {
     }
 
     fn n_grades(&self) -> Option<u8> {
-        match &self.design.method {
-            Method::Judgement(judging) => Some(judging.confidence_grades).filter(|&n| n > 0),
-            _ => None,
-        }
+        Some(self.design.method.confidence_grades()).filter(|&n| n > 0)
     }
 
     /// The interval that feels strongest.
     fn interval(&self, level_db: f64, signal: usize, random: &Random) -> Answer {
-        let Some(levels) = self.levels() else {
+        let Some(levels) = self.design.method.levels() else {
             return self.guess_chosen(2, random);
         };
         let jnd: Jnd = self.observer.jnd;
@@ -279,20 +276,6 @@ impl<'a> Participant<'a> {
         Answer::Chosen {
             position: strongest.unwrap_or(0),
             confidence: None,
-        }
-    }
-
-    pub(super) fn levels(&self) -> Option<&Levels> {
-        match &self.design.method {
-            Method::Levels(levels) => Some(levels),
-            _ => None,
-        }
-    }
-
-    pub(super) fn scales(&self) -> &[Scale] {
-        match &self.design.method {
-            Method::Rating(rating) => &rating.scales,
-            _ => &[],
         }
     }
 
@@ -327,7 +310,11 @@ impl<'a> Participant<'a> {
             },
             Task::JudgePair { .. } => self.guess_chosen(2, random),
             Task::Interval { .. } => {
-                let n = self.levels().map_or(2, |levels| levels.intervals);
+                let n = self
+                    .design
+                    .method
+                    .levels()
+                    .map_or(2, |levels| levels.intervals);
                 self.guess_chosen(n, random)
             }
             Task::Estimate { .. } => {
@@ -339,18 +326,16 @@ impl<'a> Participant<'a> {
                     let [low, high] = scale.bounds();
                     scale.placed(random.uniform_in(low, high))
                 };
-                Answer::Ratings(self.scales().iter().map(&mut anywhere).collect())
+                Answer::Ratings(
+                    self.design
+                        .method
+                        .scales()
+                        .iter()
+                        .map(&mut anywhere)
+                        .collect(),
+                )
             }
         }
-    }
-}
-
-/// What the trials of a method are compared with.
-fn standard_of(method: &Method) -> Standard {
-    match method {
-        Method::Ranking(ranking) => ranking.target,
-        Method::Adjustment(adjusting) => adjusting.standard,
-        _ => Standard::Virtual,
     }
 }
 
@@ -381,7 +366,7 @@ fn response_s(participant: &Participant<'_>, task: &Task, random: &Random) -> f6
     let now = random.branch("time").normal();
     // As much between subjects as within one.
     let share = std::f64::consts::FRAC_1_SQRT_2 * (own + now);
-    let shown_s = participant.levels().map_or(0.0, |levels| {
+    let shown_s = participant.design.method.levels().map_or(0.0, |levels| {
         f64::from(levels.interval_ms) * levels.intervals as f64 / 1000.0
     });
     shown_s + median_s(task) * (spread * share).exp()

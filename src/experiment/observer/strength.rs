@@ -90,7 +90,7 @@ impl Participant<'_> {
             let [low, high] = scale.bounds();
             scale.placed(low + share * (high - low))
         };
-        self.scales().iter().map(&mut rate).collect()
+        self.design.method.scales().iter().map(&mut rate).collect()
     }
 
     /// How stimuli spread along a coordinate; `None` where they do not.

@@ -1,14 +1,17 @@
-//! The columns of a log. Each is declared once: its name, unit, type and meaning, and what a row
-//! has in it. The header, the rows, the dictionary beside a log and what a reader expects of a cell
-//! follow from that.
+//! The columns of a log. Each is declared once: its name, unit, type and meaning, and what of a
+//! record it holds. The header, the dictionary beside a log, rows and their reader go through the
+//! same list.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 
-use super::row::{Row, flag, id, number, number_at, position, right, text, value};
-use super::{Outcome, Record, SCHEMA_VERSION};
-use crate::design::{Adjusting, Design, JudgingProtocol, Method, Subject};
-use crate::trial::Grade;
+use super::values::{
+    Called, Count, Derived, If, Steps, Stimulus, Value, derived, derived_if, flag, number, position,
+};
+use super::{Outcome, Record, SCHEMA_VERSION, blank, question};
+use crate::design::{Design, Scale};
+use crate::trial::{Adjustment, Answer, Task};
 
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,53 +47,12 @@ pub(super) enum Kind {
 pub(super) struct Column {
     pub(super) name: Cow<'static, str>,
     /// Empty where there is none.
-    unit: &'static str,
-    kind: Kind,
-    meaning: Cow<'static, str>,
-    /// Which of several alike: the alternative, the parameter, the scale.
-    nth: usize,
-    cell: fn(&Row<'_>, usize) -> String,
-}
-
-/// Columns: name, type, unit where there is one, and meaning, then what a row has there.
-macro_rules! columns {
-    ($($name:ident: $kind:ident $($unit:literal)?, $meaning:literal => $cell:expr;)*) => {
-        vec![$(Column {
-            name: Cow::Borrowed(stringify!($name)),
-            unit: concat!($($unit)?),
-            kind: Kind::$kind,
-            meaning: Cow::Borrowed($meaning),
-            nth: 0,
-            cell: $cell,
-        }),*]
-    };
+    pub(super) unit: &'static str,
+    pub(super) kind: Kind,
+    pub(super) meaning: Cow<'static, str>,
 }
 
 impl Column {
-    /// One of several alike.
-    fn nth(
-        nth: usize,
-        (name, kind): (String, Kind),
-        meaning: String,
-        cell: fn(&Row<'_>, usize) -> String,
-    ) -> Self {
-        Self {
-            name: Cow::Owned(name),
-            unit: "",
-            kind,
-            meaning: Cow::Owned(meaning),
-            nth,
-            cell,
-        }
-    }
-
-    /// One of several stimuli of a trial.
-    fn stimulus(name: &str, meaning: &str, nth: usize) -> Self {
-        let (name, number) = (format!("{name}{}", nth + 1), nth + 1);
-        let meaning = format!("{meaning} {number}");
-        Self::nth(nth, (name, Kind::Stimulus), meaning, id)
-    }
-
     /// What a cell should hold, for whoever mends one.
     pub(super) fn expected(&self) -> &'static str {
         match self.kind {
@@ -116,199 +78,312 @@ impl Column {
     }
 }
 
-/// The columns of a design's logs in order.
-pub(super) fn columns(design: &Design) -> Vec<Column> {
-    let mut all = before();
-    all.extend(of_method(&design.method));
-    all.extend(after(&design.method));
-    all
+/// What is done with every column of a row: it is described, written or read.
+pub(super) trait Visit {
+    /// Why it cannot be done.
+    type Error;
+
+    /// Does it with a column and what a record has there.
+    ///
+    /// # Errors
+    /// What is read is no such value.
+    fn column(&mut self, column: Column, value: &mut dyn Value) -> Result<(), Self::Error>;
 }
 
-/// The names of the columns of a design's logs.
+/// Columns: name, type, unit where there is one, and meaning, then what a record has there.
+macro_rules! columns {
+    ($to:expr; $($name:ident: $kind:ident $($unit:literal)?, $what:literal => $value:expr;)*) => {
+        $($to.column(
+            $crate::record::columns::Column {
+                name: std::borrow::Cow::Borrowed(stringify!($name)),
+                unit: concat!($($unit)?),
+                kind: $crate::record::columns::Kind::$kind,
+                meaning: std::borrow::Cow::Borrowed($what),
+            },
+            $value,
+        )?;)*
+    };
+}
+pub(super) use columns;
+
+/// Visits every column of a record in order.
+///
+/// # Errors
+/// What the visitor says.
+pub(super) fn visit<V: Visit>(
+    record: &mut Record,
+    design: &Design,
+    (pseudonym, session): (&str, u32),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    let (mut answer, is_answered) = match &record.outcome {
+        Outcome::Answered(answer) => (answer.clone(), true),
+        Outcome::Aborted => (question(&design.method).1, false),
+    };
+    let trial = &mut record.trial;
+    columns! { to;
+        schema_version: Version, "version of these columns" => &mut derived(&SCHEMA_VERSION);
+        study: Text, "id of the study" => &mut derived(&design.study);
+        experiment: Text, "which experiment of the study" => &mut derived(&design.experiment);
+        subject: Text, "pseudonym" => &mut derived(pseudonym);
+        session: Count, "session of this subject, from 1" => &mut derived(&session);
+        block: Count, "block, from 1" => &mut Count(&mut trial.block);
+        trial: Count, "trial, from 1; practice counts by itself" => &mut Count(&mut trial.number);
+        attempt: Count, "attempt at the trial, from 1" => &mut record.attempt;
+        practice: Flag, "1 for practice, which does not count" => &mut trial.is_practice;
+    }
+    asked(design, &mut trial.task, (&mut answer, is_answered), to)?;
+    chosen(&mut answer, is_answered, to)?;
+    let rt_ms = record.timing.response_ms();
+    let (timing, apparatus) = (&mut record.timing, &mut record.apparatus);
+    columns! { to;
+        correct: Flag, "1 right, 0 wrong, empty where neither" =>
+            &mut derived_if(record.is_correct.map(flag));
+        rt_ms: Number "ms", "from beginning to answer" => &mut Derived(number(rt_ms));
+        t_start_utc: Moment, "beginning, UTC, RFC 3339" => &mut timing.start_utc;
+        t_response_utc: Moment, "answer, UTC, RFC 3339" => &mut timing.response_utc;
+        t_start_ns: Whole "ns since the session was opened", "beginning" => &mut timing.start_ns;
+        t_response_ns: Whole "ns since the session was opened", "answer" =>
+            &mut timing.response_ns;
+        stimulus_hash: Text, "what the stimuli were made from" => &mut apparatus.stimulus_hash;
+        device: Text, "the device as it calls itself" => &mut apparatus.device;
+        gain_db: Number "dB", "gain of everything" => &mut apparatus.tuning.gain_db;
+        gain_40_db: Number "dB", "gain of the 40 Hz band" => &mut apparatus.tuning.gain_40_db;
+        gain_320_db: Number "dB", "gain of the 320 Hz band" => &mut apparatus.tuning.gain_320_db;
+        compression: Share, "compression, 0 to 1" => &mut apparatus.tuning.compression;
+        seed: Text, "seed of the study" => &mut derived(&design.seed);
+        software: Text, "program and version" => &mut derived(selvedge_foundation::PROGRAM);
+        aborted: Flag, "1 where the trial was given up and came again" =>
+            &mut Derived(flag(!is_answered));
+        note: Text, "the experimenter's note" => &mut record.note;
+    }
+    if is_answered {
+        record.outcome = Outcome::Answered(answer);
+    }
+    Ok(())
+}
+
+/// What an answer chose, and how sure that was.
+fn chosen<V: Visit>(answer: &mut Answer, is_answered: bool, to: &mut V) -> Result<(), V::Error> {
+    let (kind, value): (Kind, &mut dyn Value) = match answer {
+        Answer::Ranks(ranks) => {
+            let first = ranks.iter().position(|&rank| rank == 1);
+            (Kind::Count, &mut derived_if(first.map(position)))
+        }
+        Answer::Odd { position, .. } | Answer::Chosen { position, .. } => {
+            (Kind::Count, &mut Count(position))
+        }
+        Answer::Judged { is_real, .. } => (Kind::Level, &mut Called(is_real)),
+        Answer::Magnitude(value) => (Kind::Number, value),
+        Answer::Adjusted { .. } | Answer::Ratings(_) => (Kind::Text, &mut derived("")),
+    };
+    let meaning = "what was chosen; empty where several numbers were given";
+    let column = Column::of("response".to_owned(), kind, meaning.to_owned());
+    to.column(column, &mut If(is_answered, value))?;
+    let confidence: &mut dyn Value = match answer {
+        Answer::Judged { confidence, .. } | Answer::Chosen { confidence, .. } => confidence,
+        _ => &mut derived(""),
+    };
+    columns! { to;
+        confidence: Grade, "how sure that was, from 1; empty where not asked" =>
+            &mut If(is_answered, confidence);
+    }
+    Ok(())
+}
+
+/// Columns of each method: what was presented, and answers of several numbers.
+fn asked<V: Visit>(
+    design: &Design,
+    task: &mut Task,
+    (answer, is_answered): (&mut Answer, bool),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    match (task, answer) {
+        (
+            Task::Rank {
+                target,
+                alternatives,
+            },
+            Answer::Ranks(ranks),
+        ) => {
+            ranked(target, alternatives, (ranks, is_answered), to)?;
+        }
+        (Task::OddOne { items, odd }, Answer::Odd { grade, .. }) => {
+            stimuli("item", "stimulus", items, to)?;
+            columns! { to;
+                position_odd: Count, "where the odd one was, from 1" => &mut Count(odd);
+                grade: Level, "easy, normal or hard" => &mut If(is_answered, grade);
+            }
+        }
+        (Task::Adjust { item, starts }, Answer::Adjusted { values, steps }) => {
+            item_and_condition(item, design, to)?;
+            set(design, starts, (values, steps, is_answered), to)?;
+        }
+        (Task::JudgePair { items, real }, _) => {
+            stimuli("item", "stimulus", items, to)?;
+            columns! { to;
+                position_real: Count, "where the real one was, from 1" => &mut Count(real);
+            }
+        }
+        (Task::Judge { item, is_real }, _) => {
+            item_and_condition(item, design, to)?;
+            columns! { to; is_real: Flag, "1 for a real one, 0 for a generated one" => is_real; }
+        }
+        (
+            Task::Interval {
+                track,
+                level_db,
+                signal,
+            },
+            _,
+        ) => {
+            columns! { to;
+                track: Count, "which of the interleaved series, from 1" => &mut Count(track);
+                level_db: Number "dB re 1 µm", "level of the signal" => level_db;
+                interval_signal: Count, "which interval held it, from 1" => &mut Count(signal);
+            }
+        }
+        (Task::Rate { item }, Answer::Ratings(places)) => {
+            item_and_condition(item, design, to)?;
+            rated(design.method.scales(), (places, is_answered), to)?;
+        }
+        (Task::Estimate { item } | Task::Rate { item } | Task::Adjust { item, .. }, _) => {
+            item_and_condition(item, design, to)?;
+        }
+        (Task::Rank { .. } | Task::OddOne { .. }, _) => {}
+    }
+    Ok(())
+}
+
+/// The target, its alternatives, and the rank of each.
+fn ranked<V: Visit>(
+    target: &mut usize,
+    alternatives: &mut [usize],
+    (ranks, is_answered): (&mut [u8], bool),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    columns! { to; target: Stimulus, "the target" => &mut Stimulus(target); }
+    stimuli("alt", "alternative", alternatives, to)?;
+    let at = alternatives.iter().position(|item| item == target);
+    columns! { to;
+        position_correct: Count, "where the target was, from 1" =>
+            &mut derived_if(at.map(position));
+    }
+    for (rank, n) in ranks.iter_mut().zip(1..) {
+        let meaning = format!("rank of alternative {n}, 1 most alike");
+        let column = Column::of(format!("rank{n}"), Kind::Rank, meaning);
+        to.column(column, &mut If(is_answered, rank))?;
+    }
+    Ok(())
+}
+
+/// Every parameter as it began and as it was left, and how it came there.
+fn set<V: Visit>(
+    design: &Design,
+    starts: &mut [f64],
+    (values, steps, is_answered): (&mut [f64], &mut Vec<Adjustment>, bool),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    let parameters = design.method.parameters().iter();
+    let keys: Vec<&str> = parameters.map(|turned| turned.what.name()).collect();
+    for ((key, start), value) in keys.iter().zip(starts).zip(values) {
+        let meaning = format!("{key} at the beginning");
+        let column = Column::of(format!("start_{key}"), Kind::Number, meaning);
+        to.column(column, start)?;
+        let meaning = format!("{key} as it was left");
+        let column = Column::of(format!("value_{key}"), Kind::Number, meaning);
+        to.column(column, &mut If(is_answered, value))?;
+    }
+    columns! { to;
+        steps: Text, "every change: ms since the beginning:key=value; …" =>
+            &mut If(is_answered, &mut Steps(steps, &keys));
+    }
+    Ok(())
+}
+
+/// The place on every scale.
+fn rated<V: Visit>(
+    scales: &[Scale],
+    (places, is_answered): (&mut [f64], bool),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    for (scale, place) in scales.iter().zip(places) {
+        let [low, high] = scale.bounds();
+        let meaning = format!("{} ({low}) to {} ({high})", scale.low, scale.high);
+        let column = Column::of(format!("rating_{}", scale.key), Kind::Number, meaning);
+        to.column(column, &mut If(is_answered, place))?;
+    }
+    Ok(())
+}
+
+impl Column {
+    /// One of several alike.
+    fn of(name: String, kind: Kind, meaning: String) -> Self {
+        Self {
+            name: name.into(),
+            unit: "",
+            kind,
+            meaning: meaning.into(),
+        }
+    }
+}
+
+/// Several stimuli of a trial.
+fn stimuli<V: Visit>(
+    name: &str,
+    meaning: &str,
+    items: &mut [usize],
+    to: &mut V,
+) -> Result<(), V::Error> {
+    for (item, n) in items.iter_mut().zip(1..) {
+        let (name, meaning) = (format!("{name}{n}"), format!("{meaning} {n}"));
+        let column = Column::of(name, Kind::Stimulus, meaning);
+        to.column(column, &mut Stimulus(item))?;
+    }
+    Ok(())
+}
+
+/// The only stimulus of a trial.
+fn item_and_condition<V: Visit>(
+    item: &mut usize,
+    design: &Design,
+    to: &mut V,
+) -> Result<(), V::Error> {
+    let condition = design
+        .stimuli
+        .get(*item)
+        .map(|stimulus| &stimulus.condition);
+    columns! { to;
+        item: Stimulus, "the stimulus" => &mut Stimulus(item);
+        condition: Text, "the stimulus's condition" => &mut derived_if(condition);
+    }
+    Ok(())
+}
+
+/// Keeps what columns there are.
+impl Visit for Vec<Column> {
+    type Error = Infallible;
+
+    fn column(&mut self, column: Column, _: &mut dyn Value) -> Result<(), Infallible> {
+        self.push(column);
+        Ok(())
+    }
+}
+
+fn of_design(design: &Design) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let Ok(()) = visit(&mut blank(design), design, ("", 0), &mut columns);
+    columns
+}
+
+/// The names of the columns of a design's logs in order.
 pub(crate) fn column_names(design: &Design) -> Vec<String> {
-    let names = columns(design).into_iter();
-    names.map(|column| column.name.into_owned()).collect()
+    let columns = of_design(design).into_iter();
+    columns.map(|column| column.name.into_owned()).collect()
 }
 
 /// What each column of a design's logs holds, by name.
 pub(crate) fn dictionary(design: &Design) -> BTreeMap<String, String> {
     let entry = |column: &Column| (column.name.clone().into_owned(), column.description());
-    columns(design).iter().map(entry).collect()
-}
-
-/// The cells of a row, in the order of [`columns()`].
-pub(super) fn cells(record: &Record, design: &Design, subject: &Subject) -> Vec<String> {
-    let row = Row::of(record, design, subject);
-    let all = columns(design).into_iter();
-    all.map(|column| (column.cell)(&row, column.nth)).collect()
-}
-
-/// Columns before those of the method.
-fn before() -> Vec<Column> {
-    columns! {
-        schema_version: Version, "version of these columns" => |_, _| SCHEMA_VERSION.to_string();
-        study: Text, "id of the study" => |row, _| row.design.study.clone();
-        experiment: Text, "which experiment of the study" => |row, _| row.design.experiment.clone();
-        subject: Text, "pseudonym" => |row, _| row.subject.pseudonym.clone();
-        session: Count, "session of this subject, from 1" =>
-            |row, _| row.subject.session.to_string();
-        block: Count, "block, from 1" => |row, _| position(row.record.trial.block);
-        trial: Count, "trial, from 1; practice counts by itself" =>
-            |row, _| position(row.record.trial.number);
-        attempt: Count, "attempt at the trial, from 1" => |row, _| row.record.attempt.to_string();
-        practice: Flag, "1 for practice, which does not count" =>
-            |row, _| flag(row.record.trial.is_practice);
-    }
-}
-
-/// Columns of each method: what was presented, and answers of several numbers.
-fn of_method(method: &Method) -> Vec<Column> {
-    match method {
-        Method::Ranking(_) => of_ranking(),
-        Method::OddOneOut(_) => {
-            let items = (0..3).map(|nth| Column::stimulus("item", "stimulus", nth));
-            let mut all: Vec<Column> = items.collect();
-            all.extend(columns! {
-                position_odd: Count, "where the odd one was, from 1" => right;
-                grade: Level, "easy, normal or hard" =>
-                    |row, _| text(row.answered.grade.map(Grade::name));
-            });
-            all
-        }
-        Method::Adjustment(adjusting) => of_adjustment(adjusting),
-        Method::Judgement(judging) if judging.protocol == JudgingProtocol::Pair => {
-            let items = (0..2).map(|nth| Column::stimulus("item", "stimulus", nth));
-            let mut all: Vec<Column> = items.collect();
-            all.extend(columns! {
-                position_real: Count, "where the real one was, from 1" => right;
-            });
-            all
-        }
-        Method::Judgement(_) => {
-            let mut all = item_and_condition();
-            all.extend(columns! {
-                is_real: Flag, "1 for a real one, 0 for a generated one" =>
-                    |row, _| row.presented.is_real.map_or_else(String::new, flag);
-            });
-            all
-        }
-        Method::Levels(_) => columns! {
-            track: Count, "which of the interleaved series, from 1" =>
-                |row, _| row.presented.track.map_or_else(String::new, position);
-            level_db: Number "dB re 1 µm", "level of the signal" =>
-                |row, _| row.presented.level_db.map_or_else(String::new, number);
-            interval_signal: Count, "which interval held it, from 1" => right;
-        },
-        Method::Magnitude { .. } => item_and_condition(),
-        Method::Rating(rating) => {
-            let mut all = item_and_condition();
-            all.extend(rating.scales.iter().enumerate().map(|(nth, scale)| {
-                let [low, high] = scale.bounds();
-                let meaning = format!("{} ({low}) to {} ({high})", scale.low, scale.high);
-                let name = format!("rating_{}", scale.key);
-                Column::nth(nth, (name, Kind::Number), meaning, value)
-            }));
-            all
-        }
-    }
-}
-
-/// A target, its alternatives and their ranks.
-fn of_ranking() -> Vec<Column> {
-    let mut all = columns! {
-        target: Stimulus, "the target" => |row, _| row.id_of(row.presented.target);
-    };
-    all.extend((0..4).map(|nth| Column::stimulus("alt", "alternative", nth)));
-    all.extend(columns! {
-        position_correct: Count, "where the target was, from 1" => right;
-    });
-    all.extend((0..4).map(|nth| {
-        let (name, number) = (format!("rank{}", nth + 1), nth + 1);
-        let meaning = format!("rank of alternative {number}, 1 most alike");
-        let cell = |row: &Row<'_>, nth| text(row.answered.ranks.get(nth));
-        Column::nth(nth, (name, Kind::Rank), meaning, cell)
-    }));
-    all
-}
-
-/// Where each parameter began and was left, then every change.
-fn of_adjustment(adjusting: &Adjusting) -> Vec<Column> {
-    let mut all = item_and_condition();
-    for (nth, parameter) in adjusting.parameters.iter().enumerate() {
-        let key = parameter.what.name();
-        let (name, meaning) = (format!("start_{key}"), format!("{key} at the beginning"));
-        let cell = |row: &Row<'_>, nth| number_at(row.presented.starts, nth);
-        all.push(Column::nth(nth, (name, Kind::Number), meaning, cell));
-        let (name, meaning) = (format!("value_{key}"), format!("{key} as it was left"));
-        all.push(Column::nth(nth, (name, Kind::Number), meaning, value));
-    }
-    all.extend(columns! {
-        steps: Text, "every change: ms since the beginning:key=value; …" =>
-            |row, _| row.steps();
-    });
-    all
-}
-
-/// The only stimulus of a trial.
-fn item_and_condition() -> Vec<Column> {
-    columns! {
-        item: Stimulus, "the stimulus" => id;
-        condition: Text, "the stimulus's condition" => |row, _| {
-            let item = row.presented.items.first();
-            let found = item.and_then(|item| row.design.stimuli.get(*item));
-            text(found.map(|stimulus| &stimulus.condition))
-        };
-    }
-}
-
-/// Columns after those of the method.
-fn after(method: &Method) -> Vec<Column> {
-    let mut all = columns! {
-        response: Text, "what was chosen; empty where several numbers were given" =>
-            |row, _| row.answered.response.clone();
-        confidence: Grade, "how sure that was, from 1; empty where not asked" =>
-            |row, _| text(row.answered.confidence);
-        correct: Flag, "1 right, 0 wrong, empty where neither" =>
-            |row, _| row.record.is_correct.map_or_else(String::new, flag);
-        rt_ms: Number "ms", "from beginning to answer" =>
-            |row, _| number(row.record.timing.response_ms());
-        t_start_utc: Moment, "beginning, UTC, RFC 3339" =>
-            |row, _| row.record.timing.start_utc.clone();
-        t_response_utc: Moment, "answer, UTC, RFC 3339" =>
-            |row, _| row.record.timing.response_utc.clone();
-        t_start_ns: Whole "ns since the session was opened", "beginning" =>
-            |row, _| row.record.timing.start_ns.to_string();
-        t_response_ns: Whole "ns since the session was opened", "answer" =>
-            |row, _| row.record.timing.response_ns.to_string();
-        stimulus_hash: Text, "what the stimuli were made from" =>
-            |row, _| row.record.apparatus.stimulus_hash.clone();
-        device: Text, "the device as it calls itself" =>
-            |row, _| row.record.apparatus.device.clone();
-        gain_db: Number "dB", "gain of everything" =>
-            |row, _| number(row.record.apparatus.tuning.gain_db);
-        gain_40_db: Number "dB", "gain of the 40 Hz band" =>
-            |row, _| number(row.record.apparatus.tuning.gain_40_db);
-        gain_320_db: Number "dB", "gain of the 320 Hz band" =>
-            |row, _| number(row.record.apparatus.tuning.gain_320_db);
-        compression: Share, "compression, 0 to 1" =>
-            |row, _| number(row.record.apparatus.tuning.compression);
-        seed: Text, "seed of the study" => |row, _| row.design.seed.to_string();
-        software: Text, "program and version" => |_, _| selvedge_foundation::PROGRAM.to_owned();
-        aborted: Flag, "1 where the trial was given up and came again" =>
-            |row, _| flag(row.record.outcome == Outcome::Aborted);
-        note: Text, "the experimenter's note" => |row, _| row.record.note.clone();
-    };
-    all[0].kind = kind_of_response(method);
-    all
-}
-
-fn kind_of_response(method: &Method) -> Kind {
-    match method {
-        Method::Judgement(judging) if judging.protocol == JudgingProtocol::Single => Kind::Level,
-        Method::Ranking(_) | Method::OddOneOut(_) | Method::Levels(_) | Method::Judgement(_) => {
-            Kind::Count
-        }
-        Method::Magnitude { .. } => Kind::Number,
-        Method::Adjustment(_) | Method::Rating(_) => Kind::Text,
-    }
+    of_design(design).iter().map(entry).collect()
 }

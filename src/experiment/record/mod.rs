@@ -6,17 +6,20 @@
 
 mod columns;
 mod read;
-mod row;
+mod values;
 
+use std::convert::Infallible;
 use std::time::SystemTime;
 
 pub(crate) use columns::{column_names, dictionary};
 pub(crate) use read::read_records;
 
-use super::design::{Design, Subject};
-use super::trial::{Answer, Trial};
+use super::design::{Design, JudgingProtocol, Method, Subject};
+use super::trial::{Answer, Grade, Task, Trial};
+use columns::{Column, Visit, visit};
 use selvedge_foundation::quantity::rfc3339;
 use selvedge_textile::tactile::Tuning;
+use values::Value;
 
 /// The version of the columns; a log of a later one is refused.
 pub(super) const SCHEMA_VERSION: u32 = 1;
@@ -31,7 +34,7 @@ pub enum Outcome {
 }
 
 /// When a trial began and was answered, by the clock on the wall and by one that never jumps.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Timing {
     /// The beginning, UTC as RFC 3339.
     pub(crate) start_utc: String,
@@ -99,7 +102,10 @@ pub struct Record {
 impl Record {
     /// The cells of its row, in the order of the columns.
     pub fn cells(&self, design: &Design, subject: &Subject) -> Vec<String> {
-        columns::cells(self, design, subject)
+        let mut to = Writer(design, Vec::new());
+        let who = (subject.pseudonym.as_str(), subject.session);
+        let Ok(()) = visit(&mut self.clone(), design, who, &mut to);
+        to.1
     }
 
     /// What was answered, if it was.
@@ -107,6 +113,97 @@ impl Record {
         match &self.outcome {
             Outcome::Answered(answer) => Some(answer),
             Outcome::Aborted => None,
+        }
+    }
+}
+
+/// Writes a row.
+struct Writer<'a>(&'a Design, Vec<String>);
+
+impl Visit for Writer<'_> {
+    type Error = Infallible;
+
+    fn column(&mut self, _: Column, value: &mut dyn Value) -> Result<(), Infallible> {
+        self.1.push(value.cell(self.0));
+        Ok(())
+    }
+}
+
+/// A record of a design that says nothing yet.
+fn blank(design: &Design) -> Record {
+    let (task, answer) = question(&design.method);
+    Record {
+        trial: Trial {
+            block: 0,
+            number: 0,
+            is_practice: false,
+            task,
+        },
+        attempt: 1,
+        outcome: Outcome::Answered(answer),
+        is_correct: None,
+        timing: Timing::default(),
+        apparatus: Apparatus::default(),
+        note: String::new(),
+    }
+}
+
+/// What a method asks, and an answer to it.
+fn question(method: &Method) -> (Task, Answer) {
+    let (item, items) = (0, [0; 2]);
+    let chosen = Answer::Chosen {
+        position: 0,
+        confidence: None,
+    };
+    let judged = Answer::Judged {
+        is_real: false,
+        confidence: None,
+    };
+    match method {
+        Method::Ranking(_) => {
+            let (target, alternatives) = (0, [0; 4]);
+            let task = Task::Rank {
+                target,
+                alternatives,
+            };
+            (task, Answer::Ranks([0; 4]))
+        }
+        Method::OddOneOut(_) => {
+            let (items, odd) = ([0; 3], 0);
+            let (position, grade) = (0, Grade::Normal);
+            (Task::OddOne { items, odd }, Answer::Odd { position, grade })
+        }
+        Method::Adjustment(adjusting) => {
+            let (starts, steps) = (vec![0.0; adjusting.parameters.len()], Vec::new());
+            let values = starts.clone();
+            (
+                Task::Adjust { item, starts },
+                Answer::Adjusted { values, steps },
+            )
+        }
+        Method::Judgement(judging) => match judging.protocol {
+            JudgingProtocol::Single => (
+                Task::Judge {
+                    item,
+                    is_real: false,
+                },
+                judged,
+            ),
+            JudgingProtocol::Pair => (Task::JudgePair { items, real: 0 }, chosen),
+        },
+        Method::Levels(_) => {
+            let (track, level_db, signal) = (0, 0.0, 0);
+            let task = Task::Interval {
+                track,
+                level_db,
+                signal,
+            };
+            (task, chosen)
+        }
+        Method::Magnitude { .. } => (Task::Estimate { item }, Answer::Magnitude(0.0)),
+        Method::Rating(rating) => {
+            let places = vec![0.0; rating.scales.len()];
+            (Task::Rate { item }, Answer::Ratings(places))
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, guessing};
 use super::studies::{Studies, Subjects, percent_right, planned};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, cells, grade_weights, percent_of, triad_answer};
+use crate::analysis::{Cell, Section, Table, cells, percent_of, triad_answer};
 use crate::design::{Design, Method};
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
@@ -95,7 +95,7 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
     let answers: Vec<TriadAnswer> = rows().filter_map(triad_answer).collect();
     let percents: Vec<f64> = subjects.iter().map(|own| percent_right(own)).collect();
     let right: Vec<&TriadAnswer> = answers.iter().filter(|a| a.is_correct).collect();
-    let grades = [Grade::Easy, Grade::Normal, Grade::Hard].map(|grade| {
+    let grades = Grade::ALL.map(|grade| {
         let n = right.iter().filter(|a| a.grade == grade).count();
         100.0 * n as f64 / right.len() as f64
     });
@@ -114,8 +114,8 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
 
 fn weights(design: &Design) -> GradeWeights {
     match &design.method {
-        Method::OddOneOut(choosing) => grade_weights(choosing.weights),
-        _ => grade_weights([1.0; 3]),
+        Method::OddOneOut(choosing) => choosing.weights.into(),
+        _ => [1.0; 3].into(),
     }
 }
 

@@ -91,7 +91,7 @@ pub fn pack(members: &[(&str, &[u8])], path: &Path) -> Result<Vec<u8>, FileError
 }
 
 fn wrong(path: &Path, error: &ZipError) -> FileError {
-    let what = format!("the ZIP archive is damaged: {error}").replace('\n', " ");
+    let what = format!("the ZIP archive is damaged: {error}");
     FileError::whole(path, what, "get an intact copy")
 }
 

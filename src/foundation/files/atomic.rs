@@ -1,34 +1,11 @@
-//! Reading whole files, and writing them so that a crash leaves the old one or the new one.
+//! Files written so that a crash leaves the old one or the new one.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{FileError, line_at};
-
-/// The bytes of a file.
-pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(FileError::read(path))
-}
-
-/// The text of a file, without a byte-order mark.
-pub fn read_text(path: &Path) -> Result<String, FileError> {
-    let text = String::from_utf8(read(path)?).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let line = line_at(error.as_bytes(), valid);
-        FileError::content(
-            path,
-            line,
-            "this is not UTF-8 text",
-            "save the file as UTF-8",
-        )
-    })?;
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    })
-}
+use super::FileError;
 
 /// Writes `bytes` to a new file beside `path` and then moves it there, on disk before it returns.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
@@ -71,14 +48,8 @@ mod tests {
         let folder = ScratchFolder::made("atomic");
         let path = folder.join("a.txt");
         write_atomic(&path, b"one").unwrap();
-        write_atomic(&path, "\u{feff}two".as_bytes()).unwrap();
-        assert_eq!(read_text(&path).unwrap(), "two");
+        write_atomic(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
-    }
-
-    #[test]
-    fn a_missing_file_is_named() {
-        let error = read(Path::new("/nowhere/a.csv")).unwrap_err().to_string();
-        assert!(error.contains("/nowhere/a.csv"), "{error}");
     }
 }

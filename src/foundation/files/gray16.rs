@@ -80,8 +80,10 @@ fn check_size(
 /// # Errors
 /// What is no grey PNG, is damaged, or is larger.
 pub fn decode_gray_png(bytes: &[u8], path: &Path, most: usize) -> Result<GrayImage, FileError> {
-    let damaged = |error: png::DecodingError| {
-        FileError::whole(path, one_line(&error), "give an intact PNG picture")
+    // The decoder's own words are for its authors.
+    let damaged = |_error: png::DecodingError| {
+        let what = "this picture is damaged or cut short";
+        FileError::whole(path, what, "give an intact PNG picture")
     };
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::IDENTITY);
@@ -135,7 +137,7 @@ fn png_texts(info: &png::Info<'_>) -> Vec<(String, String)> {
 /// # Errors
 /// A size or a text that PNG cannot hold.
 pub fn encode_gray_png(picture: &GrayImage, path: &Path) -> Result<Vec<u8>, FileError> {
-    let failed = |error: png::EncodingError| cannot(path, one_line(&error), "PNG");
+    let failed = |error: png::EncodingError| cannot(path, error.to_string(), "PNG");
     let [width, height] = sizes(picture, path, "PNG")?;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -163,8 +165,12 @@ pub fn encode_gray_png(picture: &GrayImage, path: &Path) -> Result<Vec<u8>, File
 /// What is no grey TIFF, is damaged, packed in a way that is not read, or is larger.
 pub fn decode_gray_tiff(bytes: &[u8], path: &Path, most: usize) -> Result<GrayImage, FileError> {
     let damaged = |error: tiff::TiffError| {
+        let what = match error {
+            tiff::TiffError::UnsupportedError(_) => "this picture is packed in a way not read here",
+            _ => "this picture is damaged or cut short",
+        };
         let mend = "give an intact TIFF picture, not packed or packed by deflate";
-        FileError::whole(path, one_line(&error), mend)
+        FileError::whole(path, what, mend)
     };
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most.saturating_mul(2).max(MIN_BUFFER);
@@ -207,7 +213,7 @@ pub fn decode_gray_tiff(bytes: &[u8], path: &Path, most: usize) -> Result<GrayIm
 /// # Errors
 /// A size that TIFF cannot hold.
 pub fn encode_gray_tiff(picture: &GrayImage, path: &Path) -> Result<Vec<u8>, FileError> {
-    let failed = |error: tiff::TiffError| cannot(path, one_line(&error), "TIFF");
+    let failed = |error: tiff::TiffError| cannot(path, error.to_string(), "TIFF");
     let [width, height] = sizes(picture, path, "TIFF")?;
     let mut bytes = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut bytes).map_err(failed)?;
@@ -239,10 +245,6 @@ fn sizes(picture: &GrayImage, path: &Path, format: &str) -> Result<[u32; 2], Fil
 
 fn cannot(path: &Path, what: String, format: &str) -> FileError {
     FileError::whole(path, what, format!("this cannot be saved as {format}"))
-}
-
-fn one_line(error: &dyn std::error::Error) -> String {
-    error.to_string().replace('\n', " ")
 }
 
 /// Grey values from shares of white, 0 to 1.

@@ -111,16 +111,22 @@ impl Journal {
         }
         writer.end_row()?;
         drop(writer);
-        let written = self
-            .file
-            .write_all(&line)
-            .and_then(|()| self.file.sync_data());
+        self.append_lines(&line)
+    }
+
+    /// Adds rows that are written out already, each with its line break, and waits until they are
+    /// on disk.
+    ///
+    /// # Errors
+    /// They cannot be written: none of them is kept, and the same rows can be added again.
+    pub fn append_lines(&mut self, lines: &[u8]) -> Result<(), FileError> {
+        let written = (self.file.write_all(lines)).and_then(|()| self.file.sync_data());
         if let Err(source) = written {
             // If this fails too, opening the table again sets the piece aside.
             drop(self.file.set_len(self.len));
             return Err(failed(&self.path, source));
         }
-        self.len += line.len() as u64;
+        self.len += lines.len() as u64;
         Ok(())
     }
 

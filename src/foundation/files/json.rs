@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::FileError;
+use super::keys::check_length;
 
 /// A value as indented JSON with a final newline; numbers that are not finite become `null`.
 /// `path` only names the file in errors.
@@ -18,6 +19,7 @@ pub fn to_json_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
 
 /// A value from JSON text. `path` only names the file in errors.
 pub fn from_json_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
+    check_length(text, path)?;
     serde_json::from_str(text).map_err(|error| {
         let mend = "mend it, or remove the file";
         FileError::content(path, error.line(), error.to_string(), mend)

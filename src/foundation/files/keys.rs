@@ -13,6 +13,7 @@ use super::{FileError, line_at};
 /// says itself how to mend it reads `what; mend`.
 pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    check_length(text, path)?;
     toml::from_str(text).map_err(|error| {
         let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
         let what = error.message().replace('\n', ", ");
@@ -28,6 +29,19 @@ pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, 
         };
         FileError::content(path, line, what, mend)
     })
+}
+
+/// Most bytes of keys and values: read, they take many times the memory of their text.
+const MAX_BYTES: usize = 4_000_000;
+
+/// Refuses a text that is longer than keys and values may be.
+pub(super) fn check_length(text: &str, path: &Path) -> Result<(), FileError> {
+    if text.len() <= MAX_BYTES {
+        return Ok(());
+    }
+    let what = format!("this file is larger than {} MB", MAX_BYTES / 1_000_000);
+    let mend = "give a file of keys and values, not a table or a picture";
+    Err(FileError::whole(path, what, mend))
 }
 
 /// Reads what is understood of a TOML text whose keys all have defaults.
@@ -189,6 +203,14 @@ mod tests {
         let error = error.unwrap_err().to_string();
         assert!(error.starts_with("a.toml:2: "), "{error}");
         assert!(error.contains("sise") && !error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn megabytes_of_comments_are_refused_before_they_are_read() {
+        let text = "# nothing\n".repeat(500_000);
+        let error = keys_from_str::<Thing>(&text, Path::new("a.toml")).unwrap_err();
+        let expected = "a.toml: this file is larger than 4 MB; ";
+        assert!(error.to_string().starts_with(expected), "{error}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Square and rectangular tables of numbers with names on both sides, in CSV.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use csv::{ReaderBuilder, Trim};
@@ -44,15 +45,18 @@ impl NamedMatrix {
             let record = record.map_err(|error| {
                 let line = error.position().map_or(1, csv::Position::line);
                 let line = usize::try_from(line).unwrap_or(1);
-                let what = error.to_string().replace('\n', " ");
-                FileError::content(path, line, what, "write comma-separated UTF-8 text")
+                let mend = "write comma-separated UTF-8 text";
+                FileError::content(path, line, error.to_string(), mend)
             })?;
             let end = reader_line(&record);
             let mut cells = record.iter();
             let name = cells.next().unwrap_or_default();
             if is_header {
                 matrix.columns = cells.map(ToOwned::to_owned).collect();
-                check_names(&matrix.columns, path, end)?;
+                let mut known = BTreeSet::new();
+                for (index, name) in matrix.columns.iter().enumerate() {
+                    check_name(name, index, !known.insert(name), (path, end))?;
+                }
                 is_header = false;
             } else {
                 matrix.add(name, &cells.collect::<Vec<_>>(), (path, end))?;
@@ -77,8 +81,9 @@ impl NamedMatrix {
                 "give every row as many cells",
             ));
         }
+        let is_known = self.rows.iter().any(|row| row == name);
+        check_name(name, self.rows.len(), is_known, (path, line))?;
         self.rows.push(name.to_owned());
-        check_names(&self.rows, path, line)?;
         for (cell, column) in cells.iter().zip(&self.columns) {
             let number = cell.parse::<f64>().ok().filter(|x| x.is_finite());
             if number.is_none() && !cell.is_empty() {
@@ -99,20 +104,21 @@ fn reader_line(record: &csv::StringRecord) -> usize {
 }
 
 /// The last of the names must not stand before; in a header none may be empty.
-fn check_names(names: &[String], path: &Path, line: usize) -> Result<(), FileError> {
-    for (index, name) in names.iter().enumerate() {
-        if name.is_empty() {
-            return Err(FileError::content(
-                path,
-                line,
-                format!("name {} is empty", index + 1),
-                "name every row and column",
-            ));
-        }
-        if names[..index].contains(name) {
-            let what = format!("{name} stands twice");
-            return Err(FileError::content(path, line, what, "give every name once"));
-        }
+/// Refuses a name of a row or column (from 0) that is empty or was there before.
+fn check_name(
+    name: &str,
+    index: usize,
+    is_known: bool,
+    (path, line): (&Path, usize),
+) -> Result<(), FileError> {
+    if name.is_empty() {
+        let what = format!("name {} is empty", index + 1);
+        let mend = "name every row and column";
+        return Err(FileError::content(path, line, what, mend));
+    }
+    if is_known {
+        let what = format!("{name} stands twice");
+        return Err(FileError::content(path, line, what, "give every name once"));
     }
     Ok(())
 }

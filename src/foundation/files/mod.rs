@@ -1,5 +1,6 @@
-//! Files in the formats everybody shares: CSV, TOML, XML, ZIP, PNG, TIFF, NPY, hashes, and writing
-//! that never leaves half a file behind.
+//! Files in the formats everybody shares: CSV, TOML, XML, ZIP, PNG, TIFF, NPY, hashes,
+//! reading that never takes more than a file may hold, and writing that never leaves half of one
+//! behind.
 //!
 //! Knows how a table or a key is spelt, not what it means. Every error is one line that says what
 //! is wrong, where (path and line), and how to mend it.
@@ -25,13 +26,13 @@ mod keys;
 mod matrix;
 mod npy;
 mod picture;
-mod rgb16;
+mod read;
 mod staged;
 mod table;
 mod xml;
 
 pub use archive::{Archive, pack};
-pub use atomic::{create, read, read_text, write_atomic};
+pub use atomic::{create, write_atomic};
 pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
 pub use flaw::{Flaw, Place};
@@ -48,13 +49,16 @@ pub use keys::{
 };
 pub use matrix::NamedMatrix;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
-pub use picture::{Rgb8Image, decode_png, encode_png, encode_png_rgba, encode_png_small};
-pub use rgb16::Rgb16Image;
-pub use rgb16::decode_picture;
+pub use picture::{
+    Rgb8Image, Rgb16Image, decode_picture, decode_png, encode_png, encode_png_rgba,
+    encode_png_small, is_picture,
+};
+pub use read::{read, read_known, read_text};
 pub use staged::Staged;
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// What can be wrong with a file.
@@ -73,7 +77,7 @@ pub enum FileError {
         path: PathBuf,
     },
     /// It cannot be read.
-    #[error("cannot read {}: {source}; check the path", path.display())]
+    #[error("cannot read {}: {source}; {}", path.display(), to_read(source))]
     Read {
         /// The file.
         path: PathBuf,
@@ -139,7 +143,7 @@ impl FileError {
         Self::Content {
             path: path.to_owned(),
             line,
-            what: what.into(),
+            what: in_a_line(what.into()),
             mend: mend.into(),
         }
     }
@@ -148,9 +152,30 @@ impl FileError {
     pub fn whole(path: &Path, what: impl Into<String>, mend: impl Into<String>) -> Self {
         Self::Whole {
             path: path.to_owned(),
-            what: what.into(),
+            what: in_a_line(what.into()),
             mend: mend.into(),
         }
+    }
+}
+
+/// What is said of a content may quote it, and a cell may be a megabyte long and hold anything.
+fn in_a_line(what: String) -> String {
+    const LONGEST: usize = 300;
+    let is_short = what.len() <= LONGEST;
+    if is_short && !what.contains(char::is_control) {
+        return what;
+    }
+    let line: String = what.chars().take(LONGEST).collect();
+    let end = if is_short { "" } else { "…" };
+    line.replace(char::is_control, " ") + end
+}
+
+/// What to do about a file that cannot be read.
+fn to_read(source: &std::io::Error) -> &'static str {
+    match source.kind() {
+        ErrorKind::IsADirectory => "name a file in it",
+        ErrorKind::PermissionDenied => "ask for the right to read it",
+        _ => "check the path",
     }
 }
 
@@ -159,4 +184,20 @@ fn line_at(bytes: &[u8], offset: usize) -> usize {
     bytes[..offset.min(bytes.len())]
         .split(|&byte| byte == b'\n')
         .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_quoted_of_a_file_stays_one_short_line() {
+        let cell = "x\r\n\u{7}".repeat(100_000);
+        let error = FileError::content(Path::new("a.csv"), 2, format!("id is {cell}"), "mend it");
+        let line = error.to_string();
+        assert!(line.starts_with("a.csv:2: id is x   x"), "{line}");
+        assert!(line.ends_with("…; mend it") && line.len() < 400, "{line}");
+        let plain = FileError::whole(Path::new("a"), "„µ“", "mend it").to_string();
+        assert_eq!(plain, "a: „µ“; mend it");
+    }
 }

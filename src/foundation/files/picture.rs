@@ -1,17 +1,20 @@
-//! Pictures: 8-bit PNG in and out.
+//! Pictures of the common formats (PNG, JPEG, TIFF, BMP), 8 or 16 bits, grey or coloured; PNG out.
 //!
-//! Sizes are checked before anything is decoded.
+//! What a file is, its content says. Its size is checked before anything of that size is held.
 
 use std::io::Cursor;
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _};
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, ImageFormat,
+    ImageReader, Limits,
+};
 
 use super::FileError;
 
 /// Largest picture that is decoded, pixels.
-pub(super) const MAX_PIXELS: u64 = 64_000_000;
+const MAX_PIXELS: u64 = 64_000_000;
 
 /// A picture of 8-bit red, green and blue, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,26 +27,106 @@ pub struct Rgb8Image {
     pub pixels: Vec<[u8; 3]>,
 }
 
-/// Decodes a PNG of any colour type to 8-bit RGB. `path` only names it in errors.
-pub fn decode_png(bytes: &[u8], path: &Path) -> Result<Rgb8Image, FileError> {
-    let wrong = |what: String| FileError::content(path, 1, what, "give an intact PNG picture");
-    let decoder = image::codecs::png::PngDecoder::new(Cursor::new(bytes))
-        .map_err(|error| wrong(error.to_string()))?;
-    let (width, height) = decoder.dimensions();
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(wrong(format!(
-            "{width} × {height} pixels are more than 64 million"
-        )));
-    }
-    let picture = image::DynamicImage::from_decoder(decoder)
-        .map_err(|error| wrong(error.to_string()))?
-        .into_rgb8();
-    let pixels = picture.pixels().map(|pixel| pixel.0).collect();
-    Ok(Rgb8Image {
-        width: width as usize,
-        height: height as usize,
-        pixels,
+/// A picture of red, green and blue in 16 bits each, row by row from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rgb16Image {
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green and blue of every pixel, 0 to 65535; 8 bits were multiplied by 257. What was
+    /// transparent stands on white.
+    pub pixels: Vec<[u16; 3]>,
+    /// Bits of a channel in the file: 8, or 16 and more.
+    pub(crate) n_bits: u8,
+}
+
+/// What a decoder may hold beside the pixels, bytes.
+const ROOM: u64 = 1 << 26;
+/// Bytes of a pixel in the largest format that is decoded (four floats).
+const MAX_BYTES: u64 = 16;
+const FORMATS: [ImageFormat; 4] = [
+    ImageFormat::Png,
+    ImageFormat::Jpeg,
+    ImageFormat::Tiff,
+    ImageFormat::Bmp,
+];
+
+/// Whether a file begins as a picture that is decoded.
+pub fn is_picture(head: &[u8]) -> bool {
+    image::guess_format(head).is_ok_and(|format| FORMATS.contains(&format))
+}
+
+/// Decodes a picture of at most 64 million pixels to red, green and blue of 16 bits. `path` only
+/// names it in errors.
+///
+/// # Errors
+/// What is no such picture, is damaged, or is larger.
+pub fn decode_picture(bytes: &[u8], path: &Path) -> Result<Rgb16Image, FileError> {
+    let mend = "give an intact PNG, JPEG, TIFF or BMP picture";
+    let picture = decode(bytes, path, &FORMATS, mend)?;
+    let n_bits = match picture {
+        DynamicImage::ImageLuma8(_)
+        | DynamicImage::ImageLumaA8(_)
+        | DynamicImage::ImageRgb8(_)
+        | DynamicImage::ImageRgba8(_) => 8,
+        _ => 16,
+    };
+    Ok(Rgb16Image {
+        width: picture.width() as usize,
+        height: picture.height() as usize,
+        pixels: pixels(picture),
+        n_bits,
     })
+}
+
+/// Decodes a PNG of any colour type to 8-bit RGB. `path` only names it in errors.
+///
+/// # Errors
+/// What is no PNG, is damaged, or has more than 64 million pixels.
+pub fn decode_png(bytes: &[u8], path: &Path) -> Result<Rgb8Image, FileError> {
+    let formats = [ImageFormat::Png];
+    let picture = decode(bytes, path, &formats, "give an intact PNG picture")?.into_rgb8();
+    Ok(Rgb8Image {
+        width: picture.width() as usize,
+        height: picture.height() as usize,
+        pixels: picture.pixels().map(|pixel| pixel.0).collect(),
+    })
+}
+
+fn decode(
+    bytes: &[u8],
+    path: &Path,
+    formats: &[ImageFormat],
+    mend: &str,
+) -> Result<DynamicImage, FileError> {
+    let wrong = |error: ImageError| FileError::whole(path, damage(&error), mend);
+    let format = image::guess_format(bytes).ok();
+    let Some(format) = format.filter(|format| formats.contains(format)) else {
+        let what = "this is no picture of a known format";
+        return Err(FileError::whole(path, what, mend));
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MAX_PIXELS * MAX_BYTES + ROOM);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(wrong)?;
+    let (width, height) = decoder.dimensions();
+    let n_pixels = u64::from(width) * u64::from(height);
+    if n_pixels > MAX_PIXELS || n_pixels == 0 {
+        let what = format!("{width} × {height} pixels where 1 to 64 million are read");
+        return Err(FileError::whole(path, what, "scale it down or cut it"));
+    }
+    DynamicImage::from_decoder(decoder).map_err(wrong)
+}
+
+/// What is wrong with a picture. The decoders' own words are for their authors.
+fn damage(error: &ImageError) -> &'static str {
+    match error {
+        ImageError::Unsupported(_) => "this picture is packed in a way that is not read",
+        ImageError::Limits(_) => "this picture takes more memory than a picture may",
+        _ => "this picture is damaged or cut short",
+    }
 }
 
 /// Encodes a picture as PNG.
@@ -119,9 +202,36 @@ fn write_image(
         .map_err(|error| failed(error.to_string()))
 }
 
+fn pixels(picture: DynamicImage) -> Vec<[u16; 3]> {
+    let wide = |value: u8| u16::from(value) * 257;
+    match picture {
+        DynamicImage::ImageLuma8(grey) => {
+            grey.into_raw().into_iter().map(|v| [wide(v); 3]).collect()
+        }
+        DynamicImage::ImageLuma16(grey) => grey.into_raw().into_iter().map(|v| [v; 3]).collect(),
+        DynamicImage::ImageRgb8(colours) => colours.pixels().map(|p| p.0.map(wide)).collect(),
+        DynamicImage::ImageRgb16(colours) => colours.pixels().map(|p| p.0).collect(),
+        other => other
+            .into_rgba16()
+            .pixels()
+            .map(|p| on_white(p.0))
+            .collect(),
+    }
+}
+
+/// A colour of some opacity on white.
+fn on_white([red, green, blue, alpha]: [u16; 4]) -> [u16; 3] {
+    let (alpha, white) = (u32::from(alpha), u32::from(u16::MAX));
+    [red, green, blue].map(|value| {
+        let mixed = (u32::from(value) * alpha + white * (white - alpha) + white / 2) / white;
+        u16::try_from(mixed).unwrap_or(u16::MAX)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::{GrayImage, decode_gray_png, encode_gray_png, encode_gray_tiff};
 
     #[test]
     fn pixels_survive_encoding_and_decoding() {
@@ -154,7 +264,129 @@ mod tests {
             let error = decode_png(bytes, Path::new("b.png"))
                 .unwrap_err()
                 .to_string();
-            assert!(error.starts_with("b.png:1: "), "{error}");
+            assert!(error.starts_with("b.png: this "), "{error}");
+        }
+    }
+
+    fn at() -> &'static Path {
+        Path::new("a.png")
+    }
+
+    #[test]
+    fn sixteen_bits_are_kept_and_eight_are_spread() {
+        let grey = GrayImage {
+            width: 3,
+            height: 1,
+            values: vec![0, 12_345, 65_535],
+            white: u16::MAX,
+            texts: Vec::new(),
+        };
+        for bytes in [
+            encode_gray_png(&grey, at()).unwrap(),
+            encode_gray_tiff(&grey, at()).unwrap(),
+        ] {
+            let read = decode_picture(&bytes, at()).unwrap();
+            assert_eq!(read.pixels, [[0; 3], [12_345; 3], [65_535; 3]]);
+            assert_eq!(read.n_bits, 16);
+        }
+        let colours = Rgb8Image {
+            width: 1,
+            height: 2,
+            pixels: vec![[0, 128, 255], [1, 2, 3]],
+        };
+        let read = decode_picture(&encode_png(&colours, at()).unwrap(), at()).unwrap();
+        assert_eq!(read.pixels, [[0, 32_896, 65_535], [257, 514, 771]]);
+        assert_eq!((read.width, read.height, read.n_bits), (1, 2, 8));
+    }
+
+    #[test]
+    fn what_is_transparent_stands_on_white() {
+        assert_eq!(on_white([0, 65_535, 100, 0]), [65_535; 3]);
+        assert_eq!(on_white([0, 65_535, 100, 65_535]), [0, 65_535, 100]);
+    }
+
+    /// A bitmap file that says it is `width` × `height` and holds one pixel.
+    fn bitmap(width: u32, height: u32) -> Vec<u8> {
+        let mut bytes = b"BM".to_vec();
+        for number in [
+            58_u32,
+            0,
+            54,
+            40,
+            width,
+            height,
+            0x0018_0001,
+            0,
+            4,
+            0,
+            0,
+            0,
+            0,
+            0,
+        ] {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes
+    }
+
+    #[test]
+    fn a_size_beyond_the_limit_is_refused_before_it_is_decoded() {
+        let error = decode_picture(&bitmap(20_000, 20_000), at())
+            .unwrap_err()
+            .to_string();
+        let expected =
+            "a.png: 20000 × 20000 pixels where 1 to 64 million are read; scale it down or cut it";
+        assert_eq!(error, expected);
+        let read = decode_picture(&bitmap(1, 1), at()).unwrap();
+        assert_eq!(read.pixels.len(), 1);
+    }
+
+    #[test]
+    fn truncated_pictures_and_other_files_are_refused_with_their_name() {
+        let picture = Rgb8Image {
+            width: 60,
+            height: 60,
+            pixels: (0..3600_u16)
+                .map(|i| [i.to_le_bytes()[0], 7, i.to_le_bytes()[1]])
+                .collect(),
+        };
+        let png = encode_png(&picture, at()).unwrap();
+        for bytes in [
+            &png[..png.len() / 2],
+            b"GIF89a....",
+            b"no picture",
+            b"",
+            &png[..20],
+        ] {
+            let error = decode_picture(bytes, at()).unwrap_err().to_string();
+            assert!(
+                error.starts_with("a.png: this ") && error.ends_with("BMP picture"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_broken_chunk_is_told_in_words_and_not_in_the_decoders_types() {
+        let picture = Rgb8Image {
+            width: 9,
+            height: 7,
+            pixels: vec![[7, 90, 200]; 63],
+        };
+        let png = encode_png(&picture, at()).unwrap();
+        for at_byte in 8..png.len() {
+            let mut broken = png.clone();
+            broken[at_byte] ^= 0x20;
+            for error in [
+                decode_png(&broken, at()).err(),
+                decode_picture(&broken, at()).err(),
+                decode_gray_png(&broken, at(), 63).err(),
+            ] {
+                let error = error.map_or_else(String::new, |error| error.to_string());
+                let foreign = ["{", "(", "ChunkType", "Crc", "IHDR", "Some"];
+                let is_plain = !foreign.iter().any(|word| error.contains(word));
+                assert!(is_plain, "byte {at_byte}: {error}");
+            }
         }
     }
 

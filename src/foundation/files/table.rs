@@ -141,7 +141,7 @@ fn reason(error: &csv::Error) -> String {
             format!("{len} cells where the header has {expected_len}")
         }
         csv::ErrorKind::Utf8 { .. } => "this is not UTF-8 text".to_owned(),
-        _ => error.to_string().replace('\n', " "),
+        _ => error.to_string(),
     }
 }
 

@@ -32,7 +32,7 @@ pub fn visit_elements(
             FileError::content(path, line, what, "get an intact copy of the file")
         };
         let event = reader.read_event();
-        match event.map_err(|error| wrong(error.to_string().replace('\n', " ")))? {
+        match event.map_err(|error| wrong(error.to_string()))? {
             Event::Start(tag) => {
                 if lengths.len() == MAX_DEEP {
                     return Err(wrong(format!("more than {MAX_DEEP} elements deep")));

@@ -9,6 +9,7 @@ use super::geometry::MAX_CONTACTORS;
 use super::{Display, Geometry, PlacedTextile, Scene};
 use selvedge_foundation::files::{Flaw, Place};
 use selvedge_foundation::geometry::Displacement;
+use selvedge_textile::elsewhere;
 use selvedge_textile::tactile::{Filters, Tuning, check_gain};
 
 /// How to mend a gain whose error does not say.
@@ -64,10 +65,16 @@ fn textile_flaw(index: usize, textile: &PlacedTextile) -> Option<Flaw> {
 }
 
 fn id_flaw(place: Place, id: &str) -> Option<Flaw> {
-    let is_plain = !id.is_empty() && !id.starts_with('.') && !id.contains(['/', '\\', '\n', '\0']);
+    let plain = elsewhere(id).map_or(id, |(_, id)| id);
+    let is_name = !plain.is_empty() && !plain.starts_with('.');
+    let is_plain = is_name && !plain.contains(['/', '\\', '\n', '\0']);
     (!is_plain).then(|| {
         let what = format!("{id:?} is no textile's id");
-        Flaw::new(place, what, "give the name of a folder in the library")
+        Flaw::new(
+            place,
+            what,
+            "give the name of a folder in the library, or LIBRARY:NAME",
+        )
     })
 }
 

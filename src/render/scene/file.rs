@@ -10,15 +10,16 @@ use super::check::scene_flaw;
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
-use selvedge_textile::is_of_the_program;
 use selvedge_textile::tactile::{Filters, Tuning};
+use selvedge_textile::{elsewhere, id_in, is_of_the_program};
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
 const EDGE_MM: f64 = 1e-6;
 
 /// A scene: a workspace of textiles, the displays that explore it, filters and tuning.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "SceneKeys", into = "SceneKeys")]
 pub struct Scene {
     /// What people call it.
     pub name: String,
@@ -35,13 +36,34 @@ pub struct Scene {
     pub filters: Filters,
     /// Gains and compression; `None` takes the library's default tuning.
     pub tuning: Option<Tuning>,
+    /// Recordings that belong to it.
+    pub recordings: Vec<RecordingReference>,
+}
+
+/// A recording that a scene refers to.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordingReference {
+    /// What people call it.
+    pub name: String,
+    /// Its folder, or a path file; relative to the scene's file. Nothing need be there.
+    pub path: PathBuf,
+}
+
+impl RecordingReference {
+    /// Where it is as seen from where the program runs, for a scene file at `scene`.
+    pub fn place(&self, scene: Option<&Path>) -> PathBuf {
+        let beside = scene.and_then(Path::parent);
+        beside.map_or_else(|| self.path.clone(), |beside| beside.join(&self.path))
+    }
 }
 
 /// A textile of the library and where it lies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedTextile {
-    /// The textile's id in the library.
+    /// The textile's id in the library, or `LIBRARY:ID` of another one
+    /// ([`selvedge_textile::elsewhere`]), whose folder is absolute here.
     pub id: String,
     /// Its lower-left corner before turning, in the workspace.
     pub origin_mm: Point,
@@ -83,6 +105,8 @@ struct SceneKeys {
     filters: Option<FilterKeys>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tuning: Option<Tuning>,
+    #[serde(default, rename = "recording", skip_serializing_if = "Vec::is_empty")]
+    recordings: Vec<RecordingReference>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -120,6 +144,11 @@ impl PlacedTextile {
     }
 }
 
+/// Whether a library is named by where it lies, and not one of the program.
+fn is_path(library: &Path) -> bool {
+    library.to_string_lossy().contains(['/', '\\'])
+}
+
 fn is_within(place_mm: f64, extent_mm: f64) -> bool {
     -EDGE_MM <= place_mm && place_mm < extent_mm - EDGE_MM
 }
@@ -133,7 +162,13 @@ impl Scene {
     /// Reads the text of a scene file. `path` only names it in errors.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, SceneError> {
         let keys: SceneKeys = files::keys_from_str(text, path)?;
-        let scene = Self::from_keys(keys).map_err(|flaw| flaw.in_file(text, path))?;
+        let mut scene = Self::from_keys(keys).map_err(|flaw| flaw.in_file(text, path))?;
+        scene.name_folders(|folder| {
+            let folder = path
+                .parent()
+                .map_or_else(PathBuf::new, |at| at.join(folder));
+            std::path::absolute(&folder).ok()
+        });
         match scene_flaw(&scene) {
             Some(flaw) => Err(flaw.in_file(text, path).into()),
             None => Ok(scene),
@@ -151,9 +186,28 @@ impl Scene {
         scene_flaw(self).map_or(Ok(()), |flaw| Err(flaw.into()))
     }
 
-    /// Writes a scene file; a crash leaves the old one or the new one.
+    /// Writes a scene file; a crash leaves the old one or the new one. Folders of textiles beside
+    /// it are named from there.
     pub fn write(&self, path: &Path) -> Result<(), SceneError> {
-        Ok(files::write_atomic(path, self.to_toml()?.as_bytes())?)
+        let mut scene = self.clone();
+        let beside = std::path::absolute(path).ok();
+        let beside = beside.as_deref().and_then(Path::parent);
+        scene.name_folders(|folder| {
+            let folder = folder.strip_prefix(beside?).ok()?;
+            Some(Path::new(".").join(folder))
+        });
+        Ok(files::write_atomic(path, scene.to_toml()?.as_bytes())?)
+    }
+
+    /// Names the folders of textiles of other libraries otherwise; `None` leaves one as it is.
+    fn name_folders(&mut self, otherwise: impl Fn(&Path) -> Option<PathBuf>) {
+        for textile in &mut self.textiles {
+            let other = elsewhere(&textile.id).filter(|(library, _)| is_path(library));
+            let named = other.and_then(|(folder, id)| Some(id_in(&otherwise(folder)?, id)));
+            if let Some(named) = named {
+                textile.id = named;
+            }
+        }
     }
 
     /// The topmost textile under a point of the workspace: its place in the list.
@@ -193,6 +247,7 @@ impl Scene {
             filters: (keys.filters.as_ref())
                 .map_or_else(|| Ok(Filters::default()), filters_from_keys)?,
             tuning: keys.tuning,
+            recordings: keys.recordings,
         })
     }
 
@@ -205,6 +260,7 @@ impl Scene {
             displays: self.displays.iter().map(Display::keys).collect(),
             filters: Some(filter_keys(self.filters)),
             tuning: self.tuning,
+            recordings: self.recordings.clone(),
         }
     }
 }
@@ -294,6 +350,21 @@ fn geometry_choices() -> String {
         .map(|layout| format!("\"{}\"", layout.name()))
         .join(", ");
     format!("give geometry = {names}, or contactors_mm = [[x, y], …]")
+}
+
+impl From<Scene> for SceneKeys {
+    fn from(scene: Scene) -> Self {
+        scene.keys()
+    }
+}
+
+impl TryFrom<SceneKeys> for Scene {
+    type Error = SceneError;
+
+    fn try_from(keys: SceneKeys) -> Result<Self, SceneError> {
+        let scene = Self::from_keys(keys)?;
+        scene.check().map(|()| scene)
+    }
 }
 
 impl From<Flaw> for SceneError {

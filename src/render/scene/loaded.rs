@@ -11,7 +11,7 @@ use super::{PlacedTextile, Scene, SceneError};
 use selvedge_foundation::files::{self, FileError};
 use selvedge_foundation::progress::unheard;
 use selvedge_textile::tactile::{Filters, Levels, Tuning};
-use selvedge_textile::{BuildCache, Library, Textile, TextileError, is_of_the_program};
+use selvedge_textile::{BuildCache, Library, Textile, TextileError, elsewhere, is_of_the_program};
 
 /// The scene of four textiles that is part of the program.
 const SHIPPED: &str = include_str!("../../../assets/scenes/four-alternatives.scene.toml");
@@ -24,6 +24,8 @@ pub struct LoadedScene {
     library: Arc<Library>,
     textiles: Vec<Arc<Textile>>,
     levels_db: Vec<Option<f64>>,
+    /// Ids whose textiles are loaded although they are there.
+    fresh: Vec<String>,
 }
 
 impl LoadedScene {
@@ -44,14 +46,19 @@ impl LoadedScene {
         Self::from_text(text, path, None)
     }
 
-    fn from_text(text: &str, path: &Path, cache: Option<&BuildCache>) -> Result<Self, SceneError> {
+    /// The same, with textiles that are built kept in `cache`.
+    pub fn from_text(
+        text: &str,
+        path: &Path,
+        cache: Option<&BuildCache>,
+    ) -> Result<Self, SceneError> {
         let scene = Scene::from_toml(text, path)?;
         let wrong = |(table, nth, key), what: String, mend: &str| {
             let line = files::line_of_key(text, table, nth, key);
             SceneError::from(FileError::content(path, line, what, mend))
         };
         let library = match scene.library_folder(path) {
-            None => Library::shipped()?,
+            None => Library::shipped()?.with_cache(cache),
             Some(folder) if !is_of_the_program(&folder) && !folder.exists() => {
                 let what = format!("there is no library in {}", folder.display());
                 return Err(wrong(("", 0, "library"), what, "name a folder of textiles"));
@@ -60,7 +67,9 @@ impl LoadedScene {
         };
         let unknown = scene.textiles.iter().enumerate().find_map(|(nth, placed)| {
             let error = library.manifest(&placed.id).err()?;
-            matches!(error, TextileError::Unknown { .. }).then_some((nth, error))
+            let is_elsewhere = elsewhere(&placed.id).is_some();
+            let is_unknown = matches!(error, TextileError::Unknown { .. });
+            (is_unknown || is_elsewhere).then_some((nth, error))
         });
         if let Some((nth, error)) = unknown {
             let mend = "place a textile that is there";
@@ -76,6 +85,7 @@ impl LoadedScene {
             library,
             textiles: Vec::new(),
             levels_db: Vec::new(),
+            fresh: Vec::new(),
         };
         nothing.with_scene(scene)
     }
@@ -85,14 +95,13 @@ impl LoadedScene {
         scene.check()?;
         let mut fresh: Vec<String> = Vec::new();
         for PlacedTextile { id, .. } in &scene.textiles {
-            let is_known = self.textiles.iter().any(|textile| textile.id() == id);
-            if !is_known && !fresh.contains(id) {
+            if !self.knows(id) && !fresh.contains(id) {
                 fresh.push(id.clone());
             }
         }
         let fresh = unheard(|progress| self.library.load_all(&fresh, progress))?;
         let find = |placed: &PlacedTextile| {
-            let mut known = self.textiles.iter().chain(&fresh);
+            let mut known = fresh.iter().chain(&self.textiles);
             known
                 .find(|textile| textile.id() == placed.id)
                 .map(Arc::clone)
@@ -104,13 +113,26 @@ impl LoadedScene {
             library: Arc::clone(&self.library),
             textiles,
             levels_db,
+            fresh: Vec::new(),
         })
+    }
+
+    /// Whether a scene that places this textile finds it loaded.
+    pub fn knows(&self, id: &str) -> bool {
+        let is_there = self.textiles.iter().any(|textile| textile.id() == id);
+        is_there && !self.fresh.iter().any(|fresh| fresh == id)
     }
 
     /// Takes textiles that are placed from now on from another library, which must have those that
     /// are placed already.
     pub fn use_library(&mut self, library: &Arc<Library>) {
         self.library = Arc::clone(library);
+    }
+
+    /// Loads textiles with these ids anew when a scene places them next: their files are others.
+    pub fn forget(&mut self, ids: &[String]) {
+        self.fresh.retain(|id| !ids.contains(id));
+        self.fresh.extend_from_slice(ids);
     }
 
     /// The scene.
@@ -264,6 +286,36 @@ mod tests {
         );
         let library = Arc::new(Library::shipped().unwrap());
         assert!(LoadedScene::load(with(&["felt"]), library).is_err());
+    }
+
+    #[test]
+    fn a_scene_places_textiles_of_several_libraries_and_moves_with_the_folder_beside_it() {
+        let scratch = selvedge_scratch::ScratchFolder::made("several");
+        let folder = scratch.join("own");
+        let files = selvedge_textile::files_of(&Library::shipped().unwrap(), "denim").unwrap();
+        selvedge_textile::write(&files, &folder.join("mine")).unwrap();
+        let path = scratch.join("a.scene.toml");
+        let place = |id: &str| {
+            format!("[[textile]]\nid = \"{id}\"\norigin_mm = [0, 0]\nsize_mm = [50, 50]\n")
+        };
+        let ids = ["denim", "./own:mine", "sixteen:silk-crepe"]
+            .map(place)
+            .concat();
+        let text = format!("name = \"A\"\nsize_mm = [60, 60]\n{ids}");
+        let loaded = LoadedScene::from_toml(&text, &path).unwrap();
+        let mine = selvedge_textile::id_in(&std::path::absolute(&folder).unwrap(), "mine");
+        assert_eq!(loaded.textiles()[1].id(), mine);
+        let [denim, same] = [0, 1].map(|nth| loaded.levels_db()[nth]);
+        assert_eq!(denim, same, "the same cloth under another name");
+        loaded.scene().write(&path).unwrap();
+        let written = std::fs::read_to_string(&path).unwrap();
+        assert!(written.contains("id = \"./own:mine\""), "{written}");
+        assert_eq!(Scene::read(&path).unwrap(), *loaded.scene());
+        let wrong = text.replace("./own:mine", "./none:mine");
+        let error = LoadedScene::from_toml(&wrong, &path)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("a.scene.toml:8: "), "{error}");
     }
 
     #[test]

@@ -20,7 +20,7 @@ mod pose;
 mod stroke;
 
 pub use error::SceneError;
-pub use file::{Display, PlacedTextile, Scene};
+pub use file::{Display, PlacedTextile, RecordingReference, Scene};
 pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
 pub use loaded::LoadedScene;
 pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};

@@ -162,6 +162,10 @@ proptest! {
             displays: vec![Display { geometry: Geometry::Contactors(offsets), rotation_deg }],
             filters: Filters::LogGaussian { octaves },
             tuning: compression.map(|compression| Tuning { compression, ..Tuning::default() }),
+            recordings: vec![RecordingReference {
+                name: "Slow".to_owned(),
+                path: "strokes/slow.csv".into(),
+            }],
         };
         prop_assert_eq!(read(&scene.to_toml().unwrap()).unwrap(), scene);
     }

@@ -14,6 +14,16 @@ pub enum Grade {
     Hard,
 }
 
+impl Grade {
+    /// All of them, from easy to hard.
+    pub const ALL: [Self; 3] = [Self::Easy, Self::Normal, Self::Hard];
+
+    /// As files and people call it.
+    pub fn name(self) -> &'static str {
+        ["easy", "normal", "hard"][self as usize]
+    }
+}
+
 /// What a correct choice counts by its grade. A wrong one counts nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GradeWeights {
@@ -25,14 +35,10 @@ pub struct GradeWeights {
     pub hard: f64,
 }
 
-impl Default for GradeWeights {
-    /// 1, 0.5 and 0.1.
-    fn default() -> Self {
-        Self {
-            easy: 1.0,
-            normal: 0.5,
-            hard: 0.1,
-        }
+impl From<[f64; 3]> for GradeWeights {
+    /// From easy to hard.
+    fn from([easy, normal, hard]: [f64; 3]) -> Self {
+        Self { easy, normal, hard }
     }
 }
 
@@ -90,7 +96,7 @@ impl PairTally {
 }
 
 /// Wrong answers to triads that one item was part of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ItemErrors {
     /// Triads with it, as odd one or as one of two alike.
     pub n_triads: usize,
@@ -130,13 +136,7 @@ impl OddOneOut {
             return undefined("no answers");
         }
         let mut tallies = vec![[[0; 3]; 2]; n_items * n_items];
-        let mut errors = vec![
-            ItemErrors {
-                n_triads: 0,
-                n_wrong: 0,
-            };
-            n_items
-        ];
+        let mut errors = vec![ItemErrors::default(); n_items];
         for (index, answer) in answers.iter().enumerate() {
             check_distinct(n_items, &answer.pair)
                 .map_err(|why| Undefined::because(format!("answer {}: {why}", index + 1)))?;
@@ -214,6 +214,12 @@ impl GradeWeights {
 mod tests {
     use super::*;
     use selvedge_foundation::numerics::Random;
+
+    impl Default for GradeWeights {
+        fn default() -> Self {
+            [1.0, 0.5, 0.1].into()
+        }
+    }
 
     fn answer(pair: [usize; 2], is_correct: bool, grade: Grade) -> TriadAnswer {
         TriadAnswer {

@@ -30,7 +30,7 @@ use selvedge_textile::picture::{
 const RIGHT: f64 = 0.05;
 
 /// The whole analysis of a picture, on one thread; nothing where it was cancelled.
-fn analysed(luminance: &Grid<f64>) -> Option<Analysis> {
+pub(crate) fn analysed(luminance: &Grid<f64>) -> Option<Analysis> {
     let options = AnalysisOptions {
         light: EvenLight::Auto,
         directions: DirectionOptions::default(),

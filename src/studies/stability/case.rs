@@ -32,6 +32,14 @@ impl Case {
     }
 }
 
+/// Cases of an area: what goes in, what should come back, and the trial.
+macro_rules! cases {
+    ($area:literal; $($tried:expr => $should:expr, $run:expr;)+) => {
+        vec![$(Case::new($area, $tried, $should, $run)),+]
+    };
+}
+pub(super) use cases;
+
 /// As promised or otherwise, with what came back.
 pub(super) fn verdict(is_as_promised: bool, came_back: String) -> Verdict {
     if is_as_promised {

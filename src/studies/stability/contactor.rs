@@ -1,6 +1,6 @@
 //! Contactors that are sharp, stiffly held, driven to the full, or no contactors at all.
 
-use super::case::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use crate::bimorph::{CARRIERS_HZ, ContactorStep, SAMPLE_S, propagator};
 use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, MAX_QUALITY, Skin};
 use selvedge_foundation::numerics::Complex;
@@ -13,45 +13,24 @@ const TOO_FAR_UM: f64 = 1e5;
 
 /// Stiffness, sharpness and drive.
 pub(super) fn cases() -> Vec<Case> {
-    let case = |tried: &str, should, run: fn() -> Verdict| {
-        Case::new("contactor", tried.to_owned(), should, run)
-    };
-    vec![
-        case(
-            "a bimorph with Q = 1000 against stiff skin",
-            "exact method within 1e-9 of the closed form",
-            sharp_and_stiff,
-        ),
-        case(
-            "contact stiffness 0 … 1e9 N/m, steps 1 µs … 1 s",
-            "finite, and nothing grows",
-            every_stiffness,
-        ),
-        case(
-            "full drive against skin of 1e9 N/m that lifts off",
-            "finite and bounded",
-            lifts_off,
-        ),
-        case(
-            "skin of NaN, −1, ∞ and 1e10 N/m",
-            "refused, with the range",
-            || no_skin([f64::NAN, -1.0, f64::INFINITY, 1e10]),
-        ),
-        case("a bimorph of 0 mm", "refused, with the range", || {
+    cases! { "contactor";
+        "a bimorph with Q = 1000 against stiff skin" =>
+            "exact method within 1e-9 of the closed form", sharp_and_stiff;
+        "contact stiffness 0 … 1e9 N/m, steps 1 µs … 1 s" =>
+            "finite, and nothing grows", every_stiffness;
+        "full drive against skin of 1e9 N/m that lifts off" => "finite and bounded", lifts_off;
+        "skin of NaN, −1, ∞ and 1e10 N/m" => "refused, with the range", no_skin;
+        "a bimorph of 0 mm" => "refused, with the range", || {
             let bimorph = Bimorph {
                 length_mm: 0.0,
                 ..Bimorph::default()
             };
             refused(bimorph.check(), &["length", "give 1 to 200 mm"])
-        }),
-        case("a bimorph with Q = 2000", "refused, with the range", || {
-            let model = ContactorModel {
-                quality: 2000.0,
-                ..ContactorModel::default()
-            };
-            refused(ActuatorModel::new(&model, 24), &["quality", "1000"])
-        }),
-    ]
+        };
+        "a bimorph with Q = 2000" => "refused, with the range", || {
+            refused(ActuatorModel::new(&loaded(Skin::LIGHT, 2000.0), 24), &["quality", "1000"])
+        };
+    }
 }
 
 fn loaded(skin: Skin, quality: f64) -> ContactorModel {
@@ -120,13 +99,11 @@ fn lifts_off() -> Verdict {
     verdict(most_um < TOO_FAR_UM, format!("at most {most_um:.0} µm"))
 }
 
-fn no_skin(stiffnesses: [f64; 4]) -> Verdict {
+fn no_skin() -> Verdict {
     let mut last = Err("none was tried".to_owned());
-    for stiffness in stiffnesses {
-        last = Ok(refused(
-            Skin::bonded(stiffness, 0.0).check(),
-            &["stiffness", "give 0 to"],
-        )?);
+    for stiffness in [f64::NAN, -1.0, f64::INFINITY, 1e10] {
+        let skin = Skin::bonded(stiffness, 0.0);
+        last = Ok(refused(skin.check(), &["stiffness", "give 0 to"])?);
     }
     last
 }

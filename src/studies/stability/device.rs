@@ -2,7 +2,7 @@
 //!
 //! Host and device are the state machines themselves, joined by a wire in told time.
 
-use super::case::{Case, Verdict, verdict};
+use super::case::{Case, Verdict, cases, verdict};
 use selvedge_device::{
     ArrayProfile, BridgeState, Coder, Decoder, DeviceModel, Faults, LinkFaults, OneOff, OneOffKind,
     Simulation,
@@ -14,46 +14,18 @@ const N_NOISE: usize = 1_000_000;
 
 /// Devices and drive codes.
 pub(super) fn cases() -> Vec<Case> {
-    let cases = [
-        (
-            "a host that stalls for a second",
-            "the device falls silent by itself",
-            host_stalls as fn() -> Verdict,
-        ),
-        (
-            "a device that stalls",
-            "given up, with the reason",
-            device_stalls,
-        ),
-        (
-            "a device that vanishes and comes back",
-            "told, not armed again by itself",
-            comes_back,
-        ),
-        (
-            "a device that garbles every byte",
-            "no harm, never armed",
-            garbled,
-        ),
-        (
-            "a million random bytes",
-            "counted as bad, none taken",
-            random_bytes,
-        ),
-        (
-            "a device of 25 contactors for a display of 24",
-            "refused, with the reason",
-            wrong_size,
-        ),
-        (
-            "amplitudes of NaN, ∞, −1 and 1e30 µm",
-            "0, 0, 0 and limited, all counted",
-            no_numbers,
-        ),
-    ];
-    cases
-        .map(|(tried, should, run)| Case::new("device", tried, should, run))
-        .into()
+    cases! { "device";
+        "a host that stalls for a second" => "the device falls silent by itself", host_stalls;
+        "a device that stalls" => "given up, with the reason", device_stalls;
+        "a device that vanishes and comes back" =>
+            "told, not armed again by itself", comes_back;
+        "a device that garbles every byte" => "no harm, never armed", garbled;
+        "a million random bytes" => "counted as bad, none taken", random_bytes;
+        "a device of 25 contactors for a display of 24" =>
+            "refused, with the reason", wrong_size;
+        "amplitudes of NaN, ∞, −1 and 1e30 µm" =>
+            "0, 0, 0 and limited, all counted", no_numbers;
+    }
 }
 
 /// A simulation whose device plays.

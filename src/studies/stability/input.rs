@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::case::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use selvedge_foundation::files::{Rgb8Image, decode_png, encode_png};
 use selvedge_textile::Library;
 use selvedge_textile::surface::{Direction, LocalSpectra, Profile};
@@ -11,43 +11,36 @@ use selvedge_textile::surface::{Direction, LocalSpectra, Profile};
 /// Textiles and pictures.
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    let mut add = |tried: String, should, run: Box<dyn FnOnce() -> Verdict + Send>| {
-        cases.push(Case::new("files", tried, should, run));
-    };
     for spelt in ["NaN", "inf", "-inf"] {
         let text = format!("{}2.0,{spelt}\n", profile(2000, 1e-3));
-        add(
-            format!("a height of {spelt} in a file"),
-            "refused at load, with row and count",
-            Box::new(move || refused(load(&text), &["warp.csv:2002", "2001"])),
-        );
+        cases.extend(cases! { "files";
+            format!("a height of {spelt} in a file") => "refused at load, with row and count",
+                move || refused(load(&text), &["warp.csv:2002", "2001"]);
+        });
     }
-    for n_samples in [0_u16, 1, 999] {
-        let words: &[&str] = match n_samples {
-            999 => &["999", "1000"],
-            _ => &["warp.csv"],
-        };
-        add(
-            format!("a profile of {n_samples} samples"),
-            "refused at load, with the count",
-            Box::new(move || refused(load(&profile(n_samples, 1.0 / 230.0)), words)),
-        );
+    for (n_samples, words) in [
+        (0, &["warp.csv"][..]),
+        (1, &["warp.csv"]),
+        (999, &["999", "1000"]),
+    ] {
+        cases.extend(cases! { "files";
+            format!("a profile of {n_samples} samples") => "refused at load, with the count",
+                move || refused(load(&profile(n_samples, 1.0 / 230.0)), words);
+        });
     }
-    let tried = "a profile of 1000 samples".to_owned();
-    add(tried, "one point", Box::new(one_window));
+    cases.extend(cases! { "files"; "a profile of 1000 samples" => "one point", one_window; });
+    let range = &["the step is", "0.0005 to 0.5 mm"];
     for step_mm in [0.000_49, 0.51] {
-        let words = &["the step is", "0.0005 to 0.5 mm"];
-        let run = move || refused(load(&profile(2000, step_mm)), words);
-        let tried = format!("a step of {step_mm} mm");
-        add(tried, "refused at load", Box::new(run));
+        cases.extend(cases! { "files";
+            format!("a step of {step_mm} mm") => "refused at load",
+                move || refused(load(&profile(2000, step_mm)), range);
+        });
     }
     for step_mm in [f64::NAN, f64::INFINITY, 0.0, -0.01] {
-        let run = move || refused(Profile::new(step_mm, vec![1.0; 2000]), &["the step is"]);
-        add(
-            format!("heights {step_mm} mm apart"),
-            "refused",
-            Box::new(run),
-        );
+        cases.extend(cases! { "files";
+            format!("heights {step_mm} mm apart") => "refused",
+                move || refused(Profile::new(step_mm, vec![1.0; 2000]), &["the step is"]);
+        });
     }
     cases.extend(pictures());
     cases
@@ -56,26 +49,17 @@ pub(super) fn cases() -> Vec<Case> {
 /// What is said of a picture that is none.
 const INTACT: &[&str] = &["intact PNG"];
 
-fn pictures() -> [Case; 4] {
-    let case =
-        |tried: &str, should, run: fn() -> Verdict| Case::new("pictures", tried, should, run);
-    [
-        case(
-            "a picture of 100,000 × 100,000",
-            "refused before it is decoded",
-            huge_picture,
-        ),
-        case("a picture that is cut off", "refused", || {
+fn pictures() -> Vec<Case> {
+    cases! { "pictures";
+        "a picture of 100,000 × 100,000" => "refused before it is decoded", huge_picture;
+        "a picture that is cut off" => "refused", || {
             let bytes = small_png()?;
             refused(decoded(&bytes[..bytes.len() / 2]), INTACT)
-        }),
-        case("a picture that is none", "refused", || {
-            refused(decoded(b"x_mm,height_um\n0,1\n"), INTACT)
-        }),
-        case("an empty file for a picture", "refused", || {
-            refused(decoded(&[]), INTACT)
-        }),
-    ]
+        };
+        "a picture that is none" => "refused",
+            || refused(decoded(b"x_mm,height_um\n0,1\n"), INTACT);
+        "an empty file for a picture" => "refused", || refused(decoded(&[]), INTACT);
+    }
 }
 
 /// A profile file of this many samples.

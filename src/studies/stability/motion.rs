@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::case::{Case, Verdict, failed, verdict};
+use super::case::{Case, Verdict, cases, failed, verdict};
 use super::scene::{METHODS, extent_um, moving, placed, range_um, renderer, scene};
 use super::scene::{waves, wavy_scene};
 use crate::textiles::of_heights;
@@ -16,33 +16,17 @@ use selvedge_textile::tactile::{Filters, Levels, MAX_SPEED_MM_PER_S};
 /// Speeds, heights and scenes.
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = speeds();
-    let heights = [
-        (
-            "heights all equal",
-            "silent, level none",
-            level_of_equal_heights as fn() -> Verdict,
-        ),
-        ("heights of 1e−12 µm", "computed", tiny_heights),
-        ("heights of 1e12 µm", "computed, then limited", huge_heights),
-    ];
-    let scenes = [
-        ("no textile", "silent", no_textile as fn() -> Verdict),
-        (
-            "a hundred textiles overlapping",
-            "the topmost wins",
-            hundred_overlapping,
-        ),
-        (
-            "a display half outside",
-            "contactors inside sound, the others do not",
-            half_outside,
-        ),
-    ];
-    let of = |area: &'static str| {
-        move |(tried, should, run): (&'static str, _, _)| Case::new(area, tried, should, run)
-    };
-    cases.extend(heights.map(of("heights")));
-    cases.extend(scenes.map(of("scene")));
+    cases.extend(cases! { "heights";
+        "heights all equal" => "silent, level none", level_of_equal_heights;
+        "heights of 1e−12 µm" => "computed", tiny_heights;
+        "heights of 1e12 µm" => "computed, then limited", huge_heights;
+    });
+    cases.extend(cases! { "scene";
+        "no textile" => "silent", no_textile;
+        "a hundred textiles overlapping" => "the topmost wins", hundred_overlapping;
+        "a display half outside" =>
+            "contactors inside sound, the others do not", half_outside;
+    });
     cases
 }
 
@@ -56,27 +40,25 @@ fn speeds() -> Vec<Case> {
         };
         Case::new("speed", tried, should, move || silent_at(pose, is_counted))
     };
-    let slow = [
-        ("0", 0.0),
-        ("1e−300", 1e-300),
-        ("0.0099", 0.0099),
-        ("−0.0099", -0.0099),
+    let speeds = [
+        ("0", 0.0, false),
+        ("1e−300", 1e-300, false),
+        ("0.0099", 0.0099, false),
+        ("−0.0099", -0.0099, false),
+        ("1000/0.23", MAX_SPEED_MM_PER_S, true),
+        ("1e6", 1e6, true),
+        ("∞", f64::INFINITY, true),
+        ("−∞", f64::NEG_INFINITY, true),
+        ("NaN", f64::NAN, true),
     ];
-    let fast = [
-        ("1000/0.23", MAX_SPEED_MM_PER_S),
-        ("1e6", 1e6),
-        ("∞", f64::INFINITY),
-        ("−∞", f64::NEG_INFINITY),
-        ("NaN", f64::NAN),
-    ];
-    let slow = slow.map(|(spelt, speed)| at(format!("{spelt} mm/s"), moving(speed), false));
-    let fast = fast.map(|(spelt, speed)| at(format!("{spelt} mm/s"), moving(speed), true));
+    let speeds = speeds
+        .map(|(spelt, speed, is_counted)| at(format!("{spelt} mm/s"), moving(speed), is_counted));
     let nowhere = Pose {
         position: Point::new(f64::NAN, f64::INFINITY),
         ..moving(100.0)
     };
     let nowhere = at("a place of NaN and ∞ mm".to_owned(), nowhere, true);
-    slow.into_iter().chain(fast).chain([nowhere]).collect()
+    speeds.into_iter().chain([nowhere]).collect()
 }
 
 /// Silence by every method, where 100 mm/s sounds before and after.

@@ -2,67 +2,43 @@
 
 use std::path::Path;
 
-use super::case::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, cases, failed, refused, verdict};
+use crate::picture::analysed;
 use selvedge_foundation::files::{FileError, Rgb8Image, encode_png};
-use selvedge_foundation::numerics::Grid;
-use selvedge_foundation::progress::unheard;
-use selvedge_textile::picture::{
-    AnalysisOptions, DirectionOptions, EvenLight, NoLattice, Picture, analyse, load,
-};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_textile::picture::{NoLattice, Picture, load};
 
 /// A side of the pictures, px.
 const N: usize = 96;
 
 pub(super) fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
-    let mut add = |tried: &str, should, run: fn() -> Verdict| {
-        cases.push(Case::new("cloth from a picture", tried, should, run));
-    };
-    add("a picture of 1 × 1", "no lattice: too small", || {
-        none(&Grid::filled(1, 1, 0.4), |why| {
-            matches!(why, NoLattice::TooSmall(..))
-        })
-    });
-    add("a picture of one colour", "no lattice: one colour", || {
-        none(&Grid::filled(N, N, 0.4), |why| {
-            matches!(why, NoLattice::OneColour)
-        })
-    });
-    add(
-        "a picture of 20,000 × 20,000",
-        "refused by its header",
-        || refused(loaded(&bitmap(20_000)), &["64 million"]),
-    );
-    add("a picture that is cut off", "refused", cut_off);
-    add("a text for a picture", "refused", || {
-        refused(loaded(b"row,height\n1,2\n"), &["no picture"])
-    });
-    add("stripes", "no lattice, with a reason", || {
-        none(&waves([[7.0, 2.0], [0.0, 0.0]]), |_| true)
-    });
-    add(
-        "waves 1° apart",
-        "no lattice, or one that is no line",
-        nearly_parallel,
-    );
-    add("one repeat and a half", "no lattice, with a reason", || {
-        none(&waves([[64.0, 0.0], [0.0, 64.0]]), |_| true)
-    });
-    add("less than a period", "no lattice, with a reason", || {
-        none(&waves([[400.0, 0.0], [0.0, 300.0]]), |_| true)
-    });
-    add("noise", "no lattice, with a reason", || {
-        let mut random = selvedge_foundation::numerics::Random::new(7);
-        let values = (0..N * N).map(|_| random.uniform()).collect();
-        let noise = Grid::from_rows(N, values).unwrap_or_else(|| Grid::filled(1, 1, 0.0));
-        none(&noise, |_| true)
-    });
-    add(
-        "brightness that is no number",
-        "no lattice, with a reason",
-        || none(&Grid::filled(N, N, f64::NAN), |_| true),
-    );
-    cases
+    cases! { "cloth from a picture";
+        "a picture of 1 × 1" => "no lattice: too small", || {
+            none(&Grid::filled(1, 1, 0.4), |why| matches!(why, NoLattice::TooSmall(..)))
+        };
+        "a picture of one colour" => "no lattice: one colour", || {
+            none(&Grid::filled(N, N, 0.4), |why| matches!(why, NoLattice::OneColour))
+        };
+        "a picture of 20,000 × 20,000" => "refused by its header",
+            || refused(loaded(&bitmap(20_000)), &["64 million"]);
+        "a picture that is cut off" => "refused", cut_off;
+        "a text for a picture" => "refused",
+            || refused(loaded(b"row,height\n1,2\n"), &["no picture"]);
+        "stripes" => "no lattice, with a reason",
+            || none(&waves([[7.0, 2.0], [0.0, 0.0]]), |_| true);
+        "waves 1° apart" => "no lattice, or one that is no line", nearly_parallel;
+        "one repeat and a half" => "no lattice, with a reason",
+            || none(&waves([[64.0, 0.0], [0.0, 64.0]]), |_| true);
+        "less than a period" => "no lattice, with a reason",
+            || none(&waves([[400.0, 0.0], [0.0, 300.0]]), |_| true);
+        "noise" => "no lattice, with a reason", || {
+            let mut random = Random::new(7);
+            let values = (0..N * N).map(|_| random.uniform()).collect();
+            none(&Grid::from_rows(N, values).ok_or("no grid")?, |_| true)
+        };
+        "brightness that is no number" => "no lattice, with a reason",
+            || none(&Grid::filled(N, N, f64::NAN), |_| true);
+    }
 }
 
 /// Waves of these periods (px along x and y; 0: none along it).
@@ -71,14 +47,9 @@ fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
     for row in 0..N {
         for (column, value) in grid.row_mut(row).iter_mut().enumerate() {
             for [x, y] in periods {
-                let turns = |at: usize, period: f64| {
-                    if period > 0.0 {
-                        at as f64 / period
-                    } else {
-                        0.0
-                    }
-                };
-                let turn = turns(column, x) + turns(row, y);
+                let ways = [(column, x), (row, y)].into_iter();
+                let ways = ways.filter(|(_, period)| *period > 0.0);
+                let turn: f64 = ways.map(|(at, period)| at as f64 / period).sum();
                 *value += 0.2 * (std::f64::consts::TAU * turn).cos();
             }
         }
@@ -89,16 +60,10 @@ fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
 type Answer = Result<[[f64; 2]; 2], NoLattice>;
 
 fn answer(luminance: &Grid<f64>) -> Result<Answer, String> {
-    let options = AnalysisOptions {
-        light: EvenLight::Auto,
-        directions: DirectionOptions::default(),
-        n_threads: 1,
-    };
-    let picture = Picture::grey(luminance.clone());
-    let found = unheard(|progress| analyse(&picture, &options, progress)).map_err(failed)?;
-    Ok(found
-        .found
-        .map(|found| [found.lattice.p1_px, found.lattice.p2_px]))
+    let found = analysed(luminance)
+        .ok_or_else(|| failed("cancelled"))?
+        .found;
+    Ok(found.map(|found| [found.lattice.p1_px, found.lattice.p2_px]))
 }
 
 fn none(luminance: &Grid<f64>, is_it: fn(&NoLattice) -> bool) -> Verdict {

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::case::{Case, Verdict, failed, verdict};
+use super::case::{Case, Verdict, cases, failed, verdict};
 use super::tuning::engine;
 use selvedge_engine::{Engine, PointerSample, PointerSender, SampleCounters, TICK};
 use selvedge_foundation::geometry::Point;
@@ -12,27 +12,13 @@ const PACE: Duration = Duration::from_millis(5);
 
 /// Samples of a pointer.
 pub(super) fn cases() -> Vec<Case> {
-    let cases = [
-        (
-            "two samples with equal times",
-            "the later one replaces",
-            equal_times as fn() -> Verdict,
-        ),
-        (
-            "a sample whose time goes back",
-            "dropped and counted",
-            going_back,
-        ),
-        (
-            "a clock that jumps by an hour",
-            "the estimator begins anew: one silent tick",
-            jump_of_an_hour,
-        ),
-        ("a place of NaN", "dropped and counted", place_of_nan),
-    ];
-    cases
-        .map(|(tried, should, run)| Case::new("pointer", tried, should, run))
-        .into()
+    cases! { "pointer";
+        "two samples with equal times" => "the later one replaces", equal_times;
+        "a sample whose time goes back" => "dropped and counted", going_back;
+        "a clock that jumps by an hour" =>
+            "the estimator begins anew: one silent tick", jump_of_an_hour;
+        "a place of NaN" => "dropped and counted", place_of_nan;
+    }
 }
 
 /// An engine whose pointer moves at 100 mm/s.

@@ -1,6 +1,6 @@
 //! Tiles and lights from which no shape follows, or too much.
 
-use super::case::{Case, Verdict, failed};
+use super::case::{Case, Verdict, cases, failed};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_textile::picture::shading::{
@@ -11,43 +11,24 @@ use selvedge_textile::picture::shading::{
 const N: usize = 24;
 
 pub(super) fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
-    let mut add = |tried: &str, should, run: fn() -> Verdict| {
-        cases.push(Case::new("shading", tried, should, run));
-    };
-    add("a black tile", "refused", || {
-        refused(&even(0.0), 45.0, "black")
-    });
-    add("a white tile", "flat", || flat(&even(1.0)));
-    add("a grey tile", "flat", || flat(&even(0.5)));
-    add("a tile of 1 × 1", "flat", || {
-        flat(&Grid::filled(1, 1, 0.7))
-    });
-    add(
-        "brightness that is no number",
-        "refused with its place",
-        || {
+    cases! { "shading";
+        "a black tile" => "refused", || refused(&even(0.0), 45.0, "black");
+        "a white tile" => "flat", || flat(&even(1.0));
+        "a grey tile" => "flat", || flat(&even(0.5));
+        "a tile of 1 × 1" => "flat", || flat(&Grid::filled(1, 1, 0.7));
+        "brightness that is no number" => "refused with its place", || {
             let mut tile = even(0.5);
             tile.values_mut()[N + 2] = f64::NAN;
             refused(&tile, 45.0, "row 2, column 3")
-        },
-    );
-    add("light from straight above", "refused", || {
-        refused(&checks(), 0.0, "front")
-    });
-    add("light from the level", "refused", || {
-        refused(&checks(), 90.0, "slant")
-    });
-    add("black and white checks in any light", "finite", any_light);
-    add(
-        "light along which Tsai & Shah stand still",
-        "refused with advice",
-        || {
+        };
+        "light from straight above" => "refused", || refused(&checks(), 0.0, "front");
+        "light from the level" => "refused", || refused(&checks(), 90.0, "slant");
+        "black and white checks in any light" => "finite", any_light;
+        "light along which Tsai & Shah stand still" => "refused with advice", || {
             let found = found(&checks(), [45.0, 135.0], Method::TsaiShah);
             refused_with(found, "turn the picture")
-        },
-    );
-    cases
+        };
+    }
 }
 
 fn even(brightness: f64) -> Grid<f64> {
@@ -58,11 +39,7 @@ fn checks() -> Grid<f64> {
     let mut tile = even(0.0);
     for row in 0..N {
         for (column, value) in tile.row_mut(row).iter_mut().enumerate() {
-            *value = if (row / 3 + column / 5) % 2 == 0 {
-                1.0
-            } else {
-                0.0
-            };
+            *value = f64::from(u8::from((row / 3 + column / 5) % 2 == 0));
         }
     }
     tile

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use super::case::{Case, Verdict, failed, refused, verdict};
+use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use super::scene::{METHODS, extent_um, moving, range_um, renderer, wavy_scene};
 use selvedge_device::{ArrayProfile, Coder};
 use selvedge_engine::{Command, Engine, EngineConfig, Notice, PreparedScene};
@@ -14,54 +14,48 @@ use selvedge_textile::tactile::Tuning;
 
 /// Gains and compression.
 pub(super) fn cases() -> Vec<Case> {
-    let gain = |gain_db| Tuning {
-        gain_db,
-        ..Tuning::default()
-    };
-    let compressed = |compression| Tuning {
-        compression,
-        ..Tuning::default()
-    };
-    let mut cases = vec![
-        Case::new("gain", "−∞ dB, live", "silent", || {
-            silent_with_gain(f64::NEG_INFINITY)
-        }),
-        Case::new("gain", "−∞ dB, in a file", "taken", || {
+    let mut cases = cases! { "gain";
+        "−∞ dB, live" => "silent", || silent_with_gain(f64::NEG_INFINITY);
+        "−∞ dB, in a file" => "taken", || {
             let read = in_file("gain_db = -inf").map_err(|error| error.to_string())?;
             let gain_db = read.tuning.map(|tuning| tuning.gain_db);
             let is_taken = gain_db == Some(f64::NEG_INFINITY);
             verdict(is_taken, "taken as silence".to_owned())
-        }),
-        Case::new("gain", "1e308 dB, live", "finite", || {
-            finite_with_gain(1e308)
-        }),
-    ];
+        };
+        "1e308 dB, live" => "finite", || finite_with_gain(1e308);
+    };
     let mut add = |area, [tried, line]: [String; 2], tuning: Tuning, should| {
         let file = move || refused(in_file(&line), &["a.toml:4", "; "]);
-        let by_file = "refused with file and line";
+        let tried_in_file = format!("{tried}, in a file");
         cases.push(Case::new(
             area,
-            format!("{tried}, in a file"),
-            by_file,
+            tried_in_file,
+            "refused with file and line",
             file,
         ));
         let live = move || ignored_live(tuning);
         cases.push(Case::new(area, format!("{tried}, live"), should, live));
     };
-    for (value, spelt) in [(f64::INFINITY, "inf"), (f64::NAN, "nan")] {
-        let both = [format!("{value} dB"), format!("gain_db = {spelt}")];
-        add("gain", both, gain(value), "ignored with a notice");
+    for (gain_db, spelt) in [(f64::INFINITY, "inf"), (f64::NAN, "nan")] {
+        let both = [format!("{gain_db} dB"), format!("gain_db = {spelt}")];
+        add("gain", both, with_gain(gain_db), "ignored with a notice");
     }
-    for (value, spelt) in [(-0.1, "-0.1"), (1.1, "1.1"), (f64::NAN, "nan")] {
-        let both = [value.to_string(), format!("compression = {spelt}")];
-        add(
-            "compression",
-            both,
-            compressed(value),
-            "refused with a notice",
-        );
+    for (compression, spelt) in [(-0.1, "-0.1"), (1.1, "1.1"), (f64::NAN, "nan")] {
+        let both = [compression.to_string(), format!("compression = {spelt}")];
+        let tuning = Tuning {
+            compression,
+            ..Tuning::default()
+        };
+        add("compression", both, tuning, "refused with a notice");
     }
     cases
+}
+
+fn with_gain(gain_db: f64) -> Tuning {
+    Tuning {
+        gain_db,
+        ..Tuning::default()
+    }
 }
 
 /// A scene file with this line in its tuning, the fourth.
@@ -98,11 +92,7 @@ fn heard_with_gain(gain_db: f64) -> Result<Vec<[f32; 2]>, String> {
     let mut heard = Vec::new();
     for method in METHODS {
         let mut renderer = renderer(&scene, method)?;
-        let tuning = Tuning {
-            gain_db,
-            ..Tuning::default()
-        };
-        renderer.set_tuning(&tuning).map_err(failed)?;
+        renderer.set_tuning(&with_gain(gain_db)).map_err(failed)?;
         heard.push(extent_um(&renderer.tick(&[moving(100.0)])[0]));
     }
     Ok(heard)

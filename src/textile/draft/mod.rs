@@ -5,6 +5,8 @@ mod tests;
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::TextileError;
 use crate::library::{Library, Textile};
 use crate::manifest::Manifest;
@@ -20,7 +22,7 @@ const DRAFT: &str = "the recipe";
 
 /// A recipe while it is edited: a manifest's keys. Reading it checks them all, as the reader of
 /// files does.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Draft {
     keys: Keys,
 }

@@ -18,34 +18,25 @@ pub use kes::{KesFigures, KesImport};
 pub(crate) use picture::to_textile;
 pub use picture::{PictureTextile, relief_um_of, textile_of};
 
-use std::fs;
 use std::path::Path;
+
+use serde::{Deserialize, Serialize};
 
 use crate::{kes as tester, metrology};
 use selvedge_foundation::files::{self, FileError};
 
-/// Larger files are refused before they are read: more than the heights of any map that is read.
-const MAX_BYTES: u64 = 1 << 30;
-
-/// The content of a file of measurements.
+/// The content of a file of measurements or of a picture.
 ///
 /// # Errors
-/// A file that cannot be read, or is larger than 1 GiB.
+/// A file that cannot be read, is empty, or larger than its kind may be.
 pub fn read_measurement(path: &Path) -> Result<Vec<u8>, FileError> {
-    let size = fs::metadata(path).map_or(0, |about| about.len());
-    if size > MAX_BYTES {
-        let what = format!("this file has {} MB", size >> 20);
-        return Err(FileError::whole(
-            path,
-            what,
-            "cut out what you need, at most 1024 MB",
-        ));
-    }
-    files::read(path)
+    files::read_known(path, |head| {
+        metrology::is_known(head) || files::is_picture(head)
+    })
 }
 
 /// A kind of measurement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Measurement {
     /// Strokes of the Kawabata surface tester.
     Strokes,

@@ -1,10 +1,12 @@
 //! What the columns of a table are: by what the user says, by their names, else by their number.
 
+use serde::{Deserialize, Serialize};
+
 use crate::number_table::RawTable;
 use crate::unit::{LengthUnit, Unit};
 
 /// One of the two axes of a textile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TextileAxis {
     /// Along the warp.
     Warp,
@@ -13,7 +15,7 @@ pub enum TextileAxis {
 }
 
 /// Out, or back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StrokeSide {
     /// Out.
     Forward,
@@ -22,7 +24,7 @@ pub enum StrokeSide {
 }
 
 /// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ColumnRole {
     /// The distance, or the place.
     Distance,

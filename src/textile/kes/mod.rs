@@ -43,6 +43,8 @@ pub(crate) use section::{covered_mm, suggested};
 
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{KesAsk, TextileError};
 use crate::number_table::{NoTable, table_of};
 use crate::unit::{LengthUnit, Unit};
@@ -73,7 +75,7 @@ pub struct KesOptions {
 }
 
 /// What a file holds: an axis, and one way along it or whatever its columns say.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KesPlace {
     /// Warp or weft.
     pub axis: TextileAxis,
@@ -82,7 +84,7 @@ pub struct KesPlace {
 }
 
 /// How the rows of a return stroke follow one another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ReturnOrder {
     /// As they were measured, from the turn back.
     Travel,

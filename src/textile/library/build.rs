@@ -87,7 +87,10 @@ fn six_digits(x: f64) -> f64 {
 }
 
 /// The files of a textile of a library, as they are; recipes of a file are built.
-pub(crate) fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+///
+/// # Errors
+/// An unknown id; a file that is missing or wrong.
+pub fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
     let store = from.files_of(id)?;
     let manifest = read_manifest(&store, id)?;
     let mut names = content_names(&manifest);

@@ -1,4 +1,11 @@
-//! The ids of textiles: names of folders everywhere.
+//! The ids of textiles: names of folders everywhere, and of textiles in other libraries.
+
+use std::path::Path;
+
+use super::recipe_file::SEVENTY_FOUR;
+
+/// What the library of the sixteen is called in the id of a textile.
+pub(crate) const SIXTEEN: &str = "sixteen";
 
 /// Letters that an id may have at most.
 const MAX_LETTERS: usize = 64;
@@ -10,6 +17,21 @@ pub fn nth_id(id: &str, nth: usize, n: usize) -> String {
     } else {
         id.to_owned()
     }
+}
+
+/// The library and the id there, of an id that names a textile of another library.
+///
+/// `seventy-four:serge`, `./own/textiles:serge`: only libraries of the program and paths are
+/// libraries here; a colon in any other id means nothing.
+pub fn elsewhere(id: &str) -> Option<(&Path, &str)> {
+    let (library, id) = id.rsplit_once(':')?;
+    let is_named = [SIXTEEN, SEVENTY_FOUR].contains(&library);
+    (is_named || library.contains(['/', '\\'])).then_some((Path::new(library), id))
+}
+
+/// The id of a textile of another library, which stands under `id` there.
+pub fn id_in(library: &Path, id: &str) -> String {
+    format!("{}:{id}", library.display())
 }
 
 /// Letters of western European languages and what stands for them in an id.
@@ -44,6 +66,23 @@ pub fn id_of(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_id_names_another_library_only_by_a_path_or_a_name_of_the_program() {
+        let serge = |library: &'static str| Some((Path::new(library), "serge"));
+        for (id, expected) in [
+            ("seventy-four:serge", serge("seventy-four")),
+            ("sixteen:serge", serge("sixteen")),
+            ("/home/a:b/textiles:serge", serge("/home/a:b/textiles")),
+            ("./textiles:serge", serge("./textiles")),
+            ("serge", None),
+            ("wool: 2", None),
+        ] {
+            assert_eq!(elsewhere(id), expected, "{id}");
+        }
+        let id = id_in(Path::new("/a"), "serge");
+        assert_eq!(elsewhere(&id), serge("/a"));
+    }
 
     #[test]
     fn ids_are_words_with_hyphens() {

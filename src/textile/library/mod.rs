@@ -2,9 +2,9 @@
 //!
 //! A library knows its ids; everything else is read when it is asked for.
 
-mod add;
 mod build;
 mod cache;
+mod folder;
 mod id;
 mod index;
 mod parallel;
@@ -13,11 +13,12 @@ mod representatives;
 mod store;
 mod textile;
 
-pub use build::build_library;
 #[cfg(test)]
 pub(crate) use build::index_of;
+pub use build::{build_library, files_of};
 pub use cache::BuildCache;
-pub use id::{id_of, nth_id};
+pub use folder::{Change, LibraryFolder, Version, called};
+pub use id::{elsewhere, id_in, id_of, nth_id};
 #[cfg(test)]
 pub(crate) use recipe_file::SEVENTY_FOUR;
 pub use recipe_file::is_of_the_program;
@@ -34,6 +35,7 @@ use crate::error::TextileError;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::shipped;
 use crate::tactile::Tuning;
+use id::SIXTEEN;
 use index::INDEX;
 pub use index::{Index, IndexEntry};
 use parallel::for_each;
@@ -58,6 +60,8 @@ pub struct Library {
     place: Place,
     ids: Vec<String>,
     index: Option<Index>,
+    /// Where textiles of libraries of recipes are kept that this one is asked for.
+    cache: Option<BuildCache>,
 }
 
 impl Library {
@@ -68,22 +72,37 @@ impl Library {
         Ok(Self::with_index(Store::Shipped, index))
     }
 
-    /// The library that a scene or a person names: `seventy-four`, a file of recipes, or a folder
-    /// of textiles. What is built from recipes is kept in `cache`; without one it is built anew
+    /// The library that a scene or a person names: `sixteen` and `seventy-four` are those of the
+    /// program, others a file of recipes or a folder of textiles.
+    ///
+    /// What is built from recipes is kept in `cache`; without one it is built anew
     /// every time. A folder or file that is called like a library of the program is named
     /// `./seventy-four`.
     pub fn named(name: &Path, cache: Option<&BuildCache>) -> Result<Self, TextileError> {
-        if is_of_the_program(name) {
-            return Ok(Self::of_recipes(Recipes::seventy_four(cache.cloned())?));
+        let library = if is_of_the_program(name) {
+            Self::of_recipes(Recipes::seventy_four(cache.cloned())?)
+        } else if name == Path::new(SIXTEEN) {
+            Self::shipped()?
+        } else if name.is_file() {
+            Self::of_recipes(Recipes::read(name, cache.cloned())?)
+        } else {
+            Self::open(name)?
+        };
+        Ok(library.with_cache(cache))
+    }
+
+    /// The same, with a place for what is built of other libraries.
+    #[must_use]
+    pub fn with_cache(self, cache: Option<&BuildCache>) -> Self {
+        Self {
+            cache: cache.cloned(),
+            ..self
         }
-        if name.is_file() {
-            return Ok(Self::of_recipes(Recipes::read(name, cache.cloned())?));
-        }
-        Self::open(name)
     }
 
     fn of_recipes(recipes: Recipes) -> Self {
         Self {
+            cache: None,
             ids: recipes.ids(),
             index: recipes.index().cloned(),
             place: Place::Recipes(Arc::new(recipes)),
@@ -118,6 +137,7 @@ impl Library {
             place: Place::Files(store),
             ids,
             index: None,
+            cache: None,
         })
     }
 
@@ -130,6 +150,7 @@ impl Library {
             )),
             ids: vec![id.to_owned()],
             index: None,
+            cache: None,
         }
     }
 
@@ -139,6 +160,7 @@ impl Library {
             place: Place::Files(Store::Folder(folder.to_owned())),
             ids: ids.to_vec(),
             index: None,
+            cache: None,
         }
     }
 
@@ -152,6 +174,7 @@ impl Library {
             place: Place::Files(store),
             ids,
             index: Some(index),
+            cache: None,
         }
     }
 
@@ -185,8 +208,12 @@ impl Library {
         matches!(self.place, Place::Files(Store::Shipped))
     }
 
-    /// The manifest of a textile: no profile is read, and nothing is built.
+    /// The manifest of a textile: no profile is read, and nothing is built. Here as elsewhere the
+    /// id may be that of a textile of another library ([`elsewhere`]).
     pub fn manifest(&self, id: &str) -> Result<Manifest, TextileError> {
+        if let Some((library, id)) = self.other_of(id)? {
+            return library.manifest(id);
+        }
         self.check_id(id)?;
         match &self.place {
             Place::Recipes(recipes) => (recipes.manifest(id).cloned())
@@ -197,6 +224,9 @@ impl Library {
 
     /// What a textile looks like, without its surface; `None` if it has no picture.
     pub fn appearance(&self, id: &str) -> Result<Option<Appearance>, TextileError> {
+        if let Some((library, id)) = self.other_of(id)? {
+            return library.appearance(id);
+        }
         let store = self.files_of(id)?;
         let manifest = read_manifest(&store, id)?;
         read_appearance(&store, id, &manifest)
@@ -207,7 +237,11 @@ impl Library {
     /// # Errors
     /// An unknown id, a file that is missing, wrong or has vanished since the library was opened.
     pub fn load(&self, id: &str) -> Result<Arc<Textile>, TextileError> {
-        Textile::load(&self.files_of(id)?, id).map(Arc::new)
+        let textile = match self.other_of(id)? {
+            Some((library, plain)) => Textile::load(&library.files_of(plain)?, plain)?.known_as(id),
+            None => Textile::load(&self.files_of(id)?, id)?,
+        };
+        Ok(Arc::new(textile))
     }
 
     /// Several textiles, in the order of their ids: on as many threads as the machine has, which
@@ -218,6 +252,14 @@ impl Library {
         progress: &mut Progress<'_>,
     ) -> Result<Vec<Arc<Textile>>, TextileError> {
         for_each(ids, n_threads(), progress, |id| self.load(id))
+    }
+
+    /// The other library that an id names, and the id there; `None` for a textile of this one.
+    fn other_of<'a>(&self, id: &'a str) -> Result<Option<(Self, &'a str)>, TextileError> {
+        match elsewhere(id).filter(|_| !self.ids.iter().any(|own| own == id)) {
+            Some((name, id)) => Ok(Some((Self::named(name, self.cache.as_ref())?, id))),
+            None => Ok(None),
+        }
     }
 
     /// Where the files of a textile are: built, if they were not there.

@@ -14,6 +14,8 @@ use selvedge_foundation::files::{Rgb8Image, decode_png, sha256_hex};
 #[derive(Debug, Clone)]
 pub struct Textile {
     id: String,
+    /// What it is known as, where it is not a textile of the library that was asked.
+    known_as: Option<String>,
     manifest: Manifest,
     surface: Arc<Surface>,
     store: Store,
@@ -52,6 +54,7 @@ impl Textile {
         })?;
         Ok(Self {
             id: id.to_owned(),
+            known_as: None,
             manifest,
             surface: Arc::new(surface),
             store: store.clone(),
@@ -59,9 +62,17 @@ impl Textile {
         })
     }
 
-    /// What scenes call it: the name of its folder.
+    /// The same under the id by which a scene finds it in another library than its own.
+    pub(crate) fn known_as(self, id: &str) -> Self {
+        Self {
+            known_as: Some(id.to_owned()),
+            ..self
+        }
+    }
+
+    /// What scenes call it: the name of its folder, with its library if that is not the scene's.
     pub fn id(&self) -> &str {
-        &self.id
+        self.known_as.as_ref().unwrap_or(&self.id)
     }
 
     /// Its manifest.

@@ -50,6 +50,34 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
     !head.is_empty() && !head.iter().any(is_control)
 }
 
+/// Reads the content of a file as it is meant, asking for what it does not state.
+type Reader = fn(&[u8], &Path, &HeightOptions) -> Result<Reading, FileError>;
+
+/// How files begin, and who reads them.
+const FORMATS: [(&[u8], Reader); 11] = [
+    (b"PK\x03\x04", |bytes, path, _| x3p::read(bytes, path)),
+    (b"DIGITAL SURF", |bytes, path, _| sur::read(bytes, path)),
+    (b"DSCOMPRESSED", |bytes, path, _| sur::read(bytes, path)),
+    (b"GWYP", gwy::read),
+    (gsf::MAGIC, |bytes, path, _| gsf::read(bytes, path)),
+    (NPY_MAGIC, |bytes, path, _| npy::read(bytes, path)),
+    (b"\x89PNG\r\n\x1a\n", image16::read_png),
+    (b"II*\0", image16::read_tiff),
+    (b"MM\0*", image16::read_tiff),
+    (tmd::MAGIC, |bytes, path, _| tmd::read(bytes, path)),
+    (frt::MAGIC, |bytes, path, _| frt::read(bytes, path)),
+];
+
+fn reader_of(bytes: &[u8]) -> Option<Reader> {
+    let found = FORMATS.iter().find(|(magic, _)| bytes.starts_with(magic));
+    found.map(|&(_, reader)| reader)
+}
+
+/// Whether a file begins as one of an instrument that is no text.
+pub(crate) fn is_known(head: &[u8]) -> bool {
+    reader_of(head).is_some()
+}
+
 /// Reads measured heights. `path` only names the file in errors.
 ///
 /// # Errors
@@ -57,24 +85,12 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
 /// be given, no height at all.
 pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
-    let begins = |magic: &[u8]| bytes.starts_with(magic);
-    let reading = match () {
-        () if begins(b"PK\x03\x04") => x3p::read(bytes, path)?,
-        () if begins(b"DIGITAL SURF") || begins(b"DSCOMPRESSED") => sur::read(bytes, path)?,
-        () if begins(b"GWYP") => gwy::read(bytes, path, asked)?,
-        () if begins(gsf::MAGIC) => gsf::read(bytes, path)?,
-        () if begins(NPY_MAGIC) => npy::read(bytes, path)?,
-        () if begins(b"\x89PNG\r\n\x1a\n") => image16::read_png(bytes, path, asked)?,
-        () if begins(b"II*\0") || begins(b"MM\0*") => image16::read_tiff(bytes, path, asked)?,
-        () if begins(tmd::MAGIC) => tmd::read(bytes, path)?,
-        () if begins(frt::MAGIC) => frt::read(bytes, path)?,
-        () if is_text(bytes) => text::read(bytes, path, asked)?,
-        () => {
-            let what = "this is no file of measured heights that is known here";
-            return Err(FileError::whole(path, what, READABLE).into());
-        }
+    let of_text = || is_text(bytes).then_some(text::read as Reader);
+    let Some(reader) = reader_of(bytes).or_else(of_text) else {
+        let what = "this is no file of measured heights that is known here";
+        return Err(FileError::whole(path, what, READABLE).into());
     };
-    reading.finish(path, asked)
+    reader(bytes, path, asked)?.finish(path, asked)
 }
 
 /// Writes a map in the format that the ending of `path` names: `.x3p`, `.gsf`, `.npy`, `.png` or

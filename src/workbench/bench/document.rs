@@ -5,19 +5,27 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use crate::bench::command::edit::{Edit, Target};
 use crate::bench::editing;
-use crate::bench::history::{History, Moment};
-use selvedge_render::scene::{Scene, SceneError};
+use crate::bench::history::{History, Moment, StepList};
+use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
+use selvedge_foundation::files::{keys_from_str, keys_to_string};
+use selvedge_render::scene::{PlacedTextile, Scene, SceneError};
 use selvedge_textile::is_of_the_program;
 use selvedge_textile::tactile::Tuning;
 
+/// What unsaved work is called in errors.
+const WORK: &str = "unsaved work";
+
 /// A scene that is being edited.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Document {
+    path: Option<PathBuf>,
     scene: Scene,
     saved: Scene,
-    path: Option<PathBuf>,
     default_tuning: Tuning,
     history: History<Scene, Target>,
 }
@@ -30,7 +38,7 @@ impl Document {
             scene,
             path,
             default_tuning,
-            history: History::new(),
+            history: History::default(),
         }
     }
 
@@ -47,6 +55,33 @@ impl Document {
     /// Whether it differs from its file.
     pub(crate) fn is_edited(&self) -> bool {
         self.scene != self.saved
+    }
+
+    /// What no file holds of it, with every step.
+    pub(crate) fn unsaved(&self) -> Option<Unsaved> {
+        if !self.is_edited() {
+            return None;
+        }
+        let file = self.path.as_ref();
+        let file = file.map_or_else(String::new, |path| format!(" ({})", path.display()));
+        let steps = self.steps();
+        let n_steps = match steps.n_done {
+            1 => "1 step".to_owned(),
+            n => format!("{n} steps"),
+        };
+        let last = steps
+            .undo()
+            .map_or_else(String::new, |last| format!(", the last: {last}"));
+        Some(Unsaved {
+            name: format!("Scene “{}”{file}", self.scene.name),
+            what: format!("{n_steps}{last}"),
+            work: keys_to_string(self, Path::new(WORK)).unwrap_or_default(),
+        })
+    }
+
+    /// The document of such work.
+    pub(crate) fn from_work(work: &str) -> Result<Self, String> {
+        keys_from_str(work, Path::new(WORK)).map_err(|error| error.to_string())
     }
 
     /// The tuning of a scene that states none.
@@ -76,38 +111,39 @@ impl Document {
         Ok(())
     }
 
-    /// Takes the last step back.
-    pub(crate) fn undo(&mut self) -> Option<&'static str> {
-        self.history.undo(&mut self.scene)
+    /// The steps that led to the scene as it is.
+    pub(crate) fn steps(&self) -> StepList {
+        self.history.steps(&self.scene)
+    }
+
+    /// The pane that shows what lies between the scene as it is and as it was after so many steps.
+    pub(crate) fn pane_of(&self, n_done: usize) -> Option<Pane> {
+        let there = self.history.state_after(n_done, &self.scene)?;
+        let lies = |scene: &Scene| -> Vec<PlacedTextile> {
+            let bare = |cloth: &PlacedTextile| PlacedTextile {
+                gain_db: 0.0,
+                ..cloth.clone()
+            };
+            scene.textiles.iter().map(bare).collect()
+        };
+        let is_moved = lies(there) != lies(&self.scene);
+        Some(if is_moved {
+            Pane::Workspace
+        } else {
+            Pane::Tuning
+        })
+    }
+
+    /// Takes steps back or brings them again until so many are done.
+    pub(crate) fn step_to(&mut self, n_done: usize) {
+        self.history.step_to(n_done, &mut self.scene);
     }
 
     /// Takes the last step back for good: it turned out to be impossible.
     pub(crate) fn take_back(&mut self) {
-        self.history.undo(&mut self.scene);
+        let n_done = self.steps().n_done;
+        self.step_to(n_done.saturating_sub(1));
         self.history.forget_undone();
-    }
-
-    /// Brings the last undone step back.
-    pub(crate) fn redo(&mut self) -> Option<&'static str> {
-        self.history.redo(&mut self.scene)
-    }
-
-    /// What undo would take back.
-    pub(crate) fn undo_name(&self) -> Option<&'static str> {
-        self.history.undo_name(&self.scene)
-    }
-
-    /// What redo would bring back.
-    pub(crate) fn redo_name(&self) -> Option<&'static str> {
-        self.history.redo_name()
-    }
-
-    /// Takes textiles from the library in `folder`, which has all that there were before: in every
-    /// state that undo and redo can bring back as well.
-    pub(crate) fn use_library(&mut self, folder: &Path) {
-        self.scene.library = Some(folder.to_owned());
-        self.history
-            .change_all(|scene| scene.library = Some(folder.to_owned()));
     }
 
     /// Writes the scene to `path`, which is its place from now on.
@@ -125,9 +161,13 @@ impl Document {
                 }
                 std::path::absolute(&folder).unwrap_or(folder)
             });
+            for reference in &mut scene.recordings {
+                reference.path = reference.place(Some(old));
+            }
         }
         scene.write(path)?;
         self.scene.library.clone_from(&scene.library);
+        self.scene.recordings.clone_from(&scene.recordings);
         self.saved = self.scene.clone();
         self.path = Some(path.to_owned());
         Ok(())
@@ -139,7 +179,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use selvedge_render::scene::PlacedTextile;
     use selvedge_scratch::ScratchFolder;
     use selvedge_textile::tactile::Band;
 
@@ -192,7 +231,8 @@ mod tests {
         let tuning = document.tuning();
         assert_eq!((tuning.gain_db, tuning.compression), (-3.0, 0.5));
         assert!(document.is_edited(), "a changed tuning is an edit");
-        assert_eq!(document.undo(), Some("compression"));
+        assert_eq!(document.steps().undo(), Some("compression"));
+        document.step_to(0);
         assert_eq!(document.scene().tuning, None);
         assert!(!document.is_edited(), "undone");
     }
@@ -205,7 +245,7 @@ mod tests {
         }
         document.edit(&Edit::TextileGain(7, 3.0), at(2)).unwrap();
         assert!(!document.is_edited(), "nothing changed");
-        assert_eq!(document.undo(), None);
+        assert_eq!(document.steps().undo(), None);
     }
 
     #[test]
@@ -217,23 +257,8 @@ mod tests {
         document.save_as(&path).unwrap();
         assert!(!document.is_edited(), "saved");
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
-        document.undo();
+        document.step_to(0);
         assert!(document.is_edited(), "undone after saving");
-    }
-
-    #[test]
-    fn a_library_that_takes_over_is_there_in_every_state_of_undo() {
-        let mut document = document();
-        document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
-        document.edit(&Edit::MasterGain(1.0), at(2)).unwrap();
-        document.undo();
-        let own = Path::new("/own/textiles");
-        document.use_library(own);
-        assert!(document.is_edited(), "the file names another");
-        for step in [Document::undo, Document::redo, Document::redo] {
-            assert!(step(&mut document).is_some());
-            assert_eq!(document.scene().library.as_deref(), Some(own));
-        }
     }
 
     #[test]
@@ -275,9 +300,10 @@ mod tests {
                 document.edit(&edit, at(press)).unwrap();
             }
             let last = document.scene().clone();
-            while document.undo().is_some() {}
+            let n_done = document.steps().n_done;
+            document.step_to(0);
             prop_assert_eq!(document.scene(), &first);
-            while document.redo().is_some() {}
+            document.step_to(n_done);
             prop_assert_eq!(document.scene(), &last);
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
-use crate::bench::document::Document;
 use crate::bench::preparing::Ready;
 use crate::bench::{Bench, editing, preparing};
 
@@ -11,6 +10,7 @@ use selvedge_render::scene::Scene;
 impl Bench {
     pub(crate) fn edit(&mut self, edit: &Edit) {
         let before = self.document.scene().clone();
+        self.library.acts.is_last = false;
         if let Err(error) = self.document.edit(edit, self.pointer.moment) {
             self.notices.give(error.to_string());
         }
@@ -23,9 +23,10 @@ impl Bench {
         self.follow(&before);
     }
 
-    pub(crate) fn step_history(&mut self, step: fn(&mut Document) -> Option<&'static str>) {
+    /// Takes steps of the scene back or brings them again until so many are done.
+    pub(crate) fn step_to(&mut self, n_done: usize) {
         let before = self.document.scene().clone();
-        step(&mut self.document);
+        self.document.step_to(n_done);
         self.follow(&before);
     }
 
@@ -59,6 +60,16 @@ impl Bench {
             Some(outcome) => self.take_prepared(outcome),
             None => self.poll_prepared(),
         }
+    }
+
+    /// Feels textiles anew that stand otherwise in their library now, if they lie in the scene.
+    pub(crate) fn render_anew(&mut self, ids: &[String]) {
+        let scene = self.document.scene();
+        if !scene.textiles.iter().any(|cloth| ids.contains(&cloth.id)) {
+            return;
+        }
+        self.engine_scene.loaded.forget(ids);
+        self.feel_document();
     }
 
     /// Lets the document's scene be felt again after something else was.

@@ -43,6 +43,15 @@ pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
                 scene.textiles.push(raised);
             }
         }
+        Edit::Recording(reference) => {
+            let before = scene.recordings.len();
+            scene
+                .recordings
+                .retain(|known| known.path != reference.path);
+            if scene.recordings.len() == before {
+                scene.recordings.push(reference.clone());
+            }
+        }
         Edit::TextileGain(index, _)
         | Edit::MoveCloth(index, _)
         | Edit::TurnCloth(index, _)

@@ -7,9 +7,8 @@ use crate::bench::Bench;
 use crate::bench::background::{Task, finished};
 use crate::bench::clips::{ClipsView, ending, said};
 use crate::bench::opening::{Opened, Origin, open};
-use crate::bench::recording::Recording;
+use crate::bench::settings::own_documents;
 use selvedge_engine::{ClipKind, ClipWriter, write_clip};
-use selvedge_render::scene::ExplorationPath;
 use selvedge_render::{RenderScene, Replay};
 
 impl Bench {
@@ -18,11 +17,8 @@ impl Bench {
         if let Some(outcome) = finished(&mut self.files.opening) {
             self.take_opened(outcome);
         }
-        if let Some(outcome) = finished(&mut self.files.reading) {
-            self.take_read(outcome);
-        }
         if let Some(outcome) = finished(&mut self.files.saving) {
-            self.take_saved(outcome);
+            self.notices.give(outcome.unwrap_or_else(|line| line));
         }
     }
 
@@ -39,66 +35,40 @@ impl Bench {
 
     /// Takes a scene that was opened; when it was not, says why and keeps the last one.
     fn take_opened(&mut self, outcome: Result<Box<Opened>, String>) {
+        let restoring = self.files.restoring.take();
         match outcome {
             Ok(opened) => {
                 if let Some(path) = &opened.path {
                     self.settings.preferences.remember_scene(path);
                 }
                 self.show_scene(*opened);
+                if let Some(document) = restoring {
+                    self.document = document;
+                }
             }
-            Err(line) => self.notices.give(line),
+            Err(line) => {
+                if restoring.is_some() {
+                    self.files.recovery.put_off();
+                }
+                self.notices.give(line);
+            }
         }
     }
 
-    /// Opens a recorded exploration.
-    pub(crate) fn open_recording(&mut self, path: PathBuf) {
-        let task = self.executor.start("selvedge-recording", move |_| {
-            let found = ExplorationPath::read(&path);
-            let take = found.map(|found| Recording::from_path(path, found));
-            take.map_err(|error| error.to_string())
-        });
-        self.files.reading = Some(task);
-        self.take_files();
-    }
-
-    /// Takes an exploration that was read: it is replayed next.
-    fn take_read(&mut self, outcome: Result<Recording, String>) {
-        match outcome {
-            Ok(take) => {
-                self.exploration.at_hand = Some(take);
-                self.replay();
-            }
-            Err(line) => self.notices.give(line),
-        }
-    }
-
-    /// Saves the recording at hand.
+    /// Exports the path of the recording at hand.
     pub(crate) fn save_recording(&mut self, path: PathBuf) {
         let Some(take) = self.exploration.at_hand.clone() else {
-            let words = "There is no recording to save; record one first";
+            let words = "There is no recording to export; record one first";
             return self.notices.give(words);
         };
+        self.files.clips.last = path.parent().map(Path::to_owned);
         let task = self.executor.start("selvedge-save", move |_| {
             let written = take.path().write(&path);
-            let saved = written.map(|()| take.saved_as(path));
-            saved.map_err(|error| error.to_string())
+            written.map_err(|error| error.to_string())?;
+            Ok(format!("{} is written", path.display()))
         });
         self.files.saving = Some(task);
         self.take_files();
-    }
-
-    /// Takes the news that a recording was saved.
-    fn take_saved(&mut self, outcome: Result<Recording, String>) {
-        match outcome {
-            Ok(saved) => {
-                // Another exploration may have been recorded meanwhile.
-                let is_same = |take: &Recording| Arc::ptr_eq(take.path(), saved.path());
-                if self.exploration.at_hand.as_ref().is_some_and(is_same) {
-                    self.exploration.at_hand = Some(saved);
-                }
-            }
-            Err(line) => self.notices.give(line),
-        }
     }
 
     /// Lets the recording at hand move the display; it waits at its first tick.
@@ -125,27 +95,37 @@ impl Bench {
         }
     }
 
-    /// Where a file is expected to go: where the last one did, else beside the recording or scene.
+    /// Where a file is expected to go, with its folder.
     pub(crate) fn clip_path(&self, kind: ClipKind) -> PathBuf {
-        let name = self
-            .exploration
-            .at_hand
-            .as_ref()
-            .map_or("recording", |take| take.name());
-        let beside = self
-            .exploration
-            .at_hand
-            .as_ref()
-            .and_then(|take| take.file());
+        match kind {
+            ClipKind::Frames => self.export_path_of(" frames", ending(kind)),
+            _ => self.export_path_of("", ending(kind)),
+        }
+    }
+
+    /// Where the path of the recording at hand is expected to go.
+    pub(crate) fn path_file(&self) -> PathBuf {
+        self.export_path_of("", "csv")
+    }
+
+    fn export_path_of(&self, what: &str, ending: &str) -> PathBuf {
+        let take = self.exploration.at_hand.as_ref();
+        let name = take.map_or("recording", |take| take.name());
+        let stem = format!("{name}{what}")
+            .to_lowercase()
+            .replace([' ', '/', '\\'], "-");
+        self.export_folder().join(format!("{stem}.{ending}"))
+    }
+
+    /// Where exports go: where the last one did, else beside the recording or scene, else where the
+    /// user keeps documents.
+    pub(crate) fn export_folder(&self) -> PathBuf {
+        let take = self.exploration.at_hand.as_ref();
+        let beside = take.and_then(|take| take.file());
         let beside = beside.or_else(|| self.document.path().map(PathBuf::as_path));
         let last = self.files.clips.last.as_deref();
         let folder = last.or_else(|| beside.and_then(Path::parent));
-        let stem = match kind {
-            ClipKind::Frames => format!("{name} frames"),
-            _ => name.to_owned(),
-        };
-        let file = format!("{}.{}", stem.to_lowercase().replace(' ', "-"), ending(kind));
-        folder.map_or_else(|| PathBuf::from(&file), |folder| folder.join(&file))
+        folder.map_or_else(own_documents, Path::to_owned)
     }
 
     /// Renders the recording into a file; one at a time.

@@ -18,12 +18,17 @@ const SMALLEST_MM: f64 = 20.0;
 /// An upright rectangle: low and high end along x and along y, mm.
 type Upright = [[f64; 2]; 2];
 
-/// The side of `n` new textiles, mm, and the middle of each. Where there is no room for them at a
-/// useful size, they lie side by side on top of what is there.
+/// The side of `n` new textiles, mm, and the middle of each.
+///
+/// Where there is no room for them at a useful size, they lie side by side on top of what is there:
+/// of what lies lowest, as long as that leaves room, so that the last one is not covered.
 pub(crate) fn free_places(scene: &Scene, n: usize) -> (f64, Vec<Point>) {
     let taken: Vec<Upright> = scene.textiles.iter().map(upright).collect();
     let [largest_mm, _] = new_size_mm(scene.size_mm);
-    for covered in [taken.as_slice(), &[]] {
+    let halves = std::iter::successors(Some(1), |n| Some(2 * n));
+    let lowest = halves.take_while(|n| *n < taken.len());
+    let tried = std::iter::once(0).chain(lowest).chain([taken.len()]);
+    for covered in tried.map(|n| &taken[n..]) {
         let smallest_mm = if covered.is_empty() {
             LEAST_SIDE_MM
         } else {
@@ -138,6 +143,30 @@ mod tests {
             assert_eq!(middles.len(), n);
             assert!(side_mm >= SMALLEST_MM, "{n}: {side_mm}");
             assert!(is_clear(&scene, side_mm, &middles), "{n}: {middles:?}");
+        }
+    }
+
+    #[test]
+    fn in_a_full_workspace_the_last_textile_is_not_covered_by_the_next() {
+        let mut scene = LoadedScene::shipped().unwrap().scene().clone();
+        let whole = scene.size_mm.map(|mm| 0.5 * mm);
+        for (nth, cloth) in scene.textiles.iter_mut().enumerate() {
+            let at = [nth % 2, nth / 2].map(|half| half as f64);
+            cloth.origin_mm = Point::new(at[0] * whole[0], at[1] * whole[1]);
+            cloth.size_mm = whole;
+            cloth.rotation_deg = 0.0;
+        }
+        for _ in 0..2 {
+            let (side_mm, middles) = free_places(&scene, 1);
+            let last = scene.textiles.pop().unwrap();
+            scene.textiles = vec![last.clone()];
+            assert!(is_clear(&scene, side_mm, &middles), "{middles:?}");
+            let half = side_mm / 2.0;
+            scene.textiles.push(PlacedTextile {
+                origin_mm: Point::new(middles[0].x_mm - half, middles[0].y_mm - half),
+                size_mm: [side_mm; 2],
+                ..last
+            });
         }
     }
 

@@ -1,21 +1,18 @@
-//! New textiles from the window: kept in the scene's library, and felt if that is wanted.
+//! New textiles from the window: kept in a library, and felt if that is wanted.
 //!
-//! A library that is part of the program cannot take any. Then the user's own folder takes them: it
-//! begins as a copy of that library, and the scene uses it from then on, with all it had.
+//! A scene with a folder of textiles of its own keeps them there, any other in the user's own
+//! library. Where a textile with the same name or id is there already, somebody decides.
 
-use std::collections::VecDeque;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::bench::background::{Executor, Task};
+use crate::bench::library_shelf::plain_id;
 use crate::bench::view::LibraryEntry;
-use selvedge_foundation::progress::Progress;
-use selvedge_textile::{BuiltFile, Library, TextileError, n_threads};
+use selvedge_textile::BuiltFile;
 
 /// A textile that was made in the window and lies in no folder yet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NewTextile {
-    /// The id that it is wished to have; the next free one is taken when there is such a textile.
+    /// The id that it is wished to have.
     pub id: String,
     /// Its name.
     pub name: String,
@@ -23,117 +20,93 @@ pub(crate) struct NewTextile {
     pub files: Vec<BuiltFile>,
 }
 
-/// What can be done with new textiles.
+/// What is done with new textiles.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Keep {
-    /// Keep them in the library.
-    Save(Arc<Vec<NewTextile>>),
-    /// Keep them, and lay the first under the display.
-    Feel(Arc<Vec<NewTextile>>),
+pub(crate) struct Keep {
+    /// They.
+    pub(crate) textiles: Arc<Vec<NewTextile>>,
+    /// Whether the first is laid into the scene.
+    pub(crate) is_felt: bool,
+    /// What is done where a textile with the same name or id is there; `None` asks.
+    pub(crate) when_taken: Option<WhenTaken>,
+}
+
+/// What is done with a new textile whose name or id is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum WhenTaken {
+    /// It takes the place of the one that is there, which stays as a version.
+    Replace,
+    /// Both stay; the new one gets a number.
+    KeepBoth,
+}
+
+/// New textiles that wait for an answer.
+#[derive(Debug, Clone)]
+pub(crate) struct Taken {
+    /// What was wanted.
+    pub(crate) keep: Keep,
+    /// Name and id of those that are there, in the order of the new ones.
+    pub(crate) there: Vec<[String; 2]>,
+    /// The library, as people call it.
+    pub(crate) home: Arc<str>,
+}
+
+/// Where a new textile goes: the id that it gets or is wished to have, its name, and whether it
+/// takes the place of the one with that id.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) id: String,
+    pub(crate) name: String,
+    pub(crate) replaces: bool,
 }
 
 impl Keep {
     /// Of textiles that are to be felt, or not.
     pub(crate) fn of(textiles: Arc<Vec<NewTextile>>, is_felt: bool) -> Self {
-        if is_felt {
-            Self::Feel(textiles)
-        } else {
-            Self::Save(textiles)
+        Self {
+            textiles,
+            is_felt,
+            when_taken: None,
         }
     }
-}
 
-/// Textiles that were kept.
-#[derive(Debug)]
-pub(crate) struct Kept {
-    /// The library that has them now.
-    pub library: Arc<Library>,
-    /// Its textiles.
-    pub(crate) library_view: Vec<LibraryEntry>,
-    /// Its folder.
-    pub folder: PathBuf,
-    /// The library that the window had when this was asked for.
-    pub before: PathBuf,
-    /// The ids that the new ones got.
-    pub ids: Vec<String>,
-    /// Whether the first is to be felt.
-    pub(crate) is_to_feel: bool,
-}
-
-/// Keeps textiles, one wish at a time.
-#[derive(Debug, Default)]
-pub(crate) struct Keeping {
-    pub(crate) task: Option<Task<Kept>>,
-    pub(crate) next: VecDeque<Keep>,
-    /// The folder that holds the user's own libraries; a stepped window has none.
-    pub(crate) own_folder: Option<PathBuf>,
-}
-
-impl Keeping {
-    /// Begins to keep textiles in `library`, or queues the wish.
-    ///
-    /// # Errors
-    /// There is no folder for them.
-    pub(crate) fn ask(
-        &mut self,
-        keep: Keep,
-        library: &Arc<Library>,
-        executor: &Executor,
-    ) -> Result<(), String> {
-        if self.task.is_some() {
-            self.next.push_back(keep);
-            return Ok(());
-        }
-        let folder = self.folder_for(library)?;
-        let library = Arc::clone(library);
-        self.task = Some(executor.start("selvedge-keep", move |progress| {
-            let kept = keep_in(&library, folder, &keep, progress);
-            kept.map_err(|error| error.to_string())
-        }));
-        Ok(())
+    /// Name and id of the textiles of a library in whose way the new ones are.
+    pub(crate) fn taken(&self, items: &[LibraryEntry]) -> Vec<[String; 2]> {
+        let there = |new: &NewTextile| alike(new, items);
+        let all = self.textiles.iter().filter_map(there);
+        all.map(|item| [item.name.clone(), plain_id(&item.id).to_owned()])
+            .collect()
     }
 
-    /// Where this library keeps new textiles: in its own folder, if it is one.
-    fn folder_for(&self, library: &Library) -> Result<PathBuf, String> {
-        let root = library.root();
-        if root.is_dir() {
-            return Ok(root);
-        }
-        let Some(own) = &self.own_folder else {
-            let words = "This system has no folder for a user's files; save the scene with a \
-                         library folder of its own, then keep the textile";
-            return Err(words.to_owned());
+    /// Where each goes among the textiles of a library.
+    pub(crate) fn places(&self, items: &[LibraryEntry]) -> Vec<Place> {
+        let place = |new: &NewTextile| match (alike(new, items), self.when_taken) {
+            (Some(item), Some(WhenTaken::Replace)) => Place {
+                id: plain_id(&item.id).to_owned(),
+                name: new.name.clone(),
+                replaces: true,
+            },
+            _ => Place {
+                id: new.id.clone(),
+                name: free_name(&new.name, items),
+                replaces: false,
+            },
         };
-        let name = match root.file_stem() {
-            Some(stem) if !library.is_shipped() => Path::new(stem).to_owned(),
-            _ => PathBuf::from("textiles"),
-        };
-        Ok(own.join(name))
+        self.textiles.iter().map(place).collect()
     }
 }
 
-fn keep_in(
-    library: &Library,
-    folder: PathBuf,
-    keep: &Keep,
-    progress: &mut Progress<'_>,
-) -> Result<Kept, TextileError> {
-    let (new, is_to_feel) = match keep {
-        Keep::Save(new) => (new, false),
-        Keep::Feel(new) => (new, true),
-    };
-    let textiles: Vec<(String, Vec<BuiltFile>)> = new
-        .iter()
-        .map(|new| (new.id.clone(), new.files.clone()))
-        .collect();
-    let before = library.root();
-    let (library, ids) = library.add(&textiles, &folder, n_threads(), progress)?;
-    Ok(Kept {
-        library_view: crate::bench::library_view::items_of(&library),
-        library: Arc::new(library),
-        folder,
-        before,
-        ids,
-        is_to_feel,
-    })
+/// The textile of a library that has the id or the name of a new one.
+fn alike<'a>(new: &NewTextile, items: &'a [LibraryEntry]) -> Option<&'a LibraryEntry> {
+    let has_id = |item: &&LibraryEntry| plain_id(&item.id) == new.id;
+    let has_name = |item: &&LibraryEntry| item.name == new.name;
+    (items.iter().find(has_id)).or_else(|| items.iter().find(has_name))
+}
+
+/// The name, or the first of `NAME 2`, `NAME 3`, … that no textile of the library has.
+pub(crate) fn free_name(name: &str, items: &[LibraryEntry]) -> String {
+    let is_free = |name: &String| items.iter().all(|item| item.name != *name);
+    let with_number = |n: usize| format!("{name} {n}");
+    let mut names = std::iter::once(name.to_owned()).chain((2..=items.len() + 2).map(with_number));
+    names.find(is_free).unwrap_or_else(|| name.to_owned())
 }

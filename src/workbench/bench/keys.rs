@@ -89,13 +89,13 @@ fn file_keys() -> Vec<Shortcut> {
         file(
             CTRL,
             Key::R,
-            "Open a recording…",
+            "Open a path to replay…",
             ask(Purpose::OpenRecording),
         ),
         file(
             CTRL,
             Key::E,
-            "Save the recording…",
+            "Export the path of the recording…",
             ask(Purpose::SaveRecording),
         ),
         file(CTRL, Key::W, "Close the window", FileCommand::Close),

@@ -21,9 +21,11 @@ pub(crate) mod history;
 pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod latest;
-pub(crate) mod library_change;
+pub(crate) mod library_acts;
 pub(crate) mod library_selection;
+pub(crate) mod library_shelf;
 pub(crate) mod library_view;
+pub(crate) mod library_work;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
 pub(crate) mod notices;
@@ -38,6 +40,8 @@ pub(crate) mod preparing;
 pub(crate) mod probe;
 pub(crate) mod query;
 pub(crate) mod recording;
+pub(crate) mod recordings;
+pub(crate) mod recovery;
 pub(crate) mod rendering;
 pub(crate) mod scene_views;
 pub(crate) mod selection;
@@ -58,7 +62,7 @@ use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
-use crate::bench::keep::Keeping;
+use crate::bench::library_acts::LibraryActs;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
@@ -66,8 +70,12 @@ use crate::bench::notices::Notices;
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
+use crate::bench::recording::Recordings;
+use crate::bench::recovery::Recovery;
 use crate::bench::selection::Selection;
-use crate::bench::settings::{Settings, own_arrays, own_libraries, session_log};
+use crate::bench::settings::{
+    Settings, own_arrays, own_libraries, own_recordings, own_work, session_log,
+};
 use crate::bench::state::{
     DeviceState, EngineScene, Exploration, Files, InspectionCache, LibraryState, Past,
     PointerState, SessionState,
@@ -189,7 +197,7 @@ impl Bench {
                 view: LibraryView::new(library, opened.library_view),
                 dots: Vec::new(),
                 selection: LibrarySelection::default(),
-                keeping: Keeping::default(),
+                acts: LibraryActs::default(),
             },
             exploration: Exploration::default(),
             files: Files::default(),
@@ -209,9 +217,15 @@ impl Bench {
     /// Takes up the settings and whatever else a new window begins with.
     fn begin(&mut self, complaint: Option<String>) {
         if !self.is_stepped() {
-            self.library.keeping.own_folder = own_libraries();
+            self.library.acts.own_folder = own_libraries();
             self.log_links();
             self.read_arrays();
+            if let Some(root) = own_recordings() {
+                self.exploration.recordings = Recordings::in_folder(root);
+            }
+            if let Some(root) = own_work() {
+                self.files.recovery = Recovery::in_folder(root);
+            }
         }
         if let Some(complaint) = complaint {
             self.notices.give(complaint);
@@ -281,6 +295,7 @@ impl Bench {
         self.send(Command::SetContactorMask(Vec::new()));
         self.scene_has_changed();
         self.send_gains();
+        self.open_own_library();
     }
 
     /// What depends on the textiles and where they lie is made anew.

@@ -15,7 +15,7 @@ impl Bench {
             self.step_engine(ctx);
         }
         self.take_files();
-        self.poll_kept();
+        self.poll_library();
         self.poll_clips();
         self.poll_sources();
         if let Some(failure) = self.files.folders.poll() {
@@ -24,7 +24,7 @@ impl Bench {
         self.poll_prepared();
         self.take_notices();
         self.take_snapshot(ctx);
-        self.exploration.ended = self.engine.take_recording();
+        self.poll_recordings();
         self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \

@@ -26,6 +26,8 @@ pub(crate) enum Origin {
     Shipped,
     /// A file.
     File(PathBuf),
+    /// The text of a scene that was not saved, and its file if it has one.
+    Restored(String, Option<PathBuf>),
 }
 
 /// A scene that is ready to be shown and felt.
@@ -51,6 +53,12 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
         Origin::New => LoadedScene::from_toml(EMPTY, Path::new("new scene"))?,
         Origin::Shipped => LoadedScene::shipped()?,
         Origin::File(path) => LoadedScene::read(path, build_cache().as_ref())?,
+        Origin::Restored(text, path) => {
+            let path = path
+                .as_deref()
+                .unwrap_or_else(|| Path::new("unsaved scene"));
+            LoadedScene::from_text(text, path, build_cache().as_ref())?
+        }
     };
     let mut cache = TableCache::default();
     let accuracy = rendering.accuracy();
@@ -58,12 +66,13 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
     Ok(Opened {
         path: match origin {
             Origin::File(path) => Some(path),
+            Origin::Restored(_, path) => path,
             Origin::New | Origin::Shipped => None,
         },
         prepared,
         rendering,
         cache,
-        library_view: crate::bench::library_view::items_of(loaded.library()),
+        library_view: crate::bench::library_shelf::items_of(loaded.library(), None),
         loaded,
     })
 }

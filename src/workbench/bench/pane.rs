@@ -34,6 +34,8 @@ panes! {
     Workspace: "Workspace", "Workspace", 376.0, true;
     /// The textiles of the library and of the scene.
     Library: "Library", "Library", 0.0, false;
+    /// Recorded explorations.
+    Recordings: "Recordings", "Recordings", 0.0, false;
     /// Gains, compression, filters.
     Tuning: "Tuning", "Tuning", 0.0, true;
     /// The device.

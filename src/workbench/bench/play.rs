@@ -2,7 +2,6 @@
 
 use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
-use crate::bench::recording::Recording;
 use crate::bench::view::Source;
 use selvedge_engine::InputSource;
 use selvedge_foundation::geometry::Point;
@@ -33,11 +32,7 @@ impl Bench {
             PlayCommand::ToggleLoop => {
                 self.dispatch_play(PlayCommand::Loop(!self.exploration.does_loop));
             }
-            PlayCommand::ToggleRecording => self.send(if self.live.play.is_recording {
-                selvedge_engine::Command::StopRecording
-            } else {
-                selvedge_engine::Command::StartRecording
-            }),
+            PlayCommand::ToggleRecording => self.toggle_recording(),
             PlayCommand::Turn(by_deg) => self.send(selvedge_engine::Command::TurnBy(by_deg)),
             PlayCommand::TurnBack => self.send(selvedge_engine::Command::SetAngle(0.0)),
         }
@@ -85,17 +80,6 @@ impl Bench {
             stroke,
         )));
         self.send(selvedge_engine::Command::Play);
-    }
-
-    /// Takes a recording that has ended and that no tool has taken: it can be replayed and saved.
-    pub(crate) fn take_recording(&mut self) {
-        let Some(recording) = self.exploration.ended.take() else {
-            return;
-        };
-        // A recording that ended before its first tick is none.
-        if let Ok(take) = Recording::from_recording(&recording) {
-            self.exploration.at_hand = Some(take);
-        }
     }
 }
 

@@ -64,8 +64,7 @@ impl Preparing {
             self.next = Some(scene);
             return None;
         }
-        let is_known = |id: &str| loaded.textiles().iter().any(|known| known.id() == id);
-        let is_loaded = scene.textiles.iter().all(|cloth| is_known(&cloth.id));
+        let is_loaded = scene.textiles.iter().all(|cloth| loaded.knows(&cloth.id));
         let is_quick = is_loaded
             && scene.filters == loaded.scene().filters
             && rendering == std::mem::replace(&mut self.rendering, rendering);

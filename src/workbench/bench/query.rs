@@ -53,8 +53,6 @@ pub(crate) fn scene_view(
         filters: scene.filters,
         grid: display.and_then(|display| display.geometry.grid()),
         library: library.to_vec(),
-        undo: document.undo_name(),
-        redo: document.redo_name(),
         marks: Marks::default(),
         picked: Arc::default(),
     }

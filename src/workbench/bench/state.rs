@@ -6,15 +6,18 @@ use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
 use crate::bench::background::Task;
 use crate::bench::clips::Clips;
+use crate::bench::document::Document;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
-use crate::bench::keep::Keeping;
+use crate::bench::library_acts::LibraryActs;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
 use crate::bench::opening::Opened;
+use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
 use crate::bench::query::IntervalMeter;
-use crate::bench::recording::Recording;
+use crate::bench::recording::{Recording, Recordings};
+use crate::bench::recovery::Recovery;
 use crate::bench::rendering::Rendering;
 use crate::bench::session::SessionInSight;
 use crate::bench::signals::history::History;
@@ -65,16 +68,16 @@ impl InspectionCache {
     }
 }
 
-/// The scene's library.
+/// The libraries.
 pub(crate) struct LibraryState {
-    /// Its textiles, and their pictures as far as they were wanted.
+    /// Their textiles, and their pictures as far as they were wanted.
     pub(crate) view: LibraryView,
     /// Those with a level.
     pub(crate) dots: Vec<LibraryDot>,
     /// Those that are selected.
     pub(crate) selection: LibrarySelection,
-    /// New ones on their way.
-    pub(crate) keeping: Keeping,
+    /// What was done with libraries.
+    pub(crate) acts: LibraryActs,
 }
 
 /// Explorations: where positions come from, and the one that can be replayed.
@@ -82,10 +85,10 @@ pub(crate) struct LibraryState {
 pub(crate) struct Exploration {
     /// Tablets, and other programs that joined.
     pub(crate) sources: Sources,
-    /// The exploration that can be replayed.
+    /// All recordings.
+    pub(crate) recordings: Recordings,
+    /// The one that can be replayed.
     pub(crate) at_hand: Option<Recording>,
-    /// A recording that has just ended, until a tool takes it or it becomes the one at hand.
-    pub(crate) ended: Option<selvedge_engine::Recording>,
     /// Whether it is replayed again and again.
     pub(crate) does_loop: bool,
 }
@@ -95,10 +98,12 @@ pub(crate) struct Exploration {
 pub(crate) struct Files {
     /// A scene on its way.
     pub(crate) opening: Option<Task<Box<Opened>>>,
-    /// A recorded exploration on its way.
-    pub(crate) reading: Option<Task<Recording>>,
-    /// A recorded exploration on its way into a file.
-    pub(crate) saving: Option<Task<Recording>>,
+    /// Work that no file holds, kept against a crash.
+    pub(crate) recovery: Recovery,
+    /// The document that becomes the scene once its textiles are there.
+    pub(crate) restoring: Option<Document>,
+    /// A path on its way into a file.
+    pub(crate) saving: Option<Task<String>>,
     /// A file for other programs on its way.
     pub(crate) clips: Clips,
     /// Folders that the desktop is asked to show.
@@ -138,6 +143,8 @@ pub(crate) struct Past {
 pub(crate) struct PointerState {
     /// The gesture that edits belong to.
     pub(crate) moment: Moment,
+    /// The pane that was pressed or brought to the front last: undo acts on what it shows.
+    pub(crate) pane_in_use: Option<Pane>,
     /// The part of the screen where it felt last, points.
     pub(crate) ground: Option<Rect>,
 }

@@ -17,7 +17,9 @@ use eframe::egui::{Context, Ui};
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Purpose};
 use crate::bench::export::Exported;
+use crate::bench::history::StepList;
 use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::view::SceneView;
 use crate::kit::view_transform::PointerGround;
@@ -58,6 +60,14 @@ pub(crate) trait Tool: Any {
     /// Does its part of what the user wants; every tool hears every command.
     fn command(&mut self, _command: &Command, _bench: &mut Bench) {}
 
+    /// Its own steps: undo acts on them while a pane of its is in use. `None`: on the scene's.
+    fn steps(&self, _bench: &Bench) -> Option<StepList> {
+        None
+    }
+
+    /// Takes steps back or brings them again until so many are done.
+    fn step_to(&mut self, _n_done: usize, _bench: &mut Bench) {}
+
     /// What a pane shows now, as a table and a figure.
     ///
     /// # Errors
@@ -78,6 +88,19 @@ pub(crate) trait Tool: Any {
 
     /// Forgets what belonged to the scene that was left for another.
     fn leave_scene(&mut self, _bench: &mut Bench) {}
+
+    /// Work of its own that no file holds.
+    fn unsaved(&self) -> Option<Unsaved> {
+        None
+    }
+
+    /// Takes up such work, as [`Self::unsaved`] wrote it down.
+    ///
+    /// # Errors
+    /// Why it cannot, in one line.
+    fn restore(&mut self, _work: &str, _bench: &mut Bench) -> Result<(), String> {
+        Ok(())
+    }
 
     /// Writes down what is kept per user.
     fn keep_preferences(&self, _preferences: &mut Preferences) {}

@@ -42,10 +42,6 @@ pub(crate) struct SceneView {
     pub grid: Option<(usize, usize)>,
     /// The textiles of the library with a level, for the compression curve.
     pub library: Vec<LibraryDot>,
-    /// What undo would take back.
-    pub(crate) undo: Option<&'static str>,
-    /// What redo would bring back.
-    pub(crate) redo: Option<&'static str>,
     /// What every view marks.
     pub marks: Marks,
     /// The ids of the library's textiles that are selected.
@@ -137,6 +133,8 @@ pub(crate) struct Cloth {
 pub(crate) struct LibraryEntry {
     /// What scenes call it.
     pub id: String,
+    /// The library that it stands in, as people call it.
+    pub(crate) home: Arc<str>,
     /// What people call it.
     pub name: String,
     /// How it is made and of what, in a few words.

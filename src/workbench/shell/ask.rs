@@ -50,9 +50,9 @@ impl AskWords {
             ending: ".toml",
         };
         let recording = Self {
-            title: "Open recording",
+            title: "Open a path to replay",
             hint: "/path/to/NAME.csv",
-            missing: "Type the path of a recording first",
+            missing: "Type the name of a file first",
             name: "recording.csv",
             ending: ".csv",
             ..scene
@@ -66,8 +66,8 @@ impl AskWords {
                 ..scene
             },
             Purpose::SaveRecording => Self {
-                title: "Save recording as",
-                verb: "Save",
+                title: "Export the path of the recording",
+                verb: "Export",
                 ..recording
             },
             Purpose::ImportFiles => Self {
@@ -87,7 +87,7 @@ impl AskWords {
                 ending: "",
             },
             Purpose::OpenDesign => design_words(),
-            Purpose::OpenLogs | Purpose::WriteReport => folder_words(purpose),
+            Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => folder_words(purpose),
             Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {
                 title: "Export as PNG, SVG or CSV",
@@ -113,6 +113,16 @@ fn design_words() -> AskWords {
 }
 
 fn folder_words(purpose: Purpose) -> AskWords {
+    if purpose == Purpose::AddLibrary {
+        return AskWords {
+            title: "Add a folder of textiles",
+            verb: "Add",
+            hint: "/path/to/textiles",
+            missing: "Type the path of a folder first",
+            name: "textiles",
+            ending: "",
+        };
+    }
     if purpose == Purpose::OpenLogs {
         return AskWords {
             title: "Analyse the sessions in a folder",

@@ -204,7 +204,10 @@ fn in_folder(dialog: rfd::FileDialog, start: Option<&Path>) -> rfd::FileDialog {
 }
 
 fn is_folder(purpose: Purpose) -> bool {
-    matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
+    matches!(
+        purpose,
+        Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary
+    )
 }
 
 /// The dialog for a purpose, in the folder of `start` and, when it saves, with its name.
@@ -226,7 +229,9 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
         Purpose::OpenDesign => dialog.add_filter("Designs", &["toml"]),
-        Purpose::OpenLogs | Purpose::WriteReport => return in_folder(dialog, start),
+        Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => {
+            return in_folder(dialog, start);
+        }
     };
     let dialog = dialog.add_filter("All files", &["*"]);
     let start = start.and_then(|path| std::path::absolute(path).ok());
@@ -258,6 +263,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::Export(_) => ".png",
         Purpose::ImportFiles
         | Purpose::OpenPicture
+        | Purpose::AddLibrary
         | Purpose::OpenDesign
         | Purpose::OpenLogs
         | Purpose::WriteReport => return path,

@@ -6,10 +6,10 @@ use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
 use crate::bench::tool::Tool;
+use crate::shell::state::Done;
 use crate::shell::window::Workbench;
 
-/// What it ends with: a table to be copied, or nothing where a file was written.
-type Outcome = Result<Option<String>, ExportError>;
+type Outcome = Result<Done, ExportError>;
 
 impl Workbench {
     /// What a pane shows now.
@@ -44,13 +44,7 @@ impl Workbench {
     /// Where an export is expected to go: as the last one did, else beside the scene.
     pub(crate) fn export_path(&self, what: Exportable) -> PathBuf {
         let last = self.shell.exports.last.clone();
-        let beside = || {
-            let scene = self.bench.document.path().and_then(|path| path.parent());
-            (
-                scene.map(Path::to_owned).unwrap_or_default(),
-                Kind::default(),
-            )
-        };
+        let beside = || (self.bench.export_folder(), Kind::default());
         let (folder, kind) = last.unwrap_or_else(beside);
         let own = match what {
             Exportable::Pane(pane) => {
@@ -79,13 +73,16 @@ impl Workbench {
         };
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
         self.shell.exports.last = Some((folder, kind));
-        self.begin_export(move || exported.write(&path).map(|()| None));
+        self.begin_export(move || {
+            exported.write(&path)?;
+            Ok(Done::Written(format!("{} is written", path.display())))
+        });
     }
 
     /// Copies a table as text.
     pub(crate) fn copy_table(&mut self, what: Exportable) {
         match self.exported(what) {
-            Ok(exported) => self.begin_export(move || exported.to_csv().map(Some)),
+            Ok(exported) => self.begin_export(move || exported.to_csv().map(Done::Table)),
             Err(words) => self.bench.notices.give(words),
         }
     }
@@ -118,9 +115,8 @@ impl Workbench {
         for task in std::mem::take(&mut self.shell.exports.tasks) {
             match task.poll() {
                 None => self.shell.exports.tasks.push(task),
-                Some(Ok(Some(table))) => self.bench.ctx.copy_text(table),
-                Some(Ok(None)) => {}
-                Some(Err(line)) => self.bench.notices.give(line),
+                Some(Ok(Done::Table(table))) => self.bench.ctx.copy_text(table),
+                Some(Ok(Done::Written(line)) | Err(line)) => self.bench.notices.give(line),
             }
         }
     }

@@ -17,7 +17,6 @@ use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
 use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
-use crate::shell::state::After;
 use crate::shell::tab_row::TabRow;
 use crate::shell::window::Workbench;
 
@@ -29,6 +28,9 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     let mut commands = Commands::new();
     let scene = window.bench.scene_view();
     show_header(window, ui, &scene, &mut commands);
+    if let Some(offer) = window.bench.files.recovery.offer() {
+        crate::shell::offer::show(ui, offer, &mut commands);
+    }
     if !window.bench.has_session() {
         // What is felt is not to be seen.
         show_bar(window, ui, &scene, &mut commands);
@@ -92,7 +94,8 @@ fn show_header(window: &Workbench, ui: &mut Ui, scene: &SceneView, commands: &mu
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
         let live = &window.bench.live;
-        crate::shell::header::show(ui, scene, live, &window.appearance(), commands);
+        let described = (scene, &window.steps());
+        crate::shell::header::show(ui, described, live, &window.appearance(), commands);
     });
 }
 
@@ -149,10 +152,8 @@ fn show_overlays(window: &mut Workbench, ui: &Ui, over: Rect, commands: &mut Com
     if let Some(ask) = &mut shell.ask {
         crate::shell::ask::show(ui, whole, ask, recent, commands);
     }
-    if let Some(after) = &shell.question {
-        let name = &bench.document.scene().name;
-        let is_closing = *after == After::Close;
-        crate::shell::question::show(ui, whole, name, is_closing, commands);
+    if let Some(question) = &shell.question {
+        crate::shell::question::show(ui, whole, question, commands);
     }
     if shell.is_help_shown {
         crate::shell::help::show(ui, whole, commands);
@@ -225,6 +226,7 @@ impl Workbench {
         if before == perspective {
             return;
         }
+        self.bench.pointer.pane_in_use = None;
         let resting = self.shell.resting[perspective.index()].take();
         let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
         let left = std::mem::replace(&mut self.shell.tree, tree);

@@ -5,13 +5,14 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Command, Commands, ShowCommand};
+use crate::bench::history::StepList;
 use crate::bench::keys::hint;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::{EngineView, SceneView, Status};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
-use crate::shell::menu::{Appearance, show_scene_menu, show_view_menu};
+use crate::shell::menu::{Appearance, show_edit_menu, show_scene_menu, show_view_menu};
 use selvedge_foundation::quantity;
 
 /// A window narrower than this has no room for the status, points.
@@ -22,7 +23,7 @@ const ARMED_TAG: f32 = 84.0;
 /// Shows the header.
 pub(crate) fn show(
     ui: &mut Ui,
-    scene: &SceneView,
+    (scene, steps): (&SceneView, &StepList),
     live: &EngineView,
     appearance: &Appearance,
     commands: &mut Commands,
@@ -34,9 +35,10 @@ pub(crate) fn show(
         ui.label(name.color(palette.dim));
         ui.add_space(STEP);
         show_scene_menu(ui, scene, appearance, commands);
+        show_edit_menu(ui, steps, commands);
         show_view_menu(ui, appearance, commands);
         ui.add_space(STEP);
-        show_history(ui, scene, commands);
+        show_history(ui, steps, commands);
         ui.add_space(2.0 * STEP);
         show_perspectives(ui, appearance.perspective, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -98,14 +100,14 @@ fn show_name(ui: &mut Ui, scene: &SceneView) {
     name.on_hover_text(place.unwrap_or_else(|| "Not in a file of yours yet".to_owned()));
 }
 
-fn show_history(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
+fn show_history(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
     let steps = [
-        ("Undo", scene.undo, Command::Undo),
-        ("Redo", scene.redo, Command::Redo),
+        ("Undo", steps.undo(), Command::Undo),
+        ("Redo", steps.redo(), Command::Redo),
     ];
     for (label, step, command) in steps {
         let key = hint(ui.ctx(), &command);
-        let tip = step.map(|step| format!("{label} {step} ({key})"));
+        let tip = step.map(|step| format!("{label}: {step} ({key})"));
         let nothing = format!("Nothing to {}", label.to_lowercase());
         let refusal = tip.is_none().then_some(nothing.as_str());
         if button(ui, label, &tip.clone().unwrap_or_default(), refusal) {

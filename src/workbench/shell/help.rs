@@ -87,10 +87,14 @@ fn groups(table: &[Shortcut]) -> Vec<Group> {
 fn kind(command: &Command) -> &'static str {
     match command {
         Command::AllOff => "From anywhere",
-        Command::Edit(_) | Command::Undo | Command::Redo | Command::Chosen(_) => "Scene",
+        Command::Edit(_)
+        | Command::Undo
+        | Command::Redo
+        | Command::StepTo(_)
+        | Command::Chosen(_) => "Scene",
         Command::Device(_) => "Device",
-        Command::File(_) | Command::Keep(_) => "Files",
-        Command::Play(_) | Command::Source(_) => "Play and record",
+        Command::File(_) | Command::Library(_) => "Files",
+        Command::Play(_) | Command::Recording(_) | Command::Source(_) => "Play and record",
         Command::Show(_)
         | Command::Lab(_)
         | Command::Render(_)

@@ -1,6 +1,7 @@
 //! Inboxes: what the engine, other threads, the keyboard and the desktop have to say, taken in once
 //! a frame before anything is drawn.
 
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use eframe::egui;
@@ -31,8 +32,8 @@ impl Workbench {
         for tool in self.tools.iter_mut() {
             tool.logic(&mut self.bench);
         }
-        self.bench.take_recording();
         self.settle();
+        self.follow_unsaved(ctx);
         self.keep_settings();
         let now_s = ctx.input(|input| input.time);
         if let Some(wait_s) = self.bench.settings.save_if_changed(now_s) {
@@ -88,10 +89,15 @@ impl Workbench {
         }
     }
 
-    /// A window that would lose changes asks before it closes; the device has stopped already.
+    /// A window that would lose changes asks before it closes; the device has stopped already. One
+    /// that is told to end by a signal asks nobody: everything stays for the next start.
     pub(crate) fn take_close_request(&mut self, ctx: &egui::Context) {
+        if self.shell.ends.load(Ordering::Relaxed) {
+            self.bench.files.recovery.keeps = true;
+            self.shell.may_close = true;
+        }
         let is_asked = ctx.input(|input| input.viewport().close_requested());
-        if is_asked && !self.shell.may_close && self.bench.document.is_edited() {
+        if is_asked && !self.shell.may_close && !self.unsaved().is_empty() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.dispatch(FileCommand::Close.into());
         }

@@ -222,6 +222,11 @@ impl Workbench {
         self.dispatch(FileCommand::Use(Purpose::OpenPicture, path).into());
     }
 
+    /// Ticks that never were because the engine came too late.
+    pub fn n_ticks_missed(&self) -> u64 {
+        self.bench.live.status.missed
+    }
+
     /// The sentences that are shown.
     pub fn notices(&self) -> Vec<String> {
         self.bench

@@ -2,21 +2,25 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{Button, ThemePreference, Ui};
+use eframe::egui::{Button, RichText, ScrollArea, ThemePreference, Ui};
 
 use crate::bench::clips::{CLIPS, ClipsView};
 use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
+use crate::bench::history::StepList;
 use crate::bench::keys::hint;
 use crate::bench::overlays::Overlays;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::SceneView;
+use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::text::tick_box;
 use selvedge_foundation::quantity;
 
 /// Sizes that are offered, %.
 const ZOOMS: [u8; 5] = [100, 125, 150, 175, 200];
+/// Height of the list of steps, points.
+const LIST: f32 = 360.0;
 
 /// What is shown how, as the menu ticks it.
 #[derive(Debug, Clone)]
@@ -72,7 +76,7 @@ pub(crate) fn show_scene_menu(
         let analyse = FileCommand::Ask(Purpose::OpenLogs);
         entry(ui, "Analyse sessions…", analyse.into(), None, commands);
         let open = FileCommand::Ask(Purpose::OpenRecording);
-        entry(ui, "Open a recording…", open.into(), None, commands);
+        entry(ui, "Open a path to replay…", open.into(), None, commands);
         show_clips(ui, appearance.clips, commands);
         ui.separator();
         entry(ui, "Close", FileCommand::Close.into(), None, commands);
@@ -113,6 +117,58 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], commands: &mut Commands) {
         });
         menu.response
             .on_disabled_hover_text("No scene was opened or saved yet");
+    });
+}
+
+/// What can be taken back and brought again, step by step.
+pub(crate) fn show_edit_menu(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
+    ui.menu_button("Edit", |ui| {
+        ui.set_min_width(220.0);
+        for (act, step, command) in [
+            ("Undo", steps.undo(), Command::Undo),
+            ("Redo", steps.redo(), Command::Redo),
+        ] {
+            let named = step.map(|step| format!("{act}: {step}"));
+            let why = format!("Nothing to {}", act.to_lowercase());
+            let refusal = step.is_none().then_some(why.as_str());
+            entry(
+                ui,
+                named.as_deref().unwrap_or(act),
+                command,
+                refusal,
+                commands,
+            );
+        }
+        ui.separator();
+        ui.add_enabled_ui(!steps.names.is_empty(), |ui| {
+            let menu = ui.menu_button("History", |ui| show_history(ui, steps, commands));
+            menu.response.on_disabled_hover_text("Nothing was done yet");
+        });
+    });
+}
+
+/// Every step, newest last; a click goes to where it had just been done.
+fn show_history(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
+    let palette = Palette::in_ui(ui);
+    let area = ScrollArea::vertical()
+        .max_height(LIST)
+        .stick_to_bottom(true);
+    area.show(ui, |ui| {
+        ui.set_min_width(200.0);
+        let begun = "As it began".to_owned();
+        for (n_done, name) in std::iter::once(&begun).chain(&steps.names).enumerate() {
+            let ink = if n_done > steps.n_done {
+                palette.dim
+            } else {
+                palette.text
+            };
+            let is_now = n_done == steps.n_done;
+            let line = ui.selectable_label(is_now, RichText::new(name).color(ink));
+            if line.clicked() && !is_now {
+                commands.push(Command::StepTo(n_done));
+                ui.close();
+            }
+        }
     });
 }
 

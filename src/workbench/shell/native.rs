@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -65,13 +66,15 @@ impl Ears {
 #[derive(Debug, Clone)]
 pub struct EndSwitch {
     stop: StopSwitch,
+    ends: Arc<AtomicBool>,
     ctx: Context,
 }
 
 impl EndSwitch {
-    /// Everything off; then the window closes as if its own button had been pressed.
+    /// Everything off; then the window closes, and unsaved work waits for the next start.
     pub fn press(&self) {
         self.stop.press();
+        self.ends.store(true, Ordering::Relaxed);
         // The participant's window may be the one that is being drawn.
         (self.ctx).send_viewport_cmd_to(ViewportId::ROOT, ViewportCommand::Close);
         self.ctx.request_repaint_of(ViewportId::ROOT);
@@ -121,6 +124,7 @@ pub fn run(
                 });
                 on_open(EndSwitch {
                     stop,
+                    ends: Arc::clone(&workbench.shell.ends),
                     ctx: cc.egui_ctx.clone(),
                 });
                 Ok(Box::new(workbench))

@@ -1,27 +1,37 @@
-//! The question before the window closes, or opens another scene, on changes that are not saved.
+//! The question before the window closes, or opens another scene, on everything that would be lost.
 
-use eframe::egui::{Align, Button, Layout, Rect, Ui, vec2};
+use eframe::egui::{Align, Button, Label, Layout, Rect, RichText, Ui, vec2};
 
 use crate::bench::command::{Command, Commands, FileCommand};
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::text::button;
+use crate::shell::state::{After, Question};
 
-/// Asks at the upper edge of `over` whether to save the scene called `name`.
+/// Asks at the upper edge of `over` what becomes of unsaved work, which it names.
 ///
-/// Whoever asks closes the window, or opens another scene, once this one is saved.
-pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, commands: &mut Commands) {
-    let title = format!("Save changes to {name}?");
-    card(ui, over, 440.0, &title, |ui, _| {
+/// Whoever asks goes on once the answer is there.
+pub(crate) fn show(ui: &Ui, over: Rect, question: &Question, commands: &mut Commands) {
+    let is_closing = question.after == After::Close;
+    let title = if is_closing {
+        "Save before the window closes?"
+    } else {
+        "Save before another scene is opened?"
+    };
+    card(ui, over, 520.0, title, |ui, _| {
         let palette = Palette::in_ui(ui);
-        ui.colored_label(
-            palette.dim,
-            if is_closing {
-                "Otherwise they are lost when the window closes."
-            } else {
-                "Otherwise they are lost when another scene is opened."
-            },
-        );
+        for part in &question.parts {
+            ui.add(Label::new(RichText::new(&part.unsaved.name).color(palette.text)).wrap());
+            ui.colored_label(palette.dim, &part.unsaved.what);
+            ui.add_space(STEP);
+        }
+        let words = if is_closing {
+            "Save writes the scene to its file and leaves drafts to the next start. Recordings are \
+             on disk already."
+        } else {
+            "Without saving, the changes to the scene are lost. Drafts and recordings stay."
+        };
+        ui.add(Label::new(RichText::new(words).color(palette.dim)).wrap());
         ui.add_space(2.0 * STEP);
         let size = vec2(ui.available_width(), ROW);
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
@@ -30,13 +40,13 @@ pub(crate) fn show(ui: &Ui, over: Rect, name: &str, is_closing: bool, commands: 
                 save.request_focus();
             }
             if save.clicked() {
-                commands.push(FileCommand::Save.into());
+                commands.push(FileCommand::SaveAll.into());
             }
             if button(ui, "Cancel", "Leave everything as it is", None) {
                 commands.push(Command::Dismiss);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                if button(ui, "Don’t save", "Go on and let the changes go", None) {
+                if button(ui, "Discard", "Go on and let all of it go", None) {
                     commands.push(FileCommand::LetGo.into());
                 }
             });

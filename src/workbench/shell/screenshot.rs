@@ -119,8 +119,8 @@ fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
     (state == BridgeState::Ready).then(|| BridgeView {
         state: state.label(),
         phase: query::phase(state),
-        depth: bridge.depth(),
-        uid: bridge.caps().map(|caps| DeviceUid(caps.uid)),
+        depth: bridge.session().depth(),
+        uid: bridge.session().caps().map(|caps| DeviceUid(caps.uid)),
         can_identify: true,
         ..BridgeView::default()
     })

@@ -1,6 +1,7 @@
 //! What the window around the tools knows for the moment: which pane stands where, what is asked.
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
 use eframe::egui::Vec2;
@@ -12,6 +13,7 @@ use crate::bench::export::{Exportable, Exported};
 use crate::bench::opening::Origin;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
+use crate::bench::recovery::Part;
 use crate::bench::tool::Bar;
 use crate::shell::arrangement;
 use crate::shell::ask::Ask;
@@ -33,9 +35,11 @@ pub(crate) struct Shell {
     /// A path that is asked for in the window.
     pub(crate) ask: Option<Ask>,
     /// What waits for an answer to "save changes?".
-    pub(crate) question: Option<After>,
+    pub(crate) question: Option<Question>,
     /// Whether the window may close without another question.
     pub(crate) may_close: bool,
+    /// Set when the program is told to end, with nobody there to be asked.
+    pub(crate) ends: Arc<AtomicBool>,
     /// Whether the list of keys is shown.
     pub(crate) is_help_shown: bool,
     /// What is being exported.
@@ -62,6 +66,7 @@ impl Shell {
             ask: None,
             question: None,
             may_close: false,
+            ends: Arc::default(),
             is_help_shown: false,
             exports: Exports::default(),
             left_since_s: None,
@@ -90,7 +95,25 @@ pub(crate) struct Exports {
     /// Where the last export went, and as what.
     pub last: Option<(PathBuf, Kind)>,
     /// Files on their way, and tables to be copied.
-    pub(crate) tasks: Vec<Task<Option<String>>>,
+    pub(crate) tasks: Vec<Task<Done>>,
+}
+
+/// What an export ends with.
+#[derive(Debug)]
+pub(crate) enum Done {
+    /// A table to be copied.
+    Table(String),
+    /// A file, and the words for it.
+    Written(String),
+}
+
+/// What is asked before anything is lost.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Question {
+    /// What waits for the answer.
+    pub(crate) after: After,
+    /// What would be lost.
+    pub(crate) parts: Vec<Part>,
 }
 
 /// What was asked for when there was something to save first.

@@ -10,12 +10,14 @@ use egui_kittest::kittest::Queryable as _;
 
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
+use crate::bench::recovery::{Part, Unsaved};
 use crate::bench::sources::SourcesView;
 use crate::bench::view::EngineView;
 use crate::kit::theme;
 use crate::shell::ask::{Ask, show as show_ask};
 use crate::shell::help::show as show_help;
 use crate::shell::question::show as show_question;
+use crate::shell::state::{After, Question};
 use crate::tools::bridge::Bridge;
 use crate::tools::bridge::ports::PortsView;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
@@ -96,15 +98,28 @@ fn a_recent_scene_is_opened_by_a_click() {
 fn the_question_on_closing_has_three_answers_and_enter_saves() {
     let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_question(ui, over, "silk", true, commands);
+        let unsaved = Unsaved {
+            name: "Scene “silk”".to_owned(),
+            what: "1 step".to_owned(),
+            work: String::new(),
+        };
+        let part = Part {
+            owner: "Scene".to_owned(),
+            unsaved,
+        };
+        let question = Question {
+            after: After::Close,
+            parts: vec![part],
+        };
+        show_question(ui, over, &question, commands);
     });
     harness.run();
-    harness.get_by_label("Save changes to silk?");
+    harness.get_by_label("Scene “silk”");
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(harness.state(), &[FileCommand::Save.into()]);
-    assert_eq!(click(&mut harness, "Save"), [FileCommand::Save.into()]);
-    let unsaved = click(&mut harness, "Don’t save");
+    assert_eq!(harness.state(), &[FileCommand::SaveAll.into()]);
+    assert_eq!(click(&mut harness, "Save"), [FileCommand::SaveAll.into()]);
+    let unsaved = click(&mut harness, "Discard");
     assert_eq!(unsaved, [FileCommand::LetGo.into()]);
     assert_eq!(click(&mut harness, "Cancel"), [Command::Dismiss]);
 }

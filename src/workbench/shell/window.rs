@@ -66,6 +66,9 @@ impl eframe::App for Workbench {
 
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
         self.bench.engine.stop_switch().press();
+        self.bench.end_recording();
+        let parts = self.unsaved();
+        drop(self.bench.files.recovery.end(parts));
         self.keep_settings();
         // The window is gone and nobody is left to tell; the file that was there is still whole.
         drop(self.bench.settings.save_now());

@@ -13,6 +13,7 @@ pub(crate) mod import;
 pub(crate) mod lab;
 pub(crate) mod library;
 pub(crate) mod picture;
+pub(crate) mod recordings;
 pub(crate) mod response;
 pub(crate) mod spectra;
 pub(crate) mod timeline;
@@ -38,6 +39,7 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(lab::Lab::default()),
         Box::new(collection::Collection::default()),
         Box::new(library::Library::default()),
+        Box::new(recordings::RecordingList::default()),
         Box::new(bridge::Bridge::default()),
         Box::new(contactors::Contactors),
         Box::new(tuning::Tuning::default()),

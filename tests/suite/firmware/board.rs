@@ -195,7 +195,8 @@ impl Host {
             };
             match event {
                 BridgeEvent::Tick { received, .. } => {
-                    self.statuses.extend(self.bridge.status().copied());
+                    self.statuses
+                        .extend(self.bridge.session().status().copied());
                     if self.streams {
                         self.bridge.send(&[[10.0, 20.0]; 24], Some(received));
                     }
@@ -215,13 +216,18 @@ impl Host {
         assert!(self.bridge.arm(), "a ready device can be armed");
         self.until(|host| host.bridge.counters().frames_sent >= 21)?;
         let full = 24 * (13_107 + 26_214);
-        self.until(|host| host.bridge.status().is_some_and(|s| s.amp_sum == full))
+        self.until(|host| {
+            host.bridge
+                .session()
+                .status()
+                .is_some_and(|s| s.amp_sum == full)
+        })
     }
 
     fn is_at_rest(&self) -> bool {
         let rest = DeviceState::Ready.code();
         let rested = |status: &Status| status.state == rest && status.amp_sum == 0;
-        self.bridge.status().is_some_and(rested) && !self.bridge.state().is_live()
+        self.bridge.session().status().is_some_and(rested) && !self.bridge.state().is_live()
     }
 }
 
@@ -283,7 +289,7 @@ fn an_emulated_board_obeys_stop_and_takes_a_new_host_afterwards() {
             host.streams = false;
             host.bridge.stop(how);
             host.until(Host::is_at_rest)?;
-            let at_rest = host.bridge.status().copied().unwrap();
+            let at_rest = host.bridge.session().status().copied().unwrap();
             assert_eq!((at_rest.hv_dv, at_rest.faults), (0, 0));
             Some(host.bridge.counters().device.underrun - before)
         });

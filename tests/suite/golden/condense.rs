@@ -3,13 +3,13 @@
 use sha2::{Digest as _, Sha256};
 
 /// Texts up to this length are told whole, bytes.
-const LONG: usize = 24_000;
+const LONG: usize = 4_000;
 /// Lines at the beginning that are told in any case: headers and what comes first.
-const N_FIRST: usize = 12;
+const N_FIRST: usize = 8;
 /// Lines that are told from the rest, evenly spread.
-const N_SPREAD: usize = 60;
+const N_SPREAD: usize = 16;
 /// Letters of a line.
-const N_LETTERS: usize = 240;
+const N_LETTERS: usize = 200;
 
 /// A text, or its first lines, some of the others by their numbers, and its hash.
 pub(super) fn condensed(text: &str) -> String {

@@ -109,7 +109,8 @@ fn golden_questions() {
         let mut stage = chosen(&lab, design);
         begin(&mut stage);
         to_trial(&mut stage);
-        stage.compare(&mut golden, design, 2 * SLOT);
+        // The theme is that of the rankings.
+        stage.compare_dark(&mut golden, design, 2 * SLOT);
     }
     golden.finish();
 }

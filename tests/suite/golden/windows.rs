@@ -9,20 +9,28 @@ use super::compare::Golden;
 use super::stage::Stage;
 use crate::program::Lab;
 
-/// Name, size in pixels, pixels per point.
-const SIZES: [(&str, [u16; 2], f32); 3] = [
-    ("1400x900", [1400, 900], 1.0),
-    ("1280x720", [1280, 720], 1.0),
-    ("1400x900-at-150", [1400, 900], 1.5),
-];
+/// The size of the window in pixels in which every perspective is looked at in both themes.
+const SIZE: [u16; 2] = [1400, 900];
+/// A smaller one: what is arranged otherwise is so in either theme.
+const SMALLER: [u16; 2] = [1280, 720];
+/// Pixels per point of a fine screen: letters and lines of one perspective tell of all.
+const FINE: f32 = 1.5;
 /// A stroke has gone round by then.
 const ROUND: u32 = 430;
 
-/// Compares the whole window in both themes.
-fn both(golden: &mut Golden, stage: &mut Stage, name: &str, tick: u32) {
+/// Compares the whole window at a tick, by the name of the picture.
+type Look = fn(&mut Golden, &mut Stage, &str, u32);
+
+/// Compares the whole window.
+fn dark(golden: &mut Golden, stage: &mut Stage, name: &str, tick: u32) {
     stage.until(tick);
     let dark = stage.window();
     golden.picture(&format!("{name}-dark"), &dark);
+}
+
+/// Compares the whole window in both themes.
+fn both(golden: &mut Golden, stage: &mut Stage, name: &str, tick: u32) {
+    dark(golden, stage, name, tick);
     stage.theme(Theme::Light);
     let light = stage.window();
     golden.picture(&format!("{name}-light"), &light);
@@ -32,21 +40,20 @@ fn both(golden: &mut Golden, stage: &mut Stage, name: &str, tick: u32) {
 #[test]
 fn golden_perspectives() {
     let mut golden = Golden::of("pictures/perspectives");
-    for (name, size, scale) in SIZES {
-        let mut stage = Stage::new(None, size, scale);
+    let looks: [([u16; 2], Look); 2] = [(SIZE, both), (SMALLER, dark)];
+    for (size @ [width, height], compare) in looks {
+        let name = |perspective: &str| format!("{perspective}-{width}x{height}");
+        let mut stage = Stage::new(None, size, 1.0);
         stage.press(Modifiers::NONE, Key::Space);
-        both(&mut golden, &mut stage, &format!("explore-{name}"), ROUND);
+        compare(&mut golden, &mut stage, &name("explore"), ROUND);
         stage.press(Modifiers::COMMAND, Key::Num2);
-        both(
-            &mut golden,
-            &mut stage,
-            &format!("cloth-{name}"),
-            ROUND + 60,
-        );
+        compare(&mut golden, &mut stage, &name("cloth"), ROUND + 60);
         stage.press(Modifiers::COMMAND, Key::Num3);
-        let last = format!("experiment-{name}");
-        both(&mut golden, &mut stage, &last, ROUND + 120);
+        compare(&mut golden, &mut stage, &name("experiment"), ROUND + 120);
     }
+    let mut stage = Stage::new(None, SIZE, FINE);
+    stage.press(Modifiers::NONE, Key::Space);
+    dark(&mut golden, &mut stage, "explore-1400x900-at-150", ROUND);
     golden.finish();
 }
 
@@ -112,7 +119,7 @@ fn golden_overlays() {
     stage.press(Modifiers::COMMAND, Key::N);
     let top = [300.0, 40.0, 1100.0, 160.0];
     over(&mut golden, &mut stage, "question", top);
-    stage.click_named("Don’t save");
+    stage.click_named("Discard");
     let whole = [0.0, 0.0, 1400.0, 900.0];
     over(&mut golden, &mut stage, "new-scene", whole);
     golden.finish();

@@ -108,9 +108,7 @@ fn strokes_go_through_all_steps_into_the_library() {
     harness.run_steps(4);
     assert_eq!(harness.state().imported_figures(), suggested);
     type_into(&mut harness, "name", "Wool twill");
-    harness
-        .get_by_role_and_label(Role::Button, "Save to the library")
-        .click();
+    harness.get_by_role_and_label(Role::Button, "Keep").click();
     harness.run_steps(6);
     let made = folder.path("library/wool-twill");
     let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
@@ -203,7 +201,7 @@ fn a_map_gives_a_textile_for_every_place() {
     assert_eq!(harness.state().imported_figures().len(), 2);
     harness.render().unwrap();
     harness
-        .get_by_role_and_label(Role::Button, "Save and feel")
+        .get_by_role_and_label(Role::Button, "Keep and feel")
         .click();
     harness.run_steps(6);
     for id in ["ripples-1", "ripples-2"] {

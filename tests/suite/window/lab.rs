@@ -121,12 +121,22 @@ fn what_is_kept_reads_back_as_the_textile_that_its_recipe_makes() {
         assert_eq!(fs::read(&path).unwrap(), file.bytes, "{}", file.name);
     }
     harness.run_steps(4);
-    // It is on the shelf now, and its id is taken.
+    // It is on the shelf now, and its name is taken.
     assert!(shows(&harness, "Add Brownian surface"));
+    harness.get_by_label("Keep").click();
+    harness.run_steps(4);
     assert!(shows(
         &harness,
-        "The library has a textile \"brownian-surface\""
+        "“Brownian surface” (id brownian-surface) already"
     ));
+    harness.get_by_label("Keep both").click();
+    harness.run_steps(6);
+    let second = root.join("brownian-surface-2").join("textile.toml");
+    let manifest = fs::read_to_string(second).unwrap();
+    assert!(
+        manifest.contains("name = \"Brownian surface 2\""),
+        "{manifest}"
+    );
 }
 
 #[test]

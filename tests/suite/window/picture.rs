@@ -43,7 +43,7 @@ fn with_picture(folder: &Folder, write: impl Fn(&Path)) -> Harness<'static, Work
 
 fn feel(harness: &mut Harness<'_, Workbench>) {
     harness
-        .get_by_role_and_label(Role::Button, "Feel it")
+        .get_by_role_and_label(Role::Button, "Keep and feel")
         .click();
     harness.run_steps(6);
 }

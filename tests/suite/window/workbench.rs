@@ -282,7 +282,7 @@ fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
     assert!(harness.state().is_edited(), "nothing was lost");
     harness.state_mut().open_scene(folder.scene());
     harness.run();
-    harness.get_by_label("Don’t save").click();
+    harness.get_by_label("Discard").click();
     harness.run();
     assert!(!harness.state().is_edited(), "opened anew");
     assert_eq!(harness.state().tuning().compression, 0.0);

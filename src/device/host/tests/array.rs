@@ -44,7 +44,7 @@ fn what_lowers_takes_effect_at_once_and_what_raises_waits_for_rest() {
     assert_eq!(set(&mut pair, limited([50.0, 11.0])), Ok(()));
     pair.run(100);
     assert_eq!(pair.host.state(), BridgeState::Ready);
-    let asked = pair.host.config().unwrap().comp_limit;
+    let asked = pair.host.device.config.unwrap().comp_limit;
     assert_eq!(asked, [65535, 14418], "the device was configured anew");
     assert!(pair.host.arm(pair.now()));
     pair.run(1000);
@@ -72,7 +72,7 @@ fn a_profile_that_comes_before_the_device_answers_is_what_it_is_configured_with(
     assert_eq!(set(&mut pair, limited([5.0, 50.0])), Ok(()));
     pair.run(500);
     assert_eq!(pair.host.state(), BridgeState::Ready);
-    assert_eq!(pair.host.config().unwrap().comp_limit, [6554, 65535]);
+    assert_eq!(pair.host.device.config.unwrap().comp_limit, [6554, 65535]);
 }
 
 /// Runs without frames, as a wizard does, and gives what was said of channels.

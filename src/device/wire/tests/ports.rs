@@ -47,7 +47,6 @@ fn a_port_that_only_says_garbage_is_given_up_with_the_reason() {
     assert!(reason.ends_with("is not this protocol"), "{reason}");
     assert!(bridge.counters().bad_received > 10);
     assert!(n_turns > 100, "the caller went on: {n_turns} turns");
-    bridge.close(Duration::from_millis(500)).unwrap();
 }
 
 #[test]
@@ -63,5 +62,4 @@ fn a_port_that_takes_nothing_is_lost_and_holds_no_caller() {
     assert!(bridge.counters().write_timeouts >= 2);
     // Both time-outs of 50 ms went by while the caller turned on.
     assert!(n_turns > 20, "the caller went on: {n_turns} turns");
-    bridge.close(Duration::from_millis(500)).unwrap();
 }

@@ -158,7 +158,7 @@ mod tests {
             ArrayProfile::default()
         );
         assert!(
-            window.workbench.bench.document.undo_name().is_none(),
+            window.workbench.bench.document.steps().undo().is_none(),
             "no edit of the scene"
         );
     }

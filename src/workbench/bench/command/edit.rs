@@ -1,6 +1,7 @@
 //! Changes of the scene: what can be undone, and which of them join into one step.
 
 use selvedge_foundation::geometry::Point;
+use selvedge_render::scene::RecordingReference;
 use selvedge_textile::tactile::{Band, Filters};
 
 /// A change of the scene: undoable, saved.
@@ -32,6 +33,8 @@ pub(crate) enum Edit {
     RaiseCloth(usize),
     /// What the scene calls the textile at this place.
     Label(usize, String),
+    /// The scene refers to this recording, or no longer.
+    Recording(RecordingReference),
 }
 
 /// What an edit turns: edits of the same target in one gesture are one step of undo.
@@ -63,6 +66,8 @@ pub(crate) enum Target {
     Order,
     /// What a textile is called.
     Label(usize),
+    /// Which recordings the scene refers to; never joined.
+    Recording,
 }
 
 impl Edit {
@@ -82,6 +87,7 @@ impl Edit {
             Self::RemoveCloth(_) => Target::Remove,
             Self::RaiseCloth(_) => Target::Order,
             Self::Label(index, _) => Target::Label(index),
+            Self::Recording(_) => Target::Recording,
         }
     }
 }
@@ -104,6 +110,7 @@ impl Target {
             Self::Remove => "removed textile",
             Self::Order => "raised textile",
             Self::Label(_) => "label",
+            Self::Recording => "recording of the scene",
         }
     }
 
@@ -111,7 +118,7 @@ impl Target {
     pub(crate) fn joins(self) -> bool {
         !matches!(
             self,
-            Self::Add | Self::AddSeveral | Self::Remove | Self::Order
+            Self::Add | Self::AddSeveral | Self::Remove | Self::Order | Self::Recording
         )
     }
 }

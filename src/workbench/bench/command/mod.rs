@@ -7,10 +7,12 @@ pub(crate) mod array;
 pub(crate) mod device;
 pub(crate) mod edit;
 pub(crate) mod lab;
+pub(crate) mod recording;
 
 pub(crate) use crate::bench::command::array::ArrayCommand;
 pub(crate) use crate::bench::command::device::DeviceCommand;
 pub(crate) use crate::bench::command::edit::Edit;
+pub(crate) use crate::bench::command::recording::RecordingCommand;
 pub(crate) use crate::bench::part::{DotStyle, Part};
 
 use std::path::PathBuf;
@@ -18,6 +20,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use crate::bench::keep::Keep;
+use crate::bench::library_acts::LibraryCommand;
 use crate::bench::overlays::Overlay;
 use crate::bench::pane::{Exportable, Pane};
 use crate::bench::perspective::Perspective;
@@ -42,18 +45,22 @@ pub(crate) enum Command {
     Undo,
     /// Bring it back again.
     Redo,
+    /// Take steps back or bring them again until so many are done.
+    StepTo(usize),
     /// Do something with the device.
     Device(DeviceCommand),
     /// Do something with files.
     File(FileCommand),
     /// Move, record and replay.
     Play(PlayCommand),
+    /// Do something with a recording of the list.
+    Recording(RecordingCommand),
     /// Choose what else moves the display, or hears of it.
     Source(SourceCommand),
     /// Render scenes so from now on.
     Render(Rendering),
-    /// Keep new textiles in the library.
-    Keep(Keep),
+    /// Do something with the textiles of a library.
+    Library(LibraryCommand),
     /// Begin a recipe in the textile lab.
     Lab(lab::Beginning),
     /// Change what is shown how.
@@ -85,8 +92,14 @@ impl From<FileCommand> for Command {
 }
 
 impl From<Keep> for Command {
-    fn from(command: Keep) -> Self {
-        Self::Keep(command)
+    fn from(keep: Keep) -> Self {
+        Self::Library(LibraryCommand::Keep(keep))
+    }
+}
+
+impl From<LibraryCommand> for Command {
+    fn from(command: LibraryCommand) -> Self {
+        Self::Library(command)
     }
 }
 
@@ -154,6 +167,21 @@ pub(crate) enum FileCommand {
     StopClip,
     /// Go on with what was asked for and let the changes go.
     LetGo,
+    /// Save the scene, leave drafts to the next start, and go on.
+    SaveAll,
+    /// Restore, discard or put off what an earlier run left.
+    Left(Left),
+}
+
+/// What is done with work that an earlier run left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Left {
+    /// It is taken up.
+    Restored,
+    /// It is deleted.
+    Discarded,
+    /// It is offered again at the next start.
+    PutOff,
 }
 
 /// What a path is asked for.
@@ -163,9 +191,9 @@ pub(crate) enum Purpose {
     OpenScene,
     /// Save the scene.
     SaveScene,
-    /// Open a recorded exploration to replay.
+    /// Open a path file to replay.
     OpenRecording,
-    /// Save the recorded exploration.
+    /// Export the path of the recording at hand.
     SaveRecording,
     /// Save what a pane shows as a picture or a table.
     Export(Exportable),
@@ -175,6 +203,8 @@ pub(crate) enum Purpose {
     ImportFiles,
     /// Make a textile of a picture.
     OpenPicture,
+    /// Look at the textiles of a folder too.
+    AddLibrary,
     /// Run an experiment by this design.
     OpenDesign,
     /// Analyse the logs in a folder.

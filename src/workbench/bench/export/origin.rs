@@ -158,11 +158,12 @@ impl Origin {
     }
 }
 
-/// The scene by its content: the hash of its file without the library's folder, which is elsewhere
-/// on every computer.
+/// The scene by its content: the hash of its file without the folders of library and recordings,
+/// which are elsewhere on every computer.
 fn identity(scene: &Scene) -> String {
     let content = Scene {
         library: None,
+        recordings: Vec::new(),
         ..scene.clone()
     };
     let text = content.to_toml().unwrap_or_default();

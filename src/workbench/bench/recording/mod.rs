@@ -1,10 +1,18 @@
-//! A take: a finished exploration that can be replayed, with what is drawn of it over time.
+//! Recordings: explorations that are objects of their own, on disk from their first tick.
 //!
-//! A take from a recording knows how strong it felt; one from a path file knows only how it moves:
-//! its amplitudes depend on the scene. Makes no picture and plays nothing.
+//! A recording from a tick to the next knows how strong it was on every contactor and whether an
+//! armed device played it; one from a path file knows only how it moves: its amplitudes depend on
+//! the scene. [`Recordings`] is the list of them all.
 
+pub(crate) mod file;
+pub(crate) mod list;
+pub(crate) mod running;
 pub(crate) mod strips;
+#[cfg(test)]
+pub(crate) mod tests;
 
+pub(crate) use crate::bench::recording::file::About;
+pub(crate) use crate::bench::recording::list::{Entry, Place, Recordings};
 pub(crate) use crate::bench::recording::strips::Strips;
 
 use std::path::{Path, PathBuf};
@@ -13,14 +21,26 @@ use std::sync::Arc;
 use selvedge_engine::ApplyTicks;
 use selvedge_render::scene::{ExplorationPath, SceneError};
 
+/// Amplitudes of every contactor at every tick, after gains and before output limits.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Felt {
+    /// Contactors of all displays together.
+    pub(crate) n_contactors: usize,
+    /// [A40, A320] of every contactor, tick for tick, µm.
+    pub(crate) amplitudes_um: Vec<[f32; 2]>,
+}
+
 /// A finished exploration. Cheap to clone.
 #[derive(Debug, Clone)]
 pub(crate) struct Recording {
     path: Arc<ExplorationPath>,
     /// At which of its ticks a device played each row.
     apply_ticks: ApplyTicks,
+    felt: Arc<Felt>,
     strips: Arc<Strips>,
-    name: String,
+    about: Arc<About>,
+    /// The folder that holds it, if one does.
+    pub(crate) folder: Option<PathBuf>,
     file: Option<PathBuf>,
 }
 
@@ -31,28 +51,63 @@ impl Recording {
     /// Nothing was recorded.
     pub(crate) fn from_recording(
         recording: &selvedge_engine::Recording,
+        about: About,
     ) -> Result<Self, SceneError> {
-        let path = recording.to_path()?;
-        let ticks = recording.ticks().iter().enumerate();
-        let strips = Strips::felt(
-            ticks.map(|(index, recorded)| (recorded.pose, recording.amplitudes_um(index))),
-        );
-        Ok(Self {
+        let ticks = recording.ticks();
+        let device_ticks = ticks
+            .iter()
+            .map(|tick| tick.sent.map(|sent| sent.apply_tick));
+        let device_ticks: Vec<Option<u32>> = device_ticks.collect();
+        let mut felt = Felt {
+            n_contactors: recording.n_contactors(),
+            amplitudes_um: Vec::with_capacity(ticks.len() * recording.n_contactors()),
+        };
+        for nth in 0..ticks.len() {
+            felt.amplitudes_um
+                .extend_from_slice(recording.amplitudes_um(nth));
+        }
+        Ok(Self::felt(about, recording.to_path()?, &device_ticks, felt))
+    }
+
+    /// An exploration with what was felt of it, and the device's tick of every one that was sent.
+    pub(crate) fn felt(
+        about: About,
+        path: ExplorationPath,
+        device_ticks: &[Option<u32>],
+        felt: Felt,
+    ) -> Self {
+        let n_each = felt.n_contactors.max(1);
+        let ticks = path.ticks().zip(felt.amplitudes_um.chunks(n_each));
+        let strips = Strips::felt(ticks.map(|((_, pose), amplitudes_um)| (pose, amplitudes_um)));
+        let was_felt = device_ticks.iter().any(Option::is_some);
+        Self {
             path: Arc::new(path),
-            apply_ticks: recording.apply_ticks(),
+            apply_ticks: if was_felt {
+                device_ticks.into()
+            } else {
+                ApplyTicks::default()
+            },
+            felt: Arc::new(felt),
             strips: Arc::new(strips),
-            name: "New recording".to_owned(),
+            about: Arc::new(about),
+            folder: None,
             file: None,
-        })
+        }
     }
 
     /// The exploration of a path file. Walks through all of it: an hour takes some milliseconds.
     pub(crate) fn from_path(file: PathBuf, path: ExplorationPath) -> Self {
+        let about = About {
+            name: name_of(&file),
+            ..About::default()
+        };
         Self {
             strips: Arc::new(Strips::moved(&path)),
             path: Arc::new(path),
             apply_ticks: ApplyTicks::default(),
-            name: name_of(&file),
+            felt: Arc::default(),
+            about: Arc::new(about),
+            folder: None,
             file: Some(file),
         }
     }
@@ -62,9 +117,18 @@ impl Recording {
         &self.path
     }
 
-    /// At which of its ticks a device played each row, as long as this program knows.
+    /// At which of its ticks an armed device played each row; none at all when all of it was only
+    /// shown.
     pub(crate) fn apply_ticks(&self) -> &ApplyTicks {
         &self.apply_ticks
+    }
+
+    /// Amplitudes [A40, A320] of every contactor at a tick as they were, µm; `None` when unknown.
+    pub(crate) fn amplitudes_um(&self, tick: u64) -> Option<&[[f32; 2]]> {
+        let n_contactors = self.felt.n_contactors;
+        let start = usize::try_from(tick).ok()?.checked_mul(n_contactors)?;
+        let at = start..start + n_contactors;
+        self.felt.amplitudes_um.get(at).filter(|um| !um.is_empty())
     }
 
     /// What is drawn of it over time.
@@ -74,91 +138,28 @@ impl Recording {
 
     /// What people call it.
     pub(crate) fn name(&self) -> &str {
-        &self.name
+        &self.about.name
     }
 
-    /// The file that holds it.
+    /// What it is: when it began, in which scene, with which tuning.
+    pub(crate) fn about(&self) -> &About {
+        &self.about
+    }
+
+    /// The same under another name.
+    pub(crate) fn renamed(mut self, name: &str) -> Self {
+        name.clone_into(&mut Arc::make_mut(&mut self.about).name);
+        self
+    }
+
+    /// The path file that it was opened from.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.file.as_deref()
-    }
-
-    /// The same once it is in this file.
-    pub(crate) fn saved_as(self, file: PathBuf) -> Self {
-        Self {
-            name: name_of(&file),
-            file: Some(file),
-            ..self
-        }
     }
 }
 
 /// A file's name without its folder and ending.
-fn name_of(file: &Path) -> String {
+pub(crate) fn name_of(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or(file.as_os_str());
     stem.to_string_lossy().into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bench::Drive;
-    use crate::bench::command::PlayCommand;
-    use crate::shell::window::Workbench;
-    use selvedge_engine::Command;
-    use selvedge_foundation::geometry::Point;
-    use selvedge_render::scene::PathRow;
-
-    #[test]
-    fn a_recording_replays_what_was_felt() {
-        let ctx = eframe::egui::Context::default();
-        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
-        window.dispatch(PlayCommand::Toggle.into());
-        window.bench.engine.advance_ticks(3).unwrap();
-        window.bench.engine.send(Command::StartRecording).unwrap();
-        window.bench.engine.advance_ticks(60).unwrap();
-        window.bench.engine.send(Command::StopRecording).unwrap();
-        window.bench.engine.advance_ticks(1).unwrap();
-        let recording = window.bench.engine.take_recording().unwrap();
-        let take = Recording::from_recording(&recording).unwrap();
-        assert!(take.file().is_none() && take.strips().has_levels());
-        assert_eq!(take.strips().n_ticks(), 60);
-        assert_eq!(take.path().n_ticks(), 60);
-        let last = take.strips().at(59).unwrap();
-        let speed = recording.ticks()[59].pose.velocity.speed_mm_per_s();
-        assert!(
-            (last.speed_mm_per_s - speed).abs() < 1e-3 && speed > 1.0,
-            "{last:?}"
-        );
-        let mean_um = (0..60).filter_map(|tick| take.strips().at(tick)?.mean_um);
-        assert!(
-            mean_um.into_iter().any(|um| um[1] > 0.0),
-            "it went over cloth"
-        );
-    }
-
-    #[test]
-    fn a_path_file_is_a_saved_take_without_levels() {
-        let row = |t_s, x_mm| PathRow {
-            t_s,
-            position: Point::new(x_mm, 0.0),
-            ..PathRow::default()
-        };
-        let path = ExplorationPath::new(vec![row(0.0, 0.0), row(1.0, 80.0)]).unwrap();
-        let take = Recording::from_path(PathBuf::from("/somewhere/slow stroke.csv"), path);
-        assert_eq!(take.name(), "slow stroke");
-        assert!(take.file().is_some(), "it came from one");
-        assert_eq!(take.strips().n_ticks(), take.path().n_ticks());
-        let middle = take.strips().at(20).unwrap();
-        assert!((middle.speed_mm_per_s - 80.0).abs() < 1e-3, "{middle:?}");
-        assert_eq!(middle.mean_um, None);
-    }
-
-    #[test]
-    fn saving_names_a_take_after_its_file() {
-        let path = ExplorationPath::new(vec![PathRow::default()]).unwrap();
-        let take = Recording::from_path(PathBuf::from("one.csv"), path);
-        let saved = take.saved_as(PathBuf::from("/takes/two.csv"));
-        assert_eq!(saved.name(), "two");
-        assert_eq!(saved.file(), Some(Path::new("/takes/two.csv")));
-    }
 }

@@ -54,6 +54,32 @@ pub(crate) fn own_libraries() -> Option<PathBuf> {
     Some(folders.data_dir().to_owned())
 }
 
+/// Where work that no file holds is kept for this user: the state folder, or where there is none
+/// the data folder. `None` on a system without such a place.
+pub(crate) fn own_work() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    let state = folders
+        .state_dir()
+        .unwrap_or_else(|| folders.data_local_dir());
+    Some(state.join("unsaved"))
+}
+
+/// Where recordings of this user lie. `None` on a system without such a place.
+pub(crate) fn own_recordings() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("recordings"))
+}
+
+/// Where the user keeps documents, or the home folder, or the present one.
+pub(crate) fn own_documents() -> PathBuf {
+    let folders = directories::UserDirs::new();
+    let own = folders.as_ref().map(|folders| {
+        let documents = folders.document_dir().filter(|folder| folder.is_dir());
+        documents.unwrap_or_else(|| folders.home_dir()).to_owned()
+    });
+    own.unwrap_or_default()
+}
+
 /// Where links to devices are logged for this user. `None` on a system without such a place.
 pub(crate) fn session_log() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "selvedge")?;

@@ -75,9 +75,9 @@ pub(crate) struct Preferences {
     /// Size of the window, points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) window_size: Option<[f32; 2]>,
-    /// The folder in which sessions of experiments lie, as it was typed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) sessions_folder: Option<String>,
+    /// Folders that the user works in.
+    #[serde(flatten)]
+    pub(crate) folders: KnownFolders,
     /// The design that was chosen last: the name of one of the program, or the path of a file.
     #[serde(rename = "experiment_design", skip_serializing_if = "Option::is_none")]
     pub design: Option<String>,
@@ -113,7 +113,7 @@ impl Default for Preferences {
             array: None,
             tablet_areas: BTreeMap::new(),
             window_size: None,
-            sessions_folder: None,
+            folders: KnownFolders::default(),
             design: None,
             recent_scenes: Vec::new(),
         }
@@ -166,6 +166,18 @@ impl Preferences {
         self.recent_scenes.insert(0, path);
         self.recent_scenes.truncate(MAX_RECENT);
     }
+}
+
+/// Folders that the user works in.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct KnownFolders {
+    /// The one in which sessions of experiments lie, as it was typed.
+    #[serde(rename = "sessions_folder", skip_serializing_if = "Option::is_none")]
+    pub(crate) sessions: Option<String>,
+    /// Those of textiles that were added to the libraries, by absolute path.
+    #[serde(rename = "library_folders", skip_serializing_if = "Vec::is_empty")]
+    pub(crate) libraries: Vec<PathBuf>,
 }
 
 /// What a file calls a theme.

@@ -10,7 +10,7 @@ use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::Settings;
-use crate::bench::settings::preferences::Preferences;
+use crate::bench::settings::preferences::{KnownFolders, Preferences};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
@@ -213,7 +213,10 @@ fn every_setting_survives_writing_and_reading() {
             .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
             .into(),
         window_size: Some([1600.0, 1000.5]),
-        sessions_folder: Some("/lab/study 1".to_owned()),
+        folders: KnownFolders {
+            sessions: Some("/lab/study 1".to_owned()),
+            libraries: vec!["/lab/ä".into(), "/c".into()],
+        },
         design: Some("odd-one-out".to_owned()),
         ..Preferences::default()
     };

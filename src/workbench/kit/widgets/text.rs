@@ -9,6 +9,11 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use selvedge_foundation::quantity;
 
+/// Letters of a side after a comma that are kept whole where a name is cut: “front”, “back”.
+const SIDE: usize = 12;
+/// Letters at the end of any other name that stay.
+const END: usize = 4;
+
 /// The quiet title of a section.
 pub(crate) fn section(ui: &mut Ui, title: &str) {
     let palette = Palette::in_ui(ui);
@@ -145,6 +150,54 @@ pub(crate) fn paint_line(ui: &Ui, left: Pos2, width: f32, text: RichText) {
     ui.painter().galley(corner, job, Palette::in_ui(ui).text);
 }
 
+/// Paints a name; where there is no room for all of it, its end stays, which tells front from back
+/// and one of several from the others.
+pub(crate) fn paint_name(ui: &Ui, left: Pos2, width: f32, (name, ink): (&str, Color32)) {
+    let galley_of = |part: &str, width: f32| {
+        let font = theme::body();
+        let mut job = egui::text::LayoutJob::simple_singleline(part.to_owned(), font, ink);
+        job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+        ui.painter().layout_job(job)
+    };
+    let mut at = left;
+    let mut paint = |galley: std::sync::Arc<egui::Galley>| {
+        let size = galley.size();
+        let corner = at - vec2(0.0, 0.5 * size.y);
+        ui.painter().galley(corner, galley, ink);
+        at.x += size.x;
+    };
+    let whole = galley_of(name, f32::INFINITY);
+    if whole.size().x <= width {
+        return paint(whole);
+    }
+    let (head, tail) = name_parts(name);
+    let end = galley_of(&tail, f32::INFINITY);
+    paint(galley_of(head, (width - end.size().x).max(1.0)));
+    paint(end);
+}
+
+/// What of a name may be cut, and the end that stays.
+fn name_parts(name: &str) -> (&str, String) {
+    if let Some((head, side)) = name
+        .rsplit_once(", ")
+        .filter(|(_, side)| side.len() <= SIDE)
+    {
+        return (head, format!(" · {side}"));
+    }
+    let mut letters = name.char_indices().rev();
+    let from = letters.nth(END - 1).map_or(0, |(from, _)| from);
+    (&name[..from], name[from..].to_owned())
+}
+
+/// A line around what has the keyboard.
+pub(crate) fn paint_focus(ui: &Ui, response: &Response) {
+    if response.has_focus() {
+        let edge = egui::Stroke::new(1.0, Palette::in_ui(ui).selection);
+        let inside = egui::StrokeKind::Inside;
+        ui.painter().rect_stroke(response.rect, 4, edge, inside);
+    }
+}
+
 /// Paints a number, right-aligned in `rect`, its unit dimmer behind it.
 pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, unit: &str) {
     let palette = Palette::in_ui(ui);
@@ -167,4 +220,22 @@ pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, uni
         theme::number(),
         palette.text,
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_tells_front_from_back_is_never_cut() {
+        let parts = |name| name_parts(name);
+        assert_eq!(
+            parts("Wool worsted twill, back"),
+            ("Wool worsted twill", " · back".to_owned())
+        );
+        assert_eq!(parts("Jersey 12"), ("Jerse", "y 12".to_owned()));
+        assert_eq!(parts("É"), ("", "É".to_owned()));
+        let long = "Twill, changed in many ways";
+        assert_eq!(parts(long), ("Twill, changed in many ", "ways".to_owned()));
+    }
 }

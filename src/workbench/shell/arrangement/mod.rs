@@ -54,7 +54,7 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 /// Everything in sight: cloth on the left, controls on the right, pictures below the cloth.
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let left = (size.x - CONTROLS).max(CONTROLS);
-    let library = tabs(tiles, &[Pane::Library]);
+    let library = tabs(tiles, &[Pane::Library, Pane::Recordings]);
     let workspace = tabs(tiles, &FRONT);
     let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
@@ -85,7 +85,8 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
     let workspace = tabs(tiles, &FRONT);
-    let controls = tabs(tiles, &[Pane::Tuning, Pane::Bridge, Pane::Library]);
+    let controls = [Pane::Tuning, Pane::Bridge, Pane::Library, Pane::Recordings];
+    let controls = tabs(tiles, &controls);
     let pictures = tabs(
         tiles,
         &[

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui;
 
 use crate::bench::command::{FileCommand, Purpose};
+use crate::bench::library_acts::LibraryCommand;
 use crate::bench::opening::Origin;
 use crate::shell::ask::Ask;
-use crate::shell::state::After;
+use crate::shell::state::{After, Question};
 use crate::shell::window::Workbench;
 
 impl Workbench {
@@ -31,11 +32,18 @@ impl Workbench {
                 None => self.ask(Purpose::SaveScene),
             },
             FileCommand::Close => self.unless_unsaved(After::Close),
-            FileCommand::LetGo => {
-                if let Some(after) = self.shell.question.take() {
-                    self.go_on(after);
+            FileCommand::LetGo => self.answer_question(),
+            FileCommand::SaveAll => {
+                let question = self.shell.question.as_ref();
+                self.bench.files.recovery.keeps =
+                    question.is_some_and(|question| question.after == After::Close);
+                if self.bench.document.is_edited() {
+                    self.dispatch_file(FileCommand::Save);
+                } else {
+                    self.answer_question();
                 }
             }
+            FileCommand::Left(what) => self.answer_offer(what),
         }
     }
 
@@ -47,6 +55,7 @@ impl Workbench {
             Purpose::OpenRecording => bench.open_recording(path),
             Purpose::SaveRecording => bench.save_recording(path),
             Purpose::Clip(kind) => bench.write_clip_to(kind, &path),
+            Purpose::AddLibrary => bench.dispatch_library(LibraryCommand::AddFolder(path)),
             _ => {}
         }
     }
@@ -74,21 +83,36 @@ impl Workbench {
             Purpose::OpenScene | Purpose::SaveScene => bench.document.path().cloned(),
             Purpose::Export(what) => Some(self.export_path(what)),
             Purpose::Clip(kind) => Some(bench.clip_path(kind)),
-            Purpose::OpenRecording | Purpose::SaveRecording => {
+            Purpose::OpenRecording => {
                 let take = bench.exploration.at_hand.as_ref()?;
                 take.file().map(Path::to_owned)
             }
+            Purpose::SaveRecording => Some(bench.path_file()),
             _ => None,
         }
     }
 
-    /// Goes on at once when everything is saved; otherwise asks first.
+    /// Goes on at once when nothing would be lost; otherwise asks first. Drafts outlive a scene,
+    /// but not the window.
     fn unless_unsaved(&mut self, after: After) {
         self.shell.ask = None;
-        if self.bench.document.is_edited() {
-            self.shell.question = Some(after);
-        } else {
+        self.bench.files.recovery.keeps = false;
+        let mut parts = self.unsaved();
+        if after != After::Close {
+            parts.truncate(usize::from(self.bench.document.is_edited()));
+        }
+        if parts.is_empty() {
             self.go_on(after);
+        } else {
+            self.keep_unsaved_now();
+            self.shell.question = Some(Question { after, parts });
+        }
+    }
+
+    /// Goes on with what waits for an answer.
+    fn answer_question(&mut self) {
+        if let Some(question) = self.shell.question.take() {
+            self.go_on(question.after);
         }
     }
 
@@ -111,9 +135,7 @@ impl Workbench {
             Ok(()) => {
                 self.shell.ask = None;
                 self.bench.settings.preferences.remember_scene(path);
-                if let Some(after) = self.shell.question.take() {
-                    self.go_on(after);
-                }
+                self.answer_question();
             }
             Err(error) => self.bench.notices.give(error.to_string()),
         }

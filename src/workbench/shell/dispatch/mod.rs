@@ -4,11 +4,11 @@ pub(crate) mod file;
 pub(crate) mod show;
 
 use crate::bench::Bench;
+use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{
-    Chosen, Command, FileCommand, Part, PlayCommand, PlaySource, Purpose, ShowCommand,
+    Chosen, Command, FileCommand, Left, Part, PlayCommand, PlaySource, Purpose, ShowCommand,
 };
-use crate::bench::document::Document;
 use crate::shell::window::Workbench;
 
 impl Workbench {
@@ -45,6 +45,9 @@ impl Workbench {
         if self.bench.has_session() && !leaves_session(&command) {
             return self.bench.refuse_in_session();
         }
+        if is_risky(&command) {
+            self.keep_unsaved_now();
+        }
         for tool in self.tools.iter_mut() {
             tool.command(&command, &mut self.bench);
         }
@@ -52,6 +55,9 @@ impl Workbench {
             Command::AllOff | Command::Dismiss => self.dismiss(),
             Command::File(command) => self.dispatch_file(command),
             Command::Show(command) => self.dispatch_show(&command),
+            Command::Undo => self.undo(),
+            Command::Redo => self.step_to(self.steps().n_done + 1),
+            Command::StepTo(n_done) => self.step_to(n_done),
             command => self.bench.act(command),
         }
     }
@@ -64,10 +70,27 @@ impl Workbench {
     }
 }
 
+/// Whether unsaved work is kept before a command is done: what reads foreign files or drives a
+/// device may go wrong.
+fn is_risky(command: &Command) -> bool {
+    match command {
+        Command::Device(command) => *command == DeviceCommand::Arm,
+        Command::File(FileCommand::Use(purpose, _)) => matches!(
+            purpose,
+            Purpose::ImportFiles | Purpose::OpenPicture | Purpose::OpenDesign
+        ),
+        _ => false,
+    }
+}
+
 /// Whether a command leaves what is felt to the session.
 fn leaves_session(command: &Command) -> bool {
     match command {
-        Command::AllOff | Command::Device(_) | Command::Dismiss | Command::DismissNotice(_) => true,
+        Command::AllOff
+        | Command::Device(_)
+        | Command::Dismiss
+        | Command::DismissNotice(_)
+        | Command::File(FileCommand::Left(Left::PutOff)) => true,
         Command::File(FileCommand::Ask(purpose) | FileCommand::Use(purpose, _)) => {
             matches!(purpose, Purpose::OpenLogs | Purpose::WriteReport)
         }
@@ -92,21 +115,23 @@ impl Bench {
     fn act(&mut self, command: Command) {
         match command {
             Command::Edit(edit) => self.edit(&edit),
-            Command::Undo => self.step_history(Document::undo),
-            Command::Redo => self.step_history(Document::redo),
             Command::Device(command) => self.dispatch_device(command),
             Command::Play(PlayCommand::Source(PlaySource::Input)) => self.choose_input(),
             Command::Play(command) => self.dispatch_play(command),
+            Command::Recording(command) => self.dispatch_recording(command),
             Command::Source(command) => self.dispatch_source(command),
             Command::Render(rendering) => {
                 self.settings.preferences.rendering = rendering.in_bounds();
                 self.render_as_chosen();
             }
-            Command::Keep(keep) => self.keep(keep),
+            Command::Library(command) => self.dispatch_library(command),
             Command::Chosen(act) => self.act_on_chosen(act),
             Command::DismissNotice(number) => self.notices.dismiss(number),
             // Windows and tools have done these.
             Command::AllOff
+            | Command::Undo
+            | Command::Redo
+            | Command::StepTo(_)
             | Command::Dismiss
             | Command::File(_)
             | Command::Show(_)

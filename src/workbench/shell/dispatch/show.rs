@@ -10,6 +10,9 @@ use crate::shell::window::Workbench;
 impl Workbench {
     /// Shows something, or shows it otherwise.
     pub(crate) fn dispatch_show(&mut self, command: &ShowCommand) {
+        if let ShowCommand::Pane(pane) | ShowCommand::Reveal(pane) = *command {
+            self.bench.pointer.pane_in_use = Some(pane);
+        }
         match *command {
             ShowCommand::Pane(pane) => {
                 arrangement::toggle(&mut self.shell.tree, pane);

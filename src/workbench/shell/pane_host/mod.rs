@@ -30,6 +30,10 @@ pub(crate) struct PaneHost<'a> {
 impl PaneHost<'_> {
     fn show(&mut self, ui: &mut Ui, pane: Pane) {
         self.n_drawn[pane.index()] += 1;
+        if ui.input(|input| input.pointer.any_pressed()) && ui.rect_contains_pointer(ui.max_rect())
+        {
+            self.context.bench.pointer.pane_in_use = Some(pane);
+        }
         if self.context.bench.is_veiled(pane) {
             return framed(ui, 10, show_veil);
         }

@@ -39,6 +39,20 @@ impl Behavior<Pane> for PaneHost<'_> {
         egui::RichText::new(title).font(theme::small()).into()
     }
 
+    fn on_tab_button(
+        &mut self,
+        tiles: &mut Tiles<Pane>,
+        tile: TileId,
+        response: egui::Response,
+    ) -> egui::Response {
+        if response.clicked()
+            && let Some(Tile::Pane(pane)) = tiles.get(tile)
+        {
+            self.context.bench.pointer.pane_in_use = Some(*pane);
+        }
+        response
+    }
+
     fn top_bar_right_ui(
         &mut self,
         tiles: &Tiles<Pane>,

@@ -195,7 +195,7 @@ impl Analysis {
             return;
         }
         self.is_uncovered = false;
-        let folder = bench.settings.preferences.sessions_folder.as_deref();
+        let folder = bench.settings.preferences.folders.sessions.as_deref();
         self.offer(Some(Path::new(folder.unwrap_or_default())));
     }
 

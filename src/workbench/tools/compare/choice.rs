@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::bench::Bench;
 use crate::bench::play::resting_stroke;
+use crate::bench::recording::Recording;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Scene, Stroke, TICKS_PER_S};
 use selvedge_textile::tactile::{Filters, Tuning};
@@ -23,6 +24,8 @@ pub(crate) enum What {
     Textiles,
     /// How amplitudes are computed.
     Methods,
+    /// Two recordings as they were felt or shown, tick for tick.
+    Recordings,
 }
 
 /// A tuning to compare.
@@ -104,6 +107,8 @@ pub(crate) enum Route {
     Recording(Arc<ExplorationPath>),
     /// A generated stroke through the scene, this many ticks long.
     Stroke(Stroke, u64),
+    /// Each its own: nothing is rendered, two recordings are compared as they were.
+    Recorded(Arc<[Recording; 2]>),
 }
 
 impl PartialEq for Route {
@@ -111,6 +116,7 @@ impl PartialEq for Route {
         match (self, other) {
             (Self::Recording(one), Self::Recording(other)) => Arc::ptr_eq(one, other),
             (Self::Stroke(one, n), Self::Stroke(other, m)) => one == other && n == m,
+            (Self::Recorded(two), Self::Recorded(others)) => Arc::ptr_eq(two, others),
             _ => false,
         }
     }
@@ -139,6 +145,10 @@ impl Route {
         match self {
             Self::Recording(path) => path.n_ticks(),
             Self::Stroke(_, n_ticks) => *n_ticks,
+            Self::Recorded(two) => {
+                let [a, b] = two.each_ref().map(|one| one.path().n_ticks());
+                a.min(b)
+            }
         }
     }
 
@@ -146,6 +156,7 @@ impl Route {
     pub(crate) fn ticks(&self) -> Box<dyn Iterator<Item = (u64, Pose)> + '_> {
         match self {
             Self::Recording(path) => Box::new(path.ticks()),
+            Self::Recorded(two) => Box::new(two[0].path().ticks()),
             Self::Stroke(stroke, n_ticks) => {
                 Box::new((0..*n_ticks).map(|tick| (tick, pose_of(stroke, tick))))
             }
@@ -156,6 +167,7 @@ impl Route {
         match self {
             Self::Recording(path) => PathCursor::at(path, tick).step(path).map(|(_, pose)| pose),
             Self::Stroke(stroke, _) => Some(pose_of(stroke, tick)),
+            Self::Recorded(_) => None,
         }
     }
 
@@ -188,6 +200,8 @@ pub(crate) struct Side {
     pub scene: Scene,
     /// The method.
     pub method: Method,
+    /// The recording that is set against the other as it was.
+    pub recording: Option<String>,
 }
 
 /// Everything that a comparison depends on.
@@ -221,6 +235,7 @@ impl Inputs {
                 ..scene.clone()
             },
             method: Method::Auto,
+            recording: None,
         });
         for (index, side) in sides.iter_mut().enumerate() {
             match choice.what {
@@ -240,6 +255,14 @@ impl Inputs {
                     }
                 }
                 What::Methods => side.method = choice.methods[index],
+                What::Recordings => match &route {
+                    Route::Recorded(two) => side.recording = Some(two[index].name().to_owned()),
+                    _ => {
+                        return Err(
+                            "Choose a recording in the Recordings pane, then “Compare with…”",
+                        );
+                    }
+                },
             }
         }
         Ok(Self { sides, route })

@@ -4,11 +4,13 @@
 //! only what is asked for, when, and how far it is. Nothing is rendered while the pane is hidden.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::bench::Bench;
 use crate::bench::background::{Executor, Task};
 use crate::bench::error::AppError;
+use crate::bench::recording::Recording;
 use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
 use selvedge_chart::Chart;
 use selvedge_foundation::progress::Progress;
@@ -51,6 +53,8 @@ pub(crate) struct Compare {
     pub choice: Choice,
     /// The tuning that was held as A.
     pub held_tuning: Option<HeldTuning>,
+    /// Two recordings that are set against each other.
+    pub(super) recorded: Option<Arc<[Recording; 2]>>,
     ended: Option<(Inputs, End)>,
     running: Option<Running>,
     cache: TableCache,
@@ -188,8 +192,22 @@ impl Compare {
         let document = &bench.document;
         let tunings = [document.tuning(), document.default_tuning()];
         let (choice, held) = (&self.choice, self.held_tuning.as_ref());
-        let route = Route::at_hand(bench);
+        let route = self.route_now(bench);
         Inputs::of(choice, held, document.scene(), tunings, route)
+    }
+
+    /// The path that is followed now.
+    pub(crate) fn route_now(&self, bench: &Bench) -> Route {
+        match &self.recorded {
+            Some(two) if self.choice.what == What::Recordings => Route::Recorded(Arc::clone(two)),
+            _ => Route::at_hand(bench),
+        }
+    }
+
+    /// Sets two recordings against each other.
+    pub(crate) fn set_against(&mut self, two: [Recording; 2]) {
+        self.choice.what = What::Recordings;
+        self.recorded = Some(Arc::new(two));
     }
 
     /// Holds the present tuning as A, to compare it with what comes.
@@ -227,6 +245,21 @@ impl Compare {
     }
 }
 
+/// Sets two recordings against each other as they were, as long as both last.
+fn compare_recorded(two: &[Recording; 2]) -> LevelDifference {
+    let [n_a, n_b] = two.each_ref().map(|one| one.path().n_ticks());
+    let n_ticks = n_a.min(n_b);
+    let mut meter = DifferenceMeter::new(n_ticks);
+    for tick in 0..n_ticks {
+        let [a, b] = two
+            .each_ref()
+            .map(|one| one.amplitudes_um(tick).unwrap_or_default());
+        let pairs = a.iter().zip(b);
+        meter.add_amplitudes(tick, pairs.map(|(a, b)| [a, b].map(|um| um.map(f64::from))));
+    }
+    meter.finish()
+}
+
 /// Replays both and measures; `None` when it was asked to stop.
 fn compare(
     inputs: &Inputs,
@@ -234,6 +267,9 @@ fn compare(
     cache: &mut TableCache,
     progress: &mut Progress<'_>,
 ) -> Result<Option<LevelDifference>, AppError> {
+    if let Route::Recorded(two) = &inputs.route {
+        return Ok(Some(compare_recorded(two)));
+    }
     let mut scenes = Vec::with_capacity(2);
     for side in &inputs.sides {
         scenes.push(RenderScene::of(&loaded.with_scene(side.scene.clone())?));

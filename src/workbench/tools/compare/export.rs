@@ -55,14 +55,22 @@ pub(crate) fn differences(
         .and("a", &a, &format!("A: {a}"))
         .and("b", &b, &format!("B: {b}"))
         .in_ticks([0, difference.n_ticks.saturating_sub(1)].into_iter());
-    let note = "Level of B less level of A, on the same path: mean over all ticks in which both \
-                sound, by contactor; least and most of the mean over contactors, over time.";
+    let note = if sides[0].recording.is_some() {
+        "Level of B less level of A, tick for tick from the beginning of both: mean over all ticks \
+         in which both sound, by contactor; least and most of the mean over contactors, over time."
+    } else {
+        "Level of B less level of A, on the same path: mean over all ticks in which both sound, by \
+         contactor; least and most of the mean over contactors, over time."
+    };
     let title = "Level difference of two runs".to_owned();
     Exported::new(title, sheet(&found), vec![maps, time], note, origin)
 }
 
 /// What a side is, in one line.
 fn describe(side: &Side) -> String {
+    if let Some(name) = &side.recording {
+        return format!("recording \"{name}\" as it was");
+    }
     let placed = side.scene.textiles.iter();
     let ids: Vec<&str> = placed.map(|placed| placed.id.as_str()).collect();
     let gains = side.scene.tuning.map_or_else(

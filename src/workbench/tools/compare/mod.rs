@@ -1,5 +1,5 @@
 //! Compare: two tunings, two textiles or two methods on the same path, rendered offline and set
-//! against each other.
+//! against each other; or two recordings as they were.
 
 pub(crate) mod choice;
 pub(crate) mod comparison;
@@ -23,7 +23,10 @@ impl Tool for Compare {
         &[Pane::Compare]
     }
 
-    fn logic(&mut self, _bench: &mut Bench) {
+    fn logic(&mut self, bench: &mut Bench) {
+        if let Some(two) = bench.exploration.recordings.compared.take() {
+            self.set_against(two);
+        }
         self.poll();
     }
 

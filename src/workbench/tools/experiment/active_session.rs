@@ -9,7 +9,7 @@ use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::now::{Began, Now, Pause};
 use selvedge_engine::{RecordedSample, Recording, VibrationStep};
-use selvedge_experiment::design::{Design, Method, Source, Subject};
+use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
 use selvedge_experiment::{Answer, Apparatus, Outcome, Task as Asked, Timing, Trial};
@@ -87,7 +87,7 @@ enum TrialRecording {
     /// There is none.
     Nothing,
     /// The engine records.
-    Running,
+    Running(Recording),
     /// It came to its end.
     Ended(Recording),
 }
@@ -238,9 +238,9 @@ impl ActiveSession {
     /// The tuning in force now.
     pub(crate) fn tuning(&self) -> Tuning {
         let tuning = self.materials.tuning();
-        match (&self.draft, &self.design.method) {
-            (Draft::Adjust { values, .. }, Method::Adjustment(adjusting)) => {
-                layout::tuned(tuning, &adjusting.parameters, values)
+        match &self.draft {
+            Draft::Adjust { values, .. } => {
+                layout::tuned(tuning, self.design.method.parameters(), values)
             }
             _ => tuning,
         }
@@ -301,18 +301,29 @@ impl ActiveSession {
     }
 
     /// The engine began to record the exploration of this trial.
-    pub(crate) fn records(&mut self) {
-        self.recording = TrialRecording::Running;
+    pub(crate) fn records(&mut self, recording: Recording) {
+        self.recording = TrialRecording::Running(recording);
     }
 
     /// Whether the engine still records.
     pub(crate) fn is_recording(&self) -> bool {
-        matches!(self.recording, TrialRecording::Running)
+        matches!(self.recording, TrialRecording::Running(_))
     }
 
-    /// The engine's recording came to its end.
-    pub(crate) fn take_recording(&mut self, recording: Recording) {
-        self.recording = TrialRecording::Ended(recording);
+    /// Takes what the engine has recorded. Once a frame.
+    pub(crate) fn collect_recording(&mut self) {
+        let recording = std::mem::replace(&mut self.recording, TrialRecording::Nothing);
+        self.recording = match recording {
+            TrialRecording::Running(mut recording) => {
+                recording.collect();
+                if recording.has_ended() {
+                    TrialRecording::Ended(recording)
+                } else {
+                    TrialRecording::Running(recording)
+                }
+            }
+            other => other,
+        };
     }
 
     /// Begins to write what waits, once its recording is there. Whether it begins now.

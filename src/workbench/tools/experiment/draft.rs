@@ -1,6 +1,6 @@
 //! What has been answered so far of a trial, before it is handed in.
 
-use selvedge_experiment::design::{Design, JudgingProtocol, Method, Scale, TunedParameter};
+use selvedge_experiment::design::{Design, Scale, TunedParameter};
 use selvedge_experiment::{Adjustment, Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
 use selvedge_foundation::quantity;
 
@@ -124,10 +124,8 @@ impl Sure {
 impl Draft {
     /// An answer to a trial in which nothing was said yet.
     pub(crate) fn of(design: &Design, trial: &Trial) -> Self {
-        let grades = match &design.method {
-            Method::Judgement(judging) => judging.confidence_grades,
-            _ => 0,
-        };
+        let method = &design.method;
+        let grades = method.confidence_grades();
         match &trial.task {
             Task::Rank { .. } => Self::Ranks([None; N_RANKED]),
             Task::OddOne { .. } => Self::Odd {
@@ -137,31 +135,22 @@ impl Draft {
             Task::Adjust { starts, .. } => Self::Adjust {
                 values: starts.clone(),
                 steps: Vec::new(),
-                parameters: match &design.method {
-                    Method::Adjustment(adjusting) => adjusting.parameters.clone(),
-                    _ => Vec::new(),
-                },
+                parameters: method.parameters().to_vec(),
             },
             Task::Judge { .. } => Self::Judge {
                 is_real: None,
                 sure: Sure::of(grades),
             },
             Task::JudgePair { .. } | Task::Interval { .. } => Self::Choose {
-                n: n_choices(design),
+                n: method.levels().map_or(2, |levels| levels.intervals),
                 position: None,
                 sure: Sure::of(grades),
             },
             Task::Estimate { .. } => Self::Magnitude(String::new()),
-            Task::Rate { .. } => {
-                let scales = match &design.method {
-                    Method::Rating(rating) => rating.scales.clone(),
-                    _ => Vec::new(),
-                };
-                Self::Ratings {
-                    values: vec![None; scales.len()],
-                    scales,
-                }
-            }
+            Task::Rate { .. } => Self::Ratings {
+                values: vec![None; method.scales().len()],
+                scales: method.scales().to_vec(),
+            },
         }
     }
 
@@ -295,15 +284,6 @@ impl Draft {
             }
             Self::Nothing => String::new(),
         }
-    }
-}
-
-/// How many there are to choose from.
-fn n_choices(design: &Design) -> usize {
-    match &design.method {
-        Method::Levels(levels) => levels.intervals,
-        Method::Judgement(judging) if judging.protocol == JudgingProtocol::Pair => 2,
-        _ => 0,
     }
 }
 

@@ -44,10 +44,8 @@ impl Materials {
             None => Library::shipped()?,
             Some(folder) => Library::named(&folder, build_cache().as_ref())?,
         });
-        let library_view = LibraryView::new(
-            Arc::clone(&library),
-            crate::bench::library_view::items_of(&library),
-        );
+        let items = crate::bench::library_shelf::items_of(&library, None);
+        let library_view = LibraryView::new(Arc::clone(&library), items);
         let loaded = LoadedScene::load(scene, library)?;
         let mut cache = TableCache::default();
         let accuracy = rendering.accuracy();

@@ -120,7 +120,7 @@ impl Tool for Experiment {
 
     fn begin(&mut self, bench: &mut Bench) {
         let preferences = &bench.settings.preferences;
-        let (folder, design) = (&preferences.sessions_folder, &preferences.design);
+        let (folder, design) = (&preferences.folders.sessions, &preferences.design);
         self.form.take_up(folder.as_deref(), design.as_deref());
     }
 
@@ -157,7 +157,7 @@ impl Tool for Experiment {
     }
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
-        preferences.sessions_folder = self.form.kept_folder();
+        preferences.folders.sessions = self.form.kept_folder();
         preferences.design = self.form.chosen.word();
     }
 }

@@ -130,7 +130,6 @@ impl Experiment {
         let Some(session) = self.session.take_if(can_end) else {
             return;
         };
-        self.lets_recording_go = session.is_recording();
         if session.is_recording() {
             bench.send(Command::StopRecording);
         }
@@ -180,13 +179,12 @@ impl Experiment {
         match prepared {
             Ok(prepared) => {
                 let is_trial = session.trial().is_some();
-                if is_trial {
-                    session.records();
-                }
                 bench.send(Command::UpdateScene(Box::new(prepared)));
                 bench.send(Command::Vibrate(session.vibrations()));
-                if is_trial {
-                    bench.send(Command::StartRecording);
+                match is_trial.then(|| bench.engine.record()) {
+                    Some(Ok(recording)) => session.records(recording),
+                    Some(Err(error)) => bench.notices.give(error.to_string()),
+                    None => {}
                 }
             }
             Err(error) => bench.notices.give(error.to_string()),
@@ -206,19 +204,6 @@ impl Experiment {
         self.list_sessions(bench, false);
     }
 
-    /// Takes a recording that has ended, if a session or what is left of one wants it.
-    fn take_recording(&mut self, bench: &mut Bench) {
-        let Some(recording) = bench.exploration.ended.take() else {
-            return;
-        };
-        let recorded = self.session.as_mut().filter(|one| one.is_recording());
-        if let Some(session) = recorded {
-            session.take_recording(recording);
-        } else if !std::mem::take(&mut self.lets_recording_go) && self.session.is_none() {
-            bench.exploration.ended = Some(recording);
-        }
-    }
-
     fn write_row(&mut self, bench: &Bench) {
         let has_engine = bench.engine.is_running();
         if let Some(session) = &mut self.session
@@ -232,8 +217,8 @@ impl Experiment {
     pub(crate) fn poll(&mut self, bench: &mut Bench) {
         if let Some(session) = &mut self.session {
             session.vibration = bench.live.vibration;
+            session.collect_recording();
         }
-        self.take_recording(bench);
         match finished(&mut self.form.listing) {
             Some(Ok(listed)) => self.form.take_listed(listed),
             Some(Err(line)) => self.form.failure = Some(line),

@@ -30,8 +30,6 @@ pub(crate) struct Experiment {
     pub(super) window: ParticipantsWindow,
     /// Whether the participant sees nothing while a trial waits.
     pub(super) is_blank: bool,
-    /// Whether the next recording that ends is of a trial that nobody answered.
-    pub(super) lets_recording_go: bool,
 }
 
 /// A session that is ready to become active.

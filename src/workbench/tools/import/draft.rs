@@ -1,7 +1,10 @@
 //! What the user has chosen and typed so far, and what the readers are told of it.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::bench::source_file::SourceFile;
 use crate::tools::import::failure::{Failure, Step};
@@ -13,9 +16,10 @@ use selvedge_textile::{
 };
 
 /// A file and what was said of it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct DraftFile {
     /// The file.
+    #[serde(serialize_with = "as_path", deserialize_with = "at_path")]
     pub source: Arc<SourceFile>,
     /// What it holds; `None`: by its columns and its name.
     pub place: Option<KesPlace>,
@@ -30,8 +34,16 @@ impl PartialEq for DraftFile {
     }
 }
 
+fn as_path<S: Serializer>(source: &SourceFile, to: S) -> Result<S::Ok, S::Error> {
+    source.path().serialize(to)
+}
+
+fn at_path<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<SourceFile>, D::Error> {
+    PathBuf::deserialize(from).map(|path| Arc::new(SourceFile::new(path)))
+}
+
 /// What the tester's files do not say.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct StrokesDraft {
     /// What the columns are.
     pub columns: Option<Vec<ColumnRole>>,
@@ -54,7 +66,7 @@ pub(crate) struct StrokesDraft {
 }
 
 /// What a file of heights does not say.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct HeightsDraft {
     /// The unit of heights.
     pub height_unit: Option<LengthUnit>,
@@ -75,7 +87,7 @@ pub(crate) struct HeightsDraft {
 }
 
 /// Everything that the readers are told.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Told {
     /// The files.
     pub files: Vec<DraftFile>,
@@ -88,7 +100,7 @@ pub(crate) struct Told {
 }
 
 /// What is looked at of what was read.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Looked {
     /// The evaluated sections of warp and weft, mm; `None`: the one suggested.
     pub sections: [Option<[f64; 2]>; 2],
@@ -99,7 +111,7 @@ pub(crate) struct Looked {
 }
 
 /// What is said of the textile.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct WordsDraft {
     /// Its name; empty: the one that the file suggests.
     pub name: String,
@@ -118,7 +130,7 @@ pub(crate) struct WordsDraft {
 }
 
 /// All of it.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Draft {
     /// What the readers are told.
     pub described: Told,
@@ -126,6 +138,23 @@ pub(crate) struct Draft {
     pub looked: Looked,
     /// What is said of the textile.
     pub words: WordsDraft,
+}
+
+impl Draft {
+    /// Whether more was chosen and typed than which files there are.
+    pub(crate) fn is_begun(&self) -> bool {
+        let described = Told {
+            files: self.described.files.clone(),
+            ..Told::default()
+        };
+        let fresh = Self {
+            described,
+            ..Self::default()
+        };
+        let is_placed = |file: &DraftFile| file.place.is_some() || file.is_friction;
+        let files = &self.described.files;
+        !files.is_empty() && (*self != fresh || files.iter().any(is_placed))
+    }
 }
 
 /// A number that was typed, or none; `what` names it, with its unit.

@@ -83,16 +83,6 @@ impl Import {
         }
         None
     }
-
-    /// An id that the library has already; what is kept gets the next free one.
-    pub(crate) fn taken(&self, is_known: impl Fn(&str) -> bool) -> Option<String> {
-        let found = self.found()?;
-        let id = self.draft.words.id(&found.own_name());
-        let n = found.heights().map_or(1, |heights| heights.places.len());
-        (0..n)
-            .map(|nth| nth_id(&id, nth, n))
-            .find(|id| is_known(id))
-    }
 }
 
 impl Import {

@@ -23,7 +23,7 @@ pub(crate) mod work;
 
 pub(crate) use crate::tools::import::state::Import;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::Ui;
 
@@ -31,8 +31,13 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, FileCommand, Purpose};
 use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
+use selvedge_foundation::files::{from_json_str, to_json_string};
+
+/// What unsaved work is called in errors.
+const WORK: &str = "unsaved import";
 
 impl Tool for Import {
     fn panes(&self) -> &'static [Pane] {
@@ -53,6 +58,25 @@ impl Tool for Import {
         if let Command::File(FileCommand::Use(Purpose::ImportFiles, path)) = command {
             self.take_files(vec![path.clone()], bench);
         }
+    }
+
+    fn unsaved(&self) -> Option<Unsaved> {
+        if !self.draft.is_begun() || matches!(self.kept, Some(Ok(_))) {
+            return None;
+        }
+        let files = &self.draft.described.files;
+        let names: Vec<String> = files.iter().map(|file| file.source.name()).collect();
+        Some(Unsaved {
+            name: format!("Import of {}", names.join(", ")),
+            what: "what was chosen and typed, not kept as a textile yet".to_owned(),
+            work: to_json_string(&self.draft, Path::new(WORK)).unwrap_or_default(),
+        })
+    }
+
+    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
+        let draft = from_json_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
+        self.take_draft(draft);
+        Ok(())
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {

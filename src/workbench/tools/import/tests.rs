@@ -237,7 +237,7 @@ fn nonsense_is_one_line_at_the_files() {
     huge.set_len(3 << 30).unwrap();
     let importing = import_of(&[folder.join("huge.txt")]);
     assert!(
-        failure(&importing).line.contains("has 3072 MB"),
+        failure(&importing).line.contains("is larger than 60 MB"),
         "{:?}",
         failure(&importing)
     );
@@ -292,21 +292,6 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
     read(&mut importing);
     let found = unheard(|progress| work::read(importing.inputs(), None, progress)).unwrap();
     assert!(found.failure.is_none());
-}
-
-#[test]
-fn an_id_that_the_library_has_is_said() {
-    let folder = ScratchFolder::made("taken");
-    let path = folder.write("twill.txt", export());
-    let importing = import_of(std::slice::from_ref(&path));
-    assert_eq!(
-        (importing.refusal(), importing.taken(|_| false)),
-        (None, None)
-    );
-    assert_eq!(
-        importing.taken(|id| id == "twill").as_deref(),
-        Some("twill")
-    );
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! How a textile is called that is kept: what is typed, and what is wrong with it.
 
+use serde::{Deserialize, Serialize};
+
 use selvedge_textile::id_of;
 
 /// What is typed.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct KeepFields {
     /// What people call it.
     pub name: String,
@@ -38,18 +40,15 @@ impl KeepFields {
         }
     }
 
-    /// Why no textile can be kept under this name and id in a library with these ids.
-    pub(crate) fn refusal(&self, known: &[String]) -> Option<String> {
+    /// Why no textile can be kept under this name and id.
+    pub(crate) fn refusal(&self) -> Option<String> {
         let id = self.id.trim();
         if self.name.trim().is_empty() {
             return Some("The name is empty; give the textile a name".to_owned());
         }
-        if id.is_empty() || id_of(id) != id {
-            let words = "write it with letters a to z, digits and single hyphens";
-            return Some(format!("The id \"{id}\" can be no folder's name; {words}"));
-        }
-        let is_taken = known.iter().any(|known| known == id);
-        is_taken.then(|| format!("The library has a textile \"{id}\"; choose another id"))
+        let words = "write it with letters a to z, digits and single hyphens";
+        let is_wrong = id.is_empty() || id_of(id) != id;
+        is_wrong.then(|| format!("The id \"{id}\" can be no folder's name; {words}"))
     }
 }
 
@@ -72,22 +71,15 @@ mod tests {
     }
 
     #[test]
-    fn an_id_that_is_taken_or_no_folder_is_refused_in_a_line() {
-        let known = ["wool-twill".to_owned()];
+    fn an_id_that_can_be_no_folder_is_refused_in_a_line() {
         let with = |name: &str, id: &str| KeepFields {
             name: name.to_owned(),
             id: id.to_owned(),
             ..KeepFields::default()
         };
-        assert_eq!(with("a", "a-1").refusal(&known), None);
-        for (name, id) in [
-            (" ", "a"),
-            ("a", ""),
-            ("a", "../a"),
-            ("a", "Wool-Twill"),
-            ("a", "wool-twill"),
-        ] {
-            let words = with(name, id).refusal(&known).unwrap();
+        assert_eq!(with("a", "a-1").refusal(), None);
+        for (name, id) in [(" ", "a"), ("a", ""), ("a", "../a"), ("a", "Wool-Twill")] {
+            let words = with(name, id).refusal().unwrap();
             assert!(words.contains(';') && !words.contains('\n'), "{words}");
         }
     }

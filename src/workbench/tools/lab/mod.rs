@@ -13,7 +13,6 @@ pub(crate) mod family;
 pub(crate) mod fields;
 pub(crate) mod pictures;
 pub(crate) mod preview;
-pub(crate) mod recipes;
 pub(crate) mod state;
 pub(crate) mod steps;
 #[cfg(test)]
@@ -29,9 +28,12 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
+use crate::bench::history::StepList;
 use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
+use crate::tools::lab::steps::Steps;
 
 impl Tool for Lab {
     fn panes(&self) -> &'static [Pane] {
@@ -54,6 +56,24 @@ impl Tool for Lab {
             bench.commands.push(ShowCommand::Reveal(Pane::Lab).into());
             self.begin_with(bench, beginning.clone());
         }
+    }
+
+    fn steps(&self, _bench: &Bench) -> Option<StepList> {
+        Some(self.steps.as_ref().map(Steps::list).unwrap_or_default())
+    }
+
+    fn step_to(&mut self, n_done: usize, _bench: &mut Bench) {
+        self.go_to(n_done);
+    }
+
+    fn unsaved(&self) -> Option<Unsaved> {
+        self.steps.as_ref()?.unsaved()
+    }
+
+    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
+        self.steps = Some(Steps::from_work(work)?);
+        self.has_changed();
+        Ok(())
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {

@@ -9,11 +9,10 @@ use crate::tools::lab::family::{Family, FamilyFields};
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::pictures::Pictures;
 use crate::tools::lab::preview::{Compared, Preview, PreviewAsked, PreviewFound};
-use crate::tools::lab::recipes::Recipes;
-use crate::tools::lab::steps::Steps;
+use crate::tools::lab::steps::{Recipe, Steps};
 use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::Filters;
-use selvedge_textile::{Draft, Fault, Library, Manifest, Parent, Provenance};
+use selvedge_textile::{Draft, Fault, Manifest, Parent, Provenance};
 
 /// Which controls are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -71,8 +70,6 @@ pub(crate) struct Begun {
 pub(crate) struct Lab {
     /// The recipe; `None` before one has begun.
     pub steps: Option<Steps>,
-    /// The textile of the library that it is made from.
-    pub parent: Option<Parent>,
     /// What it is compared with.
     pub compared: Option<Compared>,
     /// What became of the recipe that was computed last.
@@ -81,17 +78,16 @@ pub(crate) struct Lab {
     pub(crate) pictures: Pictures,
     /// Which stroke is looked at.
     pub look: Look,
+    /// The heights between which profiles are drawn, µm: they stay while the recipe is edited.
+    pub(crate) heights_um: Option<[f64; 2]>,
     /// Which controls are shown.
     pub page: Page,
-    /// What is typed where the textile is named.
-    pub fields: KeepFields,
     /// What is chosen where a family is planned.
     pub plan: FamilyFields,
     /// The family that was tried last.
     pub family: Option<Family>,
     /// Why something was not done.
     pub refusal: Option<String>,
-    pub(crate) recipes: Recipes,
     /// What it is felt through.
     pub(crate) filters: Filters,
     pub(crate) beginning: Option<Task<Begun>>,
@@ -151,70 +147,89 @@ impl Lab {
         self.refusal = None;
     }
 
-    /// Begins a recipe; the one at hand can be had back.
+    /// Begins a recipe: a step that can be taken back.
     pub(crate) fn begin(&mut self, begun: Begun) {
-        self.set_aside();
-        let manifest = begun.draft.read().ok();
-        let name = manifest.map_or_else(String::new, |manifest| manifest.name);
-        let is_copy = begun.parent.is_some();
-        self.fields = KeepFields::of(&name, is_copy);
-        self.steps = Some(Steps::new(begun.draft));
+        let (parent, compared) = begun.parent.unzip();
+        let recipe = Recipe::new(begun.draft, parent);
+        match &mut self.steps {
+            Some(steps) => steps.begin(recipe),
+            None => self.steps = Some(Steps::new(recipe)),
+        }
         self.family = None;
         self.plan = FamilyFields::default();
-        self.parent = begun.parent.as_ref().map(|(parent, _)| parent.clone());
-        self.compared = begun.parent.map(|(_, compared)| compared);
+        self.compared = compared;
+        self.heights_um = None;
         self.has_changed();
+    }
+
+    /// Takes steps back or brings them again until so many are done.
+    pub(crate) fn go_to(&mut self, n_done: usize) {
+        let Some(steps) = &mut self.steps else { return };
+        let first = steps.first().clone();
+        steps.step_to(n_done);
+        if *steps.first() != first {
+            self.heights_um = None;
+            self.family = None;
+            self.plan = FamilyFields::default();
+        }
+        self.has_changed();
+    }
+
+    /// What is typed where the textile is named, and what it is made from.
+    pub(crate) fn recipe(&self) -> Result<&Recipe, String> {
+        let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
+        Ok(steps.recipe())
     }
 
     /// The recipe as it would be kept.
     ///
     /// # Errors
     /// What is wrong with the recipe or with how it is called, in one line.
-    pub(crate) fn to_keep(&self, library: &Library) -> Result<(String, Manifest), String> {
+    pub(crate) fn to_keep(&self) -> Result<(String, Manifest), String> {
         let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
         let manifest = steps
             .read()
             .as_ref()
             .map_err(|fault| fault.message.clone())?;
-        let id = self.fields.id.trim();
-        if let Some(words) = self.fields.refusal(library.ids()) {
+        let fields = &steps.recipe().fields;
+        if let Some(words) = fields.refusal() {
             return Err(words);
         }
-        Ok((id.to_owned(), self.named(manifest, self.fields.name.trim())))
-    }
-
-    /// A recipe under a name, with where it comes from.
-    fn named(&self, manifest: &Manifest, name: &str) -> Manifest {
-        Manifest {
-            name: name.to_owned(),
-            notes: self.fields.notes.trim().replace('\n', " "),
-            provenance: Some(Provenance::of(self.parent.iter().cloned().collect())),
-            ..manifest.clone()
-        }
+        let kept = named(steps.recipe(), manifest, fields.name.trim());
+        Ok((fields.id.trim().to_owned(), kept))
     }
 
     /// Every member of the family as it would be kept.
     ///
     /// # Errors
     /// The same, for any of them.
-    pub(crate) fn family_to_keep(
-        &self,
-        library: &Library,
-    ) -> Result<Vec<(String, Manifest)>, String> {
+    pub(crate) fn family_to_keep(&self) -> Result<Vec<(String, Manifest)>, String> {
+        let recipe = self.recipe()?;
+        let fields = &recipe.fields;
         let none = || "there is no family yet: press “Try” first".to_owned();
         let family = self.family.as_ref().ok_or_else(none)?;
         let mut all = Vec::with_capacity(family.members.len());
         for (nth, member) in (1..).zip(&family.members) {
             let numbered = KeepFields {
-                id: format!("{}-{nth}", self.fields.id.trim()),
-                ..self.fields.clone()
+                id: format!("{}-{nth}", fields.id.trim()),
+                ..fields.clone()
             };
-            if let Some(words) = numbered.refusal(library.ids()) {
+            if let Some(words) = numbered.refusal() {
                 return Err(words);
             }
-            let name = format!("{}, {}", self.fields.name.trim(), member.label);
-            all.push((numbered.id.clone(), self.named(&member.manifest, &name)));
+            let name = format!("{}, {}", fields.name.trim(), member.label);
+            all.push((numbered.id.clone(), named(recipe, &member.manifest, &name)));
         }
         Ok(all)
+    }
+}
+
+/// A manifest under a name, with where it comes from.
+fn named(recipe: &Recipe, manifest: &Manifest, name: &str) -> Manifest {
+    Manifest {
+        name: name.to_owned(),
+        notes: recipe.fields.notes.trim().replace('\n', " "),
+        provenance: Some(Provenance::of(recipe.parent.iter().cloned().collect())),
+        ..manifest.clone()
     }
 }

@@ -1,40 +1,134 @@
-//! The drafts of a recipe, one for every step: taken back, brought back, or all undone.
+//! The recipe of the lab and the steps that led to it.
+//!
+//! A step holds everything that the next one may change: the parameters, what the textile is to be
+//! called, and what it was made from, so that a beginning is taken back like any other step. What
+//! it is compared with and which part is looked at are views, and no steps.
 
-use selvedge_foundation::files::KeyValue;
-use selvedge_textile::{Draft, Fault, Manifest, ParameterKind, Place, groups};
+use std::path::Path;
 
-/// Most steps that can be taken back.
-const MOST: usize = 200;
+use serde::{Deserialize, Serialize};
+
+use crate::bench::history::{History, Moment, StepList};
+use crate::bench::recovery::Unsaved;
+use crate::tools::lab::fields::KeepFields;
+use selvedge_foundation::files::{KeyValue, keys_from_str, keys_to_string};
+use selvedge_textile::{Draft, Fault, Manifest, ParameterKind, Parent, Place, groups};
+
+/// What unsaved work is called in errors.
+const WORK: &str = "unsaved recipe";
+
+/// A recipe with all that belongs to it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Recipe {
+    draft: Draft,
+    /// The draft that it began with.
+    first: Draft,
+    /// The textile of the library that it is made from.
+    pub(crate) parent: Option<Parent>,
+    /// What is typed where the textile is named.
+    pub(crate) fields: KeepFields,
+}
+
+/// What a step changes: changes of the same in one gesture are one step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Target {
+    Parameter(Place),
+    Fields,
+    All,
+}
+
+/// What is written down of a recipe that no library holds.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Work {
+    recipe: Recipe,
+    history: History<Recipe, Target>,
+}
 
 /// A recipe while it is edited, and how it came to be.
 #[derive(Debug, Clone)]
 pub(crate) struct Steps {
-    drafts: Vec<Draft>,
-    at: usize,
-    /// The parameter that is being dragged: its changes are one step.
-    held: Option<Place>,
+    /// The draft that was kept last as a textile.
+    kept: Option<Draft>,
+    recipe: Recipe,
+    history: History<Recipe, Target>,
     read: Result<Manifest, Fault>,
 }
 
-impl Steps {
-    /// The first step.
-    pub(crate) fn new(draft: Draft) -> Self {
+impl Recipe {
+    /// One that begins, perhaps as a copy of a textile.
+    pub(crate) fn new(draft: Draft, parent: Option<Parent>) -> Self {
+        let name = draft
+            .read()
+            .map_or_else(|_| String::new(), |read| read.name);
         Self {
-            read: draft.read(),
-            drafts: vec![draft],
-            at: 0,
-            held: None,
+            fields: KeepFields::of(&name, parent.is_some()),
+            first: draft.clone(),
+            draft,
+            parent,
         }
+    }
+}
+
+impl Steps {
+    /// The first recipe.
+    pub(crate) fn new(recipe: Recipe) -> Self {
+        Self {
+            kept: None,
+            read: recipe.draft.read(),
+            recipe,
+            history: History::default(),
+        }
+    }
+
+    /// The recipe as it is becomes a textile.
+    pub(crate) fn keep(&mut self) {
+        self.kept = Some(self.recipe.draft.clone());
+    }
+
+    /// A recipe that was changed and not kept, with every step.
+    pub(crate) fn unsaved(&self) -> Option<Unsaved> {
+        let draft = self.now();
+        if draft == self.first() || self.kept.as_ref() == Some(draft) {
+            return None;
+        }
+        let work = Work {
+            recipe: self.recipe.clone(),
+            history: self.history.clone(),
+        };
+        let last = self.list();
+        Some(Unsaved {
+            name: format!("Recipe “{}” in the textile lab", self.recipe.fields.name),
+            what: format!(
+                "{} steps, the last: {}",
+                last.n_done,
+                last.undo().unwrap_or("none")
+            ),
+            work: keys_to_string(&work, Path::new(WORK)).unwrap_or_default(),
+        })
+    }
+
+    /// The recipe of such work.
+    pub(crate) fn from_work(work: &str) -> Result<Self, String> {
+        let work: Work = keys_from_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
+        Ok(Self {
+            history: work.history,
+            ..Self::new(work.recipe)
+        })
+    }
+
+    /// The recipe with all that belongs to it.
+    pub(crate) fn recipe(&self) -> &Recipe {
+        &self.recipe
     }
 
     /// The draft as it is.
     pub(crate) fn now(&self) -> &Draft {
-        &self.drafts[self.at]
+        &self.recipe.draft
     }
 
     /// The draft that it began with.
     pub(crate) fn first(&self) -> &Draft {
-        &self.drafts[0]
+        &self.recipe.first
     }
 
     /// The recipe, or what is wrong with it.
@@ -47,64 +141,66 @@ impl Steps {
         self.read.as_ref().err()
     }
 
-    /// Whether there is a step to take back, and one to bring back.
-    pub(crate) fn can_step(&self) -> [bool; 2] {
-        [self.at > 0, self.at + 1 < self.drafts.len()]
+    /// The steps that led here.
+    pub(crate) fn list(&self) -> StepList {
+        self.history.steps(&self.recipe)
     }
 
-    /// Sets a parameter. While `is_held` the pointer has hold of it, and all its changes are one
-    /// step.
-    pub(crate) fn set(&mut self, place: Place, value: Option<KeyValue>, is_held: bool) {
-        let mut draft = self.now().clone();
-        let stands_in = value.is_some().then(|| excluded(&draft, place)).flatten();
-        draft.set(place, value);
-        if let Some(other) = stands_in {
-            draft.set(other, None);
+    /// Takes steps back or brings them again until so many are done.
+    pub(crate) fn step_to(&mut self, n_done: usize) {
+        self.history.step_to(n_done, &mut self.recipe);
+        self.read = self.recipe.draft.read();
+    }
+
+    /// Begins with another recipe.
+    pub(crate) fn begin(&mut self, recipe: Recipe) {
+        let name = format!("began {}", recipe.fields.name);
+        self.change(recipe, Target::All, &name, Moment::default());
+    }
+
+    /// Sets a parameter, or leaves it out.
+    pub(crate) fn set(&mut self, place: Place, value: Option<KeyValue>, now: Moment) {
+        let mut recipe = self.recipe.clone();
+        let stands_in = value.is_some().then(|| excluded(self.now(), place));
+        recipe.draft.set(place, value);
+        if let Some(other) = stands_in.flatten() {
+            recipe.draft.set(other, None);
         }
-        let goes_on = is_held && self.held == Some(place) && self.at > 0;
-        self.held = is_held.then_some(place);
-        if goes_on {
-            self.drafts.truncate(self.at + 1);
-            self.drafts[self.at] = draft;
-        } else if draft != *self.now() {
-            self.push(draft);
-        }
-        self.read = self.now().read();
+        let groups = groups(self.now().kind());
+        let mut all = groups.iter().flat_map(|group| &group.parameters);
+        let own = all.find(|parameter| parameter.place == place);
+        let name = own.map_or(place.key, |parameter| parameter.name);
+        self.change(recipe, Target::Parameter(place), name, now);
+    }
+
+    /// Calls the textile otherwise.
+    pub(crate) fn call(&mut self, fields: KeepFields, now: Moment) {
+        let recipe = Recipe {
+            fields,
+            ..self.recipe.clone()
+        };
+        self.change(recipe, Target::Fields, "name", now);
     }
 
     /// Back to what it began with: a step of its own, which can be taken back.
     pub(crate) fn restart(&mut self) {
-        let first = self.first().clone();
-        if first != *self.now() {
-            self.push(first);
-            self.read = self.now().read();
+        let recipe = Recipe {
+            draft: self.first().clone(),
+            ..self.recipe.clone()
+        };
+        self.change(recipe, Target::All, "back to the start", Moment::default());
+    }
+
+    fn change(&mut self, recipe: Recipe, target: Target, name: &str, now: Moment) {
+        if recipe == self.recipe {
+            return;
         }
-    }
-
-    fn push(&mut self, draft: Draft) {
-        self.drafts.truncate(self.at + 1);
-        self.drafts.push(draft);
-        if self.drafts.len() > MOST {
-            // The first one stays: it is what "back to the start" goes to.
-            self.drafts.remove(1);
+        self.history.begin(&self.recipe, target, name, now);
+        if target == Target::All {
+            self.history.settle();
         }
-        self.at = self.drafts.len() - 1;
-    }
-
-    /// Takes a step back.
-    pub(crate) fn undo(&mut self) {
-        self.go(self.at.saturating_sub(1));
-    }
-
-    /// Brings a step back.
-    pub(crate) fn redo(&mut self) {
-        self.go((self.at + 1).min(self.drafts.len() - 1));
-    }
-
-    fn go(&mut self, at: usize) {
-        self.at = at;
-        self.held = None;
-        self.read = self.now().read();
+        self.recipe = recipe;
+        self.read = self.recipe.draft.read();
     }
 }
 
@@ -133,62 +229,72 @@ mod tests {
     };
 
     fn steps() -> Steps {
-        Steps::new(Draft::of(&example("brownian").unwrap()).unwrap())
+        let draft = Draft::of(&example("brownian").unwrap()).unwrap();
+        Steps::new(Recipe::new(draft, None))
+    }
+
+    /// In one gesture where `press` is the same.
+    fn at(press: u64) -> Moment {
+        Moment {
+            press,
+            is_down: true,
+            t_s: 0.0,
+        }
     }
 
     #[test]
-    fn changes_of_one_gesture_are_one_step() {
+    fn changes_of_one_gesture_are_one_step_with_the_name_of_the_parameter() {
         let mut steps = steps();
         let before = steps.now().clone();
         for hurst in [0.6, 0.7, 0.8] {
-            steps.set(HURST, Some(hurst.into()), true);
+            steps.set(HURST, Some(hurst.into()), at(1));
         }
         assert_eq!(steps.now().number(HURST), Some(0.8));
-        steps.undo();
-        assert_eq!((steps.now(), steps.can_step()), (&before, [false, true]));
-        steps.redo();
+        assert_eq!(steps.list().names, ["Hurst exponent"]);
+        steps.step_to(0);
+        assert_eq!((steps.now(), steps.list().n_done), (&before, 0));
+        steps.step_to(1);
         assert_eq!(steps.now().number(HURST), Some(0.8));
-        steps.set(HURST, Some(0.2.into()), false);
+        steps.set(HURST, Some(0.2.into()), at(2));
         steps.restart();
         assert_eq!(steps.now(), steps.first());
-        steps.undo();
+        assert_eq!(steps.list().undo(), Some("back to the start"));
+        steps.step_to(2);
         assert_eq!(steps.now().number(HURST), Some(0.2));
     }
 
     #[test]
     fn what_is_wrong_is_said_of_its_parameter_and_goes_with_the_step() {
         let mut steps = steps();
-        steps.set(HURST, Some(7.0.into()), false);
+        steps.set(HURST, Some(7.0.into()), at(1));
         let fault = steps.fault().unwrap();
         assert_eq!(fault.place, Some(HURST));
         assert_eq!(fault.message, "hurst is 7; give a number from 0.01 to 0.99");
-        steps.undo();
+        steps.step_to(0);
         assert!(steps.fault().is_none() && steps.read().is_ok());
     }
 
     #[test]
     fn one_amplitude_stands_in_the_place_of_the_other() {
         let mut steps = steps();
-        let at = |key| Place {
+        let place = |key| Place {
             table: "source",
             key,
         };
-        steps.set(at("rise_um"), Some(3.0.into()), false);
-        assert_eq!(steps.now().value(at("smd_um")), None);
+        steps.set(place("rise_um"), Some(3.0.into()), at(1));
+        assert_eq!(steps.now().value(place("smd_um")), None);
         assert!(steps.read().is_ok(), "{:?}", steps.fault());
     }
 
     #[test]
-    fn of_very_many_steps_the_first_one_stays() {
+    fn of_very_many_steps_the_start_is_still_known() {
         let mut steps = steps();
         let first = steps.first().clone();
         for n in 0..300_u32 {
-            steps.set(HURST, Some((0.1 + 0.002 * f64::from(n)).into()), false);
+            let hurst = 0.1 + 0.002 * f64::from(n);
+            steps.set(HURST, Some(hurst.into()), at(n.into()));
         }
-        assert_eq!(steps.first(), &first);
-        for _ in 0..300 {
-            steps.undo();
-        }
+        steps.restart();
         assert_eq!(steps.now(), &first);
     }
 }

@@ -7,6 +7,7 @@ use eframe::egui;
 use super::*;
 use crate::bench::background::Executor;
 use crate::bench::command::lab::Beginning;
+use crate::bench::history::Moment;
 use crate::bench::latest::Standing;
 use crate::tools::lab::family::{Family, Member, Plan};
 use crate::tools::lab::state::Begun;
@@ -35,8 +36,7 @@ fn small() -> Lab {
         table: "source",
         key,
     };
-    let steps = lab.steps.as_mut().unwrap();
-    steps.set(at("step_mm"), Some(0.1.into()), false);
+    lab.set(at("step_mm"), Some(0.1.into()), Moment::default());
     lab
 }
 
@@ -45,8 +45,8 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
     let mut lab = Lab::default();
     lab.begin(begun(&Beginning::Copy("polyamide-taffeta".to_owned())));
     let library = Library::shipped().unwrap();
-    assert_eq!(lab.fields.id, "polyamide-taffeta-changed");
-    let recipes = vec![lab.to_keep(&library).unwrap()];
+    assert_eq!(lab.recipe().unwrap().fields.id, "polyamide-taffeta-changed");
+    let recipes = vec![lab.to_keep().unwrap()];
     let [one, again] = [(); 2].map(|()| unheard(|progress| built(&recipes, progress)).unwrap());
     assert_eq!(one, again, "no clock, no chance");
     let manifest = &one[0]
@@ -69,31 +69,24 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
 #[test]
 fn a_recipe_that_another_took_the_place_of_comes_back_with_all_its_steps() {
     let mut lab = small();
-    lab.steps
-        .as_mut()
-        .unwrap()
-        .set(HURST, Some(0.3.into()), false);
-    lab.fields.id = "mine".to_owned();
-    let mine = lab.steps.as_ref().unwrap().now().clone();
+    lab.set(HURST, Some(0.3.into()), Moment::default());
+    let mut fields = lab.recipe().unwrap().fields.clone();
+    fields.id = "mine".to_owned();
+    lab.call(fields, Moment::default());
+    let mine = lab.recipe().unwrap().clone();
     lab.begin(begun(&Beginning::Copy("polyamide-taffeta".to_owned())));
-    assert!(lab.parent.is_some());
-    assert_eq!(lab.can_step(), [true, false]);
-    lab.undo();
-    assert_eq!(lab.steps.as_ref().unwrap().now(), &mine);
-    assert_eq!(
-        (lab.fields.id.as_str(), lab.parent.is_none()),
-        ("mine", true)
-    );
-    lab.undo();
-    assert_ne!(
-        lab.steps.as_ref().unwrap().now(),
-        &mine,
-        "its own steps too"
-    );
-    lab.redo();
-    lab.redo();
-    assert_eq!(lab.parent.as_ref().unwrap().id, "polyamide-taffeta");
-    assert_eq!(lab.can_step(), [true, false]);
+    assert!(lab.recipe().unwrap().parent.is_some());
+    let steps = lab.steps.as_ref().unwrap().list();
+    assert_eq!((steps.n_done, steps.redo()), (4, None));
+    assert_eq!(steps.undo(), Some("began Polyamide taffeta, changed"));
+    lab.go_to(3);
+    assert_eq!(lab.recipe().unwrap(), &mine);
+    lab.go_to(2);
+    assert_ne!(lab.recipe().unwrap(), &mine, "its own steps too");
+    lab.go_to(4);
+    let parent = lab.recipe().unwrap().parent.as_ref();
+    assert_eq!(parent.unwrap().id, "polyamide-taffeta");
+    assert_eq!(lab.steps.as_ref().unwrap().list(), steps);
 }
 
 #[test]
@@ -150,8 +143,7 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
     let high = |member: &Member| member.felt.levels.mean_um[1];
     assert!(high(&family.members[0]) > 2.0 * high(&family.members[2]));
     lab.family = Some(family);
-    let library = Library::shipped().unwrap();
-    let kept = lab.family_to_keep(&library).unwrap();
+    let kept = lab.family_to_keep().unwrap();
     let ids: Vec<&str> = kept.iter().map(|(id, _)| id.as_str()).collect();
     assert_eq!(
         ids,
@@ -191,7 +183,7 @@ fn a_preview_is_due_until_it_is_shown_and_not_while_it_is_stopped() {
         preview.felt.over_speed[Direction::WeftReverse.index()].len(),
         49
     );
-    lab.set(&ctx, HURST, Some(0.6.into()));
+    lab.set(HURST, Some(0.6.into()), Moment::default());
     assert!(matches!(lab.standing(), Standing::Working(_)));
     assert!(lab.preview().is_some(), "the last one stays");
 }

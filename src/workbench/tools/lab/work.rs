@@ -8,8 +8,10 @@ use eframe::egui;
 use crate::bench::Bench;
 use crate::bench::background::{Executor, finished};
 use crate::bench::command::lab::Beginning;
+use crate::bench::history::Moment;
 use crate::bench::keep::{Keep, NewTextile};
 use crate::tools::lab::family::{Family, Plan};
+use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::preview::Compared;
 use crate::tools::lab::state::{Begun, Lab};
 use crate::tools::lab::steps::Steps;
@@ -20,10 +22,13 @@ use selvedge_textile::{Draft, Library, Manifest, Parent, Place, RECIPES, Textile
 
 impl Lab {
     /// Sets a parameter, or leaves it out.
-    pub(crate) fn set(&mut self, ctx: &egui::Context, place: Place, value: Option<KeyValue>) {
-        let is_held = ctx.input(|input| input.pointer.any_down());
-        self.change(|steps| steps.set(place, value, is_held));
-        ctx.request_repaint();
+    pub(crate) fn set(&mut self, place: Place, value: Option<KeyValue>, now: Moment) {
+        self.change(|steps| steps.set(place, value, now));
+    }
+
+    /// Calls the textile otherwise that would be kept.
+    pub(crate) fn call(&mut self, fields: KeepFields, now: Moment) {
+        self.change(|steps| steps.call(fields, now));
     }
 
     /// Back to what it began with.
@@ -82,13 +87,13 @@ impl Lab {
 
     /// Keeps the recipe as a textile, and lays it under the display if it is to be felt.
     pub(crate) fn keep(&mut self, bench: &mut Bench, feels: bool) {
-        let recipe = self.to_keep(bench.engine_scene.loaded.library());
+        let recipe = self.to_keep();
         self.keep_recipes(bench, recipe.map(|one| vec![one]), feels);
     }
 
     /// Keeps every textile of the family that was tried.
     pub(crate) fn keep_family(&mut self, bench: &mut Bench) {
-        let recipes = self.family_to_keep(bench.engine_scene.loaded.library());
+        let recipes = self.family_to_keep();
         self.keep_recipes(bench, recipes, false);
     }
 
@@ -114,7 +119,12 @@ impl Lab {
     /// Takes what was built to be kept, whether the lab is in sight or not.
     pub(crate) fn poll_keeping(&mut self, bench: &mut Bench) {
         match finished(&mut self.keeping) {
-            Some(Ok(keep)) => bench.commands.push(keep.into()),
+            Some(Ok(keep)) => {
+                if let Some(steps) = &mut self.steps {
+                    steps.keep();
+                }
+                bench.commands.push(keep.into());
+            }
             Some(Err(words)) => self.refusal = Some(format!("Nothing was kept: {words}")),
             None => {}
         }

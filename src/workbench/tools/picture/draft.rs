@@ -1,6 +1,9 @@
 //! What the user has chosen and typed of a picture so far.
 
+use std::path::PathBuf;
 use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use selvedge_textile::picture::shading::{Light, Method};
@@ -11,7 +14,8 @@ use selvedge_textile::{HeightScale, id_of};
 const MM_PER_INCH: f64 = 25.4;
 
 /// The chosen file; the same only if it was read at the same time.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(from = "PathBuf", into = "PathBuf")]
 pub(crate) struct Chosen(Arc<SourceFile>);
 
 impl Chosen {
@@ -32,8 +36,20 @@ impl PartialEq for Chosen {
     }
 }
 
+impl From<PathBuf> for Chosen {
+    fn from(path: PathBuf) -> Self {
+        Self::new(SourceFile::new(path))
+    }
+}
+
+impl From<Chosen> for PathBuf {
+    fn from(chosen: Chosen) -> Self {
+        chosen.file().path().to_owned()
+    }
+}
+
 /// Which part of the picture is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) enum Part {
     /// All of it.
     #[default]
@@ -45,7 +61,7 @@ pub(crate) enum Part {
 }
 
 /// What a scale is typed in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum ScaleUnit {
     /// Dots to an inch, as scanners count.
     #[default]
@@ -55,7 +71,7 @@ pub(crate) enum ScaleUnit {
 }
 
 /// Which height of a relief is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum Known {
     /// From the lowest to the highest point.
     #[default]
@@ -65,7 +81,7 @@ pub(crate) enum Known {
 }
 
 /// Everything that the stages depend on.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Draft {
     /// The picture.
     pub source: Option<Chosen>,

@@ -18,7 +18,7 @@ pub(crate) mod work;
 
 pub(crate) use crate::tools::picture::state::Picture;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::Ui;
 
@@ -26,8 +26,13 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
+use selvedge_foundation::files::{from_json_str, to_json_string};
+
+/// What unsaved work is called in errors.
+const WORK: &str = "unsaved picture";
 
 impl Tool for Picture {
     fn panes(&self) -> &'static [Pane] {
@@ -49,6 +54,21 @@ impl Tool for Picture {
             let reveal = ShowCommand::Reveal(Pane::Picture);
             bench.commands.push(reveal.into());
         }
+    }
+
+    fn unsaved(&self) -> Option<Unsaved> {
+        let source = self.draft.source.as_ref().filter(|_| self.is_begun())?;
+        Some(Unsaved {
+            name: format!("Textile from {}", source.file().name()),
+            what: "what was chosen and typed, not kept as a textile yet".to_owned(),
+            work: to_json_string(&self.draft, Path::new(WORK)).unwrap_or_default(),
+        })
+    }
+
+    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
+        let draft = from_json_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
+        self.take_draft(draft);
+        Ok(())
     }
 
     fn export(&mut self, _pane: Pane, _bench: &mut Bench) -> Result<Exported, &'static str> {

@@ -87,8 +87,17 @@ impl Picture {
         self.take_draft(draft);
     }
 
+    /// Whether more was chosen and typed than which picture it is, and not kept since.
+    pub(crate) fn is_begun(&self) -> bool {
+        let fresh = Draft {
+            source: self.draft.source.clone(),
+            ..Draft::default()
+        };
+        self.draft.source.is_some() && self.draft != fresh && self.kept.is_none()
+    }
+
     /// Takes what was chosen and typed.
-    fn take_draft(&mut self, draft: Draft) {
+    pub(super) fn take_draft(&mut self, draft: Draft) {
         let before = std::mem::replace(&mut self.draft, draft);
         self.forget_after(&before);
     }

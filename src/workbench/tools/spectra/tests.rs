@@ -219,7 +219,8 @@ fn nothing_odd_harms_the_plots() {
         velocity: Velocity::new(f64::INFINITY, f64::NAN),
         ..Pose::default()
     };
-    for mut plots in [Plots::shipped(), Plots::empty()] {
+    for plots in [Plots::shipped, Plots::empty] {
+        let mut plots = plots();
         for contactor in [9, 24, 4_000_000] {
             plots.bench.selection.contactor = Some(contactor);
             for size in [vec2(0.0, 0.0), vec2(1.0, 900.0), vec2(900.0, 1.0), SIZE] {

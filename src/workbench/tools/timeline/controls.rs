@@ -1,16 +1,13 @@
-//! The controls of the bar: record, play, step, rewind, loop; the source; files.
+//! The controls of the bar: record, play, step, rewind, loop; the source.
 
-use eframe::egui::{Align, Layout, Ui, vec2};
+use eframe::egui::{Ui, vec2};
 
-use crate::bench::command::{Command, Commands, FileCommand, PlayCommand, PlaySource, Purpose};
+use crate::bench::command::{Command, Commands, PlayCommand, PlaySource};
 use crate::bench::keys::hint;
 use crate::kit::theme::STEP;
-use crate::kit::widgets::text::button;
 use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
 use crate::tools::timeline::transport::TransportView;
 
-/// Why recording is not to be had.
-const STOPPED: &str = "Everything is off: arm first";
 /// Why there is nothing to step through.
 const LIVE: &str = "The pointer cannot be stepped or rewound: choose By itself or Recording";
 
@@ -18,12 +15,7 @@ const LIVE: &str = "The pointer cannot be stepped or rewound: choose By itself o
 pub(crate) fn show(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     ui.spacing_mut().item_spacing = vec2(STEP, 2.0 * STEP);
     ui.add_space(STEP);
-    ui.horizontal(|ui| {
-        show_buttons(ui, view, commands);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_files(ui, view, commands);
-        });
-    });
+    ui.horizontal(|ui| show_buttons(ui, view, commands));
     show_sources(ui, view, commands);
 }
 
@@ -33,15 +25,14 @@ fn show_buttons(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) 
         is_on: is_recording,
     };
     let (label, what) = if is_recording {
-        ("End recording", "End the recording and keep it at hand")
+        ("End recording", "End the recording: it is in the list")
     } else {
         (
             "Record",
             "Record the exploration, whatever moves the display",
         )
     };
-    let refusal = (view.is_stopped && !is_recording).then_some(STOPPED);
-    let act = Act::new(icon, label, what, refusal);
+    let act = Act::new(icon, label, what, None);
     act.show(
         ui,
         PlayCommand::ToggleRecording,
@@ -79,39 +70,12 @@ fn play_act(view: &TransportView<'_>) -> Act {
     Act::new(Icon::Play, "Play", what, None)
 }
 
-fn show_files(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
-    let mut ask = |ui: &mut Ui, text: &str, what: &str, purpose, refusal| {
-        let command: Command = FileCommand::Ask(purpose).into();
-        if button(ui, text, &tip(ui, what, &command), refusal) {
-            commands.push(command);
-        }
-    };
-    let (what, refusal) = match view.take {
-        _ if view.recorded_ticks.is_some() => (String::new(), Some("End the recording first")),
-        None => (String::new(), Some("Nothing was recorded yet")),
-        Some(take) if take.file().is_some() => {
-            (format!("Save {} under another name", take.name()), None)
-        }
-        Some(_) => (
-            "Save the recording, which is in no file yet".to_owned(),
-            None,
-        ),
-    };
-    // From right to left.
-    ask(ui, "Save…", &what, Purpose::SaveRecording, refusal);
-    let what = "Open a recorded exploration to replay";
-    ask(ui, "Open…", what, Purpose::OpenRecording, None);
-}
-
 fn show_sources(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) {
     let none = view
         .take
         .is_none()
-        .then_some("There is no recording: record one or open one");
-    let replay = view.take.map(|take| match take.file() {
-        Some(file) => format!("Replay {}", file.display()),
-        None => "Replay the new recording, which is in no file yet".to_owned(),
-    });
+        .then_some("There is no recording at hand: record one, or choose one in the list");
+    let replay = view.take.map(|take| format!("Replay {}", take.name()));
     let pointer = "The display follows the pointer".to_owned();
     let stroke = "The display explores by itself, in a circle".to_owned();
     let input = view.input.unwrap_or_default();

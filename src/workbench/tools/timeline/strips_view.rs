@@ -124,11 +124,7 @@ pub(crate) fn tick_at(share: f64, n_ticks: u64) -> u64 {
 fn take_title(take: &Recording) -> String {
     let last = take.strips().n_ticks().saturating_sub(1);
     let length = quantity::clock(last * TICK_MS);
-    let state = match take.file() {
-        Some(_) => "",
-        None => "   not saved yet",
-    };
-    format!("{}   {length}{state}", take.name())
+    format!("{}   {length}", take.name())
 }
 
 /// What there is to say of a place of the timeline; `over` says which contactors count.

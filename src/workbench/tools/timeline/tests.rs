@@ -34,7 +34,6 @@ fn view(take: Option<&Recording>) -> TransportView<'_> {
         input: None,
         is_playing: true,
         does_loop: false,
-        is_stopped: false,
         recorded_ticks: None,
         tick: 100,
         speed_mm_per_s: 80.0,
@@ -141,20 +140,11 @@ fn the_buttons_ask_for_what_they_show() {
 #[test]
 fn what_makes_no_sense_now_asks_for_nothing() {
     let mut window = Window::new();
-    let stopped = TransportView {
-        is_stopped: true,
-        ..view(None)
-    };
-    window.frame(&stopped, Vec::new());
+    let live = view(None);
+    window.frame(&live, Vec::new());
     let recording = pos2(190.0, 52.0);
-    for at in [
-        button_at(0),
-        button_at(2),
-        button_at(3),
-        button_at(4),
-        recording,
-    ] {
-        assert_eq!(window.click(&stopped, at), [], "{at:?}");
+    for at in [button_at(2), button_at(3), button_at(4), recording] {
+        assert_eq!(window.click(&live, at), [], "{at:?}");
     }
     let take = recorded();
     let with_take = view(Some(&take));
@@ -163,19 +153,6 @@ fn what_makes_no_sense_now_asks_for_nothing() {
         commands,
         [PlayCommand::Source(PlaySource::Recording).into()]
     );
-}
-
-#[test]
-fn a_recording_can_be_ended_even_when_everything_is_off() {
-    let mut window = Window::new();
-    let recording = TransportView {
-        is_stopped: true,
-        recorded_ticks: Some(7),
-        ..view(None)
-    };
-    window.frame(&recording, Vec::new());
-    let commands = window.click(&recording, RECORD);
-    assert_eq!(commands, [PlayCommand::ToggleRecording.into()]);
 }
 
 #[test]

@@ -20,8 +20,6 @@ pub(crate) struct TransportView<'a> {
     pub is_playing: bool,
     /// Whether a recording or stroke begins again at its end.
     pub does_loop: bool,
-    /// Whether everything was switched off and nothing was armed since.
-    pub is_stopped: bool,
     /// Ticks recorded so far; `None` when nothing records.
     pub(crate) recorded_ticks: Option<u64>,
     /// The tick of the recording or stroke that is shown.
@@ -48,7 +46,6 @@ impl<'a> TransportView<'a> {
             input: bench.exploration.sources.chosen_name(),
             is_playing: live.play.is_playing,
             does_loop: bench.exploration.does_loop,
-            is_stopped: live.is_stopped,
             recorded_ticks: live.play.is_recording.then_some(live.play.n_recorded),
             tick: live.play.tick,
             speed_mm_per_s: live.speed_mm_per_s,

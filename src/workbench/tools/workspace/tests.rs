@@ -45,8 +45,6 @@ impl Window {
             filters: Filters::default(),
             grid: Some((6, 4)),
             library: Vec::new(),
-            undo: None,
-            redo: None,
             marks: crate::bench::view::Marks::default(),
             picked: std::sync::Arc::default(),
         };

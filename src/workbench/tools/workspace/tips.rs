@@ -155,8 +155,6 @@ mod tests {
             filters: selvedge_textile::tactile::Filters::default(),
             grid: None,
             library: Vec::new(),
-            undo: None,
-            redo: None,
             marks: crate::bench::view::Marks::default(),
             picked: std::sync::Arc::default(),
         }

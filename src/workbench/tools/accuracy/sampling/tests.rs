@@ -168,11 +168,7 @@ fn the_budget_chooses_by_bounds_and_is_kept_with_the_settings() {
 #[test]
 fn another_budget_leaves_source_recording_and_scene_as_they_are() {
     let (_, mut window) = exploring();
-    window
-        .bench
-        .engine
-        .send(selvedge_engine::Command::StartRecording)
-        .unwrap();
+    let _recording = window.bench.engine.record().unwrap();
     window.bench.engine.advance_ticks(10).unwrap();
     let before = window.bench.engine.snapshot().pose;
     window.dispatch(rendering(Method::Auto, 0.3));
@@ -201,11 +197,7 @@ fn a_budget_that_is_none_is_brought_within_bounds() {
 #[test]
 fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told() {
     let (mut accuracy, mut window) = exploring();
-    window
-        .bench
-        .engine
-        .send(selvedge_engine::Command::StartRecording)
-        .unwrap();
+    window.bench.toggle_recording();
     window.bench.engine.advance_ticks(50).unwrap();
     window
         .bench
@@ -213,8 +205,7 @@ fn the_scene_is_measured_along_the_last_recording_and_the_running_method_is_told
         .send(selvedge_engine::Command::StopRecording)
         .unwrap();
     window.bench.engine.advance_ticks(1).unwrap();
-    window.bench.exploration.ended = window.bench.engine.take_recording();
-    window.bench.take_recording();
+    window.bench.poll_recordings();
     accuracy.measure(&window.bench);
     while accuracy.measuring.is_some() {
         accuracy.poll_measuring(&mut window.bench);

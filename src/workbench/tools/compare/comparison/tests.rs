@@ -193,6 +193,6 @@ fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
 fn take_of(route: &Route) -> Arc<ExplorationPath> {
     match route {
         Route::Recording(path) => Arc::clone(path),
-        Route::Stroke(..) => panic!("it is a recording"),
+        Route::Stroke(..) | Route::Recorded(_) => panic!("it is a recording"),
     }
 }

@@ -17,7 +17,7 @@ use selvedge_render::array::Method;
 /// Height of a row, points.
 const LINE: f32 = 20.0;
 /// Kinds that are offered.
-const KINDS: [(What, &str, &str); 3] = [
+const KINDS: [(What, &str, &str); 4] = [
     (
         What::Tunings,
         "tunings",
@@ -32,6 +32,11 @@ const KINDS: [(What, &str, &str); 3] = [
         What::Methods,
         "methods",
         "Compare how amplitudes are computed",
+    ),
+    (
+        What::Recordings,
+        "recordings",
+        "Compare two recordings as they were, chosen in the Recordings pane",
     ),
 ];
 /// Methods that are offered.
@@ -101,6 +106,12 @@ pub(crate) fn show(
                 show_textiles(ui, choice, place, context);
             }
             What::Methods => show_methods(ui, choice),
+            What::Recordings => {
+                if let Route::Recorded(two) = route {
+                    let [a, b] = two.each_ref().map(Recording::name);
+                    ui.add(Label::new(format!("A  {a}    B  {b}")).truncate());
+                }
+            }
         }
     });
     if compare.choice != before {
@@ -118,6 +129,9 @@ fn show_status(ui: &mut Ui, standing: &Standing, route: &Route, take: Option<&st
     response.on_hover_text(match route {
         Route::Recording(_) => {
             "Both follow the recording at hand. Mute and solo are left out of account"
+        }
+        Route::Recorded(_) => {
+            "Both as they were recorded, tick for tick from their beginnings, as long as both last"
         }
         Route::Stroke(..) => {
             "Nothing is recorded: both follow the circle on which the display explores by itself, \
@@ -140,6 +154,7 @@ fn status(standing: &Standing, route: &Route, take: Option<&str>) -> (String, bo
     }
     let n_ticks = route.n_ticks();
     let words = match take {
+        _ if matches!(route, Route::Recorded(_)) => format!("as they were, {n_ticks} ticks"),
         Some(name) => format!("on {name}, {n_ticks} ticks"),
         None => format!("no recording: on a circle, {n_ticks} ticks"),
     };

@@ -11,7 +11,6 @@ use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, 
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::compare::choice::Route;
 use crate::tools::compare::comparison::{Compare, Standing};
 use crate::tools::compare::words::{band_name, summary};
 use selvedge_textile::tactile::Band;
@@ -24,7 +23,7 @@ const WIDE: f32 = 300.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, compare: &mut Compare, context: &mut PaneContext<'_>) {
     let standing = compare.follow(context.bench);
-    let route = Route::at_hand(context.bench);
+    let route = compare.route_now(context.bench);
     ui.spacing_mut().item_spacing.y = STEP;
     controls::show(ui, compare, (&standing, &route), context);
     let palette = Palette::in_ui(ui);

@@ -219,7 +219,7 @@ fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     window.dispatch(DeviceCommand::CopyLogPath);
     assert_eq!(window.workbench.bench.document.scene(), &before);
     assert_eq!(
-        window.workbench.bench.document.undo_name(),
+        window.workbench.bench.document.steps().undo(),
         Some("removed textile")
     );
     let described = window.workbench.notices();

@@ -3,7 +3,6 @@
 use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
 
 use crate::bench::Bench;
-use crate::bench::view::LibraryEntry;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
@@ -44,17 +43,17 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, bench: &mut Bench) {
                 &ids_words(importing, found.as_deref()),
             );
         });
-        let (save, feel) = ("Save to the library", "Save and feel");
-        if button(ui, save, "Write it into the library", refusal.as_deref()) {
+        let (save, feel) = ("Keep", "Keep and feel");
+        let tip = "Write it into your own library, or into the scene’s";
+        if button(ui, save, tip, refusal.as_deref()) {
             importing.keep(bench, false);
         }
-        let tip = "Write it into the library and place it under the display";
+        let tip = "Keep it and lay it into the scene where there is room";
         if button(ui, feel, tip, refusal.as_deref()) {
             importing.keep(bench, true);
         }
     });
-    let items = bench.library.view.items();
-    show_outcome(ui, importing, items, refusal.as_deref());
+    show_outcome(ui, importing, refusal.as_deref());
     let suggested = found.as_deref().map(Found::own_name).unwrap_or_default();
     let usual = match found.as_deref().map(|found| found.kind) {
         Some(Measurement::Strokes) => Construction::Woven,
@@ -105,19 +104,12 @@ fn ids_words(importing: &Import, found: Option<&Found>) -> String {
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, importing: &Import, items: &[LibraryEntry], refusal: Option<&str>) {
-    let is_known = |id: &str| items.iter().any(|item| item.id == id);
-    let taken = || importing.taken(is_known);
+fn show_outcome(ui: &mut Ui, importing: &Import, refusal: Option<&str>) {
     match (importing.kept(), refusal) {
         (Some(Err(failure)), _) => note(ui, &failure.line, Tone::Wrong),
         (Some(Ok(names)), _) => note(ui, &format!("handed to the library: {names}"), Tone::Quiet),
         (None, Some(words)) => note(ui, words, Tone::Quiet),
-        (None, None) => {
-            if let Some(id) = taken() {
-                let words = format!("the library has “{id}”; this gets the next free id");
-                note(ui, &words, Tone::Quiet);
-            }
-        }
+        (None, None) => {}
     }
 }
 

@@ -4,7 +4,7 @@ use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, Widg
 
 use crate::bench::Bench;
 use crate::bench::command::lab::Beginning;
-use crate::bench::view::LibraryEntry;
+use crate::bench::library_view::LibraryView;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::tools::lab::state::{Lab, Page};
@@ -20,7 +20,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     let line = Layout::left_to_right(Align::Center);
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, line, |ui| {
-        if let Some(beginning) = show_beginnings(ui, bench.library.view.items()) {
+        if let Some(beginning) = show_beginnings(ui, &bench.library.view) {
             lab.begin_with(bench, beginning);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -41,7 +41,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         match lab.page {
             Page::Recipe => {
                 for (place, value) in recipe::show(ui, lab) {
-                    lab.set(ui.ctx(), place, value);
+                    lab.set(place, value, bench.pointer.moment);
+                    ui.ctx().request_repaint();
                 }
             }
             Page::Family => family::show(ui, lab, bench),
@@ -52,7 +53,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
 }
 
 /// What a recipe can begin with; says what was chosen.
-fn show_beginnings(ui: &mut Ui, items: &[LibraryEntry]) -> Option<Beginning> {
+fn show_beginnings(ui: &mut Ui, libraries: &LibraryView) -> Option<Beginning> {
     let mut chosen = None;
     let mut begin = |ui: &mut Ui, beginning: Beginning| {
         chosen = Some(beginning);
@@ -67,12 +68,12 @@ fn show_beginnings(ui: &mut Ui, items: &[LibraryEntry]) -> Option<Beginning> {
         }
         ui.separator();
         ui.menu_button("A copy of", |ui| {
-            if let Some(id) = list(ui, "copy", items) {
+            if let Some(id) = list(ui, "copy", libraries) {
                 begin(ui, Beginning::Copy(id));
             }
         });
         ui.menu_button("Restored from", |ui| {
-            if let Some(id) = list(ui, "restore", items) {
+            if let Some(id) = list(ui, "restore", libraries) {
                 begin(ui, Beginning::Restore(id));
             }
         });
@@ -83,14 +84,15 @@ fn show_beginnings(ui: &mut Ui, items: &[LibraryEntry]) -> Option<Beginning> {
     chosen
 }
 
-/// The textiles of the library that can be read; says which one was chosen.
-fn list(ui: &mut Ui, salt: &str, items: &[LibraryEntry]) -> Option<String> {
+/// The textiles of all libraries that can be read; says which one was chosen.
+fn list(ui: &mut Ui, salt: &str, libraries: &LibraryView) -> Option<String> {
     let mut chosen = None;
     let area = ScrollArea::vertical().id_salt(salt).max_height(LIST);
     area.show(ui, |ui| {
         ui.set_min_width(220.0);
-        for item in items.iter().filter(|item| item.flaw.is_none()) {
-            if ui.button(&item.name).on_hover_text(&item.kind).clicked() {
+        for item in libraries.all_items().filter(|item| item.flaw.is_none()) {
+            let tip = format!("{}\nIn: {}", item.kind, item.home);
+            if ui.button(&item.name).on_hover_text(tip).clicked() {
                 chosen = Some(item.id.clone());
             }
         }
@@ -99,29 +101,33 @@ fn list(ui: &mut Ui, salt: &str, items: &[LibraryEntry]) -> Option<String> {
 }
 
 fn show_steps(ui: &mut Ui, lab: &mut Lab) {
-    let [back, forth] = lab.can_step();
-    let is_changed = lab
-        .steps
-        .as_ref()
-        .is_some_and(|steps| steps.now() != steps.first());
+    let steps = lab.steps.as_ref();
+    let list = steps.map(Steps::list).unwrap_or_default();
+    let is_changed = steps.is_some_and(|steps| steps.now() != steps.first());
     // From the right.
-    let acts: [fn(&mut Lab); 3] = [Lab::restart, Lab::redo, Lab::undo];
-    let all = [
-        ("Start", "Back to the start", is_changed),
-        ("Redo", "Redo in the lab", forth),
-        ("Undo", "Undo in the lab", back),
-    ];
-    for ((sign, name, can), act) in all.into_iter().zip(acts) {
-        let refusal = (!can).then_some("Nothing has changed");
+    let start = is_changed.then(|| "Back to the start".to_owned());
+    let redo = list.redo().map(|step| format!("Redo in the lab: {step}"));
+    let undo = list.undo().map(|step| format!("Undo in the lab: {step}"));
+    let mut chosen = None;
+    for (sign, name, tip, to) in [
+        ("Start", "Back to the start", start, None),
+        ("Redo", "Redo in the lab", redo, Some(list.n_done + 1)),
+        ("Undo", "Undo in the lab", undo, list.n_done.checked_sub(1)),
+    ] {
+        let can = tip.is_some();
         let response = ui.add_enabled(can, egui::Button::new(sign).min_size(vec2(26.0, ROW)));
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, name));
-        let response = match refusal {
-            Some(why) => response.on_disabled_hover_text(why),
-            None => response.on_hover_text(name),
-        };
+        let response = response
+            .on_disabled_hover_text("Nothing has changed")
+            .on_hover_text(tip.unwrap_or_default());
         if response.clicked() {
-            act(lab);
+            chosen = Some(to);
         }
+    }
+    match chosen {
+        Some(Some(n_done)) => lab.go_to(n_done),
+        Some(None) => lab.restart(),
+        None => {}
     }
 }
 
@@ -174,7 +180,7 @@ pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
         .selected_text(RichText::new(name).font(theme::small()))
         .show_ui(ui, |ui| {
             is_none_wanted = ui.selectable_label(compared.is_none(), "nothing").clicked();
-            let items = bench.library.view.items().iter();
+            let items = bench.library.view.all_items();
             for item in items.filter(|item| item.flaw.is_none()) {
                 let is_chosen = compared.is_some_and(|compared| compared.id == item.id);
                 if ui.selectable_label(is_chosen, &item.name).clicked() {

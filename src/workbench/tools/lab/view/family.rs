@@ -45,28 +45,33 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     {
         lab.try_family(bench, plan);
     }
+    if let Some(words) = no {
+        complaint(ui, words);
+    }
+    let Ok(keep) = lab.recipe().map(|recipe| recipe.fields.clone()) else {
+        return;
+    };
     let Some(family) = &lab.family else {
         return;
     };
-    let keep = &mut lab.fields;
     ui.add_space(STEP);
     show_members(ui, family);
     ui.add_space(STEP);
-    show_fields(ui, keep);
-    ui.add_space(STEP);
     let n = family.members.len();
+    show_fields(ui, lab, &keep, bench);
+    ui.add_space(STEP);
     let last = format!("{}-1 … {}-{n}", keep.id.trim(), keep.id.trim());
     ui.label(parts::small(&last, palette.dim));
     let numbered = KeepFields {
         id: format!("{}-1", keep.id.trim()),
-        ..keep.clone()
+        ..keep
     };
-    let wrong = numbered.refusal(bench.engine_scene.loaded.library().ids());
+    let wrong = numbered.refusal();
     if let Some(words) = &wrong {
         complaint(ui, words);
     }
     let no = busy.or(wrong);
-    let tip = "Keep every textile of the family in the library of the scene";
+    let tip = "Keep every textile of the family in the same library";
     if wide_button(ui, &format!("Keep all {n}"), tip, no.as_deref()) {
         lab.keep_family(bench);
     }

@@ -12,50 +12,52 @@ use crate::tools::lab::view::rows;
 
 /// Shows the fields and the buttons.
 pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
-    show_fields(ui, &mut lab.fields);
+    let Ok(recipe) = lab.recipe().cloned() else {
+        return;
+    };
+    show_fields(ui, lab, &recipe.fields, bench);
     ui.add_space(STEP);
     let palette = Palette::in_ui(ui);
-    let from = lab.parent.as_ref().map_or_else(
+    let from = recipe.parent.as_ref().map_or_else(
         || "Made from nothing but its recipe".to_owned(),
         |parent| {
-            format!(
-                "Made from {} ({}…)",
-                parent.id,
-                &parent.hash[..8.min(parent.hash.len())]
-            )
+            let hash = &parent.hash[..8.min(parent.hash.len())];
+            format!("Made from {} ({hash}…)", parent.id)
         },
     );
     let tip = "The manifest names the textile that this one was made from, and the program";
     ui.label(parts::small(&from, palette.dim))
         .on_hover_text(tip);
     ui.add_space(2.0 * STEP);
-    let wrong = lab
-        .fields
-        .refusal(bench.engine_scene.loaded.library().ids());
+    let wrong = recipe.fields.refusal();
     if let Some(words) = &wrong {
         complaint(ui, words);
     }
     let refusal = refusal(lab).or(wrong);
     let refusal = refusal.as_deref();
-    let tip = "Keep it in the library of the scene: its profiles, its picture and its recipe";
+    let tip = "Keep it in your own library, or in the scene’s: profiles, picture and recipe";
     if wide_button(ui, "Keep", tip, refusal) {
         lab.keep(bench, false);
     }
-    let tip = "Keep it and lay it under the display";
+    let tip = "Keep it and lay it into the scene where there is room";
     if wide_button(ui, "Keep and feel", tip, refusal) {
         lab.keep(bench, true);
     }
 }
 
 /// Name, id and notes.
-pub(crate) fn show_fields(ui: &mut Ui, fields: &mut KeepFields) {
-    if rows::named_field(ui, "Name", &mut fields.name).changed() {
-        fields.follow_name();
+pub(crate) fn show_fields(ui: &mut Ui, lab: &mut Lab, fields: &KeepFields, bench: &Bench) {
+    let mut typed = fields.clone();
+    if rows::named_field(ui, "Name", &mut typed.name).changed() {
+        typed.follow_name();
     }
-    if rows::named_field(ui, "Id", &mut fields.id).changed() {
-        fields.has_own_id = true;
+    if rows::named_field(ui, "Id", &mut typed.id).changed() {
+        typed.has_own_id = true;
     }
-    rows::named_field(ui, "Notes", &mut fields.notes);
+    rows::named_field(ui, "Notes", &mut typed.notes);
+    if typed != *fields {
+        lab.call(typed, bench.pointer.moment);
+    }
 }
 
 /// Why nothing can be kept now.

@@ -17,6 +17,13 @@ use selvedge_textile::surface::{Direction, Profile};
 const SPANS: [(f64, &str); 3] = [(20.0, "20 mm"), (10.0, "10 mm"), (2.0, "2 mm")];
 /// Least and largest span of a wheel, mm.
 const ENDS: [f64; 2] = [0.5, 100.0];
+/// Room over and under a profile that is seen first, share of its height.
+const AIR: f64 = 0.05;
+/// The same when an edit has left the heights that were shown.
+const MORE_AIR: f64 = 0.4;
+/// Heights that were shown stay while they are at most so many times those of the profile.
+const FILLED: f64 = 5.0;
+
 /// Shows the plot, with what is looked at above it.
 pub(crate) fn show(ui: &mut Ui, rect: Rect, lab: &mut Lab, preview: &Preview) {
     let head = rect.with_max_y(rect.top() + 20.0);
@@ -35,17 +42,44 @@ pub(crate) fn show(ui: &mut Ui, rect: Rect, lab: &mut Lab, preview: &Preview) {
         ..Setting::default()
     };
     let rect = rect.with_min_y(rect.top() + 20.0);
+    lab.heights_um = held_um(lab, &preview.felt);
     let Some(shown) = plot::show(ui, rect, &chart(lab, &preview.felt), &setting) else {
         return;
     };
     let profile = preview.felt.profile(look.direction);
     if let Some(look) = profile.and_then(|profile| moved(ui, &shown, look, profile)) {
         lab.look = look;
+        if shown.response.double_clicked() {
+            lab.heights_um = None;
+        }
     }
 }
 
-/// The profile that is looked at and what it is compared with. Heights of all of it give the
-/// vertical axis, so that it stays while the view moves along.
+/// The heights between which profiles are drawn: as before while what is drawn fits and fills a
+/// good part of them, so that an edit is seen as one; else they make room for more than that.
+fn held_um(lab: &Lab, felt: &Felt) -> Option<[f64; 2]> {
+    let compared = lab.compared.as_ref().map(|compared| &compared.felt);
+    let felt = std::iter::once(felt).chain(compared);
+    let profiles = felt.filter_map(|felt| felt.profile(lab.look.direction));
+    let heights = profiles.flat_map(|profile| profile.heights_um().iter().copied());
+    let ends = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+        [low.min(height), high.max(height)]
+    });
+    let span = ends[1] - ends[0];
+    if !span.is_finite() {
+        return lab.heights_um;
+    }
+    let room = |share: f64| [ends[0] - share * span, ends[1] + share * span];
+    match lab.heights_um {
+        None => Some(room(AIR)),
+        Some([low, high]) if high - low > FILLED * span || span == 0.0 => Some(room(MORE_AIR)),
+        Some([low, high]) if ends[0] < low || ends[1] > high => Some(room(MORE_AIR)),
+        kept => kept,
+    }
+}
+
+/// The profile that is looked at and what it is compared with. The vertical axis stays while the
+/// view moves along.
 pub(crate) fn chart(lab: &Lab, felt: &Felt) -> Chart {
     let look = lab.look;
     let line = |felt: &Felt, name: &str, ink, weight| {
@@ -68,7 +102,10 @@ pub(crate) fn chart(lab: &Lab, felt: &Felt) -> Chart {
     Chart {
         x: Axis::linear("place along the stroke, mm")
             .within([look.from_mm, look.from_mm + look.span_mm]),
-        y: Axis::linear("height, µm"),
+        y: match lab.heights_um {
+            Some(ends) => Axis::linear("height, µm").within(ends),
+            None => Axis::linear("height, µm"),
+        },
         series: compared.into_iter().chain(own).collect(),
         ..Chart::default()
     }

@@ -10,7 +10,11 @@ use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::complaint;
 use crate::tools::lab::view::rows;
 use selvedge_foundation::files::KeyValue;
-use selvedge_textile::{Group, Parameter, ParameterKind, Place, groups};
+use selvedge_foundation::quantity;
+use selvedge_textile::{Draft, Group, Parameter, ParameterKind, Place, groups};
+
+/// Centimetres in a micrometre.
+const UM_IN_CM: f64 = 1e-4;
 
 /// A parameter that was changed, or left out.
 type Change = (Place, Option<KeyValue>);
@@ -48,10 +52,34 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
                 if let Some(fault) = fault.filter(|fault| fault.place == Some(parameter.place)) {
                     complaint(ui, &fault.message);
                 }
+                if let Some(words) = crowding(draft, parameter.place) {
+                    complaint(ui, &words);
+                }
             }
         });
     }
     changes
+}
+
+/// What is said of a count at which yarns have no room beside each other: it can be made and felt,
+/// and no loom weaves it.
+fn crowding(draft: &Draft, place: Place) -> Option<String> {
+    let (what, table) = match place.key {
+        "warp_per_cm" => ("ends", "source.warp"),
+        "weft_per_cm" => ("picks", "source.weft"),
+        _ => return None,
+    };
+    let key = "width_um";
+    let (count, width_um) = (draft.number(place)?, draft.number(Place { table, key })?);
+    let cover = count * width_um * UM_IN_CM;
+    (cover > 1.0).then(|| {
+        let [count, width, percent] = [(count, "/cm"), (width_um, "µm"), (100.0 * cover, "%")]
+            .map(|(value, unit)| quantity::with_unit(value, 0, unit));
+        format!(
+            "{count} of {what} {width} wide cover {percent}: more yarn than there is room for; \
+             take fewer {what} or a narrower yarn"
+        )
+    })
 }
 
 /// Whether a group stands open at first.
@@ -117,4 +145,27 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<C
         }
     };
     changed.map(|value| (parameter.place, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_textile::example;
+
+    #[test]
+    fn more_yarn_than_there_is_room_for_is_said_and_less_is_not() {
+        let mut draft = Draft::of(&example("weave").unwrap()).unwrap();
+        let at = |table, key| Place { table, key };
+        let ends = at("source", "warp_per_cm");
+        draft.set(ends, Some(57.0.into()));
+        draft.set(at("source.warp", "width_um"), Some(310.0.into()));
+        let words = crowding(&draft, ends).unwrap();
+        assert!(
+            words.contains("177 %") && words.contains("57 /cm"),
+            "{words}"
+        );
+        draft.set(ends, Some(30.0.into()));
+        assert_eq!(crowding(&draft, ends), None);
+        assert_eq!(crowding(&draft, at("source", "bow_um")), None);
+    }
 }

@@ -52,8 +52,8 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
     let refusal = picture.refusal();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        let tip = "Keep it in the library and lay it under the display";
-        let feel = Button::new("Feel it").min_size(vec2(96.0, ROW));
+        let tip = "Keep it and lay it into the scene where there is room";
+        let feel = Button::new("Keep and feel").min_size(vec2(96.0, ROW));
         let response = ui.add_enabled(refusal.is_none(), feel);
         let response = match &refusal {
             Some(why) => response.on_disabled_hover_text(why),
@@ -62,8 +62,8 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
         if response.clicked() {
             picture.keep(true, commands);
         }
-        let save = "Write it into the library";
-        if button(ui, "Save to the library", save, refusal.as_deref()) {
+        let save = "Write it into your own library, or into the scene’s";
+        if button(ui, "Keep", save, refusal.as_deref()) {
             picture.keep(false, commands);
         }
     });

@@ -1,0 +1,237 @@
+//! What a record holds in a column: how it stands in a cell, and what a cell is taken for.
+
+use crate::design::Design;
+use crate::trial::{Adjustment, Grade};
+use selvedge_foundation::files::push_number;
+
+/// What is wrong with a cell after `COLUMN is`, and how to mend it; `None` where the type of the
+/// column says both.
+pub(super) type Wrong = Option<(String, &'static str)>;
+
+/// What a record holds in a column.
+pub(super) trait Value {
+    /// As its cell has it.
+    fn cell(&self, design: &Design) -> String;
+
+    /// Takes what a cell has.
+    ///
+    /// # Errors
+    /// It is no such value.
+    fn take(&mut self, cell: &str, design: &Design) -> Result<(), Wrong>;
+
+    /// Whether it is read: not what follows from something else.
+    fn is_read(&self) -> bool {
+        true
+    }
+}
+
+/// What follows from the rest of the record: written, not read.
+pub(super) struct Derived(pub(super) String);
+
+pub(super) fn derived(value: &(impl ToString + ?Sized)) -> Derived {
+    Derived(value.to_string())
+}
+
+pub(super) fn derived_if(value: Option<impl ToString>) -> Derived {
+    Derived(value.map_or_else(String::new, |value| value.to_string()))
+}
+
+impl Value for Derived {
+    fn cell(&self, _: &Design) -> String {
+        self.0.clone()
+    }
+
+    fn take(&mut self, _: &str, _: &Design) -> Result<(), Wrong> {
+        Ok(())
+    }
+
+    fn is_read(&self) -> bool {
+        false
+    }
+}
+
+/// A part of an answer; an empty cell where nothing was answered.
+pub(super) struct If<'a>(pub(super) bool, pub(super) &'a mut dyn Value);
+
+impl Value for If<'_> {
+    fn cell(&self, design: &Design) -> String {
+        let cell = self.0.then(|| self.1.cell(design));
+        cell.unwrap_or_default()
+    }
+
+    fn take(&mut self, cell: &str, design: &Design) -> Result<(), Wrong> {
+        self.1.take(cell, design)
+    }
+
+    fn is_read(&self) -> bool {
+        self.0 && self.1.is_read()
+    }
+}
+
+/// What a cell has as it is parsed.
+macro_rules! parsed {
+    ($($kind:ty: $text:expr),+) => {$(
+        impl Value for $kind {
+            fn cell(&self, _: &Design) -> String {
+                let text: fn(&Self) -> String = $text;
+                text(self)
+            }
+
+            fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+                *self = cell.parse().ok().ok_or(None)?;
+                Ok(())
+            }
+        }
+    )+};
+}
+parsed!(
+    u8: ToString::to_string,
+    u32: ToString::to_string,
+    u64: ToString::to_string,
+    f64: |value| number(*value),
+    String: Self::clone
+);
+
+impl Value for bool {
+    fn cell(&self, _: &Design) -> String {
+        flag(*self)
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        *self = ["0", "1"]
+            .iter()
+            .position(|known| *known == cell)
+            .ok_or(None)?
+            == 1;
+        Ok(())
+    }
+}
+
+impl Value for Option<u8> {
+    fn cell(&self, _: &Design) -> String {
+        self.map_or_else(String::new, |value| value.to_string())
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        *self = match cell {
+            "" => None,
+            cell => Some(cell.parse().ok().ok_or(None)?),
+        };
+        Ok(())
+    }
+}
+
+impl Value for Grade {
+    fn cell(&self, _: &Design) -> String {
+        self.name().to_owned()
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        let found = Self::ALL.into_iter().find(|grade| grade.name() == cell);
+        *self = found.ok_or_else(|| Some((format!("{cell:?}"), "give easy, normal or hard")))?;
+        Ok(())
+    }
+}
+
+/// A number from 0 that files count from 1.
+pub(super) struct Count<'a>(pub(super) &'a mut usize);
+
+impl Value for Count<'_> {
+    fn cell(&self, _: &Design) -> String {
+        position(*self.0)
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        let number: usize = cell.parse().ok().ok_or(None)?;
+        let less = number.checked_sub(1);
+        *self.0 = less.ok_or_else(|| Some(("0".to_owned(), "count from 1")))?;
+        Ok(())
+    }
+}
+
+/// A stimulus by its number in the design; cells have its id.
+pub(super) struct Stimulus<'a>(pub(super) &'a mut usize);
+
+impl Value for Stimulus<'_> {
+    fn cell(&self, design: &Design) -> String {
+        let found = design.stimuli.get(*self.0);
+        found.map_or_else(String::new, |stimulus| stimulus.id.clone())
+    }
+
+    fn take(&mut self, cell: &str, design: &Design) -> Result<(), Wrong> {
+        let found = design
+            .stimuli
+            .iter()
+            .position(|stimulus| stimulus.id == cell);
+        *self.0 = found.ok_or_else(|| {
+            let what = format!("{cell:?}, which is no stimulus of the design");
+            Some((what, "use the design that the log was made with"))
+        })?;
+        Ok(())
+    }
+}
+
+/// Whether it was called real.
+pub(super) struct Called<'a>(pub(super) &'a mut bool);
+
+impl Value for Called<'_> {
+    fn cell(&self, _: &Design) -> String {
+        (if *self.0 { "real" } else { "generated" }).to_owned()
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        let known = ["generated", "real"]
+            .iter()
+            .position(|known| *known == cell);
+        let wrong = || Some((format!("{cell:?}"), "give real or generated"));
+        *self.0 = known.ok_or_else(wrong)? == 1;
+        Ok(())
+    }
+}
+
+/// Every change of an adjustment, by the keys of its parameters.
+pub(super) struct Steps<'a>(
+    pub(super) &'a mut Vec<Adjustment>,
+    pub(super) &'a [&'static str],
+);
+
+impl Value for Steps<'_> {
+    fn cell(&self, _: &Design) -> String {
+        let texts = self.0.iter().filter_map(|step| {
+            let (at_ms, value) = (number(step.at_ms), number(step.value));
+            Some(format!("{at_ms}:{}={value}", self.1.get(step.parameter)?))
+        });
+        texts.collect::<Vec<_>>().join("; ")
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        let step = |text: &str| {
+            let (at_ms, rest) = text.trim().split_once(':')?;
+            let (key, value) = rest.split_once('=')?;
+            Some(Adjustment {
+                at_ms: at_ms.parse().ok()?,
+                parameter: self.1.iter().position(|&known| known == key)?,
+                value: value.parse().ok()?,
+            })
+        };
+        let texts = cell.split(';').filter(|_| !cell.is_empty());
+        let steps: Option<Vec<Adjustment>> = texts.map(step).collect();
+        let wrong = || Some((format!("{cell:?}"), "give ms:key=value; … or nothing"));
+        *self.0 = steps.ok_or_else(wrong)?;
+        Ok(())
+    }
+}
+
+pub(super) fn flag(is_so: bool) -> String {
+    u8::from(is_so).to_string()
+}
+
+pub(super) fn position(at: usize) -> String {
+    (at + 1).to_string()
+}
+
+pub(super) fn number(value: f64) -> String {
+    let mut text = String::new();
+    push_number(&mut text, value);
+    text
+}

@@ -1,0 +1,412 @@
+//! A recording on disk: a folder with a table that grows by a row a tick, and a page that says
+//! what it is.
+//!
+//! Whatever interrupts the program leaves every row but the last half second; a row that is not
+//! whole is left out on reading. Which recordings there are is not known here.
+
+use std::fs::{self, File};
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::bench::recording::{Felt, Recording};
+use selvedge_foundation::files::{self, FileError, Journal};
+use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_render::scene::{ExplorationPath, PathRow, TICKS_PER_S};
+use selvedge_textile::tactile::Tuning;
+
+/// The page.
+const ABOUT: &str = "recording.toml";
+/// The table.
+const TICKS: &str = "ticks.csv";
+/// The first columns of the table; two for every contactor follow.
+const COLUMNS: [&str; 8] = [
+    "t_s",
+    "tick",
+    "x_mm",
+    "y_mm",
+    "angle_deg",
+    "vx_mm_per_s",
+    "vy_mm_per_s",
+    "device_tick",
+];
+/// A longer line is in no table of ours.
+const LONGEST_LINE: u64 = 1 << 20;
+/// The most ticks that are read: those of the longest recording.
+const MOST_TICKS: usize = 4 * 3600 * 40;
+/// The most points of an outline.
+const OUTLINE: usize = 64;
+
+/// What a recording is, beside its ticks.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct About {
+    /// What people call it.
+    pub(crate) name: String,
+    /// When it began, RFC 3339.
+    pub(crate) began: String,
+    /// The name of the scene that was explored.
+    pub(crate) scene: String,
+    /// The file of that scene, if it had one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) scene_file: Option<PathBuf>,
+    /// Ticks, and how many of them an armed device played; `None` until it is over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) ticks: Option<[u64; 2]>,
+    /// Its path in few points, mm.
+    #[serde(default)]
+    pub(crate) outline: Vec<[f32; 2]>,
+    /// Gains and compression when it began.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) tuning: Option<Tuning>,
+}
+
+impl About {
+    /// Reads the page of a recording's folder.
+    pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
+        let path = folder.join(ABOUT);
+        files::keys_from_str(&files::read_text(&path)?, &path)
+    }
+
+    /// Writes it.
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), FileError> {
+        let path = folder.join(ABOUT);
+        files::write_atomic(&path, files::keys_to_string(self, &path)?.as_bytes())
+    }
+}
+
+/// Whether a program is writing the recording in this folder now.
+pub(crate) fn is_written(folder: &Path) -> bool {
+    Journal::is_written(&folder.join(TICKS))
+}
+
+/// A path in few points, however long it is: every so manieth tick.
+#[derive(Debug, Default)]
+struct Outline {
+    points: Vec<[f32; 2]>,
+    n_seen: usize,
+    halvings: u32,
+}
+
+impl Outline {
+    fn add(&mut self, position: Point) {
+        if self.n_seen.is_multiple_of(1 << self.halvings) {
+            if self.points.len() == OUTLINE {
+                let mut nth = 0;
+                self.points.retain(|_| {
+                    nth += 1;
+                    nth % 2 == 1
+                });
+                self.halvings += 1;
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "for a small picture")]
+            self.points
+                .push([position.x_mm as f32, position.y_mm as f32]);
+        }
+        self.n_seen += 1;
+    }
+}
+
+/// A recording that is being written.
+#[derive(Debug)]
+pub(crate) struct RecordingFile {
+    folder: PathBuf,
+    about: About,
+    journal: Journal,
+    outline: Outline,
+    n_felt: u64,
+}
+
+impl RecordingFile {
+    /// A new folder in `root`, named after when it began, with a table of no rows yet.
+    pub(crate) fn create(
+        root: &Path,
+        about: About,
+        n_contactors: usize,
+    ) -> Result<Self, FileError> {
+        fs::create_dir_all(root).map_err(FileError::write(root))?;
+        let folder = new_folder(root, &about.began)?;
+        about.write(&folder)?;
+        let bands = |nth: usize| [format!("a40_um_{nth}"), format!("a320_um_{nth}")];
+        let amplitudes: Vec<String> = (0..n_contactors).flat_map(bands).collect();
+        let columns = COLUMNS.into_iter();
+        let columns: Vec<&str> = columns
+            .chain(amplitudes.iter().map(String::as_str))
+            .collect();
+        Ok(Self {
+            journal: Journal::create(&folder.join(TICKS), &columns)?,
+            folder,
+            about,
+            outline: Outline::default(),
+            n_felt: 0,
+        })
+    }
+
+    /// Adds the ticks of a recording from `n_written` on, and waits until they are on disk.
+    pub(crate) fn append(
+        &mut self,
+        recording: &selvedge_engine::Recording,
+        n_written: usize,
+    ) -> Result<(), FileError> {
+        let new = recording.ticks().iter().enumerate().skip(n_written);
+        let mut lines = String::new();
+        for (nth, tick) in new.clone() {
+            let pose = tick.pose;
+            let numbers = [
+                pose.position.x_mm,
+                pose.position.y_mm,
+                pose.angle_deg,
+                pose.velocity.x_mm_per_s,
+                pose.velocity.y_mm_per_s,
+            ];
+            files::push_number(&mut lines, nth as f64 / TICKS_PER_S);
+            push_cell(&mut lines, tick.tick);
+            for number in numbers {
+                push_cell(&mut lines, number);
+            }
+            lines.push(',');
+            if let Some(sent) = tick.sent {
+                files::push_number(&mut lines, sent.apply_tick);
+            }
+            for um in recording.amplitudes_um(nth).as_flattened() {
+                push_cell(&mut lines, um);
+            }
+            lines.push('\n');
+        }
+        self.journal.append_lines(lines.as_bytes())?;
+        for (_, tick) in new {
+            self.outline.add(tick.pose.position);
+            self.n_felt += u64::from(tick.sent.is_some());
+        }
+        Ok(())
+    }
+
+    /// It is over: says so on its page. Gives its folder and that page.
+    pub(crate) fn finish(mut self) -> Result<(PathBuf, About), FileError> {
+        self.about.ticks = Some([self.outline.n_seen as u64, self.n_felt]);
+        // It may have been renamed meanwhile.
+        if let Ok(page) = About::read(&self.folder) {
+            self.about.name = page.name;
+        }
+        self.about.outline = self.outline.points;
+        self.about.write(&self.folder)?;
+        Ok((self.folder, self.about))
+    }
+}
+
+fn push_cell(line: &mut String, value: impl std::fmt::Display) {
+    line.push(',');
+    files::push_number(line, value);
+}
+
+/// Makes `2026-11-23T08-30-12Z`, or the same with the first number that is free.
+fn new_folder(root: &Path, began: &str) -> Result<PathBuf, FileError> {
+    let mut name: String = began.replace(':', "-");
+    let stem = name.len();
+    for nth in 2..1000 {
+        let folder = root.join(&name);
+        match fs::create_dir(&folder) {
+            Ok(()) => return Ok(folder),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(FileError::write(&folder)(error)),
+        }
+        name.truncate(stem);
+        name.push('-');
+        files::push_number(&mut name, nth);
+    }
+    Err(FileError::Exists {
+        path: root.join(name),
+    })
+}
+
+/// Counts the ticks of a recording that was broken off, and finds its outline.
+pub(crate) fn count(folder: &Path) -> Result<([u64; 2], Vec<[f32; 2]>), FileError> {
+    let (mut outline, mut n_felt) = (Outline::default(), 0);
+    read_rows(folder, |row| {
+        outline.add(row.path.position);
+        n_felt += u64::from(row.device_tick.is_some());
+    })?;
+    Ok(([outline.n_seen as u64, n_felt], outline.points))
+}
+
+/// Reads a whole recording: an hour takes about a second.
+pub(crate) fn read(folder: &Path) -> Result<Recording, String> {
+    let about = About::read(folder).map_err(|error| error.to_string())?;
+    let (mut rows, mut device_ticks, mut felt) = (Vec::new(), Vec::new(), Felt::default());
+    let read = read_rows(folder, |row| {
+        rows.push(row.path);
+        device_ticks.push(row.device_tick);
+        felt.n_contactors = row.amplitudes_um.len() / 2;
+        let bands = row.amplitudes_um.as_chunks().0;
+        felt.amplitudes_um.extend_from_slice(bands);
+    });
+    read.map_err(|error| error.to_string())?;
+    let path = ExplorationPath::new(rows);
+    let path = path.map_err(|error| format!("{}: {error}", folder.join(TICKS).display()))?;
+    let mut recording = Recording::felt(about, path, &device_ticks, felt);
+    recording.folder = Some(folder.to_owned());
+    Ok(recording)
+}
+
+/// A row of the table.
+struct Row<'a> {
+    path: PathRow,
+    device_tick: Option<u32>,
+    amplitudes_um: &'a [f32],
+}
+
+/// Reads the rows of a recording one after the other; a piece of a last one is left out.
+fn read_rows(folder: &Path, mut take: impl FnMut(Row<'_>)) -> Result<(), FileError> {
+    let path = folder.join(TICKS);
+    let file = File::open(&path).map_err(FileError::read(&path))?;
+    let mut reader = BufReader::new(file);
+    let (mut line, mut amplitudes_um, mut n_columns) = (String::new(), Vec::new(), 0);
+    for nth in 0..=MOST_TICKS {
+        line.clear();
+        let mut bounded = std::io::Read::take(&mut reader, LONGEST_LINE);
+        bounded
+            .read_line(&mut line)
+            .map_err(FileError::read(&path))?;
+        let wrong = |what: &str| {
+            let mend = "delete the recording, or restore the file";
+            FileError::content(&path, nth + 1, what, mend)
+        };
+        let Some(cells) = line.strip_suffix('\n') else {
+            if line.len() as u64 == LONGEST_LINE {
+                return Err(wrong("this line is too long"));
+            }
+            return Ok(());
+        };
+        if nth == 0 {
+            n_columns = cells.split(',').count();
+            if !cells.starts_with(&COLUMNS.join(",")) || n_columns % 2 == 1 {
+                return Err(wrong("this is no header of a recording"));
+            }
+            continue;
+        }
+        amplitudes_um.clear();
+        let row = row_of(cells, &mut amplitudes_um);
+        let (path_row, device_tick) = row.ok_or_else(|| wrong("this is no row of a recording"))?;
+        if COLUMNS.len() + amplitudes_um.len() != n_columns {
+            return Err(wrong("this row has other columns than the header"));
+        }
+        take(Row {
+            path: path_row,
+            device_tick,
+            amplitudes_um: &amplitudes_um,
+        });
+    }
+    Ok(())
+}
+
+fn row_of(line: &str, amplitudes_um: &mut Vec<f32>) -> Option<(PathRow, Option<u32>)> {
+    let mut cells = line.split(',');
+    let mut number = || cells.next()?.parse::<f64>().ok();
+    let [t_s, _tick, x_mm, y_mm, angle_deg, vx, vy] = [
+        number()?,
+        number()?,
+        number()?,
+        number()?,
+        number()?,
+        number()?,
+        number()?,
+    ];
+    let device_tick = match cells.next()? {
+        "" => None,
+        cell => Some(cell.parse().ok()?),
+    };
+    for cell in cells {
+        amplitudes_um.push(cell.parse().ok()?);
+    }
+    let row = PathRow {
+        t_s,
+        position: Point::new(x_mm, y_mm),
+        angle_deg,
+        velocity: Some(Velocity::new(vx, vy)),
+    };
+    Some((row, device_tick))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::recording::tests::{explored, page};
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn a_recording_reads_back_as_it_was_made() {
+        let root = ScratchFolder::made("recording");
+        let made = explored(60);
+        let mut file = RecordingFile::create(&root, page("One"), made.n_contactors()).unwrap();
+        file.append(&made, 0).unwrap();
+        let (folder, about) = file.finish().unwrap();
+        assert_eq!(about.ticks, Some([60, 0]), "no device was armed");
+        let read = read(&folder).unwrap();
+        assert_eq!(read.name(), "One");
+        assert_eq!(**read.path(), made.to_path().unwrap());
+        for nth in [0, 31, 59] {
+            let felt = read.amplitudes_um(nth).unwrap();
+            assert_eq!(felt, made.amplitudes_um(usize::try_from(nth).unwrap()));
+        }
+        assert!(read.amplitudes_um(60).is_none());
+    }
+
+    #[test]
+    fn cut_at_any_byte_a_recording_has_every_whole_row() {
+        let root = ScratchFolder::made("torn");
+        let made = explored(5);
+        let mut file = RecordingFile::create(&root, page("Torn"), made.n_contactors()).unwrap();
+        file.append(&made, 0).unwrap();
+        let folder = file.folder.clone();
+        assert!(
+            is_written(&folder),
+            "nobody else may take it for broken off"
+        );
+        drop(file);
+        assert!(!is_written(&folder));
+        let bytes = fs::read(folder.join(TICKS)).unwrap();
+        let header = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        for cut in header..=bytes.len() {
+            fs::write(folder.join(TICKS), &bytes[..cut]).unwrap();
+            let n_whole = bytes[header..cut].split(|b| *b == b'\n').count() - 1;
+            assert_eq!(
+                count(&folder).unwrap().0,
+                [n_whole as u64, 0],
+                "cut at {cut}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_table_of_something_else_is_refused_with_its_line() {
+        let root = ScratchFolder::made("other");
+        for (text, expected) in [
+            ("a,b\n", ":1: this is no header"),
+            (
+                "t_s,tick,x_mm,y_mm,angle_deg,vx_mm_per_s,vy_mm_per_s,device_tick\n1,2\n",
+                ":2: this is no row",
+            ),
+        ] {
+            fs::write(root.join(TICKS), text).unwrap();
+            let error = count(&root).unwrap_err().to_string();
+            assert!(error.contains(expected) && !error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_outline_has_few_points_of_the_whole_way() {
+        let mut outline = Outline::default();
+        for n in 0..10_000 {
+            outline.add(Point::new(f64::from(n), 0.0));
+        }
+        assert!((OUTLINE / 2..=OUTLINE).contains(&outline.points.len()));
+        assert!(outline.points.last().unwrap()[0] > 9_600.0);
+    }
+
+    #[test]
+    fn two_that_begin_in_the_same_second_have_a_folder_each() {
+        let root = ScratchFolder::made("second");
+        let files = [0, 1].map(|_| RecordingFile::create(&root, page("Same"), 1).unwrap());
+        assert_ne!(files[0].folder, files[1].folder);
+    }
+}

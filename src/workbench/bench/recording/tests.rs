@@ -1,0 +1,73 @@
+//! Recordings against what was felt, and what other tests record.
+
+use super::*;
+use crate::bench::Drive;
+use crate::bench::command::PlayCommand;
+use crate::shell::window::Workbench;
+use selvedge_engine::Command;
+use selvedge_foundation::geometry::Point;
+use selvedge_render::scene::PathRow;
+
+/// So many ticks of the shipped scene explored by itself, recorded.
+pub(crate) fn explored(n_ticks: u64) -> selvedge_engine::Recording {
+    let ctx = eframe::egui::Context::default();
+    let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+    window.dispatch(PlayCommand::Toggle.into());
+    let engine = &mut window.bench.engine;
+    engine.advance_ticks(3).unwrap();
+    let mut recording = engine.record().unwrap();
+    engine.advance_ticks(n_ticks).unwrap();
+    engine.send(Command::StopRecording).unwrap();
+    engine.advance_ticks(1).unwrap();
+    recording.collect();
+    assert!(recording.has_ended());
+    recording
+}
+
+/// The page of a recording of this name.
+pub(crate) fn page(name: &str) -> About {
+    About {
+        name: name.to_owned(),
+        began: "2026-11-23T08:30:12Z".to_owned(),
+        scene: "Sampler".to_owned(),
+        ..About::default()
+    }
+}
+
+#[test]
+fn a_recording_replays_what_was_felt() {
+    let recording = explored(60);
+    let take = Recording::from_recording(&recording, page("One")).unwrap();
+    assert!(take.file().is_none() && take.strips().has_levels());
+    assert_eq!(take.strips().n_ticks(), 60);
+    assert_eq!(take.path().n_ticks(), 60);
+    let last = take.strips().at(59).unwrap();
+    let speed = recording.ticks()[59].pose.velocity.speed_mm_per_s();
+    assert!(
+        (last.speed_mm_per_s - speed).abs() < 1e-3 && speed > 1.0,
+        "{last:?}"
+    );
+    let mean_um = (0..60).filter_map(|tick| take.strips().at(tick)?.mean_um);
+    assert!(
+        mean_um.into_iter().any(|um| um[1] > 0.0),
+        "it went over cloth"
+    );
+}
+
+#[test]
+fn a_path_file_is_a_take_without_levels() {
+    let row = |t_s, x_mm| PathRow {
+        t_s,
+        position: Point::new(x_mm, 0.0),
+        ..PathRow::default()
+    };
+    let path = ExplorationPath::new(vec![row(0.0, 0.0), row(1.0, 80.0)]).unwrap();
+    let take = Recording::from_path(PathBuf::from("/somewhere/slow stroke.csv"), path);
+    assert_eq!(take.name(), "slow stroke");
+    assert!(take.file().is_some(), "it came from one");
+    assert_eq!(take.strips().n_ticks(), take.path().n_ticks());
+    let middle = take.strips().at(20).unwrap();
+    assert!((middle.speed_mm_per_s - 80.0).abs() < 1e-3, "{middle:?}");
+    assert_eq!(middle.mean_um, None);
+    assert!(take.amplitudes_um(0).is_none());
+}
