@@ -111,7 +111,7 @@ fn wrong_profiles_are_refused_with_the_file() {
     let with_row =
         |row: &str| rows(2000, 1.0 / 230.0).replacen("0,0\n", &format!("0,0\n{row}\n"), 1);
     for (text, what) in [
-        (String::new(), "no column x_mm"),
+        (String::new(), "this file is empty"),
         (rows(0, 0.1), ""),
         (rows(1, 0.1), ""),
         (

@@ -92,7 +92,7 @@ fn what_is_no_export_is_refused_in_one_line_and_leaves_nothing() {
         lab.refuse(&args)
     };
     for (more, expected) in [
-        (vec!["empty.txt"], "empty.txt:1: this file is empty; "),
+        (vec!["empty.txt"], "empty.txt: this file is empty; "),
         (vec!["picture.txt"], "picture.txt:1: this is not text; "),
         (vec!["words.txt"], "words.txt:1: no table of numbers; "),
         (

@@ -352,6 +352,8 @@ mod tests {
             Some(0),
             "it waits at its first tick"
         );
+        second.dispatch(PlayCommand::Toggle);
+        second.pass(2);
         record(&mut second, 20);
         assert!(names(&second).contains(&"Recording 3".to_owned()));
     }
