@@ -28,8 +28,7 @@ const SCENES: [(&str, &str, usize, &str); 20] = [
 ];
 
 #[rustfmt::skip]
-const PATHS: [(&str, usize, &str); 11] = [
-    ("", 1, "no column t_s"),
+const PATHS: [(&str, usize, &str); 10] = [
     ("t_s,x_mm,y_mm\n", 1, "the path has no rows"),
     ("t_s,x_cm,y_cm\n0,1,1\n", 1, "unknown column \"x_cm\""),
     ("t_s,x_mm,y_mm\n0,1,1\n0,1,1\n", 3, "t_s is 0 after 0"),
@@ -81,6 +80,8 @@ fn wrong_paths_are_refused_with_file_line_and_mend() {
         lab.write("a.csv", text);
         check(&lab, &RENDER, &format!("a.csv:{line}"), what);
     }
+    lab.write("a.csv", "");
+    check(&lab, &RENDER, "a.csv", "this file is empty");
     lab.write("a.csv", b"t_s,x_mm,y_mm\n0,\xff,1\n");
     check(&lab, &RENDER, "a.csv:2", "not UTF-8");
 }

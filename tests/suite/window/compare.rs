@@ -101,7 +101,7 @@ fn methods_are_compared_on_the_recording_and_its_ticks_are_found_by_a_click() {
         let largest_db = tally.largest.unwrap().difference_db.abs();
         assert!(largest_db > 0.0 && largest_db < 0.05, "{largest_db} dB");
     }
-    harness.get_by_label_contains("on New recording");
+    harness.get_by_label_contains("on Recording 1");
     let curve = harness.get_by_label_contains("Level difference over time");
     // Its numbers take 34 points on the left and 8 on the right.
     let middle = curve.rect().center() + vec2(13.0, 0.0);

@@ -23,6 +23,7 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
                 Some("Workspace")
             }
             "Experimenter" => Some("Bridge"),
+            "Recordings" => Some("Library"),
             "Why" | "Response" | "Accuracy" | "Compare" => Some("Spatial spectra"),
             _ => None,
         };
