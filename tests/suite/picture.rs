@@ -153,7 +153,7 @@ fn what_is_no_picture_is_refused_in_one_line() {
     lab.write("text.png", "not a picture");
     lab.write("large.bmp", empty_bitmap(20_000));
     for (file, what) in [
-        ("cut.png", "this cannot be read"),
+        ("cut.png", "this picture is damaged or cut short"),
         ("text.png", "no picture of a known format"),
         (
             "large.bmp",

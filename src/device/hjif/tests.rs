@@ -3,7 +3,6 @@
 use serde::Deserialize;
 
 use super::*;
-use selvedge_foundation::files::from_json_str;
 use selvedge_foundation::progress::{CancelFlag, unheard};
 use selvedge_scratch::ScratchFolder;
 
@@ -95,7 +94,7 @@ fn written(name: &str, n_channels: usize, ticks: &[Vec<[f32; 2]>]) -> Experience
     }
     unheard(|progress| writer.finish(progress)).unwrap();
     let text = folder.read("a.hjif");
-    check(from_json_str(&text, &path).unwrap())
+    check(serde_json::from_str(&text).unwrap())
 }
 
 /// What a reader may rely on, whatever was written.

@@ -107,5 +107,5 @@ fn cut_off() -> Verdict {
             .collect(),
     };
     let bytes = encode_png(&picture, Path::new("a.png")).map_err(failed)?;
-    refused(loaded(&bytes[..bytes.len() / 2]), &["cannot be read"])
+    refused(loaded(&bytes[..bytes.len() / 2]), &["cut short"])
 }

@@ -122,6 +122,12 @@ fn a_frame_selects_and_what_is_selected_is_added_in_one_step_of_undo() {
         assert!(placed.iter().any(|cloth| cloth.id == id), "{id}");
     }
     press(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(
+        harness.state().scene().textiles.len(),
+        3,
+        "the workspace is brought in sight first"
+    );
+    press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert!(harness.state().scene().textiles.is_empty(), "one step");
     press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(harness.state().scene().textiles.len(), 3, "and again");

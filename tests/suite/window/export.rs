@@ -47,7 +47,10 @@ fn a_pane_is_saved_from_its_button_as_the_kind_that_was_typed() {
     }
     let notices = harness.state().notices();
     let is_done = |notice: &String| notice.ends_with(" is written");
-    assert!(!notices.is_empty() && notices.iter().all(is_done), "{notices:?}");
+    assert!(
+        !notices.is_empty() && notices.iter().all(is_done),
+        "{notices:?}"
+    );
 }
 
 #[test]

@@ -88,10 +88,12 @@ fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
     let is_placed = scene.textiles.iter().any(|one| one.id == "blue-twill");
     assert!(is_placed, "it lies in the scene");
     assert!(
-        harness
-            .query_by_label_contains("handed to the library")
-            .is_some()
+        harness.query_by_label_contains("handed to").is_none(),
+        "the workspace is in sight now"
     );
+    click_tab(&mut harness, "Picture");
+    harness.run_steps(4);
+    harness.get_by_label_contains("handed to the library: blue-twill");
 }
 
 #[test]

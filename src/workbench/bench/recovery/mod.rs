@@ -11,6 +11,7 @@
 //! that its owner understands.
 
 use std::fs::{self, File, OpenOptions};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -225,8 +226,18 @@ impl Recovery {
         }
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
         let now_ms = now.map_or(0, |since| since.as_millis());
-        let folder = root.join(format!("{now_ms}-{}", std::process::id()));
-        fs::create_dir_all(&folder).map_err(FileError::write(&folder))?;
+        fs::create_dir_all(root).map_err(FileError::write(root))?;
+        let name = |n: u128| root.join(format!("{}-{}", now_ms + n, std::process::id()));
+        let mut names = (0..).map(name);
+        // Another window of this process may have begun in this millisecond.
+        let made = names.find_map(|folder| match fs::create_dir(&folder) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => None,
+            made => Some((folder, made)),
+        });
+        let Some((folder, made)) = made else {
+            return Ok(None);
+        };
+        made.map_err(FileError::write(&folder))?;
         let lock = lock(&folder).ok_or_else(|| FileError::Busy {
             path: folder.clone(),
         })?;
@@ -240,7 +251,7 @@ fn write(folder: &Path, parts: Vec<Part>) -> Result<(), FileError> {
     let path = folder.join(WORK);
     if parts.is_empty() {
         return match fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
                 Err(FileError::write(&path)(error))
             }
             _ => Ok(()),
@@ -276,9 +287,7 @@ fn offer_in(folder: PathBuf) -> Option<Offer> {
 
 fn remove(folder: &Path) -> Result<(), FileError> {
     match fs::remove_dir_all(folder) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(FileError::write(folder)(error))
-        }
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(FileError::write(folder)(error)),
         _ => Ok(()),
     }
 }
