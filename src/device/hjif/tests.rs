@@ -3,8 +3,8 @@
 use serde::Deserialize;
 
 use super::*;
-use selvedge_foundation::progress::{CancelFlag, unheard};
 use selvedge_foundation::files::from_json_str;
+use selvedge_foundation::progress::{CancelFlag, unheard};
 use selvedge_scratch::ScratchFolder;
 
 /// Required fields, as the reference parser of the format has them; none is optional here.
