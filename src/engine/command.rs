@@ -81,9 +81,11 @@ pub enum Command {
     Arm,
     /// Ramps the device to silence; the screen goes on.
     Disarm,
+    /// Ends the silence that `StopAll` began, on the screen: the device stays disarmed.
+    Resume,
     /// Asks a faulted device to clear its faults; it can be armed again when their cause is gone.
     ClearFaults,
-    /// Everything off: the device stops at once, the display is silent until armed again, a replay
+    /// Everything off: the device stops at once, the display is silent until armed or resumed, a replay
     /// is held and a recording ended.
     StopAll,
     /// Ends the recording that [`Engine::record`](super::Engine::record) began.

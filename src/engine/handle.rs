@@ -223,6 +223,7 @@ impl Engine {
             Command::SetLoop(does_loop) => ReadyCommand::control(Control::Loop(does_loop)),
             Command::StopRecording => ReadyCommand::Core(CoreCommand::EndRecording),
             Command::Disarm => ReadyCommand::Disarm,
+            Command::Resume => ReadyCommand::Resume,
             Command::ClearFaults => ReadyCommand::ClearFaults,
             Command::SampleTicks(is_heard) => ReadyCommand::SampleTicks(is_heard),
             Command::Watch(contactor) => ReadyCommand::Watch(contactor),

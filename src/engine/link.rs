@@ -64,6 +64,12 @@ impl Link {
         self.bridge.is_some()
     }
 
+    /// Whether a device may move.
+    pub(super) fn is_live(&self) -> bool {
+        let bridge = self.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.state().is_live())
+    }
+
     /// Takes all news but ticks, and says whether a tick is due, and since when.
     pub(super) fn turn(
         &mut self,

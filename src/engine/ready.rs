@@ -33,6 +33,8 @@ pub(super) enum ReadyCommand {
         presses: u64,
     },
     Disarm,
+    /// The silence of a stop is over.
+    Resume,
     /// Clear the device's faults.
     ClearFaults,
     /// Whether somebody takes samples.

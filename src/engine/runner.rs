@@ -73,6 +73,9 @@ pub(super) struct Runner {
     channels: Channels,
     switch: StopSwitch,
     presses_heard: u64,
+    full_presses_heard: u64,
+    /// Whether a device could move when it was looked at last.
+    was_live: bool,
     pub(super) clock: Clock,
     link: Link,
     lateness: DurationHistogram,
@@ -97,6 +100,8 @@ impl Runner {
             core,
             channels,
             presses_heard: switch.presses(),
+            full_presses_heard: switch.full_presses(),
+            was_live: false,
             switch,
             clock,
             link: Link::new(clock.now()),
@@ -186,17 +191,23 @@ impl Runner {
         self.link.send(self.core.felt_um(), self.core.fresh_stamp())
     }
 
-    /// Stops everything if the switch was pressed since it was last looked at.
+    /// Stops everything if the switch was pressed since it was last looked at; where no device could
+    /// move, the screen goes on unless it is to be silent too.
     fn heed_stop(&mut self) {
         let presses = self.switch.presses();
         if presses == self.presses_heard {
             return;
         }
         self.presses_heard = presses;
+        let full_presses = self.switch.full_presses();
+        let is_full = std::mem::replace(&mut self.full_presses_heard, full_presses) != full_presses;
+        let is_everything = is_full || self.was_live || self.link.is_live();
         self.link.stop(StopHow::Now);
-        let retired = self.core.stop();
-        self.retire(retired);
-        self.say(Notice::Stopped);
+        if is_everything {
+            let retired = self.core.stop();
+            self.retire(retired);
+            self.say(Notice::Stopped);
+        }
         self.publish();
     }
 
@@ -219,6 +230,7 @@ impl Runner {
                 }
                 ReadyCommand::Arm { presses } => self.arm(presses),
                 ReadyCommand::Disarm => self.link.stop(StopHow::Ramp),
+                ReadyCommand::Resume => self.core.resume(),
                 ReadyCommand::ClearFaults => self.link.clear_faults(),
                 ReadyCommand::SampleTicks(is_heard) => self.channels.sampler.listen(is_heard),
                 ReadyCommand::Watch(contactor) => self.channels.sampler.watch(contactor),
@@ -310,6 +322,7 @@ impl Runner {
             costs: self.costs,
         };
         snapshot.link = self.link.view();
+        self.was_live = self.link.is_live();
         let summary = SnapshotSummary::of(snapshot);
         self.channels.snapshots.publish();
         if summary != self.summary {

@@ -10,7 +10,7 @@ use selvedge_foundation::panics::on_panic;
 /// Switches everything off. Clones are the same switch.
 ///
 /// Pressing it sends STOP to the device at once, on the caller's thread, ahead of every frame, and
-/// tells the engine, which stays silent until it is armed anew. An `Arm` that was sent before the
+/// tells the engine, which stays silent until it is armed anew or told to go on. An `Arm` that was sent before the
 /// press and not yet heard is void.
 #[derive(Clone, Default)]
 pub struct StopSwitch(Arc<Shared>);
@@ -18,6 +18,8 @@ pub struct StopSwitch(Arc<Shared>);
 #[derive(Default)]
 struct Shared {
     presses: AtomicU64,
+    /// Those of them that silence the screen too, whatever the device does.
+    full_presses: AtomicU64,
     engine: OnceLock<Thread>,
     /// Only ever held to look or to swap, never by the engine's thread.
     device: Mutex<Option<StopHandle>>,
@@ -26,6 +28,13 @@ struct Shared {
 impl StopSwitch {
     /// Everything off.
     pub fn press(&self) {
+        self.0.full_presses.fetch_add(1, Ordering::SeqCst);
+        self.press_if_armed();
+    }
+
+    /// Everything off if a device may move; otherwise the screen goes on. STOP is sent to the
+    /// device either way, and an `Arm` on its way is void.
+    pub fn press_if_armed(&self) {
         self.0.presses.fetch_add(1, Ordering::SeqCst);
         if let Some(device) = &*self.device() {
             device.stop(StopHow::Now);
@@ -49,9 +58,14 @@ impl StopSwitch {
         on_panic(press).for_good();
     }
 
-    /// How often it was pressed.
+    /// How often it was pressed in either way.
     pub(super) fn presses(&self) -> u64 {
         self.0.presses.load(Ordering::SeqCst)
+    }
+
+    /// How often everything was to be off whether a device may move or not.
+    pub(super) fn full_presses(&self) -> u64 {
+        self.0.full_presses.load(Ordering::SeqCst)
     }
 
     /// The thread to wake.

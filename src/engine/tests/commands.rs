@@ -60,6 +60,36 @@ fn the_switch_silences_holds_and_ends_until_armed_again() {
 }
 
 #[test]
+fn without_a_device_the_gentle_press_leaves_the_screen_alone_and_voids_an_arm_on_its_way() {
+    let (mut engine, _) = engine(Method::Auto);
+    engine
+        .send(Command::SetSource(InputSource::Replay(path())))
+        .unwrap();
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(10);
+    engine.send(Command::Arm).unwrap();
+    engine.stop_switch().press_if_armed();
+    engine.advance_ticks(5);
+    let snapshot = engine.snapshot();
+    assert!(!snapshot.is_stopped && snapshot.playback.is_playing);
+    assert!(!is_silent(snapshot), "it goes on");
+    let notices: Vec<String> = std::iter::from_fn(|| engine.next_notice())
+        .map(|n| format!("{n:?}"))
+        .collect();
+    assert!(
+        notices.len() == 1 && notices[0].contains("arm again"),
+        "{notices:?}"
+    );
+    engine.stop_switch().press();
+    engine.advance_ticks(1);
+    assert!(engine.snapshot().is_stopped, "the full press does stop it");
+    engine.send(Command::Resume).unwrap();
+    engine.send(Command::Play).unwrap();
+    engine.advance_ticks(3);
+    assert!(!engine.snapshot().is_stopped && !is_silent(engine.snapshot()));
+}
+
+#[test]
 fn senseless_gains_angles_and_methods_are_ignored_with_a_notice() {
     let (mut engine, _) = engine(Method::Auto);
     let tuning = Tuning {

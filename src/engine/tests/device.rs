@@ -89,7 +89,7 @@ fn a_device_is_armed_paces_plays_what_is_felt_and_stops() {
     assert_eq!(link.counters.codes.non_finite, 0);
     assert_eq!(link.caps.unwrap().n_ch, 24);
 
-    engine.stop_switch().press();
+    engine.stop_switch().press_if_armed();
     wait_for_status(&mut engine, "rest", |status| {
         status.amp_sum == 0 && status.state == DeviceState::Ready.code()
     });

@@ -9,9 +9,10 @@ impl Bench {
         match command {
             DeviceCommand::Arm => self.send(selvedge_engine::Command::Arm),
             DeviceCommand::GoOn => {
-                // The engine goes on and refuses to arm what is not there: no news to anybody.
-                self.device.n_expected_refusals += 1;
-                self.send(selvedge_engine::Command::Arm);
+                self.send(selvedge_engine::Command::Resume);
+                if self.live.play.moves_by_itself() {
+                    self.send(selvedge_engine::Command::Play);
+                }
             }
             DeviceCommand::Disarm => self.send(selvedge_engine::Command::Disarm),
             DeviceCommand::ConnectEmulator => self.connect(Target::Emulator),

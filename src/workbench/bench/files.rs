@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::bench::Bench;
 use crate::bench::background::{Task, finished};
 use crate::bench::clips::{ClipsView, ending, said};
+use crate::bench::notices::Until;
 use crate::bench::opening::{Opened, Origin, open};
 use crate::bench::settings::own_documents;
 use selvedge_engine::{ClipKind, ClipWriter, write_clip};
@@ -18,7 +19,10 @@ impl Bench {
             self.take_opened(outcome);
         }
         if let Some(outcome) = finished(&mut self.files.saving) {
-            self.notices.give(outcome.unwrap_or_else(|line| line));
+            match outcome {
+                Ok(line) => self.notices.give_until(Until::Read, line),
+                Err(line) => self.notices.give(line),
+            }
         }
     }
 

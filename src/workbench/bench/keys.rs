@@ -47,15 +47,18 @@ fn bare<C: Into<Command>>((at, what, command): (Key, &'static str, C)) -> Shortc
     key(Modifiers::NONE, at, what, command.into())
 }
 
+/// What Esc does.
+const ESCAPE: &str = "Everything off while armed; else close, or pause";
+
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 fn scene_keys() -> Vec<Shortcut> {
-    let all_off = bare((Key::Escape, "Everything off", Command::AllOff));
+    let escape = bare((Key::Escape, ESCAPE, Command::Escape));
     vec![
         Shortcut {
             while_typing: true,
-            ..all_off
+            ..escape
         },
         key(CTRL_SHIFT, Key::Z, "Redo", Command::Redo),
         key(CTRL, Key::Z, "Undo", Command::Undo),
@@ -133,8 +136,12 @@ fn play_keys() -> Vec<Shortcut> {
 fn show_keys() -> Vec<Shortcut> {
     let closer = |factor| ShowCommand::Look(Look::ZoomBy(factor));
     let keys: [(Key, &str, ShowCommand); 10] = [
-        (Key::X, "Explore", ShowCommand::Tool(Tool::Explore)),
-        (Key::A, "Arrange", ShowCommand::Tool(Tool::Arrange)),
+        (
+            Key::X,
+            "Feel with the pointer",
+            ShowCommand::Tool(Tool::Feel),
+        ),
+        (Key::A, "Arrange textiles", ShowCommand::Tool(Tool::Arrange)),
         (
             Key::F,
             "Show the whole workspace",
@@ -294,9 +301,9 @@ mod tests {
     }
 
     #[test]
-    fn escape_is_all_off_whatever_is_typed() {
+    fn escape_comes_first_whatever_is_typed() {
         let first = &table()[0];
         assert!(is_escape(first.key) && first.while_typing, "{first:?}");
-        assert_eq!(first.command, Command::AllOff);
+        assert_eq!(first.command, Command::Escape);
     }
 }

@@ -10,6 +10,7 @@ use crate::bench::command::edit::Edit;
 use crate::bench::keep::{Keep, Taken, WhenTaken, free_name};
 use crate::bench::library_acts::{Aim, Deed, LibraryCommand, Work, Worked};
 use crate::bench::library_shelf::{OWN, SHIPPED, Shelf, plain_id};
+use crate::bench::notices::Until;
 use crate::bench::pane::Pane;
 use selvedge_textile::{LibraryFolder, called, elsewhere};
 
@@ -80,7 +81,8 @@ impl Bench {
             return;
         };
         if self.library.acts.task.is_some() {
-            return self.notices.give("A library is being changed: press again");
+            let words = "A library is being changed: press again";
+            return self.notices.give_until(Until::Read, words);
         }
         let gone = work.deeds.iter().find_map(|(folder, deed)| match deed {
             Deed::Set(id, None) => self.lies_in_scene(folder, id),

@@ -1,9 +1,13 @@
 //! What the engine and other threads have to say, taken in once a frame before anything is drawn.
 
+use std::time::Duration;
+
 use eframe::egui;
 
+use crate::bench::notices::Until;
+use crate::bench::view::BridgePhase;
 use crate::bench::{Bench, FRAME, query};
-use selvedge_engine::{Notice, TICKS_PER_S};
+use selvedge_engine::TICKS_PER_S;
 
 /// At most as many notices are taken in a frame as anybody can be told of.
 const MOST_NOTICES: usize = 64;
@@ -29,7 +33,32 @@ impl Bench {
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
                          the program again";
-            self.notices.give(words);
+            if !self.notices.says(words) {
+                self.notices.give(words);
+            }
+        }
+        self.follow_notices(ctx);
+    }
+
+    /// Lets notices go whose reason is over.
+    fn follow_notices(&mut self, ctx: &egui::Context) {
+        let phase = self.live.bridge.as_ref().map(|bridge| bridge.phase);
+        let is_armed = phase == Some(BridgePhase::Armed);
+        let is_in_time = (self.live.bridge.as_ref()).is_none_or(|bridge| bridge.depth <= 1);
+        let (records, has_session) = (self.live.play.is_recording, self.has_session());
+        let has_input = self.exploration.sources.chosen().is_some();
+        let now_s = ctx.input(|input| input.time);
+        let next_s = self.notices.follow(now_s, |until| match until {
+            Until::PutAway | Until::Read => false,
+            Until::Armed => is_armed,
+            Until::Ready => is_armed || phase == Some(BridgePhase::Ready),
+            Until::Recorded => !records,
+            Until::SessionOver => !has_session,
+            Until::InputChosen => has_input,
+            Until::InTime => is_in_time,
+        });
+        if let Some(next_s) = next_s {
+            ctx.request_repaint_after(Duration::from_secs_f64(next_s));
         }
     }
 
@@ -39,14 +68,9 @@ impl Bench {
                 break;
             };
             self.hear_of_array(&notice);
-            let n_expected = &mut self.device.n_expected_refusals;
-            if matches!(notice, Notice::Refused(_)) && *n_expected > 0 {
-                *n_expected -= 1;
-                continue;
-            }
             let device = self.device.target.as_deref().unwrap_or("The device");
-            if let Some(sentence) = query::words(&notice, device) {
-                self.notices.give(sentence);
+            if let Some((until, sentence)) = query::words(&notice, device) {
+                self.notices.give_until(until, sentence);
             }
         }
     }

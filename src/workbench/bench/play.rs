@@ -2,6 +2,7 @@
 
 use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
+use crate::bench::notices::Until;
 use crate::bench::view::Source;
 use selvedge_engine::InputSource;
 use selvedge_foundation::geometry::Point;
@@ -42,9 +43,10 @@ impl Bench {
     pub(crate) fn choose_input(&mut self) {
         match self.exploration.sources.chosen().cloned() {
             Some(chosen) => self.dispatch_source(chosen),
-            None => self
-                .notices
-                .give("Choose a tablet in the Bridge pane first"),
+            None => {
+                let words = "Choose a tablet in the Bridge pane first";
+                self.notices.give_until(Until::InputChosen, words);
+            }
         }
     }
 

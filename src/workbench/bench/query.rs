@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::bench::document::Document;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
+use crate::bench::notices::Until;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
@@ -265,38 +266,55 @@ pub(crate) fn phase(state: BridgeState) -> BridgePhase {
     }
 }
 
-/// The sentence for something that the user ought to know; `None` for what panes show anyway.
-/// `device` is what the device is called.
-pub(crate) fn words(notice: &Notice, device: &str) -> Option<String> {
+/// The sentence for something that the user ought to know, and when it is over; `None` for what
+/// panes show anyway. `device` is what the device is called.
+pub(crate) fn words(notice: &Notice, device: &str) -> Option<(Until, String)> {
     match notice {
         Notice::Bridge(event) => bridge_words(event, device),
-        Notice::Refused(why) | Notice::RecordingEnded(why) => Some(capitalised(why)),
-        Notice::GainIgnored(error) => Some(capitalised(&error.to_string())),
-        Notice::DisplayChanged => Some(
-            "This scene's display has another number of contactors: the device was let go; connect \
-             it again"
-                .to_owned(),
-        ),
+        Notice::Refused(why) => Some((Until::Armed, capitalised(why))),
+        Notice::RecordingEnded(why) => Some((Until::PutAway, capitalised(why))),
+        Notice::GainIgnored(error) => Some((Until::PutAway, capitalised(&error.to_string()))),
+        Notice::DisplayChanged => {
+            let words = "This scene's display has another number of contactors: the device was let \
+                         go; connect it again";
+            Some((Until::Ready, words.to_owned()))
+        }
         Notice::Stopped | Notice::SourceEnded | Notice::ArrayWaits => None,
     }
 }
 
-fn bridge_words(event: &BridgeEvent, device: &str) -> Option<String> {
+/// How a device says why it disarmed itself, before the reason.
+const BY_ITSELF: &str = "the device ";
+
+fn bridge_words(event: &BridgeEvent, device: &str) -> Option<(Until, String)> {
     match event {
-        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) | BridgeEvent::OtherDevice(why) => {
-            Some(format!("{device}: {why}"))
+        BridgeEvent::Refused(why) | BridgeEvent::Lost(why) => {
+            Some((Until::Ready, format!("{device}: {why}")))
         }
+        BridgeEvent::OtherDevice(why) => Some((Until::PutAway, format!("{device}: {why}"))),
         BridgeEvent::Disarmed {
             by: DisarmedBy::Device,
             reason,
-        } => Some(format!("{device}: {reason}")),
-        BridgeEvent::DepthRaised(depth) => Some(format!(
-            "Frames came late: they are now sent {depth} ticks ahead, so everything is felt more \
-             than 40 ms late"
+        } => {
+            let sentence = match reason.strip_prefix(BY_ITSELF) {
+                Some(did) => format!("{device} {did}"),
+                None => format!("{device}: {reason}"),
+            };
+            Some((Until::Armed, sentence))
+        }
+        BridgeEvent::DepthRaised(depth) => Some((
+            Until::InTime,
+            format!(
+                "Frames came late: they are now sent {depth} ticks ahead, so everything is felt \
+                 more than 40 ms late"
+            ),
         )),
-        BridgeEvent::DepthLowered(depth) => Some(format!(
-            "No frame came late for a minute: they are now sent {depth} {} ahead again",
-            if *depth == 1 { "tick" } else { "ticks" }
+        BridgeEvent::DepthLowered(depth) => Some((
+            Until::Read,
+            format!(
+                "No frame came late for a minute: they are now sent {depth} {} ahead again",
+                if *depth == 1 { "tick" } else { "ticks" }
+            ),
         )),
         _ => None,
     }
@@ -377,10 +395,15 @@ mod tests {
             "no such port; check the cable".to_owned(),
         ));
         let sentence = words(&lost, "/dev/x");
-        assert_eq!(
-            sentence.as_deref(),
-            Some("/dev/x: no such port; check the cable")
-        );
+        let expected = "/dev/x: no such port; check the cable".to_owned();
+        assert_eq!(sentence, Some((Until::Ready, expected)));
         assert_eq!(words(&Notice::Stopped, "/dev/x"), None);
+        let disarmed = Notice::Bridge(BridgeEvent::Disarmed {
+            by: DisarmedBy::Device,
+            reason: "the device disarmed itself: no frame reached it in time".to_owned(),
+        });
+        let expected = "Emulator disarmed itself: no frame reached it in time".to_owned();
+        let said_once = words(&disarmed, "Emulator");
+        assert_eq!(said_once, Some((Until::Armed, expected)));
     }
 }

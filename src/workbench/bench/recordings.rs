@@ -11,6 +11,7 @@ use crate::bench::Bench;
 use crate::bench::background::{Executor, finished};
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{FileCommand, Purpose, RecordingCommand, ShowCommand};
+use crate::bench::notices::Until;
 use crate::bench::pane::Pane;
 use crate::bench::recording::file::read;
 use crate::bench::recording::list::Then;
@@ -210,7 +211,10 @@ impl Bench {
                 }
             }
             Place::PathFile(path) => recordings.opened.retain(|opened| opened != path),
-            Place::Busy(_) => return self.notices.give("It is being recorded: end it first"),
+            Place::Busy(_) => {
+                let words = "It is being recorded: end it first";
+                return self.notices.give_until(Until::Recorded, words);
+            }
             Place::Missing(_) | Place::Memory(_) => return,
         }
         recordings.relist();

@@ -123,8 +123,6 @@ pub(crate) struct DeviceState {
     pub(crate) trouble: Option<String>,
     /// A device that is shown though the engine has none: in pictures.
     pub(crate) pictured: Option<BridgeView>,
-    /// Refusals to arm that are expected, since there is no device.
-    pub(crate) n_expected_refusals: u32,
     /// The device's measured interval between frames.
     pub(crate) interval: IntervalMeter,
 }

@@ -60,6 +60,11 @@ pub(crate) trait Tool: Any {
     /// Does its part of what the user wants; every tool hears every command.
     fn command(&mut self, _command: &Command, _bench: &mut Bench) {}
 
+    /// Whether something of it lies over the panes that [`Command::Dismiss`] puts away.
+    fn is_open(&self, _bench: &Bench) -> bool {
+        false
+    }
+
     /// Its own steps: undo acts on them while a pane of its is in use. `None`: on the scene's.
     fn steps(&self, _bench: &Bench) -> Option<StepList> {
         None

@@ -364,6 +364,13 @@ pub(crate) enum BridgePhase {
     Broken,
 }
 
+impl PlayView {
+    /// Whether a stroke or a recording moves the display, or would if it were not held.
+    pub(crate) fn moves_by_itself(self) -> bool {
+        matches!(self.source, Source::Stroke | Source::Recording)
+    }
+}
+
 impl EngineView {
     /// Whether one channel can be driven alone now: armed, and nothing played yet.
     pub(crate) fn takes_ident(&self) -> bool {

@@ -4,6 +4,7 @@
 
 pub(crate) mod amplitude;
 pub(crate) mod drop;
+pub(crate) mod foot;
 pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod swatch;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::bench::command::Purpose;
 use crate::bench::export::write::{ExportError, Kind};
 use crate::bench::export::{Exportable, Exported};
+use crate::bench::notices::Until;
 use crate::bench::tool::Tool;
 use crate::shell::state::Done;
 use crate::shell::window::Workbench;
@@ -116,7 +117,10 @@ impl Workbench {
             match task.poll() {
                 None => self.shell.exports.tasks.push(task),
                 Some(Ok(Done::Table(table))) => self.bench.ctx.copy_text(table),
-                Some(Ok(Done::Written(line)) | Err(line)) => self.bench.notices.give(line),
+                Some(Ok(Done::Written(line))) => {
+                    self.bench.notices.give_until(Until::Read, line);
+                }
+                Some(Err(line)) => self.bench.notices.give(line),
             }
         }
     }

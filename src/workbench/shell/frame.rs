@@ -2,7 +2,7 @@
 
 use std::sync::PoisonError;
 
-use eframe::egui::{self, CentralPanel, Frame, Id, Margin, Panel, Rect, Ui};
+use eframe::egui::{self, CentralPanel, Frame, Id, Margin, Panel, Ui, UiBuilder};
 use egui_tiles::Tree;
 
 use crate::bench::Bench;
@@ -22,6 +22,8 @@ use crate::shell::window::Workbench;
 
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
+/// Height of the line at the foot of the window, points.
+const STATUS: f32 = 24.0;
 
 /// Shows one frame; says what the user wants.
 pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
@@ -31,21 +33,24 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     if let Some(offer) = window.bench.files.recovery.offer() {
         crate::shell::offer::show(ui, offer, &mut commands);
     }
+    let line = Panel::bottom("status").exact_size(STATUS);
+    let line = line.frame(panel(ui, 12, 0)).show(ui, |ui| ui.max_rect());
     if !window.bench.has_session() {
         // What is felt is not to be seen.
         show_bar(window, ui, &scene, &mut commands);
     }
     let central = CentralPanel::default().frame(Frame::new());
-    let panes = central.show(ui, |ui| {
-        let rect = ui.max_rect();
-        (show_panes(window, ui, &scene, &mut commands), rect)
-    });
-    let (ground, rect) = panes.inner;
+    let panes = central.show(ui, |ui| show_panes(window, ui, &scene, &mut commands));
+    let ground = panes.inner;
     let apart = show_windows(window, ui, &scene, &mut commands);
-    let over = ground.map_or(rect, |ground| ground.rect);
-    show_overlays(window, ui, over, &mut commands);
+    show_overlays(window, ui, &mut commands);
+    // Last, so that it tells of what the pointer rests on in this frame.
+    let mut foot = ui.new_child(UiBuilder::new().max_rect(line.inner));
+    crate::shell::status_line::show(&mut foot, &window.bench, &mut commands);
+    window.shell.was_typing = ui.ctx().text_edit_focused();
     window.bench.pointer.ground = ground.map(|ground| ground.rect);
     feel(window, ui.ctx(), apart.or(ground));
+    window.follow_start_motion(ui.ctx(), ground);
     mark_hovered(&mut window.bench, ui.ctx(), &mut commands);
     if window.bench.live.is_armed() {
         frame_as_armed(ui.ctx());
@@ -93,9 +98,8 @@ fn mark_hovered(bench: &mut Bench, ctx: &egui::Context, commands: &mut Commands)
 fn show_header(window: &Workbench, ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let header = Panel::top("header").exact_size(HEADER);
     header.frame(panel(ui, 16, 0)).show(ui, |ui| {
-        let live = &window.bench.live;
         let described = (scene, &window.steps());
-        crate::shell::header::show(ui, described, live, &window.appearance(), commands);
+        crate::shell::header::show(ui, described, &window.bench, &window.appearance(), commands);
     });
 }
 
@@ -143,11 +147,10 @@ fn show_panes(
     ground
 }
 
-/// Notices, questions and help over the panes.
-fn show_overlays(window: &mut Workbench, ui: &Ui, over: Rect, commands: &mut Commands) {
+/// Questions and help over the panes.
+fn show_overlays(window: &mut Workbench, ui: &Ui, commands: &mut Commands) {
     let whole = ui.ctx().content_rect();
     let (bench, shell) = (&window.bench, &mut window.shell);
-    crate::bench::notices::show(ui, over, &bench.notices, commands);
     let recent = &bench.settings.preferences.recent_scenes;
     if let Some(ask) = &mut shell.ask {
         crate::shell::ask::show(ui, whole, ask, recent, commands);

@@ -1,22 +1,20 @@
-//! The line on top: the scene and what may be done with it, rendering, armed state, all off.
+//! The line on top: the scene and what may be done with it, armed state, and what Esc does.
 
 use eframe::egui::{
-    self, Align, Align2, Button, Layout, RichText, Sense, Stroke, Ui, WidgetInfo, vec2,
+    self, Align, Align2, Button, Layout, RichText, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
-use crate::bench::command::{Command, Commands, ShowCommand};
+use crate::bench::Bench;
+use crate::bench::command::{Command, Commands, DeviceCommand, PlayCommand, ShowCommand};
 use crate::bench::history::StepList;
 use crate::bench::keys::hint;
 use crate::bench::perspective::Perspective;
-use crate::bench::view::{EngineView, SceneView, Status};
+use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
 use crate::shell::menu::{Appearance, show_edit_menu, show_scene_menu, show_view_menu};
-use selvedge_foundation::quantity;
 
-/// A window narrower than this has no room for the status, points.
-const ROOM_FOR_STATUS: f32 = 1000.0;
 /// Width of the place that says whether the device is armed, points.
 const ARMED_TAG: f32 = 84.0;
 
@@ -24,11 +22,10 @@ const ARMED_TAG: f32 = 84.0;
 pub(crate) fn show(
     ui: &mut Ui,
     (scene, steps): (&SceneView, &StepList),
-    live: &EngineView,
+    bench: &Bench,
     appearance: &Appearance,
     commands: &mut Commands,
 ) {
-    let width = ui.available_width();
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
         let palette = Palette::in_ui(ui);
         let name = RichText::new("Selvedge").font(theme::title());
@@ -42,13 +39,9 @@ pub(crate) fn show(
         ui.add_space(2.0 * STEP);
         show_perspectives(ui, appearance.perspective, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            show_all_off(ui, commands);
-            show_armed(ui, live);
+            show_escape(ui, bench, commands);
+            show_armed(ui, &bench.live);
             ui.add_space(2.0 * STEP);
-            if width > ROOM_FOR_STATUS {
-                show_status(ui, &live.status);
-                ui.add_space(2.0 * STEP);
-            }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 show_name(ui, scene);
             });
@@ -116,29 +109,51 @@ fn show_history(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
     }
 }
 
-fn show_all_off(ui: &mut Ui, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
-    let text = RichText::new("Esc  all off").color(palette.on_danger);
-    let red = Button::new(text)
-        .fill(palette.danger)
-        .min_size(vec2(92.0, ROW))
-        .stroke(Stroke::NONE);
-    let response = ui.add(red);
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "All off"));
-    let tip = "Every contactor off at once; works from anywhere, also while typing (Esc)";
+/// What Esc would do now, as a button: everything off while a device is armed or a session is held,
+/// going on after that, else a pause. Red is only what switches off.
+fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
+    let live = &bench.live;
+    let size = vec2(92.0, ROW);
+    if live.is_armed() || bench.has_session() {
+        let palette = Palette::in_ui(ui);
+        let text = RichText::new("Esc  all off").color(palette.on_danger);
+        let red = Button::new(text).fill(palette.danger).min_size(size);
+        let response = ui.add(red.stroke(Stroke::NONE));
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "All off"));
+        let tip = "Every contactor off at once; works from anywhere, also while typing (Esc)";
+        if response.on_hover_text(tip).clicked() {
+            commands.push(Command::AllOff);
+        }
+        return;
+    }
+    let pauses = live.play.moves_by_itself() && live.play.is_playing;
+    let (text, is_enabled, tip, command) = if live.is_stopped {
+        let tip = "The display moves on the screen again; the device stays disarmed until you arm \
+                   it";
+        ("Go on", true, tip, DeviceCommand::GoOn.into())
+    } else {
+        let tip = "Hold what moves by itself; while a device is armed, Esc switches everything off";
+        ("Esc  pause", pauses, tip, PlayCommand::Toggle.into())
+    };
+    let response = ui.add_enabled(is_enabled, Button::new(text).min_size(size));
+    let response = response.on_disabled_hover_text("Nothing moves by itself");
     if response.on_hover_text(tip).clicked() {
-        commands.push(Command::AllOff);
+        commands.push(command);
     }
 }
 
-/// Whether high voltage is on: in red and large when it is, with the frame around the window.
+/// Whether high voltage is on, in red and large when it is, with the frame around the window; and
+/// whether everything was switched off since.
 fn show_armed(ui: &mut Ui, live: &EngineView) {
     let palette = Palette::in_ui(ui);
     let is_armed = live.is_armed();
-    let (word, ink) = match (is_armed, live.is_stopped) {
-        (true, _) => ("ARMED", palette.on_danger),
-        (false, true) => ("all off", palette.text),
-        (false, false) => ("disarmed", palette.dim),
+    let (word, tip) = match (is_armed, live.is_stopped) {
+        (true, _) => ("ARMED", "The device's high voltage is on"),
+        (false, true) => (
+            "ALL OFF",
+            "Everything was switched off: nothing is felt, and nothing shown, until you go on or arm",
+        ),
+        (false, false) => ("disarmed", "The device's high voltage is off"),
     };
     // The same place for every word: the rest of the line stands still.
     let (rect, response) = ui.allocate_exact_size(vec2(ARMED_TAG, ROW + 4.0), Sense::hover());
@@ -147,76 +162,22 @@ fn show_armed(ui: &mut Ui, live: &EngineView) {
     let (middle, left) = (rect.center(), rect.left_center());
     if is_armed {
         painter.rect_filled(rect, 3, palette.danger);
+        let ink = palette.on_danger;
         painter.text(middle, Align2::CENTER_CENTER, word, theme::title(), ink);
+    } else if live.is_stopped {
+        let edge = Stroke::new(1.5, palette.danger);
+        painter.rect_stroke(rect, 3, edge, StrokeKind::Inside);
+        painter.text(
+            middle,
+            Align2::CENTER_CENTER,
+            word,
+            theme::title(),
+            palette.text,
+        );
     } else {
         painter.circle_filled(left + vec2(5.0, 0.0), 4.0, palette.line);
         let at = left + vec2(16.0, 0.0);
-        painter.text(at, Align2::LEFT_CENTER, word, theme::body(), ink);
+        painter.text(at, Align2::LEFT_CENTER, word, theme::body(), palette.dim);
     }
-    response.on_hover_text("Whether the device's high voltage is on");
-}
-
-fn show_status(ui: &mut Ui, status: &Status) {
-    let palette = Palette::in_ui(ui);
-    let ink = if status.missed > 0 {
-        palette.text
-    } else {
-        palette.dim
-    };
-    let response = ui.label(
-        RichText::new(status_line(status))
-            .font(theme::number())
-            .color(ink),
-    );
-    let felt = status.felt_age_s.map_or_else(String::new, |age_s| {
-        format!(
-            "\nPointer to the middle of the felt tick {}",
-            quantity::time_span(age_s)
-        )
-    });
-    response.on_hover_text(format!(
-        "Rendering method · median cost of a tick · bound of its level error · ticks that never \
-         were\n{} late ticks{felt}",
-        status.late
-    ));
-}
-
-/// The status in fixed digits: `table ·   0.2 µs · ≤ 0.050 dB ·    0 missed`; without the cost
-/// where nobody measures it. Its width is that of the numbers of any day, not of the moment.
-fn status_line(status: &Status) -> String {
-    let cost = status.tick_cost_s.map_or_else(String::new, |s| {
-        let us = s * 1e6;
-        let decimals = usize::from(us < 999.95);
-        format!(" · {:>5} µs", quantity::fixed(us, decimals))
-    });
-    let bound = quantity::fixed(status.bound_db, 3);
-    format!(
-        "{}{cost} · ≤ {bound} dB · {:>4} missed",
-        status.method, status.missed
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_status_keeps_its_width_while_its_numbers_change() {
-        let line = |cost_s, missed| {
-            status_line(&Status {
-                method: "table",
-                tick_cost_s: Some(cost_s),
-                missed,
-                ..Status::default()
-            })
-        };
-        assert_eq!(
-            line(2.1e-7, 0),
-            "table ·   0.2 µs · ≤ 0.000 dB ·    0 missed"
-        );
-        let width = |cost_s, missed| line(cost_s, missed).chars().count();
-        for (cost_s, missed) in [(41.0e-6, 12), (999.96e-6, 345), (0.025, 9999)] {
-            assert_eq!(width(cost_s, missed), width(2.1e-7, 0), "{cost_s} {missed}");
-        }
-    }
+    response.on_hover_text(tip);
 }

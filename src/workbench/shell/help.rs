@@ -50,7 +50,7 @@ const POINTER: [(&str, &[(&str, &str)]); 3] = [
 
 /// What everybody must know before a finger is on the device.
 const SAFETY: [&str; 2] = [
-    "Esc switches every contactor off at once, whatever has the focus and whatever is open.",
+    "While a device is armed, Esc switches everything off at once, whatever is open.",
     "Nothing arms the device again but you.",
 ];
 
@@ -86,7 +86,7 @@ fn groups(table: &[Shortcut]) -> Vec<Group> {
 
 fn kind(command: &Command) -> &'static str {
     match command {
-        Command::AllOff => "From anywhere",
+        Command::Escape | Command::AllOff => "From anywhere",
         Command::Edit(_)
         | Command::Undo
         | Command::Redo
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn all_off_stands_first_and_two_keys_that_do_the_same_share_a_row() {
         let groups = groups(&table());
-        assert_eq!(groups[0].rows[0].0, "Everything off");
+        assert!(groups[0].rows[0].0.starts_with("Everything off"));
         let titles: Vec<_> = groups.iter().map(|group| group.title).collect();
         let mut unique = titles.clone();
         unique.dedup();

@@ -82,7 +82,7 @@ impl Workbench {
         let has_session = self.bench.has_session();
         for command in crate::bench::keys::pressed(ctx) {
             // A participant who presses a key is told nothing of what it does elsewhere.
-            if has_session && command != Command::AllOff {
+            if has_session && command != Command::Escape {
                 continue;
             }
             self.dispatch(command);

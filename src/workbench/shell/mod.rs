@@ -8,6 +8,7 @@ pub(crate) mod ask;
 pub(crate) mod completion;
 pub(crate) mod dialogs;
 pub(crate) mod dispatch;
+pub(crate) mod escape;
 pub(crate) mod export;
 pub(crate) mod frame;
 pub(crate) mod header;
@@ -28,7 +29,9 @@ pub(crate) mod question;
 pub(crate) mod raster;
 pub(crate) mod recovery;
 pub(crate) mod screenshot;
+pub(crate) mod start_motion;
 pub(crate) mod state;
+pub(crate) mod status_line;
 pub(crate) mod study;
 pub(crate) mod tab_row;
 #[cfg(test)]

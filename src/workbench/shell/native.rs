@@ -169,6 +169,7 @@ fn workbench(
     let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
     workbench.bench.engine.stop_switch().press_on_panic();
     workbench.dispatch(DeviceCommand::ConnectEmulator.into());
+    workbench.begin_motion();
     Ok(workbench)
 }
 
@@ -240,7 +241,8 @@ impl Stamping<'_> {
             WindowEvent::KeyboardInput { event, .. } => {
                 let is_escape = event.logical_key == Key::Named(NamedKey::Escape);
                 if is_escape && event.state == ElementState::Pressed {
-                    stop.press();
+                    // At once where a device may move; what else Esc does is done in a frame.
+                    stop.press_if_armed();
                 }
             }
             WindowEvent::MouseInput { state, .. } => match state {

@@ -19,6 +19,7 @@ use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
 use crate::shell::pointer::PointerTap;
+use crate::shell::start_motion::StartMotion;
 
 /// The window around the tools.
 pub(crate) struct Shell {
@@ -36,6 +37,8 @@ pub(crate) struct Shell {
     pub(crate) ask: Option<Ask>,
     /// What waits for an answer to "save changes?".
     pub(crate) question: Option<Question>,
+    /// Whether text was being typed at the end of the last frame.
+    pub(crate) was_typing: bool,
     /// Whether the window may close without another question.
     pub(crate) may_close: bool,
     /// Set when the program is told to end, with nobody there to be asked.
@@ -44,6 +47,8 @@ pub(crate) struct Shell {
     pub(crate) is_help_shown: bool,
     /// What is being exported.
     pub(crate) exports: Exports,
+    /// Motion that gives way to the pointer, as long as it does.
+    pub(crate) start_motion: Option<StartMotion>,
     /// Since when none of several windows has had the keyboard, s.
     pub(crate) left_since_s: Option<f64>,
     /// Scenes that tools have heard of.
@@ -65,10 +70,12 @@ impl Shell {
             dialogs,
             ask: None,
             question: None,
+            was_typing: false,
             may_close: false,
             ends: Arc::default(),
             is_help_shown: false,
             exports: Exports::default(),
+            start_motion: None,
             left_since_s: None,
             n_scenes: 0,
             n_drawn: [0; Pane::ALL.len()],

@@ -21,6 +21,8 @@ use crate::window::Soft;
 const HEADER: f32 = 44.0;
 const TABS: f32 = 24.0;
 const TIMELINE: f32 = 80.0;
+/// Height of the line at the foot, points.
+const STATUS: f32 = 24.0;
 /// Frames in a second.
 const RATE_HZ: f32 = 40.0;
 
@@ -68,7 +70,7 @@ impl Stage {
     /// Brings a pane of this size in points to the front.
     pub(super) fn front(&mut self, title: &str, [width, height]: [u16; 2]) {
         let above = if self.has_timeline { TIMELINE } else { 0.0 };
-        let size = vec2(width.into(), f32::from(height) + HEADER + TABS + above);
+        let size = vec2(width.into(), f32::from(height) + HEADER + TABS + STATUS + above);
         self.hidden.clear();
         self.harness.set_size(size);
         self.harness.run_steps(2);

@@ -125,26 +125,54 @@ fn values_can_be_typed_with_their_unit() {
 fn escape_silences_from_anywhere_also_while_typing() {
     let folder = Folder::new("escape");
     let mut harness = window(&folder.scene());
-    harness.run();
+    harness.state_mut().connect_emulator();
+    wait(&mut harness, Workbench::is_ready);
+    harness.get_by_role_and_label(Role::Button, "Arm").click();
+    wait(&mut harness, Workbench::is_armed);
     stroke(&mut harness, 20);
     assert!(loudest_um(&harness) > 0.1, "felt before");
-    harness.get_by_label("Port").click();
-    harness.run_steps(2);
-    harness.get_by_label("Port").type_text("/dev/tty");
+    harness
+        .get_by_role_and_label(Role::Button, "Master value")
+        .click();
     harness.run_steps(2);
     press(&mut harness, Modifiers::NONE, Key::Escape);
+    wait(&mut harness, |bench| {
+        bench.is_stopped() && !bench.is_armed()
+    });
     stroke(&mut harness, 20);
-    assert!(harness.state().is_stopped(), "everything is off");
     assert_eq!(
         loudest_um(&harness),
         0.0,
         "and silent though the pointer moves"
     );
-    harness.get_by_label("Go on without a device").click();
+    harness.get_by_label("ALL OFF");
+    harness.get_by_label("Go on").click();
     harness.run_steps(2);
     stroke(&mut harness, 20);
-    assert!(loudest_um(&harness) > 0.1, "felt again");
-    assert!(harness.state().notices().is_empty(), "nothing went wrong");
+    assert!(loudest_um(&harness) > 0.1, "shown again");
+    assert!(!harness.state().is_armed(), "and not armed");
+    assert!(harness.query_by_label("ALL OFF").is_none());
+}
+
+#[test]
+fn with_nothing_armed_escape_ends_typing_and_closes_menus_and_nothing_else() {
+    let folder = Folder::new("escape-unarmed");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    press(&mut harness, Modifiers::NONE, Key::Space);
+    harness.run_steps(10);
+    harness.get_by_label("Port").click();
+    harness.run_steps(2);
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    harness.get_by_label("View").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Default arrangement").is_some());
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.query_by_label("Default arrangement").is_none());
+    assert!(!harness.state().is_silent(), "it still moves");
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.state().is_silent() && !harness.state().is_stopped());
+    assert!(loudest_um(&harness) > 0.1, "what it felt last is shown");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use selvedge_device::FaultWords;
 pub(crate) enum DeviceCommand {
     /// Arm it: high voltage on.
     Arm,
-    /// End the silence of all off where there is no device to arm.
+    /// End the silence of all off on the screen; a device stays disarmed.
     GoOn,
     /// Ramp it to silence.
     Disarm,

@@ -37,6 +37,9 @@ pub(crate) type Commands = Vec<Command>;
 /// Something that the user wants.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Command {
+    /// What Esc does: everything off while a device is armed or a session is held; otherwise what
+    /// lies on top is put away, or motion paused.
+    Escape,
     /// Everything off, at once, from anywhere.
     AllOff,
     /// Change the scene.
@@ -69,8 +72,8 @@ pub(crate) enum Command {
     Chosen(Chosen),
     /// Put away what asks: a field, a question, the calibration, the help.
     Dismiss,
-    /// Put away a notice.
-    DismissNotice(u64),
+    /// Put away a notice, or all.
+    DismissNotice(Option<u64>),
 }
 
 impl From<DeviceCommand> for Command {
@@ -308,7 +311,7 @@ pub(crate) enum ShowCommand {
 pub(crate) enum Tool {
     /// It feels.
     #[default]
-    Explore,
+    Feel,
     /// It moves textiles.
     Arrange,
 }

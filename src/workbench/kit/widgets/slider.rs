@@ -4,10 +4,11 @@
 //! value; Shift moves finely; the number can be clicked and typed over, unit and all.
 
 use eframe::egui::{
-    self, Align2, Color32, EventFilter, Id, Key, Rect, RectAlign, Response, Sense, Stroke, Tooltip,
-    Ui, WidgetInfo, WidgetText, accesskit, pos2, vec2,
+    self, Align2, Color32, EventFilter, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
+    accesskit, pos2, vec2,
 };
 
+use crate::kit::foot;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::scale::Scale;
@@ -93,13 +94,12 @@ pub(crate) fn slider_row_as(
     (new, response)
 }
 
-/// Tells of a slider beside its pane: below it the tip would cover the next slider, which the hand
-/// may want next.
-pub(crate) fn tip_beside(ui: &Ui, response: &Response, words: impl Into<WidgetText>) {
-    let beside = Rect::from_x_y_ranges(ui.max_rect().x_range(), response.rect.y_range());
-    let mut tip = Tooltip::for_enabled(response);
-    tip.popup = tip.popup.anchor(beside).align(RectAlign::LEFT).gap(16.0);
-    tip.show(|ui| ui.label(words));
+/// Tells of a slider at the foot of the window: a tip would cover the next slider, which the hand may
+/// want next, or what is listened to while one drags.
+pub(crate) fn tell(response: &Response, words: impl Into<String>) {
+    if response.hovered() || response.dragged() {
+        foot::tell(&response.ctx, words);
+    }
 }
 
 /// The value that pointer, keys or an assistive tool ask for.

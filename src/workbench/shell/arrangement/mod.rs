@@ -17,10 +17,11 @@ use crate::bench::perspective::Perspective;
 use crate::shell::perspective::arrangement_for;
 use selvedge_foundation::files;
 
-/// Widths and heights of the default arrangement, points.
-const LIBRARY: f32 = 200.0;
-const CONTROLS: f32 = 328.0;
-const PICTURES: f32 = 236.0;
+/// Share of a window that the library, the controls and the pictures take, each between a least and
+/// a most number of points.
+const LIBRARY: [f32; 3] = [0.14, 200.0, 280.0];
+const CONTROLS: [f32; 3] = [0.235, 328.0, 520.0];
+const PICTURES: [f32; 3] = [0.3, 190.0, 420.0];
 /// Less room than this, without header and timeline, stacks panes behind each other, points.
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
@@ -35,6 +36,17 @@ const FRONT: [Pane; 7] = [
     Pane::Analysis,
 ];
 
+/// What belongs to other perspectives: hidden here until it is asked for.
+const ELSEWHERE: [Pane; 7] = [
+    Pane::Lab,
+    Pane::Import,
+    Pane::Picture,
+    Pane::Collection,
+    Pane::Participant,
+    Pane::Experimenter,
+    Pane::Analysis,
+];
+
 /// The arrangement that a window of this size begins with, points.
 pub(crate) fn default_tree(size: Vec2) -> Tree<Pane> {
     let mut tiles = Tiles::default();
@@ -43,7 +55,17 @@ pub(crate) fn default_tree(size: Vec2) -> Tree<Pane> {
     } else {
         stacked(&mut tiles)
     };
-    Tree::new(Id::unique("arrangement"), root, tiles)
+    let mut tree = Tree::new(Id::unique("arrangement"), root, tiles);
+    for pane in ELSEWHERE {
+        if let Some(tile) = tile_of(&tree, pane) {
+            tree.set_visible(tile, false);
+        }
+    }
+    tree
+}
+
+fn part_of(whole: f32, [share, least, most]: [f32; 3]) -> f32 {
+    (share * whole).clamp(least, most).round()
 }
 
 /// Whether a window of this size has room for everything side by side, points.
@@ -53,10 +75,12 @@ pub(crate) fn is_roomy(size: Vec2) -> bool {
 
 /// Everything in sight: cloth on the left, controls on the right, pictures below the cloth.
 fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
-    let left = (size.x - CONTROLS).max(CONTROLS);
+    let [library_width, controls_width] = [LIBRARY, CONTROLS].map(|part| part_of(size.x, part));
+    let pictures_height = part_of(size.y, PICTURES);
+    let left = (size.x - controls_width).max(controls_width);
     let library = tabs(tiles, &[Pane::Library, Pane::Recordings]);
     let workspace = tabs(tiles, &FRONT);
-    let upper = [(library, LIBRARY), (workspace, left - LIBRARY)];
+    let upper = [(library, library_width), (workspace, left - library_width)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
     let spectra = tabs(tiles, &[Pane::ContactSpectrum, Pane::DriveSpectrum]);
@@ -70,15 +94,15 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let spatial = tabs(tiles, &closer);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
     let lower = linear(tiles, LinearDir::Horizontal, &lower);
-    let height = (size.y - PICTURES).max(PICTURES);
-    let parts = [(upper, height), (lower, PICTURES)];
+    let height = (size.y - pictures_height).max(pictures_height);
+    let parts = [(upper, height), (lower, pictures_height)];
     let middle = linear(tiles, LinearDir::Vertical, &parts);
     let tuning = tabs(tiles, &[Pane::Tuning]);
     let bridge = tabs(tiles, &[Pane::Bridge, Pane::Experimenter]);
     let wave = tabs(tiles, &[Pane::DriveWave]);
     let parts = [(tuning, 0.488), (bridge, 0.327), (wave, 0.185)];
     let controls = linear(tiles, LinearDir::Vertical, &parts);
-    let parts = [(middle, left), (controls, CONTROLS)];
+    let parts = [(middle, left), (controls, controls_width)];
     linear(tiles, LinearDir::Horizontal, &parts)
 }
 
@@ -110,7 +134,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
     linear(
         tiles,
         LinearDir::Horizontal,
-        &[(workspace, 0.55), (right, 0.45)],
+        &[(workspace, 0.6), (right, 0.4)],
     )
 }
 

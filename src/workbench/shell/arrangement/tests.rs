@@ -26,6 +26,27 @@ fn every_default_holds_every_pane_and_survives_being_kept() {
 }
 
 #[test]
+fn what_belongs_to_other_perspectives_is_no_tab_until_it_is_asked_for() {
+    for size in SIZES {
+        let mut tree = default_tree(size);
+        for pane in ELSEWHERE {
+            let tile = tile_of(&tree, pane).unwrap();
+            assert!(!tree.is_visible(tile), "{pane:?}");
+            toggle(&mut tree, pane);
+            assert!(is_shown(&tree, pane), "{pane:?}");
+        }
+    }
+}
+
+#[test]
+fn a_larger_window_gives_every_part_more_room() {
+    let parts = |width| [LIBRARY, CONTROLS, PICTURES].map(|part| part_of(width, part));
+    let [small, large] = [1100.0, 1800.0].map(parts);
+    assert!(small.iter().zip(large).all(|(small, large)| *small < large));
+    assert_eq!(parts(1e4), [280.0, 520.0, 420.0]);
+}
+
+#[test]
 fn a_damaged_arrangement_is_not_taken() {
     let tree = default_tree(SIZES[0]);
     let text = to_text(&tree).unwrap();

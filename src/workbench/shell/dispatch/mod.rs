@@ -9,6 +9,7 @@ use crate::bench::command::edit::Edit;
 use crate::bench::command::{
     Chosen, Command, FileCommand, Left, Part, PlayCommand, PlaySource, Purpose, ShowCommand,
 };
+use crate::bench::notices::Until;
 use crate::shell::window::Workbench;
 
 impl Workbench {
@@ -45,6 +46,7 @@ impl Workbench {
         if self.bench.has_session() && !leaves_session(&command) {
             return self.bench.refuse_in_session();
         }
+        self.leave_start_motion(&command);
         if is_risky(&command) {
             self.keep_unsaved_now();
         }
@@ -52,6 +54,7 @@ impl Workbench {
             tool.command(&command, &mut self.bench);
         }
         match command {
+            Command::Escape => self.escape(),
             Command::AllOff | Command::Dismiss => self.dismiss(),
             Command::File(command) => self.dispatch_file(command),
             Command::Show(command) => self.dispatch_show(&command),
@@ -86,7 +89,8 @@ fn is_risky(command: &Command) -> bool {
 /// Whether a command leaves what is felt to the session.
 fn leaves_session(command: &Command) -> bool {
     match command {
-        Command::AllOff
+        Command::Escape
+        | Command::AllOff
         | Command::Device(_)
         | Command::Dismiss
         | Command::DismissNotice(_)
@@ -126,9 +130,11 @@ impl Bench {
             }
             Command::Library(command) => self.dispatch_library(command),
             Command::Chosen(act) => self.act_on_chosen(act),
-            Command::DismissNotice(number) => self.notices.dismiss(number),
+            Command::DismissNotice(Some(number)) => self.notices.dismiss(number),
+            Command::DismissNotice(None) => self.notices.dismiss_all(),
             // Windows and tools have done these.
-            Command::AllOff
+            Command::Escape
+            | Command::AllOff
             | Command::Undo
             | Command::Redo
             | Command::StepTo(_)
@@ -155,7 +161,7 @@ impl Bench {
     /// Says that what is shown and felt is the session's alone.
     pub(crate) fn refuse_in_session(&mut self) {
         let words = "A session is held: end it first, in the Experimenter pane";
-        self.notices.give(words);
+        self.notices.give_until(Until::SessionOver, words);
     }
 
     /// Tells the engine what is wanted of it.

@@ -74,7 +74,9 @@ impl Behavior<Pane> for PaneHost<'_> {
             .filter_map(pane_of)
             .collect();
         let front = tabs.active.and_then(pane_of);
-        self.row = TabRow::of(ui, &titles, front.map_or(0.0, corner_width));
+        // Titles stand where they stand, whichever pane is in front.
+        let corner = titles.iter().copied().map(corner_width);
+        self.row = TabRow::of(ui, &titles, corner.fold(0.0, f32::max));
         if let Some(pane) = front.filter(|_| self.row.has_corner()) {
             ui.add_space(8.0);
             self.show_corner(ui, pane);

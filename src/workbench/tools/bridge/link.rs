@@ -42,12 +42,7 @@ pub(crate) fn show_trouble(ui: &mut Ui, trouble: Option<&str>) {
     ui.add(egui::Label::new(words).wrap());
 }
 
-pub(crate) fn show_arming(
-    ui: &mut Ui,
-    bridge: Option<&BridgeView>,
-    is_stopped: bool,
-    commands: &mut Commands,
-) {
+pub(crate) fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
     let phase = bridge.map(|bridge| bridge.phase);
     let size = vec2(ui.available_width(), ROW + 4.0);
@@ -58,17 +53,6 @@ pub(crate) fn show_arming(
         let tip = "Ramp the device to silence; the window goes on";
         if ui.add_sized(size, armed).on_hover_text(tip).clicked() {
             commands.push(DeviceCommand::Disarm.into());
-        }
-        return;
-    }
-    if matches!(phase, None | Some(BridgePhase::Broken)) && is_stopped {
-        let tip = "End the silence of all off; no device is connected that works";
-        if ui
-            .add_sized(size, Button::new("Go on without a device"))
-            .on_hover_text(tip)
-            .clicked()
-        {
-            commands.push(DeviceCommand::GoOn.into());
         }
         return;
     }

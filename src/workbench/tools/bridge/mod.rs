@@ -230,7 +230,7 @@ impl Bridge {
 fn show_device(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
     let bridge = view.live.bridge.as_ref();
     link::show_state(ui, bridge, view.target);
-    link::show_arming(ui, bridge, view.live.is_stopped, commands);
+    link::show_arming(ui, bridge, commands);
     timing::show_fault(ui, bridge, commands);
     link::show_trouble(ui, view.trouble);
 }

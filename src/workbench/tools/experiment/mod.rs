@@ -163,7 +163,7 @@ impl Tool for Experiment {
 }
 
 /// What the participant's window does besides showing its view: it closes, fills its screen by F11,
-/// and Esc switches everything off as everywhere.
+/// and Esc does what it does everywhere.
 fn take_window_keys(ctx: &Context, window: &mut ParticipantsWindow, commands: &mut Commands) {
     let (is_closed, is_toggled, is_off) = ctx.input(|input| {
         (
@@ -178,6 +178,6 @@ fn take_window_keys(ctx: &Context, window: &mut ParticipantsWindow, commands: &m
         window.fills_screen = !window.fills_screen;
     }
     if is_off {
-        commands.push(Command::AllOff);
+        commands.push(Command::Escape);
     }
 }

@@ -44,6 +44,10 @@ impl Tool for Library {
         }
     }
 
+    fn is_open(&self, bench: &Bench) -> bool {
+        self.renaming.is_some() || bench.library.acts.taken.is_some()
+    }
+
     /// While the last thing that was done was done with a library: the scene's list is here too.
     fn steps(&self, bench: &Bench) -> Option<StepList> {
         let acts = &bench.library.acts;

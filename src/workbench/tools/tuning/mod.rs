@@ -17,7 +17,7 @@ use crate::kit::pane::scrolled;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
-use crate::kit::widgets::slider::{slider_row, tip_beside};
+use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{row, toggle};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{self, Band, Filters, Perception};
@@ -68,7 +68,7 @@ impl Tuning {
         let noticed = marked.and_then(|felt| noticed_db(&felt, None));
         let scale = Scale::gain(rest.gain_db).with_noticed(noticed);
         let (new, response) = slider_row(ui, "Master", palette.text, scale, now.gain_db);
-        tip_beside(ui, &response, slider_tip(noticed));
+        tell(&response, slider_tip(noticed));
         commands.extend(new.map(|db| Edit::MasterGain(db).into()));
         for band in Band::ALL {
             let noticed = marked.and_then(|felt| noticed_db(&felt, Some(band)));
@@ -79,7 +79,7 @@ impl Tuning {
         let scale = Scale::share(rest.compression);
         let (new, response) = slider_row(ui, "Compression", palette.text, scale, now.compression);
         let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
-        tip_beside(ui, &response, tip);
+        tell(&response, tip);
         commands.extend(new.map(|share| Edit::Compression(share).into()));
         curve::show(ui, scene, commands);
         show_ranges(ui, scene);
@@ -135,7 +135,7 @@ fn show_band(
             commands.push(command.into());
         }
     }
-    tip_beside(ui, &response, slider_tip(noticed));
+    tell(&response, slider_tip(noticed));
 }
 
 /// What a gain's slider can do, and what its marks are.
@@ -218,8 +218,7 @@ fn show_textile(
         let lit = egui::Shape::rect_filled(row.expand2(vec2(6.0, 0.0)), 4, palette.raised);
         ui.painter().set(ground, lit);
     }
-    tip_beside(
-        ui,
+    tell(
         &response,
         format!("Gain of {}\n{}", cloth.name, slider_tip(noticed)),
     );
@@ -294,7 +293,7 @@ fn show_filters(ui: &mut Ui, filters: Filters, commands: &mut Commands) {
         let ink = Palette::in_ui(ui).text;
         let (new, response) = slider_row(ui, "Width", ink, scale, octaves);
         if is_gaussian {
-            tip_beside(ui, &response, "Width of both filters at half power");
+            tell(&response, "Width of both filters at half power");
             commands
                 .extend(new.map(|octaves| Edit::Filters(Filters::LogGaussian { octaves }).into()));
         } else {

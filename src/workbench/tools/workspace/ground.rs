@@ -40,7 +40,7 @@ pub(crate) fn paint_cloths(painter: &Painter, view: &ViewTransform, stage: &Stag
 /// The textile that is felt; where textiles are arranged, none is.
 fn lifted(stage: &Stage<'_>) -> Option<usize> {
     match stage.state.tool {
-        Tool::Explore => stage.sight.live.cloth_under_display(),
+        Tool::Feel => stage.sight.live.cloth_under_display(),
         Tool::Arrange => None,
     }
 }

@@ -1,7 +1,7 @@
 //! The workspace: the scene in mm from above, with the display moving over it, and a lens that
 //! shows what lies under the finger.
 //!
-//! Two tools: one explores (the pointer is the finger), one arranges (the pointer moves textiles).
+//! Two tools: one feels (the pointer is the finger), one arranges (the pointer moves textiles).
 //! Draws, says where the pointer feels, and gives commands; what is done about them is decided
 //! elsewhere.
 
@@ -29,10 +29,7 @@ pub(crate) mod tools;
 
 use std::cell::Cell;
 
-use eframe::egui::{
-    self, CursorIcon, DragAndDrop, Painter, Popup, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
-    vec2,
-};
+use eframe::egui::{self, CursorIcon, DragAndDrop, Popup, Rect, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Part, ShowCommand, Tool};
@@ -41,7 +38,6 @@ use crate::bench::overlays::Overlay;
 use crate::bench::pane::Pane;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{self, PaneContext};
-use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::tools::workspace::camera::Camera;
@@ -123,6 +119,10 @@ impl tool::Tool for Workspace {
             Command::AllOff | Command::Dismiss => self.view.is_calibrating = false,
             _ => {}
         }
+    }
+
+    fn is_open(&self, _bench: &Bench) -> bool {
+        self.view.is_calibrating
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
@@ -218,11 +218,8 @@ fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround
         lens::show(ui, lens, &stage, commands);
     }
     if let Some(band) = state.overlays.map() {
-        let beside = lens.and_then(lens::room_below);
+        let beside = lens.and_then(|lens| lens::room_for_legend(lens, &stage));
         overlay::paint_legend(ui.painter(), &stage, (beside, band));
-    }
-    if stage.sight.live.is_stopped {
-        paint_all_off(&ui.painter_at(ground), ground);
     }
     PointerGround {
         window: Pointed::Workbench,
@@ -256,7 +253,7 @@ fn handle(ui: &mut Ui, stage: &Stage<'_>, tag: Option<usize>, commands: &mut Com
     tips::describe(ui, stage, tag);
     say_hovered(stage, commands);
     let is_busy = Popup::is_any_open(ui.ctx()) || DragAndDrop::has_any_payload(ui.ctx());
-    stage.state.tool == Tool::Explore && !(is_panning || is_busy)
+    stage.state.tool == Tool::Feel && !(is_panning || is_busy)
 }
 
 /// Says what the pointer rests on.
@@ -293,21 +290,4 @@ fn paint_rulers(ui: &Ui, frame: Rect, stage: &Stage<'_>) {
         stage.sight.scene.size_mm,
         pointed,
     );
-}
-
-/// Says that everything is off, and what ends that.
-fn paint_all_off(painter: &Painter, ground: Rect) {
-    let palette = Palette::of(painter.ctx().theme());
-    let words = "Everything is off. Arm to feel again.".to_owned();
-    let galley = painter.layout_no_wrap(words, theme::body(), palette.text);
-    let middle = ground.center_top() + vec2(0.0, 30.0);
-    let pill = Rect::from_center_size(middle, galley.size() + vec2(32.0, 14.0));
-    painter.rect_filled(pill, 15, palette.raised);
-    painter.rect_stroke(
-        pill,
-        15,
-        Stroke::new(1.0, palette.danger),
-        StrokeKind::Inside,
-    );
-    painter.galley(middle - 0.5 * galley.size(), galley, palette.text);
 }

@@ -15,6 +15,9 @@ use crate::tools::workspace::overlay::lattice::Lattice;
 use crate::tools::workspace::state::{Place, WorkspaceView};
 use selvedge_render::array::ContactorReading;
 
+/// Dots per inch of a screen that nobody measured, where a point is a dot.
+const USUAL_DOTS_PER_INCH: f64 = 96.0;
+
 /// What overlays are drawn from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layers<'a> {
@@ -56,6 +59,17 @@ impl Stage<'_> {
     /// Whether a drag moves textiles now.
     pub(crate) fn arranges(&self) -> bool {
         self.state.tool == Tool::Arrange && !self.state.is_calibrating
+    }
+
+    /// Points per millimetre at true size: as measured, else on a screen of 96 dots an inch.
+    pub(crate) fn true_points_per_mm(&self) -> f64 {
+        let ctx = &self.response.ctx;
+        let native = ctx.native_pixels_per_point().unwrap_or(1.0);
+        let pixels_per_mm = (self.state.true_pixels_per_mm).unwrap_or_else(|| {
+            let dots_per_mm = USUAL_DOTS_PER_INCH / 25.4;
+            dots_per_mm * f64::from(native)
+        });
+        pixels_per_mm / f64::from(ctx.pixels_per_point())
     }
 
     /// Changes how the workspace is looked at from the next frame on.

@@ -244,7 +244,7 @@ fn dragging_empty_ground_goes_about_and_holds_what_is_under_the_pointer() {
 
 #[test]
 fn the_pointer_feels_while_it_explores_and_not_while_it_arranges() {
-    let mut window = Window::new(Tool::Explore);
+    let mut window = Window::new(Tool::Feel);
     let on_cloth = window.at(70.0, 70.0);
     assert!(window.run(vec![Event::PointerMoved(on_cloth)]).1.feels);
     let (during, _) = window.drag([70.0, 70.0], [100.0, 90.0]);
@@ -255,7 +255,7 @@ fn the_pointer_feels_while_it_explores_and_not_while_it_arranges() {
 
 #[test]
 fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
-    let mut window = Window::new(Tool::Explore);
+    let mut window = Window::new(Tool::Feel);
     let at = window.at(70.0, 70.0);
     let before = window.run(Vec::new()).1.view;
     assert_eq!(window.scroll(at), []);
@@ -266,7 +266,7 @@ fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
         (place - Point::new(70.0, 70.0)).length_mm() < 0.01,
         "{place:?}"
     );
-    let mut window = Window::new(Tool::Explore);
+    let mut window = Window::new(Tool::Feel);
     window.modifiers = Modifiers::ALT;
     assert_eq!(window.scroll(at), [PlayCommand::Turn(5.0).into()]);
 }
@@ -278,7 +278,7 @@ fn two_clicks_on_empty_ground_show_all_of_it() {
         points_per_mm: 2.2,
     };
     for ([x_mm, y_mm], is_fit) in [([70.0, 70.0], false), ([60.0, 200.0], true)] {
-        let mut window = Window::new(Tool::Explore);
+        let mut window = Window::new(Tool::Feel);
         window.view.camera = closer;
         let at = window.at(x_mm, y_mm);
         window.click(at);
@@ -326,7 +326,7 @@ fn clicking_a_contactor_looks_closer_at_it() {
 
 #[test]
 fn a_textile_of_the_library_is_placed_where_it_is_let_go() {
-    let mut window = Window::new(Tool::Explore);
+    let mut window = Window::new(Tool::Feel);
     let at = window.at(69.6, 200.3);
     window.run(vec![Event::PointerMoved(at)]);
     window.run(vec![window.press(at, true)]);
@@ -344,7 +344,7 @@ fn a_textile_of_the_library_is_placed_where_it_is_let_go() {
 
 #[test]
 fn what_is_measured_between_the_crosses_calibrates_the_screen() {
-    let mut window = Window::new(Tool::Explore);
+    let mut window = Window::new(Tool::Feel);
     window.view.is_calibrating = true;
     let typed = |text: &str| Event::Text(text.to_owned());
     let enter = Event::Key {

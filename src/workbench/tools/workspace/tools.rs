@@ -50,7 +50,7 @@ pub(crate) fn show(ui: &mut Ui, state: &mut WorkspaceView, pane: Rect, size_mm: 
             "Arrange",
             "The pointer moves, turns and resizes textiles",
         ),
-        (Tool::Explore, "Explore", "The pointer feels the textiles"),
+        (Tool::Feel, "Feel", "The pointer feels the textiles"),
     ] {
         let command: Command = ShowCommand::Tool(tool).into();
         if offered(ui, size, (name, state.tool == tool), what, &command) {

@@ -14,7 +14,7 @@ use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
 use crate::bench::tool::PaneContext;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::scale::{Curve, Scale};
-use crate::kit::widgets::slider::{slider_row, tip_beside};
+use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::toggle;
 use crate::tools::accuracy::sampling::Accuracy;
 use selvedge_render::array::Method;
@@ -147,7 +147,7 @@ fn show_controls(ui: &mut Ui, accuracy: &Accuracy, context: &mut PaneContext<'_>
     if rendering.has_budget() {
         // Beside the whole pane: what the slider does to the plots stays in sight.
         let is_preparing = context.bench.engine_scene.preparing.is_busy();
-        tip_beside(ui, &row.inner, budget_words(accuracy, is_preparing));
+        tell(&row.inner, budget_words(accuracy, is_preparing));
     } else {
         let words = "Only auto and table keep to a budget; this method has its own error";
         row.inner.on_disabled_hover_text(words);
