@@ -240,7 +240,7 @@ impl Stage {
     fn pane(&mut self) -> RgbaImage {
         let size = self.harness.ctx.content_rect().size();
         let below = if self.has_timeline { TIMELINE } else { 0.0 };
-        let pane = Rect::from_min_max(pos2(0.0, HEADER + TABS), pos2(size.x, size.y - below));
+        let pane = Rect::from_min_max(pos2(0.0, HEADER + TABS), pos2(size.x, size.y - STATUS - below));
         self.part(pane)
     }
 

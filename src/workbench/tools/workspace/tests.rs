@@ -12,6 +12,7 @@ use crate::bench::library_view::LibraryItem;
 use crate::bench::selection::Selection;
 use crate::bench::trail::Trail;
 use crate::bench::view::{Cloth, Dot, EngineView, SceneView};
+use crate::kit::theme;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_foundation::geometry::{Frame, Point, Rotation};
 use selvedge_textile::tactile::{Filters, Tuning};
