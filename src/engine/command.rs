@@ -85,8 +85,8 @@ pub enum Command {
     Resume,
     /// Asks a faulted device to clear its faults; it can be armed again when their cause is gone.
     ClearFaults,
-    /// Everything off: the device stops at once, the display is silent until armed or resumed, a replay
-    /// is held and a recording ended.
+    /// Everything off: the device stops at once, the display is silent until armed or resumed, a
+    /// replay is held and a recording ended.
     StopAll,
     /// Ends the recording that [`Engine::record`](super::Engine::record) began.
     StopRecording,

@@ -191,8 +191,8 @@ impl Runner {
         self.link.send(self.core.felt_um(), self.core.fresh_stamp())
     }
 
-    /// Stops everything if the switch was pressed since it was last looked at; where no device could
-    /// move, the screen goes on unless it is to be silent too.
+    /// Stops everything if the switch was pressed since it was last looked at; where no device
+    /// could move, the screen goes on unless it is to be silent too.
     fn heed_stop(&mut self) {
         let presses = self.switch.presses();
         if presses == self.presses_heard {

@@ -10,8 +10,8 @@ use selvedge_foundation::panics::on_panic;
 /// Switches everything off. Clones are the same switch.
 ///
 /// Pressing it sends STOP to the device at once, on the caller's thread, ahead of every frame, and
-/// tells the engine, which stays silent until it is armed anew or told to go on. An `Arm` that was sent before the
-/// press and not yet heard is void.
+/// tells the engine, which stays silent until it is armed anew or told to go on. An `Arm` that was
+/// sent before the press and not yet heard is void.
 #[derive(Clone, Default)]
 pub struct StopSwitch(Arc<Shared>);
 

@@ -1,5 +1,5 @@
-//! What the foot of the window tells of what the pointer rests on: said while a frame is drawn, shown
-//! at its end. It covers nothing, unlike a tip.
+//! What the foot of the window tells of what the pointer rests on: said while a frame is drawn,
+//! shown at its end. It covers nothing, unlike a tip.
 
 use eframe::egui::{Context, Id};
 

@@ -1,21 +1,15 @@
 //! Motion at the start: the display moves over the scene by itself until the pointer comes to feel,
 //! or the user wants something else of it.
 
-use eframe::egui::{Context, Pos2};
+use eframe::egui::Context;
 
 use crate::bench::command::{Command, PlayCommand, PlaySource};
 use crate::kit::view_transform::{Pointed, PointerGround};
+use crate::shell::state::StartMotion;
 use crate::shell::window::Workbench;
 
 /// A pointer that moved less than this lay there when the window came up, points.
 const AT_REST: f32 = 4.0;
-
-/// Motion that gives way to the pointer.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct StartMotion {
-    /// Where the pointer was first seen.
-    seen: Option<Pos2>,
-}
 
 impl Workbench {
     /// Lets the display move until the pointer feels.
@@ -53,7 +47,7 @@ impl Workbench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, pos2, vec2};
+    use eframe::egui::{Event, Pos2, pos2, vec2};
 
     use super::*;
     use crate::bench::view::Source;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
-use eframe::egui::Vec2;
+use eframe::egui::{Pos2, Vec2};
 use egui_tiles::Tree;
 
 use crate::bench::background::Task;
@@ -19,7 +19,6 @@ use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
 use crate::shell::pointer::PointerTap;
-use crate::shell::start_motion::StartMotion;
 
 /// The window around the tools.
 pub(crate) struct Shell {
@@ -92,6 +91,13 @@ impl Shell {
     pub(crate) fn is_covered(&self) -> bool {
         self.ask.is_some() || self.question.is_some() || self.is_help_shown
     }
+}
+
+/// Motion that gives way to the pointer.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct StartMotion {
+    /// Where the pointer was first seen.
+    pub(crate) seen: Option<Pos2>,
 }
 
 /// What is being exported.

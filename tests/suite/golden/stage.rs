@@ -70,7 +70,10 @@ impl Stage {
     /// Brings a pane of this size in points to the front.
     pub(super) fn front(&mut self, title: &str, [width, height]: [u16; 2]) {
         let above = if self.has_timeline { TIMELINE } else { 0.0 };
-        let size = vec2(width.into(), f32::from(height) + HEADER + TABS + STATUS + above);
+        let size = vec2(
+            width.into(),
+            f32::from(height) + HEADER + TABS + STATUS + above,
+        );
         self.hidden.clear();
         self.harness.set_size(size);
         self.harness.run_steps(2);
@@ -240,7 +243,10 @@ impl Stage {
     fn pane(&mut self) -> RgbaImage {
         let size = self.harness.ctx.content_rect().size();
         let below = if self.has_timeline { TIMELINE } else { 0.0 };
-        let pane = Rect::from_min_max(pos2(0.0, HEADER + TABS), pos2(size.x, size.y - STATUS - below));
+        let pane = Rect::from_min_max(
+            pos2(0.0, HEADER + TABS),
+            pos2(size.x, size.y - STATUS - below),
+        );
         self.part(pane)
     }
 
