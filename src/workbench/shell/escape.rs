@@ -1,6 +1,6 @@
 //! What Esc does. While a device may move, or a session is held, everything is off at once. With
-//! nothing armed it puts away what lies on top, and if nothing does, it pauses what moves by itself:
-//! the screen shows on.
+//! nothing armed it puts away what lies on top, and if nothing does, it pauses what moves by
+//! itself: the screen goes on.
 
 use eframe::egui::Popup;
 

@@ -151,7 +151,7 @@ fn show_armed(ui: &mut Ui, live: &EngineView) {
         (true, _) => ("ARMED", "The device's high voltage is on"),
         (false, true) => (
             "ALL OFF",
-            "Everything was switched off: nothing is felt, and nothing shown, until you go on or arm",
+            "Everything was switched off: nothing is felt or shown until you go on or arm",
         ),
         (false, false) => ("disarmed", "The device's high voltage is off"),
     };

@@ -94,8 +94,8 @@ pub(crate) fn slider_row_as(
     (new, response)
 }
 
-/// Tells of a slider at the foot of the window: a tip would cover the next slider, which the hand may
-/// want next, or what is listened to while one drags.
+/// Tells of a slider at the foot of the window: a tip would cover the next slider, which the hand
+/// may want next, or what one looks at while dragging.
 pub(crate) fn tell(response: &Response, words: impl Into<String>) {
     if response.hovered() || response.dragged() {
         foot::tell(&response.ctx, words);
