@@ -34,8 +34,10 @@ mod tests {
 
     use super::*;
     use crate::bench::command::{PlayCommand, ShowCommand};
+    use crate::bench::recording::Recordings;
     use crate::bench::view::Source;
     use crate::shell::headless::Headless;
+    use selvedge_scratch::ScratchFolder;
 
     fn window() -> Headless {
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
@@ -63,7 +65,10 @@ mod tests {
 
     #[test]
     fn with_nothing_armed_escape_pauses_the_screen_shows_on_and_recording_begins() {
+        let root = ScratchFolder::made("escape");
         let mut window = window();
+        let recordings = &mut window.workbench.bench.exploration.recordings;
+        *recordings = Recordings::in_folder(root.to_owned());
         press(&mut window, Key::Space);
         window.pass_ticks(20);
         press(&mut window, Key::Escape);

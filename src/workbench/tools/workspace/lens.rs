@@ -44,11 +44,11 @@ const LEAST_FOR_FOOT: f32 = 170.0;
 /// Parts the workspace's frame into the ground and the lens's part: what the whole workspace does
 /// not need, on its right, or below it in a high frame.
 pub(crate) fn split(inner: Rect, size_mm: [f64; 2]) -> (Rect, Option<Rect>) {
-    if inner.width() < LEAST[0] || inner.height() < LEAST[1] {
-        return (inner, None);
-    }
     #[expect(clippy::cast_possible_truncation, reason = "a ratio, for the screen")]
     let aspect = (size_mm[0] / size_mm[1].max(1e-9)) as f32;
+    if inner.width() < LEAST[0] || inner.height() < LEAST[1] || !aspect.is_finite() {
+        return (inner, None);
+    }
     let share = |whole: f32, needed: f32| {
         let least = WANTED.min(0.42 * whole);
         (whole - needed).clamp(least, 0.5 * whole).round()
