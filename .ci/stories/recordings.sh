@@ -2,7 +2,7 @@
 source "$(dirname "$0")/lib.sh"
 display
 start
-slowly "key space" "key r"
+slowly "key r"
 sleep 2
 slowly "key r"
 sleep 1
