@@ -41,12 +41,11 @@ impl Bench {
 
     /// Takes positions from the tablet or program that was chosen last.
     pub(crate) fn choose_input(&mut self) {
-        match self.exploration.sources.chosen().cloned() {
-            Some(chosen) => self.dispatch_source(chosen),
-            None => {
-                let words = "Choose a tablet in the Bridge pane first";
-                self.notices.give_until(Until::InputChosen, words);
-            }
+        if let Some(chosen) = self.exploration.sources.chosen().cloned() {
+            self.dispatch_source(chosen);
+        } else {
+            let words = "Choose a tablet in the Bridge pane first";
+            self.notices.give_until(Until::InputChosen, words);
         }
     }
 
