@@ -65,6 +65,23 @@ fn pull_around(harness: &mut Harness<'_, Workbench>, name: &str) {
     pull(harness, around.left_bottom(), around.right_top());
 }
 
+/// Clicks a point with Ctrl held.
+fn click_more(harness: &mut Harness<'_, Workbench>, name: &str) {
+    let pos = point(harness, name).center();
+    harness.hover_at(pos);
+    harness.step();
+    for pressed in [true, false] {
+        let press = eframe::egui::Event::PointerButton {
+            pos,
+            button: eframe::egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::COMMAND,
+        };
+        harness.event_modifiers(press, Modifiers::COMMAND);
+    }
+    harness.run_steps(2);
+}
+
 #[test]
 fn a_frame_selects_and_what_is_selected_is_added_in_one_step_of_undo() {
     let folder = Bare::new("frame", "");
@@ -86,28 +103,7 @@ fn a_frame_selects_and_what_is_selected_is_added_in_one_step_of_undo() {
     harness.run_steps(2);
     let chosen = ["silk-crepe", "polyester-fleece", "polyester-satin"];
     for name in ["Silk crêpe de chine", "Polyester fleece"] {
-        let at = point(&harness, name).center();
-        harness.hover_at(at);
-        harness.step();
-        harness.event_modifiers(
-            eframe::egui::Event::PointerButton {
-                pos: at,
-                button: eframe::egui::PointerButton::Primary,
-                pressed: true,
-                modifiers: Modifiers::COMMAND,
-            },
-            Modifiers::COMMAND,
-        );
-        harness.event_modifiers(
-            eframe::egui::Event::PointerButton {
-                pos: at,
-                button: eframe::egui::PointerButton::Primary,
-                pressed: false,
-                modifiers: Modifiers::COMMAND,
-            },
-            Modifiers::COMMAND,
-        );
-        harness.run_steps(2);
+        click_more(&mut harness, name);
     }
     let mut sorted = chosen.map(str::to_owned).to_vec();
     sorted.sort();
