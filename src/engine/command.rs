@@ -57,6 +57,9 @@ pub enum Command {
     Seek(u64),
     /// Whether a replay or stroke begins again when it ends.
     SetLoop(bool),
+    /// Lets a replay that begins again do so after the second of these ticks, at the first; `None`:
+    /// when it ends.
+    LoopWithin(Option<[u64; 2]>),
     /// Opens a device; its shape is that of the scene's first display.
     Connect(Target),
     /// The array that devices drive, from now on; `None`, or one with another number of contactors

@@ -18,7 +18,7 @@ use super::ready::{CoreCommand, MAX_RETIRED, NextScene, ReadyCommand, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, NoticeRing, Runner};
 use super::snapshot_summary::Waker;
-use super::tick_sample::{MAX_TICK_SAMPLES, TickSampler};
+use super::tick_sample::{TickSampler, TickSamples};
 use super::vibration::Vibration;
 use super::{
     Command, EngineCore, EngineError, Notice, PointerSender, PreparedScene, Recording, Snapshot,
@@ -48,7 +48,7 @@ pub struct Engine {
     commands_sent: u64,
     retired: Consumer<Retired>,
     notices: Consumer<Notice>,
-    samples: Consumer<TickSample>,
+    samples: TickSamples,
     snapshots: Output<Snapshot>,
     /// Channels of scenes that are on their way, oldest first.
     coming: Vec<Output<Snapshot>>,
@@ -97,13 +97,13 @@ impl Engine {
         // One more than a command needs, for a stop that comes right after it.
         let (retired_in, retired) = RingBuffer::new(2 * MAX_RETIRED);
         let (notices_in, notices) = RingBuffer::new(MAX_NOTICES);
-        let (samples_in, samples) = RingBuffer::new(MAX_TICK_SAMPLES);
+        let (sampler, samples) = TickSampler::new();
         let channels = Channels {
             commands: commands_out,
             retired: retired_in,
             notices: NoticeRing::new(notices_in),
             snapshots: snapshots_in,
-            sampler: TickSampler::new(samples_in),
+            sampler,
             tap: None,
         };
         let (waker, news) = match config.on_news {
@@ -188,9 +188,7 @@ impl Engine {
                 channel,
                 how: (amplitude_um, duration_ms),
             },
-            Command::SetSource(source) => {
-                ReadyCommand::Core(CoreCommand::Source(playable(source)?))
-            }
+            Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
             Command::Connect(target) => self.device.open(target, &self.driven, &self.switch),
             Command::Disconnect => {
                 self.switch.set_device(None);
@@ -210,9 +208,7 @@ impl Engine {
             }
             Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
             Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
-            Command::Vibrate(steps) => {
-                ReadyCommand::Core(CoreCommand::Vibrate(Vibration::of(steps)))
-            }
+            Command::Vibrate(steps) => CoreCommand::Vibrate(Vibration::of(steps)).into(),
             Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
             Command::TurnBy(by_deg) => ReadyCommand::Core(CoreCommand::Turn(by_deg)),
             Command::Play => ReadyCommand::control(Control::Play),
@@ -221,6 +217,7 @@ impl Engine {
             Command::Rewind => ReadyCommand::control(Control::Rewind),
             Command::Seek(tick) => ReadyCommand::control(Control::Seek(tick)),
             Command::SetLoop(does_loop) => ReadyCommand::control(Control::Loop(does_loop)),
+            Command::LoopWithin(ticks) => ReadyCommand::control(Control::LoopWithin(ticks)),
             Command::StopRecording => ReadyCommand::Core(CoreCommand::EndRecording),
             Command::Disarm => ReadyCommand::Disarm,
             Command::Resume => ReadyCommand::Resume,
@@ -259,7 +256,13 @@ impl Engine {
     /// The oldest sample that was not taken yet, of those left since
     /// [`Command::SampleTicks`] asked for them.
     pub fn next_tick_sample(&mut self) -> Option<TickSample> {
-        self.samples.pop().ok()
+        self.next_felt_tick().map(|(sample, _)| sample)
+    }
+
+    /// The same with the amplitudes [A40, A320] of every contactor of the first display, after
+    /// gains and before output limits, µm.
+    pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
+        self.samples.next()
     }
 
     /// The end of the ring for live samples; there is one.

@@ -68,6 +68,12 @@ impl ReadyCommand {
     }
 }
 
+impl From<CoreCommand> for ReadyCommand {
+    fn from(command: CoreCommand) -> Self {
+        Self::Core(command)
+    }
+}
+
 /// What the core obeys.
 pub(super) enum CoreCommand {
     Scene(NextScene),

@@ -3,16 +3,19 @@
 //!
 //! A snapshot shows only the latest tick; a spectrogram or a timeline needs all of them. Each tick
 //! that moved or sounded, and the first that did not, leaves one sample in a bounded ring, if
-//! somebody asked for them. When the ring is full the newest is lost and counted.
+//! somebody asked for them. When the ring is full the newest is lost and counted. Amplitudes of all
+//! contactors go by a ring of their own, those of a sample before it.
 
-use rtrb::Producer;
+use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::EngineCore;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_render::scene::Pose;
 
 /// Samples on the way: almost 13 s of movement.
-pub(super) const MAX_TICK_SAMPLES: usize = 512;
+const MAX_TICK_SAMPLES: usize = 512;
+/// Amplitudes on the way: those of as many samples of 64 contactors.
+const MAX_AMPLITUDES: usize = 64 * MAX_TICK_SAMPLES;
 
 /// One tick, as histories keep it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,6 +33,8 @@ pub struct TickSample {
     pub watched: u32,
     /// Its amplitudes [A40, A320] after gains and before output limits, µm.
     pub watched_um: [f32; 2],
+    /// Contactors of the first display.
+    pub n_contactors: u32,
 }
 
 impl TickSample {
@@ -52,6 +57,7 @@ impl TickSample {
             mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
             watched: u32::try_from(watched).unwrap_or(u32::MAX),
             watched_um: amplitudes_um.get(watched).copied().unwrap_or_default(),
+            n_contactors: u32::try_from(amplitudes_um.len()).unwrap_or(u32::MAX),
         }
     }
 }
@@ -60,6 +66,7 @@ impl TickSample {
 #[derive(Debug)]
 pub(super) struct TickSampler {
     ring: Producer<TickSample>,
+    amplitudes: Producer<[f32; 2]>,
     is_heard: bool,
     watched: usize,
     /// The pose of the last tick that was looked at, and whether that was still and silent.
@@ -69,16 +76,25 @@ pub(super) struct TickSampler {
 }
 
 impl TickSampler {
-    /// Nobody listens yet.
-    pub(super) fn new(ring: Producer<TickSample>) -> Self {
-        Self {
+    /// Nobody listens yet. Both ends.
+    pub(super) fn new() -> (Self, TickSamples) {
+        let (ring, samples) = RingBuffer::new(MAX_TICK_SAMPLES);
+        let (amplitudes, amplitudes_out) = RingBuffer::new(MAX_AMPLITUDES);
+        let heard = TickSamples {
+            ring: samples,
+            amplitudes: amplitudes_out,
+            newest_um: Vec::with_capacity(MAX_AMPLITUDES / MAX_TICK_SAMPLES),
+        };
+        let sampler = Self {
             ring,
+            amplitudes,
             is_heard: false,
             watched: 0,
             last: None,
             was_quiet: false,
             n_lost: 0,
-        }
+        };
+        (sampler, heard)
     }
 
     /// Whether somebody listens from now on; the first tick leaves a sample.
@@ -99,12 +115,12 @@ impl TickSampler {
     }
 
     /// Leaves a sample of the tick that was just done, if it moved, turned or sounded, or is the
-    /// first that did not. A tick that is held leaves none.
+    /// first that did not. A tick that is held, or shows where it was put to, leaves none.
     pub(super) fn look(&mut self, core: &EngineCore) {
         if !self.is_heard {
             return;
         }
-        if core.is_held() {
+        if core.is_held() || core.is_sought() {
             // What follows is new, even if it stands still.
             self.was_quiet = false;
             return;
@@ -121,8 +137,41 @@ impl TickSampler {
         self.last = Some(pose);
         let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
         let is_left = !(is_quiet && was_quiet);
-        if is_left && self.ring.push(TickSample::of(core, self.watched)).is_err() {
+        if is_left && !self.leave(core) {
             self.n_lost += 1;
         }
+    }
+
+    /// Leaves a sample if there is room for all of it.
+    fn leave(&mut self, core: &EngineCore) -> bool {
+        let amplitudes_um = core.felt_um();
+        if self.ring.slots() == 0 || self.amplitudes.slots() < amplitudes_um.len() {
+            return false;
+        }
+        let sample = TickSample::of(core, self.watched);
+        let is_whole = amplitudes_um
+            .iter()
+            .all(|&um| self.amplitudes.push(um).is_ok());
+        is_whole && self.ring.push(sample).is_ok()
+    }
+}
+
+/// The other end of the ring.
+#[derive(Debug)]
+pub(super) struct TickSamples {
+    ring: Consumer<TickSample>,
+    amplitudes: Consumer<[f32; 2]>,
+    newest_um: Vec<[f32; 2]>,
+}
+
+impl TickSamples {
+    /// The oldest sample that was not taken yet, and [A40, A320] of its contactors, µm.
+    pub(super) fn next(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
+        let sample = self.ring.pop().ok()?;
+        self.newest_um.clear();
+        for _ in 0..sample.n_contactors {
+            self.newest_um.extend(self.amplitudes.pop().ok());
+        }
+        Some((sample, &self.newest_um))
     }
 }

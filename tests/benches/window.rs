@@ -1,6 +1,7 @@
 //! What a frame of the window costs the thread that draws it: logic, layout and tessellation, with
 //! the display exploring by itself, at 1400 × 900: once as a new user sees it, once with the drive
-//! spectrum beside everything else. What the graphics card then does is not counted.
+//! spectrum beside everything else, and with four hours on the line of time. What the graphics card
+//! then does is not counted.
 //!
 //! Runs without a display. The accessibility tree is on, which a window without a reader leaves
 //! out: the figures are an upper bound.
@@ -16,7 +17,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use eframe::egui::epaint::{ClippedPrimitive, Primitive};
-use eframe::egui::{Key, Shape, pos2, vec2};
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Shape, TouchPhase, pos2, vec2,
+};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use selvedge_foundation::numerics::{median, quantile};
@@ -43,6 +46,44 @@ fn main() {
     dock_drive_spectrum(&mut harness);
     println!("with both spectra beside everything else:");
     measure(&mut harness);
+    measure_four_hours(&mut harness);
+}
+
+/// Four hours of to and fro on the line of time: replayed, and zoomed in and out with every frame.
+fn measure_four_hours(harness: &mut Harness<'_, Workbench>) {
+    let file = std::env::temp_dir().join(format!("selvedge-four-hours-{}.csv", std::process::id()));
+    let row = |nth: u32| format!("{},{},{}\n", nth, 30 + 150 * (nth % 2), 40 + nth % 140);
+    let rows: String = (0..4 * 3600).map(row).collect();
+    std::fs::write(&file, format!("t_s,x_mm,y_mm\n{rows}")).unwrap();
+    let start = Instant::now();
+    harness.state_mut().open_recording(file.clone());
+    harness.run_steps(3);
+    let made = time_span(start.elapsed().as_secs_f64());
+    println!(
+        "four hours on the line of time: every tick rendered and its spectrum taken in {made}"
+    );
+    std::fs::remove_file(file).unwrap();
+    harness.key_press(Key::Space);
+    harness.run_steps(3);
+    println!("four hours, replayed:");
+    measure(harness);
+    println!("four hours, zoomed with every frame:");
+    let mut frame_s = Vec::new();
+    let lanes = harness.get_by_label_contains("Timeline of").rect().center();
+    for frame in 0..FRAMES {
+        harness.hover_at(lanes);
+        harness.event(Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, if frame % 100 < 50 { 40.0 } else { -40.0 }),
+            source: MouseWheelSource::Unknown,
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        let start_s = thread_cpu_seconds();
+        harness.step();
+        frame_s.push(thread_cpu_seconds() - start_s);
+    }
+    show("  logic and layout", &mut frame_s);
 }
 
 /// Drags the drive spectrum by its title from behind the contact spectrum to below it.

@@ -38,6 +38,8 @@ pub struct EngineCore {
     last_angle_deg: Option<f64>,
     is_stopped: bool,
     is_held: bool,
+    /// Whether the coming tick, and the last one, only show where a held source was put to.
+    is_sought: [bool; 2],
     has_ended: bool,
     recorder: Option<Box<Recorder>>,
     ignored: u64,
@@ -68,6 +70,7 @@ impl EngineCore {
             last_angle_deg: None,
             is_stopped: false,
             is_held: false,
+            is_sought: [false; 2],
             has_ended: false,
             recorder: None,
             ignored: 0,
@@ -115,6 +118,7 @@ impl EngineCore {
     pub fn tick(&mut self, now: Instant, say: Say<'_>) {
         let reading = self.read(now);
         self.is_held = false;
+        self.is_sought = [false, self.is_sought[0]];
         match reading {
             Reading::Samples => self.follow(),
             Reading::Pose(pose) => self.pose = self.as_told(pose),
@@ -197,6 +201,11 @@ impl EngineCore {
     /// Whether the last tick stood still because its source is held.
     pub(super) fn is_held(&self) -> bool {
         self.is_held
+    }
+
+    /// Whether the last tick only showed the place that a held source was put to.
+    pub(super) fn is_sought(&self) -> bool {
+        self.is_sought[1]
     }
 
     /// Where the display is and how it moves, felt or not.
@@ -342,6 +351,8 @@ impl EngineCore {
 
     fn control(&mut self, control: Control) {
         if let Some(playable) = &mut self.playable {
+            let is_seek = matches!(control, Control::Seek(_));
+            self.is_sought[0] = is_seek && !playable.playback().is_playing;
             playable.control(control);
         }
     }

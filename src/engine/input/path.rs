@@ -26,7 +26,7 @@ impl Motion {
             Control::Step => Self::Stepping,
             // Where it stands now is to be seen.
             Control::Seek(_) if self == Self::Held => Self::Stepping,
-            Control::Seek(_) | Control::Rewind | Control::Loop(_) => self,
+            Control::Seek(_) | Control::Rewind | Control::Loop(_) | Control::LoopWithin(_) => self,
         }
     }
 
@@ -47,6 +47,7 @@ pub(crate) struct ReplayInput {
     cursor: PathCursor,
     motion: Motion,
     does_loop: bool,
+    loop_within: Option<[u64; 2]>,
     has_ended: bool,
     tick: u64,
 }
@@ -59,6 +60,7 @@ impl ReplayInput {
             cursor: PathCursor::default(),
             motion: Motion::Held,
             does_loop: false,
+            loop_within: None,
             has_ended: false,
             tick: 0,
         }
@@ -95,6 +97,11 @@ impl PointerInput for ReplayInput {
         if !self.motion.takes_tick() {
             return Reading::Held;
         }
+        if let Some([first, last]) = self.loop_within.filter(|_| self.does_loop)
+            && self.tick == last
+        {
+            self.seek(first);
+        }
         if let Some(pose) = self.next() {
             return Reading::Pose(pose);
         }
@@ -112,6 +119,10 @@ impl PointerInput for ReplayInput {
     fn control(&mut self, control: Control) {
         match control {
             Control::Loop(does_loop) => self.does_loop = does_loop,
+            Control::LoopWithin(ticks) => {
+                let last = self.path.n_ticks() - 1;
+                self.loop_within = ticks.map(|ticks| ticks.map(|tick| tick.min(last)));
+            }
             Control::Play | Control::Step if self.has_ended => self.rewind(),
             Control::Rewind => self.rewind(),
             Control::Seek(tick) => self.seek(tick),
@@ -168,7 +179,11 @@ impl PointerInput for StrokeInput {
         match control {
             Control::Rewind => self.next_tick = 0,
             Control::Seek(tick) => self.next_tick = tick,
-            Control::Play | Control::Pause | Control::Step | Control::Loop(_) => {}
+            Control::Play
+            | Control::Pause
+            | Control::Step
+            | Control::Loop(_)
+            | Control::LoopWithin(_) => {}
         }
         self.motion = self.motion.after(control);
     }

@@ -69,6 +69,9 @@ pub enum Control {
     Seek(u64),
     /// Whether to begin again at the end.
     Loop(bool),
+    /// Begin again at the first of these ticks after the last of them, if it begins again at all;
+    /// `None`: at the first of all after the last of all.
+    LoopWithin(Option<[u64; 2]>),
 }
 
 /// What a source lost before anybody could look at it.

@@ -45,6 +45,25 @@ fn a_held_replay_shows_the_tick_it_goes_to() {
 }
 
 #[test]
+fn a_part_is_replayed_again_and_again() {
+    let (mut engine, _, felt) = replay();
+    engine.send(Command::SetLoop(true)).unwrap();
+    engine.send(Command::LoopWithin(Some([20, 24]))).unwrap();
+    engine.send(Command::Seek(18)).unwrap();
+    engine.send(Command::Play).unwrap();
+    let expected = [18, 19, 20, 21, 22, 23, 24, 20, 21, 22, 23, 24, 20];
+    for tick in expected {
+        engine.advance_ticks(1);
+        let snapshot = engine.snapshot();
+        assert_eq!(snapshot.playback.tick, tick);
+        assert_eq!(amplitudes(snapshot), felt[usize::try_from(tick).unwrap()]);
+    }
+    engine.send(Command::LoopWithin(None)).unwrap();
+    engine.advance_ticks(8);
+    assert_eq!(engine.snapshot().playback.tick, 28, "it goes on");
+}
+
+#[test]
 fn a_replay_that_plays_goes_on_from_the_tick_it_goes_to() {
     let (mut engine, _, felt) = replay();
     engine.send(Command::Play).unwrap();

@@ -62,6 +62,11 @@ impl AppliedGains {
         }
     }
 
+    /// Which contactors of the first display are felt; those beyond its end are.
+    pub(crate) fn contactor_mask(&self) -> &[bool] {
+        &self.contactor_mask
+    }
+
     /// What the engine must be told when it knows `self` and `new` is to be felt; both are of the
     /// same textiles.
     pub(crate) fn changes(&self, new: &Self) -> Vec<Command> {

@@ -8,6 +8,7 @@ use crate::bench::background::{Task, finished};
 use crate::bench::clips::{ClipsView, ending, said};
 use crate::bench::notices::Until;
 use crate::bench::opening::{Opened, Origin, open};
+use crate::bench::recording::excerpt::part_of;
 use crate::bench::settings::own_documents;
 use selvedge_engine::{ClipKind, ClipWriter, write_clip};
 use selvedge_render::{RenderScene, Replay};
@@ -59,15 +60,22 @@ impl Bench {
         }
     }
 
-    /// Exports the path of the recording at hand.
+    /// Exports the path of the recording at hand, or of what is selected of it.
     pub(crate) fn save_recording(&mut self, path: PathBuf) {
         let Some(take) = self.exploration.at_hand.clone() else {
             let words = "There is no recording to export; record one first";
             return self.notices.give(words);
         };
         self.files.clips.last = path.parent().map(Path::to_owned);
+        let ticks = self.exploration.selected.clone();
+        let ticks = ticks.unwrap_or_else(|| 0..take.path().n_ticks());
         let task = self.executor.start("selvedge-save", move |_| {
-            let written = take.path().write(&path);
+            let is_whole = ticks == (0..take.path().n_ticks());
+            let written = if is_whole {
+                take.path().write(&path)
+            } else {
+                part_of(take.path(), ticks).and_then(|part| part.write(&path))
+            };
             written.map_err(|error| error.to_string())?;
             Ok(format!("{} is written", path.display()))
         });
@@ -85,6 +93,7 @@ impl Bench {
         self.send(selvedge_engine::Command::SetLoop(
             self.exploration.does_loop,
         ));
+        self.exploration.loop_within = None;
         self.send(selvedge_engine::Command::Seek(0));
     }
 }

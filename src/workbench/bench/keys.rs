@@ -130,7 +130,13 @@ fn play_keys() -> Vec<Shortcut> {
             PlayCommand::TurnBack,
         ),
     ];
-    keys.into_iter().map(bare).collect()
+    let mark = key(
+        Modifiers::SHIFT,
+        Key::M,
+        "Mark this place of the recording",
+        PlayCommand::Mark.into(),
+    );
+    keys.into_iter().map(bare).chain([mark]).collect()
 }
 
 fn show_keys() -> Vec<Shortcut> {

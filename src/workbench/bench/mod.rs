@@ -26,6 +26,8 @@ pub(crate) mod library_selection;
 pub(crate) mod library_shelf;
 pub(crate) mod library_view;
 pub(crate) mod library_work;
+pub(crate) mod look_back;
+pub(crate) mod marking;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
 pub(crate) mod notices;
@@ -235,7 +237,7 @@ impl Bench {
         if !self.is_stepped() {
             self.ctx.set_theme(kept.theme);
         }
-        self.selection.scale = kept.amplitude;
+        self.selection.scale = kept.scales.amplitude;
         self.selection.dot_style = kept.dots;
         self.selection.greys_below = kept.greys_below;
         self.selection.contactor = Some(FIRST_CONTACTOR);

@@ -29,6 +29,7 @@ impl Bench {
         self.take_notices();
         self.take_snapshot(ctx);
         self.poll_recordings();
+        self.poll_excerpt();
         self.follow_array(ctx);
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
@@ -76,8 +77,8 @@ impl Bench {
     }
 
     fn take_snapshot(&mut self, ctx: &egui::Context) {
-        while let Some(tick_sample) = self.engine.next_tick_sample() {
-            self.past.history.take(tick_sample);
+        while let Some((tick_sample, felt_um)) = self.engine.next_felt_tick() {
+            self.past.history.take_felt(tick_sample, felt_um);
         }
         let snapshot = self.engine.snapshot();
         let status = snapshot.link.and_then(|link| link.status);
@@ -104,29 +105,31 @@ impl Bench {
         if self.past.trail.take(live.tick, live.centre) {
             ctx.request_repaint_after(FRAME);
         }
+        self.show_past(&mut live);
         self.live = live;
     }
 
     /// Lets a stepped engine do the ticks that are due by the toolkit's clock.
     fn step_engine(&mut self, ctx: &egui::Context) {
         let due = ctx.input(|input| input.time) * TICKS_PER_S;
-        while (self.live.tick as f64) + 1.0 <= due {
+        let mut done = self.engine.snapshot().tick;
+        while (done as f64) + 1.0 <= due {
             let Some(now) = self.engine.advance_ticks(1) else {
                 return;
             };
             self.stepped_at = Some(now);
             let tick = self.engine.snapshot().tick;
-            if tick <= self.live.tick {
+            if tick <= done {
                 return;
             }
-            self.live.tick = tick;
+            done = tick;
         }
     }
 
     /// Keeps what the user chose.
     pub(crate) fn keep_settings(&mut self) {
         let kept = &mut self.settings.preferences;
-        kept.amplitude = self.selection.scale;
+        kept.scales.amplitude = self.selection.scale;
         kept.dots = self.selection.dot_style;
         kept.greys_below = self.selection.greys_below;
     }

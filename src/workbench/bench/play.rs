@@ -1,5 +1,7 @@
 //! What moves the display, and recording it.
 
+use std::ops::Range;
+
 use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::notices::Until;
@@ -25,7 +27,10 @@ impl Bench {
             PlayCommand::Step => self.send(selvedge_engine::Command::Step),
             PlayCommand::Rewind => self.send(selvedge_engine::Command::Rewind),
             PlayCommand::Seek(tick) => self.send(selvedge_engine::Command::Seek(tick)),
+            PlayCommand::LookBack(column) => self.look_back_to(column),
             PlayCommand::ReplayAt(tick) => self.seek_in_take(tick),
+            PlayCommand::LoopWithin(ticks) => self.loop_within(ticks),
+            PlayCommand::Mark => self.mark_here(),
             PlayCommand::Loop(does_loop) => {
                 self.exploration.does_loop = does_loop;
                 self.send(selvedge_engine::Command::SetLoop(does_loop));
@@ -73,6 +78,17 @@ impl Bench {
             self.replay();
         }
         self.send(selvedge_engine::Command::Seek(tick));
+    }
+
+    fn loop_within(&mut self, ticks: Option<Range<u64>>) {
+        let ends = ticks.as_ref().map(|ticks| [ticks.start, ticks.end - 1]);
+        self.send(selvedge_engine::Command::LoopWithin(ends));
+        if let Some([first, _]) = ends {
+            self.dispatch_play(PlayCommand::Loop(true));
+            self.dispatch_play(PlayCommand::Seek(first));
+            self.send(selvedge_engine::Command::Play);
+        }
+        self.exploration.loop_within = ticks;
     }
 
     fn explore_alone(&mut self) {

@@ -168,6 +168,7 @@ impl Bench {
                 }
             }
             RecordingCommand::Compare(two) => self.compare_recordings(&two),
+            command => self.dispatch_within(command),
         }
     }
 

@@ -1,5 +1,7 @@
 //! What the bench holds, by subject. Neither saved nor undoable, but for the arrays of devices.
 
+use std::ops::Range;
+
 use eframe::egui::Rect;
 
 use crate::bench::applied_gains::AppliedGains;
@@ -12,6 +14,7 @@ use crate::bench::history::Moment;
 use crate::bench::library_acts::LibraryActs;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
+use crate::bench::look_back::LookBack;
 use crate::bench::opening::Opened;
 use crate::bench::pane::Pane;
 use crate::bench::preparing::Preparing;
@@ -89,6 +92,12 @@ pub(crate) struct Exploration {
     pub(crate) recordings: Recordings,
     /// The one that can be replayed.
     pub(crate) at_hand: Option<Recording>,
+    /// The ticks of it that are replayed again and again, if not all.
+    pub(crate) loop_within: Option<Range<u64>>,
+    /// The ticks of it that are selected.
+    pub(crate) selected: Option<Range<u64>>,
+    /// The marker that is to be named.
+    pub(crate) unnamed: Option<u64>,
     /// Whether it is replayed again and again.
     pub(crate) does_loop: bool,
 }
@@ -132,8 +141,10 @@ pub(crate) struct DeviceState {
 pub(crate) struct Past {
     /// Where the display was.
     pub(crate) trail: Trail,
-    /// The last seconds.
+    /// The last minutes.
     pub(crate) history: History,
+    /// The tick of them that every view shows in place of what is felt now.
+    pub(crate) look_back: Option<LookBack>,
 }
 
 /// What the pointer does.

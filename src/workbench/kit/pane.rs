@@ -2,7 +2,7 @@
 
 use eframe::egui::{
     Context, Frame, Id, LayerId, Margin, Order, Painter, Rect, ScrollArea, Stroke, StrokeKind, Ui,
-    UiBuilder,
+    UiBuilder, vec2,
 };
 
 use crate::kit::theme;
@@ -10,6 +10,8 @@ use crate::kit::theme::{Palette, STEP};
 
 /// Width of the frame around the window of an armed device, points.
 const ARMED_FRAME: f32 = 5.0;
+/// The same while every view shows the past.
+const PAST_FRAME: f32 = 3.0;
 
 /// A pane with space around it.
 pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
@@ -58,6 +60,21 @@ pub(crate) fn frame_as_armed(ctx: &Context) {
     let stroke = Stroke::new(ARMED_FRAME, palette.danger);
     let painter = ctx.layer_painter(layer);
     painter.rect_stroke(ctx.content_rect(), 0, stroke, StrokeKind::Inside);
+}
+
+/// Frames the whole window and says that every view shows the past.
+pub(crate) fn frame_as_past(ctx: &Context, words: &str) {
+    let layer = LayerId::new(Order::Foreground, Id::unique("past frame"));
+    let palette = Palette::of(ctx.theme());
+    let painter = ctx.layer_painter(layer);
+    let window = ctx.content_rect();
+    let stroke = Stroke::new(PAST_FRAME, palette.selection);
+    painter.rect_stroke(window, 0, stroke, StrokeKind::Inside);
+    let galley = painter.layout_no_wrap(words.to_owned(), theme::body(), palette.panel);
+    let at = window.center_top() + vec2(-0.5 * galley.size().x, 0.0);
+    let ground = Rect::from_min_size(at, galley.size()).expand2(vec2(10.0, 2.0));
+    painter.rect_filled(ground, 3, palette.selection);
+    painter.galley(at, galley, palette.panel);
 }
 
 /// Writes one dim sentence into the middle of an empty picture.

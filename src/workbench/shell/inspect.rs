@@ -242,6 +242,11 @@ impl Workbench {
         self.dispatch(DeviceCommand::ConnectEmulator.into());
     }
 
+    /// Opens a path file: it moves the display, and waits at its first tick.
+    pub fn open_recording(&mut self, path: PathBuf) {
+        self.bench.open_recording(path);
+    }
+
     /// Opens the scene at this path, as the field does that asks for one.
     pub fn open_scene(&mut self, path: PathBuf) {
         self.dispatch(FileCommand::Use(Purpose::OpenScene, path).into());

@@ -51,5 +51,5 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
 
 /// The bar at the bottom of the window.
 pub(crate) fn bar() -> Box<dyn Bar> {
-    Box::new(timeline::Timeline::default())
+    Box::new(timeline::state::Timeline::default())
 }

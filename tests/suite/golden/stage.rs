@@ -20,7 +20,7 @@ use crate::window::Soft;
 /// Heights of the line on top, of a row of tabs and of the timeline, points.
 const HEADER: f32 = 44.0;
 const TABS: f32 = 24.0;
-const TIMELINE: f32 = 80.0;
+const TIMELINE: f32 = 144.0;
 /// Height of the line at the foot, points.
 const STATUS: f32 = 24.0;
 /// Frames in a second.

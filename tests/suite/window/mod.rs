@@ -15,6 +15,7 @@ mod overlays;
 mod picture;
 #[cfg(unix)]
 mod ports;
+mod timeline;
 mod views;
 mod workbench;
 

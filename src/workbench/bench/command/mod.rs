@@ -15,6 +15,7 @@ pub(crate) use crate::bench::command::edit::Edit;
 pub(crate) use crate::bench::command::recording::RecordingCommand;
 pub(crate) use crate::bench::part::{DotStyle, Part};
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use eframe::egui;
@@ -217,7 +218,7 @@ pub(crate) enum Purpose {
 }
 
 /// What moves the display, and how that is recorded.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum PlayCommand {
     /// Play what can be played, or hold it; with the pointer as the source, explore by itself.
     Toggle,
@@ -231,6 +232,12 @@ pub(crate) enum PlayCommand {
     Seek(u64),
     /// Show this tick of the recording at hand, whatever moved the display before.
     ReplayAt(u64),
+    /// Let every view show what was felt at this column of the last minutes, or what is felt now.
+    LookBack(Option<u64>),
+    /// Replay these ticks of the recording again and again, or no longer.
+    LoopWithin(Option<Range<u64>>),
+    /// Put a marker where the recording is.
+    Mark,
     /// Whether a recording begins again at its end.
     Loop(bool),
     /// Begin again at its end if it did not, and the other way round.

@@ -1,7 +1,8 @@
 //! What can be done with recordings.
 
 use crate::bench::command::Command;
-use crate::bench::recording::Place;
+use crate::bench::recording::{Marker, Place};
+use std::ops::Range;
 
 /// What can be done with a recording of the list.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,12 @@ pub(crate) enum RecordingCommand {
     Export(Place),
     /// The scene refers to it, or no longer.
     Refer(Place),
+    /// Puts a marker into the one at hand, or names the one that stands there.
+    Mark(Marker),
+    /// Takes the marker at this tick of the one at hand away.
+    Unmark(u64),
+    /// Makes these ticks of the one at hand a recording of their own.
+    Excerpt(Range<u64>),
     /// Sets two against each other.
     Compare(Box<[Place; 2]>),
 }

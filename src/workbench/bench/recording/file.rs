@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::bench::recording::{Felt, Recording};
+use crate::bench::recording::{Felt, Recording, missing_before};
 use selvedge_foundation::files::{self, FileError, Journal};
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_render::scene::{ExplorationPath, PathRow, TICKS_PER_S};
@@ -19,7 +19,7 @@ use selvedge_textile::tactile::Tuning;
 /// The page.
 const ABOUT: &str = "recording.toml";
 /// The table.
-const TICKS: &str = "ticks.csv";
+pub(super) const TICKS: &str = "ticks.csv";
 /// The first columns of the table; two for every contactor follow.
 const COLUMNS: [&str; 8] = [
     "t_s",
@@ -37,6 +37,15 @@ const LONGEST_LINE: u64 = 1 << 20;
 const MOST_TICKS: usize = 4 * 3600 * 40;
 /// The most points of an outline.
 const OUTLINE: usize = 64;
+
+/// A place in a recording that was noted.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Marker {
+    /// Its tick, from 0.
+    pub(crate) tick: u64,
+    /// What it is called, or the note.
+    pub(crate) name: String,
+}
 
 /// What a recording is, beside its ticks.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -59,6 +68,9 @@ pub(crate) struct About {
     /// Gains and compression when it began.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tuning: Option<Tuning>,
+    /// Places that were noted, in their order.
+    #[serde(default, rename = "marker", skip_serializing_if = "Vec::is_empty")]
+    pub(crate) markers: Vec<Marker>,
 }
 
 impl About {
@@ -194,13 +206,13 @@ impl RecordingFile {
     }
 }
 
-fn push_cell(line: &mut String, value: impl std::fmt::Display) {
+pub(super) fn push_cell(line: &mut String, value: impl std::fmt::Display) {
     line.push(',');
     files::push_number(line, value);
 }
 
 /// Makes `2026-11-23T08-30-12Z`, or the same with the first number that is free.
-fn new_folder(root: &Path, began: &str) -> Result<PathBuf, FileError> {
+pub(super) fn new_folder(root: &Path, began: &str) -> Result<PathBuf, FileError> {
     let mut name: String = began.replace(':', "-");
     let stem = name.len();
     for nth in 2..1000 {
@@ -233,9 +245,11 @@ pub(crate) fn count(folder: &Path) -> Result<([u64; 2], Vec<[f32; 2]>), FileErro
 pub(crate) fn read(folder: &Path) -> Result<Recording, String> {
     let about = About::read(folder).map_err(|error| error.to_string())?;
     let (mut rows, mut device_ticks, mut felt) = (Vec::new(), Vec::new(), Felt::default());
+    let mut engine_ticks = Vec::new();
     let read = read_rows(folder, |row| {
         rows.push(row.path);
         device_ticks.push(row.device_tick);
+        engine_ticks.push(row.engine_tick);
         felt.n_contactors = row.amplitudes_um.len() / 2;
         let bands = row.amplitudes_um.as_chunks().0;
         felt.amplitudes_um.extend_from_slice(bands);
@@ -244,6 +258,7 @@ pub(crate) fn read(folder: &Path) -> Result<Recording, String> {
     let path = ExplorationPath::new(rows);
     let path = path.map_err(|error| format!("{}: {error}", folder.join(TICKS).display()))?;
     let mut recording = Recording::felt(about, path, &device_ticks, felt);
+    recording.missing = missing_before(engine_ticks.into_iter());
     recording.folder = Some(folder.to_owned());
     Ok(recording)
 }
@@ -251,6 +266,7 @@ pub(crate) fn read(folder: &Path) -> Result<Recording, String> {
 /// A row of the table.
 struct Row<'a> {
     path: PathRow,
+    engine_tick: u64,
     device_tick: Option<u32>,
     amplitudes_um: &'a [f32],
 }
@@ -286,12 +302,14 @@ fn read_rows(folder: &Path, mut take: impl FnMut(Row<'_>)) -> Result<(), FileErr
         }
         amplitudes_um.clear();
         let row = row_of(cells, &mut amplitudes_um);
-        let (path_row, device_tick) = row.ok_or_else(|| wrong("this is no row of a recording"))?;
+        let (path_row, engine_tick, device_tick) =
+            row.ok_or_else(|| wrong("this is no row of a recording"))?;
         if COLUMNS.len() + amplitudes_um.len() != n_columns {
             return Err(wrong("this row has other columns than the header"));
         }
         take(Row {
             path: path_row,
+            engine_tick,
             device_tick,
             amplitudes_um: &amplitudes_um,
         });
@@ -299,18 +317,12 @@ fn read_rows(folder: &Path, mut take: impl FnMut(Row<'_>)) -> Result<(), FileErr
     Ok(())
 }
 
-fn row_of(line: &str, amplitudes_um: &mut Vec<f32>) -> Option<(PathRow, Option<u32>)> {
+fn row_of(line: &str, amplitudes_um: &mut Vec<f32>) -> Option<(PathRow, u64, Option<u32>)> {
     let mut cells = line.split(',');
+    let t_s = cells.next()?.parse().ok()?;
+    let engine_tick = cells.next()?.parse().ok()?;
     let mut number = || cells.next()?.parse::<f64>().ok();
-    let [t_s, _tick, x_mm, y_mm, angle_deg, vx, vy] = [
-        number()?,
-        number()?,
-        number()?,
-        number()?,
-        number()?,
-        number()?,
-        number()?,
-    ];
+    let [x_mm, y_mm, angle_deg, vx, vy] = [number()?, number()?, number()?, number()?, number()?];
     let device_tick = match cells.next()? {
         "" => None,
         cell => Some(cell.parse().ok()?),
@@ -324,7 +336,7 @@ fn row_of(line: &str, amplitudes_um: &mut Vec<f32>) -> Option<(PathRow, Option<u
         angle_deg,
         velocity: Some(Velocity::new(vx, vy)),
     };
-    Some((row, device_tick))
+    Some((row, engine_tick, device_tick))
 }
 
 #[cfg(test)]

@@ -53,6 +53,8 @@ pub(crate) struct Recordings {
     /// What was listed last: the references and opened files.
     listed: Option<Vec<PathBuf>>,
     pub(crate) loading: Option<(Task<Recording>, Then)>,
+    /// A part on its way to being one.
+    pub(crate) cutting: Option<Task<String>>,
     pub(crate) comparing: Option<Task<[Recording; 2]>>,
     /// The two that are set against each other.
     pub(crate) compared: Option<[Recording; 2]>,

@@ -4,16 +4,16 @@
 //! armed device played it; one from a path file knows only how it moves: its amplitudes depend on
 //! the scene. [`Recordings`] is the list of them all.
 
+pub(crate) mod excerpt;
 pub(crate) mod file;
 pub(crate) mod list;
 pub(crate) mod running;
-pub(crate) mod strips;
 #[cfg(test)]
 pub(crate) mod tests;
+pub(crate) mod tiles;
 
-pub(crate) use crate::bench::recording::file::About;
+pub(crate) use crate::bench::recording::file::{About, Marker};
 pub(crate) use crate::bench::recording::list::{Entry, Place, Recordings};
-pub(crate) use crate::bench::recording::strips::Strips;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,7 +37,8 @@ pub(crate) struct Recording {
     /// At which of its ticks a device played each row.
     apply_ticks: ApplyTicks,
     felt: Arc<Felt>,
-    strips: Arc<Strips>,
+    /// Ticks before which others are missing, rising.
+    missing: Arc<[u64]>,
     about: Arc<About>,
     /// The folder that holds it, if one does.
     pub(crate) folder: Option<PathBuf>,
@@ -58,6 +59,7 @@ impl Recording {
             .iter()
             .map(|tick| tick.sent.map(|sent| sent.apply_tick));
         let device_ticks: Vec<Option<u32>> = device_ticks.collect();
+        let missing = missing_before(ticks.iter().map(|tick| tick.tick));
         let mut felt = Felt {
             n_contactors: recording.n_contactors(),
             amplitudes_um: Vec::with_capacity(ticks.len() * recording.n_contactors()),
@@ -66,7 +68,9 @@ impl Recording {
             felt.amplitudes_um
                 .extend_from_slice(recording.amplitudes_um(nth));
         }
-        Ok(Self::felt(about, recording.to_path()?, &device_ticks, felt))
+        let mut made = Self::felt(about, recording.to_path()?, &device_ticks, felt);
+        made.missing = missing;
+        Ok(made)
     }
 
     /// An exploration with what was felt of it, and the device's tick of every one that was sent.
@@ -76,9 +80,6 @@ impl Recording {
         device_ticks: &[Option<u32>],
         felt: Felt,
     ) -> Self {
-        let n_each = felt.n_contactors.max(1);
-        let ticks = path.ticks().zip(felt.amplitudes_um.chunks(n_each));
-        let strips = Strips::felt(ticks.map(|((_, pose), amplitudes_um)| (pose, amplitudes_um)));
         let was_felt = device_ticks.iter().any(Option::is_some);
         Self {
             path: Arc::new(path),
@@ -88,24 +89,24 @@ impl Recording {
                 ApplyTicks::default()
             },
             felt: Arc::new(felt),
-            strips: Arc::new(strips),
+            missing: Arc::default(),
             about: Arc::new(about),
             folder: None,
             file: None,
         }
     }
 
-    /// The exploration of a path file. Walks through all of it: an hour takes some milliseconds.
+    /// The exploration of a path file.
     pub(crate) fn from_path(file: PathBuf, path: ExplorationPath) -> Self {
         let about = About {
             name: name_of(&file),
             ..About::default()
         };
         Self {
-            strips: Arc::new(Strips::moved(&path)),
             path: Arc::new(path),
             apply_ticks: ApplyTicks::default(),
             felt: Arc::default(),
+            missing: Arc::default(),
             about: Arc::new(about),
             folder: None,
             file: Some(file),
@@ -131,9 +132,14 @@ impl Recording {
         self.felt.amplitudes_um.get(at).filter(|um| !um.is_empty())
     }
 
-    /// What is drawn of it over time.
-    pub(crate) fn strips(&self) -> &Arc<Strips> {
-        &self.strips
+    /// Contactors that amplitudes are known of; 0 when none are.
+    pub(crate) fn n_contactors(&self) -> usize {
+        self.felt.n_contactors
+    }
+
+    /// Ticks before which others of the engine are missing: the display was held, or no tick came.
+    pub(crate) fn missing(&self) -> &[u64] {
+        &self.missing
     }
 
     /// What people call it.
@@ -146,6 +152,32 @@ impl Recording {
         &self.about
     }
 
+    /// Puts a marker in; one that stands at its tick gives way.
+    pub(crate) fn mark(&mut self, marker: Marker) {
+        let markers = &mut Arc::make_mut(&mut self.about).markers;
+        markers.retain(|known| known.tick != marker.tick);
+        markers.push(marker);
+        markers.sort_by_key(|marker| marker.tick);
+        self.write_markers();
+    }
+
+    /// Takes the marker at a tick away.
+    pub(crate) fn unmark(&mut self, tick: u64) {
+        let markers = &mut Arc::make_mut(&mut self.about).markers;
+        markers.retain(|known| known.tick != tick);
+        self.write_markers();
+    }
+
+    /// Keeps the markers on the recording's page, if it has one.
+    fn write_markers(&self) {
+        let Some(folder) = &self.folder else { return };
+        if let Ok(mut page) = About::read(folder) {
+            page.markers.clone_from(&self.about.markers);
+            // What cannot be written now is with the next marker.
+            drop(page.write(folder));
+        }
+    }
+
     /// The same under another name.
     pub(crate) fn renamed(mut self, name: &str) -> Self {
         name.clone_into(&mut Arc::make_mut(&mut self.about).name);
@@ -156,6 +188,18 @@ impl Recording {
     pub(crate) fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
+}
+
+/// The places in a series of engine ticks before which some are missing.
+pub(crate) fn missing_before(engine_ticks: impl Iterator<Item = u64>) -> Arc<[u64]> {
+    let mut before = None;
+    let is_gap = |(nth, tick): (u64, u64)| {
+        let before: Option<u64> = before.replace(tick);
+        before
+            .is_some_and(|before| tick > before + 1)
+            .then_some(nth)
+    };
+    (0..).zip(engine_ticks).filter_map(is_gap).collect()
 }
 
 /// A file's name without its folder and ending.

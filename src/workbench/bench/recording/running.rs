@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::bench::background::{Executor, Task, finished};
-use crate::bench::recording::{About, Recording, file::RecordingFile};
+use crate::bench::recording::{About, Marker, Recording, file::RecordingFile};
 
 /// How often the thread looks: what the engine has then is on disk at once.
 const LOOK: Duration = Duration::from_millis(250);
@@ -19,6 +19,8 @@ const LOOK: Duration = Duration::from_millis(250);
 pub(crate) struct Running {
     /// What it is.
     pub(crate) about: About,
+    /// What was marked so far.
+    pub(crate) markers: Vec<Marker>,
     work: Work,
     failures: Receiver<String>,
 }
@@ -82,6 +84,7 @@ impl Running {
         };
         Self {
             about,
+            markers: Vec::new(),
             work,
             failures,
         }
@@ -89,6 +92,16 @@ impl Running {
 
     /// How it stands with it. Once a frame.
     pub(crate) fn poll(&mut self) -> Standing {
+        let mut standing = self.look();
+        if let Standing::Over(Some(recording)) = &mut standing {
+            for marker in self.markers.drain(..) {
+                recording.mark(marker);
+            }
+        }
+        standing
+    }
+
+    fn look(&mut self) -> Standing {
         match &mut self.work {
             Work::Here(writer) => {
                 if writer.step() {

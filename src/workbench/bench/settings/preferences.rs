@@ -10,6 +10,7 @@ use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
+use crate::bench::settings::timeline::TimelineStyle;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
@@ -55,9 +56,9 @@ pub(crate) struct Preferences {
     pub(crate) stops_on_focus_loss: bool,
     /// Whether what developers of firmware and renderers need is shown too.
     pub(crate) developer_tools: bool,
-    /// The scale of amplitudes.
+    /// The scales on which things are drawn.
     #[serde(flatten)]
-    pub(crate) amplitude: AmplitudeScale,
+    pub(crate) scales: Scales,
     /// Pixels per millimetre of the screen, once it was calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) pixels_per_mm: Option<f64>,
@@ -105,7 +106,7 @@ impl Default for Preferences {
             greys_below: true,
             stops_on_focus_loss: false,
             developer_tools: false,
-            amplitude: AmplitudeScale::default(),
+            scales: Scales::default(),
             pixels_per_mm: None,
             rendering: Rendering::default(),
             perspective: Perspective::default(),
@@ -151,6 +152,10 @@ impl Preferences {
         Self {
             zoom: within(self.zoom, ZOOM),
             rendering: self.rendering.in_bounds(),
+            scales: Scales {
+                timeline: self.scales.timeline.in_bounds(),
+                ..self.scales
+            },
             pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
             window_size: size.map(|[width, height]| [within(width, WIDTH), within(height, HEIGHT)]),
             ..self
@@ -166,6 +171,17 @@ impl Preferences {
         self.recent_scenes.insert(0, path);
         self.recent_scenes.truncate(MAX_RECENT);
     }
+}
+
+/// The scales on which things are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct Scales {
+    /// That of amplitudes.
+    #[serde(flatten)]
+    pub(crate) amplitude: AmplitudeScale,
+    /// Those of the line of time.
+    #[serde(flatten)]
+    pub(crate) timeline: TimelineStyle,
 }
 
 /// Folders that the user works in.

@@ -10,7 +10,8 @@ use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::Settings;
-use crate::bench::settings::preferences::{KnownFolders, Preferences};
+use crate::bench::settings::preferences::{KnownFolders, Preferences, Scales};
+use crate::bench::settings::timeline::TimelineStyle;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
@@ -196,7 +197,15 @@ fn every_setting_survives_writing_and_reading() {
         has_numbers: true,
         greys_below: false,
         stops_on_focus_loss: true,
-        amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
+        scales: Scales {
+            amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
+            timeline: TimelineStyle {
+                height: 200.0,
+                floor_db: -60.0,
+                top_db: 10.0,
+                is_linear: true,
+            },
+        },
         pixels_per_mm: Some(3.78),
         rendering: Rendering {
             method: Method::Banded,
@@ -289,7 +298,7 @@ fn odd_numbers_are_brought_within_bounds() {
     let text = "zoom_percent = 900\namplitude_top_um = nan\npixels_per_mm = inf\n";
     let (preferences, odd) = Preferences::from_text(text, path()).unwrap();
     assert_eq!((preferences.zoom, odd), (2.0, None));
-    assert_eq!(preferences.amplitude, AmplitudeScale::default());
+    assert_eq!(preferences.scales.amplitude, AmplitudeScale::default());
     assert_eq!(preferences.pixels_per_mm, Some(60.0));
 }
 

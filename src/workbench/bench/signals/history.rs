@@ -1,4 +1,4 @@
-//! The last seconds, tick by tick: what timelines and spectrograms are drawn from.
+//! The last minutes, tick by tick: what timelines and spectrograms are drawn from.
 //!
 //! It keeps tick samples as they came. Time in it is felt time: every tick sample is one column
 //! wide, and a pause, however long, is one empty column.
@@ -7,8 +7,8 @@ use std::collections::VecDeque;
 
 use selvedge_engine::TickSample;
 
-/// How many tick samples are kept: 12 s of exploration.
-pub(crate) const CAPACITY: usize = 480;
+/// How many tick samples are kept: five minutes of exploration, which take some 4 MB.
+pub(crate) const CAPACITY: usize = 5 * 60 * 40;
 
 /// A tick with its place in felt time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,18 +19,34 @@ pub(crate) struct Entry {
     pub tick_sample: TickSample,
 }
 
-/// The last 12 s of exploration.
+/// The last minutes of exploration.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct History {
     entries: VecDeque<Entry>,
+    /// As many for each entry: [A40, A320] of every contactor, µm.
+    felt_um: VecDeque<[f32; 2]>,
+    n_contactors: usize,
     next_column: u64,
     n_clears: u64,
 }
 
 impl History {
-    /// Takes in a tick. Says whether it was new: a tick that is already here changes nothing, and
-    /// one from before it (the engine began anew) clears what was there.
+    /// Takes in a tick without amplitudes.
+    #[cfg(test)]
     pub(crate) fn take(&mut self, tick_sample: TickSample) -> bool {
+        self.take_felt(tick_sample, &[])
+    }
+
+    /// Takes in a tick with the amplitudes [A40, A320] of every contactor, µm. Says whether it was
+    /// new: a tick that is already here changes nothing, and one from before it (the engine began
+    /// anew), or of another display, clears what was there.
+    pub(crate) fn take_felt(&mut self, tick_sample: TickSample, felt_um: &[[f32; 2]]) -> bool {
+        if felt_um.len() != self.n_contactors {
+            if !self.entries.is_empty() {
+                self.clear();
+            }
+            self.n_contactors = felt_um.len();
+        }
         let last = self.entries.back().map(|entry| entry.tick_sample.tick);
         match last {
             Some(last) if tick_sample.tick == last => return false,
@@ -40,7 +56,9 @@ impl History {
         }
         if self.entries.len() == CAPACITY {
             self.entries.pop_front();
+            self.felt_um.drain(..self.n_contactors);
         }
+        self.felt_um.extend(felt_um);
         let column = self.next_column;
         self.entries.push_back(Entry {
             column,
@@ -53,6 +71,7 @@ impl History {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.entries.clear();
+        self.felt_um.clear();
         self.n_clears += 1;
     }
 
@@ -84,6 +103,21 @@ impl History {
         self.entries
             .get(place)
             .filter(|entry| entry.column == column)
+    }
+
+    /// Contactors that amplitudes are known of.
+    pub(crate) fn n_contactors(&self) -> usize {
+        self.n_contactors
+    }
+
+    /// [A40, A320] of every contactor at a column, after gains and before output limits, µm.
+    pub(crate) fn felt_um(&self, column: u64) -> Option<impl Iterator<Item = [f32; 2]> + Clone> {
+        let place = self.place_of(column);
+        let entry = self.entries.get(place);
+        entry.filter(|entry| entry.column == column)?;
+        let first = place * self.n_contactors;
+        let felt_um = self.felt_um.range(first..first + self.n_contactors);
+        Some(felt_um.copied())
     }
 
     /// Where the first entry lies that is not before a column.
@@ -125,19 +159,36 @@ mod tests {
     }
 
     #[test]
-    fn twelve_seconds_are_kept_old_to_new() {
-        let history = of(0..2_000);
+    fn five_minutes_are_kept_old_to_new() {
+        let history = of(0..13_520);
         assert_eq!(history.tick_samples().len(), CAPACITY);
         assert_eq!(history.tick_samples().next().map(|g| g.tick), Some(1_520));
         assert_eq!(
             history.tick_samples().next_back().map(|g| g.tick),
-            Some(1_999)
+            Some(13_519)
         );
         assert!(history.at_column(1_519).is_none(), "forgotten");
         assert_eq!(
             history.at_column(1_520).map(|e| e.tick_sample.tick),
             Some(1_520)
         );
+    }
+
+    #[test]
+    fn amplitudes_stay_with_their_ticks_and_another_display_begins_anew() {
+        let mut history = History::default();
+        let felt = |tick: u64| [[tick as f32, 1.0], [0.0, tick as f32]];
+        for tick in 0..CAPACITY as u64 + 7 {
+            history.take_felt(tick_sample(tick), &felt(tick));
+        }
+        for tick in [7, 500, CAPACITY as u64 + 6] {
+            let kept = history.felt_um(tick).unwrap();
+            assert!(kept.eq(felt(tick)), "{tick}");
+        }
+        assert!(history.felt_um(6).is_none(), "forgotten");
+        history.take_felt(tick_sample(99_999), &[[1.0; 2]]);
+        let n_contactors = history.n_contactors();
+        assert_eq!((history.tick_samples().len(), n_contactors), (1, 1));
     }
 
     #[test]

@@ -1,142 +1,149 @@
-//! The last seconds of what was felt, as strokes: where each tick stands, the newest on the right.
-//!
-//! Stillness is left out: a pause between two strokes is one thin gap, however long it was.
+//! What is drawn of the last minutes: tiles that grow with what is felt, in felt time, where a
+//! pause is one empty column.
 
-use crate::bench::recording::strips::{Extent, Felt};
-use crate::bench::signals::history::History;
-use selvedge_engine::TickSample;
+use std::ops::Range;
 
-/// Ticks of felt exploration that are shown: 12 s.
-pub(crate) const N_TICKS: u64 = 480;
-/// How wide a gap is at most, in ticks.
-const GAP: u64 = 5;
+use crate::bench::Bench;
+use crate::bench::recording::tiles::Tiles;
+use crate::bench::signals::contact::ContactColumns;
+use crate::bench::signals::history::{CAPACITY, Entry, History};
+use crate::bench::signals::rows::{N_ROWS, Rows};
+use crate::tools::timeline::columns::{Limits, n_felt_rows, write_felt, write_levels};
+use crate::tools::timeline::layer::limits;
+use crate::tools::timeline::span::Span;
+use selvedge_device::{ArrayProfile, LinkScale};
 
-/// A tick sample and its place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Placed {
-    /// Ticks to the left of the newest, pauses left out.
-    pub(crate) ago: u64,
-    /// Whether it goes on from the one before it: no tick is missing between them.
-    pub(crate) goes_on: bool,
-    /// What was there.
-    pub(crate) tick_sample: TickSample,
+/// Ticks of felt exploration that are shown until another part is asked for: 12 s.
+pub(crate) const N_SHOWN: f64 = 480.0;
+/// Most columns of the spectrum that are computed in one frame.
+const MOST_IN_A_FRAME: usize = 120;
+
+/// What is drawn of the last minutes.
+#[derive(Debug, Default)]
+pub(crate) struct LiveTiles {
+    felt: Tiles,
+    /// The history that the tiles are of: how often it was cleared, and its contactors.
+    of: (u64, usize),
+    /// The column that comes next.
+    next: u64,
+    limits: Option<((ArrayProfile, Option<LinkScale>), Limits)>,
+    spectrum: Tiles,
+    spectrum_of: (u64, u64, usize),
+    /// Columns whose spectrum is there, without a gap between them.
+    whole: Range<u64>,
+    columns: ContactColumns,
 }
 
-impl Placed {
-    /// Speed and amplitudes; nothing was felt in silence.
-    pub(crate) fn felt(&self) -> Felt {
-        let TickSample {
-            pose,
-            is_silent,
-            mean_um,
-            ..
-        } = self.tick_sample;
-        let speed = pose.velocity.speed_mm_per_s();
-        Felt {
-            speed_mm_per_s: if speed.is_finite() { speed } else { 0.0 },
-            mean_um: Some(if is_silent {
-                [0.0; 2]
-            } else {
-                mean_um.map(f64::from)
-            }),
+impl LiveTiles {
+    /// Speed, levels and limits.
+    pub(crate) fn felt(&self) -> &Tiles {
+        &self.felt
+    }
+
+    /// What arrives at the contactor.
+    pub(crate) fn spectrum(&self) -> &Tiles {
+        &self.spectrum
+    }
+
+    /// Takes in what was felt since, and computes the spectra of the columns in sight, as many as
+    /// one frame may. Whether more are due.
+    pub(crate) fn follow(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
+        let history = &bench.past.history;
+        let of = (history.n_clears(), history.n_contactors());
+        if self.of != of || self.felt.n_rows() == 0 {
+            self.of = of;
+            self.felt = Tiles::new(n_felt_rows(of.1), 0);
+            self.next = 0;
+            self.limits = None;
         }
-    }
-}
-
-/// The tick samples that are shown with their places, new to old.
-pub(crate) fn placed(history: &History) -> Vec<Placed> {
-    let mut ago = 0;
-    let mut shown = Vec::new();
-    let mut tick_samples = history.tick_samples().rev().peekable();
-    while let Some(&tick_sample) = tick_samples.next() {
-        if ago > N_TICKS {
-            break;
+        if history
+            .newest()
+            .is_some_and(|newest| newest.column >= self.next)
+        {
+            self.take_felt(bench);
         }
-        let step = tick_samples
-            .peek()
-            .map(|before| tick_sample.tick.saturating_sub(before.tick));
-        shown.push(Placed {
-            ago,
-            goes_on: step == Some(1),
-            tick_sample,
-        });
-        ago += step.unwrap_or(0).clamp(1, GAP);
+        self.take_spectra(bench, contactor, in_sight)
     }
-    shown
-}
 
-/// The tick sample nearest to a place.
-pub(crate) fn nearest(placed: &[Placed], ago: f64) -> Option<&Placed> {
-    let distance = |one: &&Placed| (one.ago as f64 - ago).abs();
-    placed
-        .iter()
-        .min_by(|one, other| distance(one).total_cmp(&distance(other)))
-        .filter(|one| distance(one) <= GAP as f64)
-}
-
-/// From the least speed shown to the highest, mm/s.
-pub(crate) fn speeds(placed: &[Placed]) -> Extent {
-    let speeds = placed.iter().map(|one| one.felt().speed_mm_per_s);
-    Extent {
-        least: 0.0,
-        most: speeds.fold(0.0, f64::max),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn history(ticks: impl IntoIterator<Item = u64>) -> History {
-        let mut history = History::default();
-        for tick in ticks {
-            history.take(TickSample {
-                tick,
-                mean_um: [1.0, 2.0],
-                ..TickSample::default()
-            });
+    fn take_felt(&mut self, bench: &Bench) {
+        let scale = bench.live.bridge.as_ref().and_then(|bridge| bridge.scale);
+        let (key, n_contactors) = ((bench.array(), scale), self.of.1);
+        if self.limits.as_ref().is_none_or(|(known, _)| *known != key) {
+            let made = limits(&key, n_contactors);
+            self.limits = Some((key, made));
         }
-        history
+        let Some((_, limits)) = &mut self.limits else {
+            return;
+        };
+        let history = &bench.past.history;
+        let mut rows = vec![0; n_felt_rows(n_contactors)];
+        let mut felt_um = Vec::with_capacity(n_contactors);
+        for entry in history.entries().range(history.place_of(self.next)..) {
+            felt_um.clear();
+            felt_um.extend(history.felt_um(entry.column).into_iter().flatten());
+            write_felt(speed_mm_per_s(entry), &felt_um, limits, &mut rows);
+            self.felt.put(entry.column, &rows);
+            self.next = entry.column + 1;
+        }
+        self.felt
+            .forget_before(self.next.saturating_sub(2 * CAPACITY as u64));
     }
 
-    #[test]
-    fn a_long_pause_is_one_thin_gap() {
-        let shown = placed(&history((0..10).chain(50_000..50_010)));
-        assert_eq!(shown.len(), 20);
-        assert_eq!(shown[9].ago + GAP, shown[10].ago);
-        let breaks: Vec<u64> = shown
-            .iter()
-            .filter(|one| !one.goes_on)
-            .map(|one| one.tick_sample.tick)
-            .collect();
-        assert_eq!(breaks, [50_000, 0], "only strokes begin anew");
+    /// The newest columns in sight come first.
+    fn take_spectra(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
+        let (history, inspection) = (&bench.past.history, &mut bench.inspection);
+        let of = (history.n_clears(), inspection.n_scenes, contactor);
+        if self.spectrum_of != of || self.spectrum.n_rows() == 0 {
+            self.spectrum_of = of;
+            self.spectrum = Tiles::new(N_ROWS, 0);
+            self.whole = 0..0;
+        }
+        let Some(all) = columns_of(history) else {
+            return false;
+        };
+        let sight = in_sight.ticks();
+        let sight = sight.start.max(all.start)..sight.end.min(all.end);
+        if !joins(&self.whole, &sight) {
+            self.whole = sight.end..sight.end;
+        }
+        let after = self.whole.end..sight.end;
+        let before = sight.start..self.whole.start;
+        let due: Vec<u64> = after.chain(before.rev()).take(MOST_IN_A_FRAME).collect();
+        let mut levels_db: Rows = [0.0; N_ROWS];
+        let mut rows = [0; N_ROWS];
+        for column in &due {
+            if let Some(entry) = history.at_column(*column) {
+                let (inspector, pose) = (&mut inspection.inspector, &entry.tick_sample.pose);
+                self.columns
+                    .levels_db(inspector, contactor, pose, &mut levels_db);
+                write_levels(&levels_db, &mut rows);
+                self.spectrum.put(*column, &rows);
+            }
+            self.whole = self.whole.start.min(*column)..self.whole.end.max(column + 1);
+        }
+        self.spectrum.forget_before(all.start);
+        due.len() == MOST_IN_A_FRAME
     }
+}
 
-    #[test]
-    fn twelve_seconds_are_shown_and_no_more() {
-        let shown = placed(&history(0..5_000));
-        assert_eq!(shown.len(), 480);
-        assert_eq!(shown[0].tick_sample.tick, 4_999);
-        assert!(placed(&history([])).is_empty());
-    }
+/// Whether what is whole and what is in sight touch.
+fn joins(whole: &Range<u64>, sight: &Range<u64>) -> bool {
+    !whole.is_empty() && whole.start <= sight.end && sight.start <= whole.end
+}
 
-    #[test]
-    fn the_pointer_reads_what_is_near_it() {
-        let shown = placed(&history(0..20));
-        let read = nearest(&shown, 3.4).map(|one| one.tick_sample.tick);
-        assert_eq!(read, Some(16));
-        assert_eq!(nearest(&shown, 200.0), None);
-    }
+/// The columns that a history has; `None` before anything was felt.
+pub(crate) fn columns_of(history: &History) -> Option<Range<u64>> {
+    let first = history.entries().front()?.column;
+    Some(first..history.newest()?.column + 1)
+}
 
-    #[test]
-    fn silence_is_not_felt() {
-        let mut history = History::default();
-        history.take(TickSample {
-            tick: 1,
-            is_silent: true,
-            mean_um: [1.0, 2.0],
-            ..TickSample::default()
-        });
-        assert_eq!(placed(&history)[0].felt().mean_um, Some([0.0, 0.0]));
-    }
+/// All that can be shown of a history; at least so much as is shown at first.
+pub(crate) fn extent_of(history: &History) -> Span {
+    let columns = columns_of(history).unwrap_or(0..0);
+    let end = columns.end as f64;
+    Span::new((columns.start as f64).min(end - N_SHOWN), end)
+}
+
+fn speed_mm_per_s(entry: &Entry) -> f64 {
+    entry.tick_sample.pose.velocity.speed_mm_per_s()
 }

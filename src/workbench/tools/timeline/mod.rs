@@ -1,73 +1,101 @@
 //! The bar at the bottom: what moves the display, recording and replay, and the exploration over
 //! time.
 //!
-//! Left the controls, in the middle the timeline, right the numbers. It plays, records and seeks
-//! nothing itself: it says what the user wants.
+//! Left the controls, in the middle the line of time, right the numbers. It plays, records and
+//! seeks nothing itself: it says what the user wants.
 
+pub(crate) mod axes;
+pub(crate) mod code;
+pub(crate) mod columns;
 pub(crate) mod controls;
 pub(crate) mod export;
-pub(crate) mod felt;
 pub(crate) mod icons;
+pub(crate) mod job;
+pub(crate) mod lanes;
+pub(crate) mod layer;
 pub(crate) mod live;
+pub(crate) mod marks;
+pub(crate) mod numbers;
 pub(crate) mod picture;
-pub(crate) mod plot;
-pub(crate) mod strip;
-pub(crate) mod strips_view;
+pub(crate) mod scale;
+pub(crate) mod scope;
+pub(crate) mod selection;
+pub(crate) mod sight;
+pub(crate) mod span;
+pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 pub(crate) mod transport;
+pub(crate) mod view;
+pub(crate) mod words;
 
-use std::fmt;
-
-use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use eframe::egui::{CursorIcon, Rect, Sense, Ui, UiBuilder, pos2, vec2};
 
 use crate::bench::Bench;
 use crate::bench::command::Commands;
-use crate::bench::export::NOTHING_FELT;
 use crate::bench::export::button::{place_in, show as show_export};
 use crate::bench::export::{Exportable, Exported};
+use crate::bench::settings::timeline::HEIGHTS;
 use crate::bench::tool::{Bar, PaneContext};
-use crate::kit::theme;
-use crate::kit::theme::{Palette, STEP};
-use crate::tools::timeline::picture::Picture;
-use crate::tools::timeline::transport::{TICK_MS, TransportView};
+use crate::kit::pane::frame_as_past;
+use crate::kit::theme::STEP;
+use crate::tools::timeline::lanes::LaneStyle;
+use crate::tools::timeline::scope::extent;
+use crate::tools::timeline::span::Span;
+use crate::tools::timeline::state::Timeline;
+use crate::tools::timeline::transport::TransportView;
 use selvedge_foundation::quantity;
 
-/// Height of the bar without its margins, points.
-pub(crate) const HEIGHT: f32 = 68.0;
 /// Width of the controls, points.
 const CONTROLS: f32 = 304.0;
 /// Width of the numbers, points.
 const NUMBERS: f32 = 116.0;
-
-/// The bar at the bottom: what it remembers from frame to frame.
-#[derive(Default)]
-pub(crate) struct Timeline {
-    picture: Option<Picture>,
-    /// The tick that was asked for last in the drag that goes on.
-    asked: Option<u64>,
-}
+/// The most of the window's height that the bar takes.
+const MOST_OF_WINDOW: f32 = 0.4;
 
 impl Bar for Timeline {
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.follow(context.bench);
+        let kept = &context.bench.settings.preferences;
+        let mut style = LaneStyle {
+            map: kept.colour_map,
+            scale: context.bench.selection.scale,
+            kept: kept.scales.timeline,
+        };
         let view = TransportView::of(context.bench);
-        show(ui, &view, self, context.commands);
+        show(ui, (&view, &mut style), self, context.commands);
+        if let Some(back) = &context.bench.past.look_back {
+            let ago = quantity::with_unit(back.ago_s, 2, "s");
+            frame_as_past(
+                ui.ctx(),
+                &format!("Past: {ago} before the newest, in felt time"),
+            );
+        }
+        context.bench.settings.preferences.scales.timeline = style.kept;
+        let is_of_recording = self.sight.of() != 0;
+        context.bench.exploration.selected = self.selected.clone().filter(|_| is_of_recording);
     }
 
     fn export(&mut self, bench: &mut Bench) -> Result<Exported, &'static str> {
-        let timeline = TransportView::of(bench).timeline();
-        let mut ticks = timeline.ticks.iter();
-        if !ticks.any(|tick| tick.felt.speed_mm_per_s > 0.0) {
-            return Err(NOTHING_FELT);
-        }
-        Ok(export::strips(&timeline, bench.rendered_origin()))
+        let view = TransportView::of(bench);
+        let span = self.selected.as_ref().map(Span::of);
+        let span = span.unwrap_or_else(|| self.sight.span(extent(&view)));
+        export::timeline(&view, span, bench.rendered_origin())
     }
 }
 
 /// Shows the bar in the width that there is.
-fn show(ui: &mut Ui, view: &TransportView<'_>, state: &mut Timeline, commands: &mut Commands) {
-    let size = vec2(ui.available_width(), HEIGHT);
+fn show(
+    ui: &mut Ui,
+    (view, style): (&TransportView<'_>, &mut LaneStyle),
+    state: &mut Timeline,
+    commands: &mut Commands,
+) {
+    let most = (MOST_OF_WINDOW * ui.ctx().content_rect().height()).max(HEIGHTS[0]);
+    let height = style.kept.height.min(most);
+    let size = vec2(ui.available_width(), height);
     let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
+    style.kept.height = resized(ui, bar, style.kept.height, most);
     let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
     let (middle, numbers) = rest.split_left_right_at_x(rest.right() - NUMBERS);
     ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| {
@@ -77,59 +105,22 @@ fn show(ui: &mut Ui, view: &TransportView<'_>, state: &mut Timeline, commands: &
         pos2(middle.left() + 3.0 * STEP, middle.top()),
         pos2(middle.right() - 4.0 * STEP, middle.bottom()),
     );
-    strips_view::show(ui, timeline, view, state, commands);
+    view::show(ui, timeline, (view, style), state, commands);
     // It stands a little above the bar's content, which must not grow by it.
     let export = UiBuilder::new().max_rect(place_in(timeline));
     show_export(&mut ui.new_child(export), Exportable::Timeline, commands);
-    show_numbers(ui, numbers, view);
+    numbers::show(ui, numbers, view);
 }
 
-/// Time, tick and speed in digits that stand still.
-fn show_numbers(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
-    let palette = Palette::in_ui(ui);
-    let (tick, what) = view.counted();
-    let time = quantity::clock(tick * TICK_MS);
-    let response = ui.interact(
-        rect,
-        ui.scope_id().with("transport numbers"),
-        Sense::hover(),
-    );
-    response.widget_info(|| {
-        let speed = quantity::with_unit(view.speed_mm_per_s, 1, "mm/s");
-        let words = format!("Time {time}, tick {tick}, speed {speed}");
-        WidgetInfo::labeled(egui::Role::Label, true, words)
-    });
-    let painter = ui.painter();
-    let large = FontId::monospace(theme::title().size);
-    let at = pos2(rect.right(), rect.top() + 14.0);
-    painter.text(at, Align2::RIGHT_CENTER, time, large, palette.text);
-    let rows = [
-        ("tick", tick.to_string(), ""),
-        ("speed", quantity::fixed(view.speed_mm_per_s, 1), "mm/s"),
-    ];
-    for ((name, digits, unit), y) in rows.into_iter().zip([38.0, 56.0]) {
-        let y = rect.top() + y;
-        let dim = |x: f32, anchor: Align2, words: &str| {
-            painter.text(pos2(x, y), anchor, words, theme::small(), palette.dim);
-        };
-        dim(rect.left(), Align2::LEFT_CENTER, name);
-        dim(rect.right(), Align2::RIGHT_CENTER, unit);
-        let right = pos2(rect.right() - if unit.is_empty() { 0.0 } else { 30.0 }, y);
-        painter.text(
-            right,
-            Align2::RIGHT_CENTER,
-            digits,
-            theme::number(),
-            palette.text,
-        );
+/// The height after a drag of the bar's upper edge.
+fn resized(ui: &Ui, bar: Rect, height: f32, most: f32) -> f32 {
+    let edge = Rect::from_x_y_ranges(bar.x_range(), bar.top() - 7.0..=bar.top() - 2.0);
+    let id = ui.scope_id().with("timeline edge");
+    let response = ui.interact(edge, id, Sense::drag());
+    let response = response.on_hover_cursor(CursorIcon::ResizeVertical);
+    if !response.dragged() || response.drag_delta().y == 0.0 {
+        return height;
     }
-    response.on_hover_text(format!("{what}\nSpeed of the middle of the display"));
-}
-
-impl fmt::Debug for Timeline {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Timeline")
-            .field("asked", &self.asked)
-            .finish_non_exhaustive()
-    }
+    ui.ctx().request_repaint();
+    (height.min(most) - response.drag_delta().y).clamp(HEIGHTS[0], most.min(HEIGHTS[1]))
 }

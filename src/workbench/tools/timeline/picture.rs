@@ -1,117 +1,321 @@
-//! The strips of a take as shapes, made when something about them changed and kept until then.
-//!
-//! Four hours of ticks are walked through once for each width, never in every frame.
+//! The lanes as pictures, one pixel a column: made when something about them has changed and kept
+//! on the graphics card until then. Only what is in sight is drawn, however long it is.
 
-use std::sync::Arc;
+use std::fmt;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::ops::Range;
 
-use eframe::egui::{Pos2, Shape, Stroke, Ui, pos2};
+use eframe::egui::{
+    Color32, ColorImage, Context, Mesh, Painter, Rect, Shape, TextureHandle, TextureOptions, pos2,
+};
 
-use crate::bench::recording::strips::{Column, Extent, Strips};
+use crate::bench::recording::tiles::Tiles;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::polyline::corners;
-use crate::tools::timeline::plot;
-use crate::tools::timeline::plot::Plot;
+use crate::tools::timeline::axes::LEVELS_DB;
+use crate::tools::timeline::code::{GAP, level_of, mirrored, speed_of};
+use crate::tools::timeline::columns::{LIMITED, MISSING};
+use crate::tools::timeline::span::Span;
 use selvedge_textile::tactile::Band;
 
-/// How solid columns are: where the bands overlap, both show.
-const COLUMNS: f32 = 0.8;
-/// How solid the ground under the speed is.
-const GROUND: f32 = 0.22;
+/// Pixels from a hatching line of a gap to the next.
+const HATCH: usize = 6;
+/// Height of the marks of limits and of missing ticks, pixels.
+const MARK: usize = 3;
 
-/// The strips of a take as shapes, kept until something about them changes.
-pub(crate) struct Picture {
-    strips: Arc<Strips>,
-    plot: Plot,
-    pixels_per_point: f32,
-    is_dark: bool,
-    shapes: Vec<Shape>,
+/// The columns in sight, one a pixel.
+#[derive(Debug, Default)]
+pub(crate) struct Columns {
+    key: Option<(u64, Span, usize, u64)>,
+    n_rows: usize,
+    bytes: Vec<u8>,
+    /// Changes whenever they do.
+    stamp: u64,
 }
 
-/// The shapes of a take: those of the last frame, or new ones when something changed.
-pub(crate) fn drawn(
-    ui: &Ui,
-    plot: &Plot,
-    strips: &Arc<Strips>,
-    last: &mut Option<Picture>,
-) -> Vec<Shape> {
-    let (pixels_per_point, is_dark) = (ui.ctx().pixels_per_point(), ui.visuals().dark_mode);
-    let is_the_same = |picture: &&Picture| {
-        Arc::ptr_eq(&picture.strips, strips)
-            && picture.plot == *plot
-            && (picture.pixels_per_point - pixels_per_point).abs() < f32::EPSILON
-            && picture.is_dark == is_dark
-    };
-    if let Some(picture) = last.as_ref().filter(is_the_same) {
-        return picture.shapes.clone();
+impl Columns {
+    /// Reads what tiles hold of a span in `n` columns, if anything has changed; `of` says which
+    /// exploration the tiles are of.
+    pub(crate) fn follow(&mut self, tiles: &Tiles, of: u64, (span, n): (Span, usize)) {
+        let key = (of, span, n, tiles.version());
+        if self.key == Some(key) && self.n_rows == tiles.n_rows() {
+            return;
+        }
+        self.key = Some(key);
+        self.stamp += 1;
+        self.n_rows = tiles.n_rows();
+        self.bytes.resize(n * self.n_rows, 0);
+        if self.n_rows > 0 {
+            for (x, rows) in self.bytes.chunks_exact_mut(self.n_rows).enumerate() {
+                tiles.strongest_into(span.column(x, n), rows);
+            }
+        }
     }
-    let shapes = strip_shapes(plot, strips, Palette::in_ui(ui), pixels_per_point);
-    *last = Some(Picture {
-        strips: Arc::clone(strips),
-        plot: *plot,
-        pixels_per_point,
-        is_dark,
-        shapes: shapes.clone(),
-    });
-    shapes
+
+    /// Every column, left to right.
+    pub(crate) fn each(&self) -> impl ExactSizeIterator<Item = &[u8]> {
+        self.bytes.chunks_exact(self.n_rows.max(1))
+    }
 }
 
-fn strip_shapes(plot: &Plot, strips: &Strips, palette: &Palette, ppp: f32) -> Vec<Shape> {
+/// A lane on the graphics card.
+#[derive(Default)]
+pub(crate) struct Picture {
+    texture: Option<TextureHandle>,
+    key: Option<(u64, [usize; 2], u64)>,
+    n_uploads: u64,
+}
+
+impl Picture {
+    /// Makes the picture of columns anew if they, its height or how it is drawn have changed.
+    pub(crate) fn follow(
+        &mut self,
+        (ctx, name): (&Context, &str),
+        (columns, height): (&Columns, usize),
+        drawing: &Drawing,
+    ) {
+        let size = [columns.each().len(), height];
+        let mut hasher = DefaultHasher::new();
+        drawing.hash(&mut hasher);
+        let key = (columns.stamp, size, hasher.finish());
+        if self.key == Some(key) || size.contains(&0) {
+            return;
+        }
+        self.key = Some(key);
+        self.n_uploads += 1;
+        let image = drawing.image(columns, size);
+        match &mut self.texture {
+            Some(texture) => texture.set(image, TextureOptions::NEAREST),
+            None => self.texture = Some(ctx.load_texture(name, image, TextureOptions::NEAREST)),
+        }
+    }
+
+    /// Paints it over `area`.
+    pub(crate) fn paint(&self, painter: &Painter, area: Rect) {
+        let Some(texture) = &self.texture else { return };
+        let mut mesh = Mesh::with_texture(texture.id());
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        mesh.add_rect_with_uv(area, whole, Color32::WHITE);
+        painter.add(Shape::mesh(mesh));
+    }
+
+    /// How often it was made.
+    #[cfg(test)]
+    pub(crate) fn n_uploads(&self) -> u64 {
+        self.n_uploads
+    }
+}
+
+impl fmt::Debug for Picture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Picture")
+            .field("n_uploads", &self.n_uploads)
+            .finish_non_exhaustive()
+    }
+}
+
+/// How a lane is drawn.
+#[derive(Debug, Clone, Hash)]
+pub(crate) enum Drawing {
+    /// Rows of colours: the rows of each pixel, from top to bottom, and the colour of every byte.
+    Raster {
+        rows: Vec<Range<usize>>,
+        colours: Box<[Color32; 256]>,
+        gap: [Color32; 2],
+    },
+    /// Speed and mean levels as lines, with the marks of limits and missing ticks.
+    Lines(LineInks),
+}
+
+/// The colours of lines.
+#[derive(Debug, Clone, Copy, Hash)]
+pub(crate) struct LineInks {
+    ground: Color32,
+    speed: Color32,
+    bands: [Color32; 2],
+    mark: Color32,
+    missing: Color32,
+    gap: [Color32; 2],
+    /// The end of the speed axis, mm/s.
+    pub(crate) top_mm_per_s: u32,
+}
+
+impl LineInks {
+    /// Those of a theme.
+    pub(crate) fn of(palette: &Palette, top_mm_per_s: u32) -> Self {
+        Self {
+            ground: palette.line.gamma_multiply(0.22),
+            speed: palette.line,
+            bands: Band::ALL.map(|band| palette.band(band)),
+            mark: palette.selection,
+            missing: palette.dim,
+            gap: gap_colours(palette),
+            top_mm_per_s,
+        }
+    }
+}
+
+/// Ground and hatching of a gap.
+pub(crate) fn gap_colours(palette: &Palette) -> [Color32; 2] {
+    [palette.floor, palette.hairline]
+}
+
+impl Drawing {
+    fn image(&self, columns: &Columns, [width, height]: [usize; 2]) -> ColorImage {
+        let mut pixels = vec![Color32::TRANSPARENT; width * height];
+        for (x, rows) in columns.each().enumerate() {
+            let mut put = |y: usize, ink: Color32| {
+                if let Some(pixel) = pixels.get_mut(y * width + x) {
+                    *pixel = ink;
+                }
+            };
+            match self {
+                Self::Raster {
+                    rows: of,
+                    colours,
+                    gap,
+                } => {
+                    for (y, of) in of.iter().enumerate().take(height) {
+                        let code = rows.get(of.clone()).unwrap_or_default();
+                        let code = code.iter().copied().max().unwrap_or(GAP);
+                        let is_gap = code == GAP;
+                        let ink = colours[usize::from(code)];
+                        put(y, if is_gap { hatched(x, y, *gap) } else { ink });
+                    }
+                }
+                Self::Lines(inks) => draw_lines(rows, (x, height), inks, &mut put),
+            }
+        }
+        ColorImage::new([width, height], pixels)
+    }
+}
+
+fn hatched(x: usize, y: usize, [ground, line]: [Color32; 2]) -> Color32 {
+    if (x + y).is_multiple_of(HATCH) {
+        line
+    } else {
+        ground
+    }
+}
+
+/// One column of lines: from the least to the most of each.
+fn draw_lines(
+    rows: &[u8],
+    (x, height): (usize, usize),
+    inks: &LineInks,
+    put: &mut impl FnMut(usize, Color32),
+) {
+    if rows.first().is_none_or(|code| *code == GAP) {
+        (0..height).for_each(|y| put(y, hatched(x, y, inks.gap)));
+        return;
+    }
+    let top = f64::from(inks.top_mm_per_s.max(1));
+    let speed_y = |code| speed_of(code).map(|speed| y_at(speed / top, height));
+    if let Some((high, low)) = speed_y(rows[0]).zip(speed_y(mirrored(rows[1]))) {
+        (high..height).for_each(|y| put(y, inks.ground));
+        (high..=low).for_each(|y| put(y, inks.speed));
+    }
+    let [least, most] = LEVELS_DB;
+    let level_y = |code| {
+        let level = level_of(code).filter(|level| level.is_finite())?;
+        Some(y_at((level - least) / (most - least), height))
+    };
+    for band in Band::ALL {
+        let at = 2 + 2 * band.index();
+        if let Some(high) = level_y(rows[at]) {
+            let low = level_y(mirrored(rows[at + 1])).unwrap_or(height - 1);
+            let next = (low + 1).max(high + 2).min(height);
+            (high..next).for_each(|y| put(y, inks.bands[band.index()]));
+        }
+    }
+    if rows[LIMITED] > 1 {
+        (0..MARK.min(height)).for_each(|y| put(y, inks.mark));
+    }
+    if rows[MISSING] > 1 {
+        (0..height).step_by(2).for_each(|y| put(y, inks.missing));
+    }
+}
+
+/// The pixel from the top at a share of the height.
+fn y_at(share: f64, height: usize) -> usize {
+    let most = height.saturating_sub(1);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "pixels in a row of the screen"
+        reason = "between 0 and the height"
     )]
-    let n_pixels = (plot.area.width() * ppp).round().max(1.0) as usize;
-    let columns = strips.columns(n_pixels);
-    let is_each_tick = columns.len() < n_pixels;
-    let last = columns.len().saturating_sub(1).max(1) as f64;
-    let x_of = |index: usize| plot.x_at(index as f64 / last);
-    let top = |(index, column): (usize, &Column)| {
-        pos2(x_of(index), plot.y_of_speed(column.speed_mm_per_s.most))
-    };
-    let speeds: Vec<Pos2> = columns.iter().enumerate().map(top).collect();
-    let mut shapes = speed_shapes(plot, &speeds, palette);
-    for band in Band::ALL {
-        let ink = palette.band(band);
-        let level = |column: &Column| column.level_db[band.index()];
-        if is_each_tick {
-            let point = |(index, column): (usize, &Column)| {
-                level(column).map(|level_db| pos2(x_of(index), plot.y_of_level(level_db.most)))
-            };
-            let points: Vec<_> = columns.iter().enumerate().map(point).collect();
-            shapes.extend(plot::lines(&points, ink));
-        } else {
-            let ends = |db: Extent| [plot.y_of_level(db.most), plot.y_of_level(db.least)];
-            let extents: Vec<_> = columns
-                .iter()
-                .map(|column| level(column).map(ends))
-                .collect();
-            let width = plot.area.width() / columns.len() as f32;
-            let mesh = plot::columns_mesh(
-                plot.area.left(),
-                width,
-                &extents,
-                ink.gamma_multiply(COLUMNS),
-            );
-            shapes.push(Shape::mesh(mesh));
-        }
-    }
-    shapes
+    let from_bottom = (share.clamp(0.0, 1.0) * most as f64).round() as usize;
+    most - from_bottom.min(most)
 }
 
-/// The speed: a quiet ground with its edge.
-pub(crate) fn speed_shapes(plot: &Plot, points: &[Pos2], palette: &Palette) -> Vec<Shape> {
-    let points = corners(points);
-    let ink = palette.line.gamma_multiply(GROUND);
-    let ground = plot::ground_mesh(&points, plot.area.bottom(), ink);
-    let edge = Stroke::new(1.0, palette.line.gamma_multiply(0.7));
-    vec![Shape::mesh(ground), Shape::line(points, edge)]
+/// Which of `n` rows each pixel shows, from top to bottom; where there are fewer pixels than rows,
+/// several.
+pub(crate) fn even_rows(first: usize, n: usize, height: usize) -> Vec<Range<usize>> {
+    let of = |y: usize| {
+        let start = y * n / height;
+        let end = ((y + 1) * n).div_ceil(height);
+        first + start..first + end.max(start + 1).min(n)
+    };
+    (0..height).map(of).collect()
 }
 
 #[cfg(test)]
-impl Picture {
-    /// Where its shapes lie: elsewhere once they were made anew.
-    pub(crate) fn address(&self) -> usize {
-        self.shapes.as_ptr().addr()
+mod tests {
+    use super::*;
+    use crate::tools::timeline::code::{amplitude_code, table};
+    use crate::tools::timeline::columns::N_LINES;
+
+    #[test]
+    fn every_row_has_a_pixel_and_every_pixel_a_row() {
+        for (n, height) in [(24, 24), (24, 7), (24, 100), (1, 3), (96, 41)] {
+            let rows = even_rows(8, n, height);
+            assert_eq!(rows.len(), height);
+            assert!(
+                rows.iter()
+                    .all(|rows| !rows.is_empty() && rows.end <= 8 + n)
+            );
+            for row in 8..8 + n {
+                assert!(rows.iter().any(|rows| rows.contains(&row)), "{row} of {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_gap_is_hatched_and_silence_is_not() {
+        let mut tiles = Tiles::new(2, 20);
+        tiles.put(0, &[1, 1]);
+        tiles.put(1, &[amplitude_code(5.0), 1]);
+        let mut columns = Columns::default();
+        columns.follow(&tiles, 0, (Span::new(0.0, 20.0), 20));
+        let drawing = Drawing::Raster {
+            rows: even_rows(0, 2, 12),
+            colours: Box::new(table(Color32::from_gray)),
+            gap: [Color32::BLACK, Color32::RED],
+        };
+        let image = drawing.image(&columns, [20, 12]);
+        let at = |x: usize, y: usize| image.pixels[y * 20 + x];
+        assert_eq!(at(0, 0), Color32::from_gray(1));
+        assert_eq!(at(1, 0), Color32::from_gray(amplitude_code(5.0)));
+        assert_eq!(at(1, 11), Color32::from_gray(1));
+        let gap: Vec<Color32> = (2..20).map(|x| at(x, 3)).collect();
+        assert!(gap.contains(&Color32::RED) && gap.contains(&Color32::BLACK));
+    }
+
+    #[test]
+    fn a_picture_is_made_only_when_something_changed() {
+        let ctx = Context::default();
+        let (mut picture, mut columns) = (Picture::default(), Columns::default());
+        let mut tiles = Tiles::new(N_LINES, 5_000);
+        let lines = |top| Drawing::Lines(LineInks::of(Palette::of(ctx.theme()), top));
+        let mut show = |tiles: &Tiles, end: f64, top: u32| {
+            columns.follow(tiles, 0, (Span::new(0.0, end), 300));
+            picture.follow((&ctx, "lane"), (&columns, 20), &lines(top));
+            picture.n_uploads()
+        };
+        assert_eq!(show(&tiles, 90.0, 100), 1);
+        assert_eq!(show(&tiles, 90.0, 100), 1, "nothing has changed");
+        assert_eq!(show(&tiles, 80.0, 100), 2, "another span");
+        assert_eq!(show(&tiles, 80.0, 200), 3, "another axis");
+        tiles.put(7, &[3; N_LINES]);
+        assert_eq!(show(&tiles, 80.0, 200), 4, "more is known");
     }
 }

@@ -5,13 +5,24 @@ use std::sync::LazyLock;
 
 use super::*;
 use crate::bench::command::PlaySource;
-use crate::bench::command::{Command, PlayCommand};
+use crate::bench::command::{Command, Edit, PlayCommand};
 use crate::bench::recording::Recording;
-use crate::bench::recording::strips::Felt;
+use crate::bench::settings::timeline::TimelineStyle;
 use crate::bench::signals::history::History;
-use crate::tools::timeline::strips_view::{described, share_of, tick_at};
-use eframe::egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
+use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::theme;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::shell::headless::Headless;
+use crate::tools::timeline::code::amplitude_code;
+use crate::tools::timeline::columns::N_LINES;
+use crate::tools::timeline::layer::RecordedTiles;
+use crate::tools::timeline::scope::extent;
+use eframe::egui::{
+    self, Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
+    TouchPhase,
+};
 use selvedge_foundation::geometry::Point;
+use selvedge_render::array::single;
 use selvedge_render::scene::{ExplorationPath, PathRow};
 
 /// A stroke of ten seconds: ticks 0…400.
@@ -39,8 +50,21 @@ fn view(take: Option<&Recording>) -> TransportView<'_> {
         speed_mm_per_s: 80.0,
         take,
         live: &NOTHING,
+        loop_within: None,
+        past_column: None,
     }
 }
+
+fn style() -> LaneStyle {
+    LaneStyle {
+        map: ColourMap::default(),
+        scale: AmplitudeScale::default(),
+        kept: TimelineStyle::default(),
+    }
+}
+
+/// A place in the lanes.
+const INSIDE: Pos2 = Pos2::new(700.0, 60.0);
 
 /// The bar in a window that is `WIDTH` wide.
 struct Window {
@@ -62,14 +86,15 @@ impl Window {
 
     fn frame(&mut self, view: &TransportView<'_>, events: Vec<Event>) -> Commands {
         let input = RawInput {
-            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(WIDTH, 100.0))),
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(WIDTH, 400.0))),
             events,
             focused: true,
             ..RawInput::default()
         };
         let mut commands = Commands::new();
         let output = self.ctx.run_ui(input, |ui| {
-            show(ui, view, &mut self.state, &mut commands);
+            let drawn = (view, &mut style());
+            show(ui, drawn, &mut self.state, &mut commands);
         });
         output.drop_without_applying_deltas();
         commands
@@ -86,6 +111,21 @@ impl Window {
         self.frame(view, vec![Event::PointerMoved(at), button])
     }
 
+    /// Turns the wheel: up is positive.
+    fn scroll(&mut self, view: &TransportView<'_>, at: Pos2, points: f32) {
+        let wheel = Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, points),
+            source: MouseWheelSource::Unknown,
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        };
+        self.frame(view, vec![Event::PointerMoved(at), wheel]);
+        for _ in 0..5 {
+            self.frame(view, Vec::new());
+        }
+    }
+
     fn click(&mut self, view: &TransportView<'_>, at: Pos2) -> Commands {
         self.frame(view, vec![Event::PointerMoved(at)]);
         let mut commands = self.press(view, at, true);
@@ -99,20 +139,6 @@ const RECORD: Pos2 = Pos2::new(15.0, 16.0);
 
 fn button_at(index: u8) -> Pos2 {
     RECORD + vec2(34.0 * f32::from(index), 0.0)
-}
-
-#[test]
-fn every_tick_is_found_where_it_stands() {
-    for n_ticks in [2, 3, 494, 576_000] {
-        for tick in [0, 1, n_ticks / 2, n_ticks - 1] {
-            assert_eq!(tick_at(share_of(tick, n_ticks), n_ticks), tick);
-        }
-    }
-    assert_eq!((share_of(0, 494), share_of(493, 494)), (0.0, 1.0));
-    for n_ticks in [0, 1] {
-        assert_eq!(tick_at(0.7, n_ticks), 0);
-        assert_eq!(share_of(0, n_ticks), 0.0);
-    }
 }
 
 #[test]
@@ -165,7 +191,7 @@ fn scrubbing_asks_once_for_each_tick() {
     };
     window.frame(&replay, Vec::new());
     // Left of everything is the first tick, wherever the plot begins exactly.
-    let (inside, far_left) = (pos2(700.0, 34.0), pos2(0.0, 34.0));
+    let (inside, far_left) = (pos2(700.0, 6.0), pos2(0.0, 6.0));
     window.frame(&replay, vec![Event::PointerMoved(inside)]);
     let commands = window.press(&replay, inside, true);
     let [Command::Play(PlayCommand::Seek(tick))] = commands[..] else {
@@ -197,50 +223,88 @@ fn the_timeline_shows_the_take_only_while_it_moves_the_display() {
 }
 
 #[test]
-fn strips_are_drawn_anew_only_when_they_change() {
+fn lanes_are_drawn_anew_only_when_they_change() {
     let mut window = Window::new();
     let take = recorded();
     let replay = TransportView {
         source: PlaySource::Recording,
         ..view(Some(&take))
     };
+    window.state.sight.turn_to(1);
+    let desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let tiles = &mut window.state.recorded;
+    assert_eq!(
+        tiles.follow(&desk.workbench.bench, &take, (9, false), 0),
+        None
+    );
     window.frame(&replay, Vec::new());
-    let first = window.state.picture.as_ref().map(Picture::address);
+    let first = window.state.pictures.n_uploads();
     window.frame(&TransportView { tick: 7, ..replay }, Vec::new());
-    assert_eq!(window.state.picture.as_ref().map(Picture::address), first);
-    let other = recorded();
-    let other = TransportView {
-        take: Some(&other),
-        ..replay
-    };
-    window.frame(&other, Vec::new());
-    assert_ne!(window.state.picture.as_ref().map(Picture::address), first);
+    assert_eq!(window.state.pictures.n_uploads(), first);
+    window.scroll(&replay, INSIDE, 120.0);
+    assert!(window.state.pictures.n_uploads() > first);
 }
 
 #[test]
-fn hovering_reads_both_levels_or_says_why_there_are_none() {
-    let felt = Felt {
-        speed_mm_per_s: 80.0,
-        mean_um: Some([0.1, 0.0]),
+fn the_wheel_zooms_a_drag_pans_and_two_clicks_show_all() {
+    let mut window = Window::new();
+    let take = recorded();
+    let replay = TransportView {
+        source: PlaySource::Recording,
+        ..view(Some(&take))
     };
-    let words = described("00:01.000", felt, "of some");
-    for part in [
-        "80.0 mm/s",
-        "40 Hz  −20.0 dB   0.10 µm",
-        "320 Hz  silent",
-        "of some",
-    ] {
-        assert!(words.contains(part), "{words}");
+    window.state.sight.turn_to(1);
+    window.frame(&replay, Vec::new());
+    let all = extent(&replay);
+    for _ in 0..8 {
+        window.scroll(&replay, INSIDE, 120.0);
     }
-    let unknown = Felt {
-        mean_um: None,
-        ..felt
-    };
-    let words = described("00:01.000", unknown, "of some");
-    assert!(
-        words.contains("depends on the scene") && !words.contains("dB"),
-        "{words}"
-    );
+    let near = window.state.sight.span(all);
+    assert!(near.length() < 0.5 * all.length(), "{near:?}");
+    let left = INSIDE - vec2(90.0, 0.0);
+    window.press(&replay, INSIDE, true);
+    let commands = window.frame(&replay, vec![Event::PointerMoved(left)]);
+    assert_eq!(commands, [], "a drag moves what is in sight alone");
+    window.press(&replay, left, false);
+    let moved = window.state.sight.span(all);
+    assert!((moved.length() - near.length()).abs() < 1e-6 && moved.start > near.start + 1.0);
+    window.click(&replay, INSIDE);
+    window.click(&replay, INSIDE);
+    assert_eq!(window.state.sight.span(all), all);
+}
+
+#[test]
+fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
+    let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    desk.dispatch(PlayCommand::Toggle);
+    desk.pass_ticks(10);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass_ticks(1_100);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass(3);
+    desk.dispatch(PlayCommand::Source(PlaySource::Recording));
+    desk.pass(2);
+    let mut tiles = RecordedTiles::default();
+    for gain_db in [0.0, -12.0] {
+        desk.dispatch(Edit::MasterGain(gain_db));
+        desk.pass(2);
+        let take = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+        let failure = tiles.follow(&desk.workbench.bench, &take, (9, false), 1_050);
+        assert_eq!((failure, tiles.share()), (None, None), "done in line");
+        for tick in [0, 500, 1_023, 1_024, 1_090] {
+            desk.dispatch(PlayCommand::Seek(tick));
+            desk.pass(3);
+            let live = &desk.workbench.bench.live;
+            assert_eq!(live.play.tick, tick);
+            let mut rows = vec![0; tiles.felt().n_rows()];
+            tiles.felt().strongest_into(tick..tick + 1, &mut rows);
+            for (contactor, dot) in live.dots.iter().enumerate() {
+                let codes = [0, 1].map(|band| rows[N_LINES + band * 24 + contactor]);
+                let expected = dot.amplitude_um.map(|um| amplitude_code(single(um)));
+                assert_eq!(codes, expected, "tick {tick}, contactor {contactor}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -276,7 +340,8 @@ fn no_width_is_too_small() {
             };
             let mut commands = Commands::new();
             let output = window.ctx.run_ui(input.clone(), |ui| {
-                show(ui, &narrow, &mut window.state, &mut commands);
+                let drawn = (&narrow, &mut style());
+                show(ui, drawn, &mut window.state, &mut commands);
             });
             output.drop_without_applying_deltas();
             assert_eq!(commands, []);

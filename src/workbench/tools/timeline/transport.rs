@@ -1,5 +1,7 @@
 //! What moves the display and how far it is, as the bar shows it.
 
+use std::ops::Range;
+
 use crate::bench::Bench;
 use crate::bench::command::PlaySource;
 use crate::bench::recording::Recording;
@@ -30,6 +32,10 @@ pub(crate) struct TransportView<'a> {
     pub take: Option<&'a Recording>,
     /// What was felt last.
     pub live: &'a History,
+    /// The ticks of the recording that are replayed again and again.
+    pub(crate) loop_within: Option<&'a Range<u64>>,
+    /// The column of the last minutes that every view looks back at.
+    pub(crate) past_column: Option<u64>,
 }
 
 impl<'a> TransportView<'a> {
@@ -51,6 +57,8 @@ impl<'a> TransportView<'a> {
             speed_mm_per_s: live.speed_mm_per_s,
             take: bench.exploration.at_hand.as_ref(),
             live: &bench.past.history,
+            loop_within: bench.exploration.loop_within.as_ref(),
+            past_column: bench.past.look_back.as_ref().map(|back| back.column),
         }
     }
 }

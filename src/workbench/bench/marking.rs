@@ -1,0 +1,204 @@
+//! Markers of the recording at hand, and parts of it that become recordings.
+
+use std::ops::Range;
+use std::time::SystemTime;
+
+use crate::bench::Bench;
+use crate::bench::background::{Executor, finished};
+use crate::bench::command::RecordingCommand;
+use crate::bench::recording::excerpt::cut;
+use crate::bench::recording::{About, Marker};
+use crate::bench::view::Source;
+use selvedge_foundation::quantity;
+
+/// Why nothing is marked.
+const NO_RECORDING: &str =
+    "Markers stand in recordings: record the exploration, or choose a recording in the list";
+
+impl Bench {
+    /// Puts a marker where the recording is that is made or replayed.
+    pub(crate) fn mark_here(&mut self) {
+        let play = self.live.play;
+        if let Some(running) = &mut self.exploration.recordings.running {
+            let name = format!("Marker {}", running.markers.len() + 1);
+            let tick = play.n_recorded.saturating_sub(1);
+            return running.markers.push(Marker { tick, name });
+        }
+        let at_hand = self.exploration.at_hand.as_ref();
+        let Some(at_hand) = at_hand.filter(|_| play.source == Source::Recording) else {
+            return self.notices.give(NO_RECORDING);
+        };
+        let markers = &at_hand.about().markers;
+        if markers.iter().all(|marker| marker.tick != play.tick) {
+            let name = format!("Marker {}", markers.len() + 1);
+            let tick = play.tick;
+            self.mark(Marker { tick, name });
+        }
+        self.exploration.unnamed = Some(play.tick);
+    }
+
+    /// Does something within the recording at hand.
+    pub(crate) fn dispatch_within(&mut self, command: RecordingCommand) {
+        match command {
+            RecordingCommand::Mark(marker) => self.mark(marker),
+            RecordingCommand::Unmark(tick) => self.unmark(tick),
+            RecordingCommand::Excerpt(ticks) => self.excerpt(ticks),
+            _ => {}
+        }
+    }
+
+    fn mark(&mut self, marker: Marker) {
+        if let Some(at_hand) = &mut self.exploration.at_hand {
+            at_hand.mark(marker);
+            self.exploration.recordings.relist();
+        }
+    }
+
+    fn unmark(&mut self, tick: u64) {
+        if let Some(at_hand) = &mut self.exploration.at_hand {
+            at_hand.unmark(tick);
+            self.exploration.recordings.relist();
+        }
+    }
+
+    /// Makes ticks of the recording at hand a recording of their own.
+    fn excerpt(&mut self, ticks: Range<u64>) {
+        let at_hand = self.exploration.at_hand.as_ref();
+        let folder = at_hand.and_then(|at_hand| Some((at_hand, at_hand.folder.clone()?)));
+        let root = self.exploration.recordings.root.clone();
+        let Some(((at_hand, folder), root)) = folder.zip(root) else {
+            let words = "Only a recording on disk can be cut: export the path of the part";
+            return self.notices.give(words);
+        };
+        let about = excerpt_page(at_hand.about(), &ticks);
+        let task = self.executor.start("selvedge-excerpt", move |_| {
+            let made = cut(&folder, &root, &about, ticks);
+            made.map_err(|error| error.to_string())?;
+            Ok(format!("{} is in the list of recordings", about.name))
+        });
+        self.exploration.recordings.cutting = Some(task);
+        if matches!(self.executor, Executor::InLine) {
+            self.poll_excerpt();
+        }
+    }
+
+    /// Says what became of it.
+    pub(crate) fn poll_excerpt(&mut self) {
+        let recordings = &mut self.exploration.recordings;
+        if let Some(outcome) = finished(&mut recordings.cutting) {
+            recordings.relist();
+            self.notices.give(outcome.unwrap_or_else(|line| line));
+        }
+    }
+}
+
+/// The page of a part: its markers keep their places.
+fn excerpt_page(whole: &About, ticks: &Range<u64>) -> About {
+    let within = whole
+        .markers
+        .iter()
+        .filter(|marker| ticks.contains(&marker.tick));
+    let markers = within.map(|marker| Marker {
+        tick: marker.tick - ticks.start,
+        name: marker.name.clone(),
+    });
+    let [from, to] = [ticks.start, ticks.end].map(|tick| quantity::clock(25 * tick));
+    About {
+        name: format!("{}, {from} to {to}", whole.name),
+        began: quantity::rfc3339(SystemTime::now()),
+        ticks: None,
+        outline: Vec::new(),
+        markers: markers.collect(),
+        ..whole.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use eframe::egui::vec2;
+
+    use super::*;
+    use crate::bench::command::{PlayCommand, PlaySource};
+    use crate::bench::recording::Recordings;
+    use crate::bench::recording::file::read;
+    use crate::shell::headless::Headless;
+    use selvedge_scratch::ScratchFolder;
+
+    /// A window that replays a recording of a hundred ticks, marked at its twentieth.
+    fn replaying(root: &ScratchFolder) -> Headless {
+        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let recordings = &mut desk.workbench.bench.exploration.recordings;
+        *recordings = Recordings::in_folder(root.to_path_buf());
+        desk.dispatch(PlayCommand::Toggle);
+        desk.pass(2);
+        desk.dispatch(PlayCommand::ToggleRecording);
+        desk.pass_ticks(20);
+        desk.dispatch(PlayCommand::Mark);
+        desk.pass_ticks(80);
+        desk.dispatch(PlayCommand::ToggleRecording);
+        desk.pass(3);
+        desk.dispatch(PlayCommand::Source(PlaySource::Recording));
+        desk.pass(3);
+        desk
+    }
+
+    fn at_hand(desk: &Headless) -> &crate::bench::recording::Recording {
+        desk.workbench.bench.exploration.at_hand.as_ref().unwrap()
+    }
+
+    #[test]
+    fn markers_are_on_the_page_of_their_recording() {
+        let root = ScratchFolder::made("markers");
+        let mut desk = replaying(&root);
+        let first = at_hand(&desk).about().markers.clone();
+        assert_eq!(first.len(), 1, "the one that was put in while it was made");
+        desk.dispatch(PlayCommand::Seek(50));
+        desk.pass(3);
+        desk.dispatch(PlayCommand::Mark);
+        let name = "a thread".to_owned();
+        desk.dispatch(RecordingCommand::Mark(Marker { tick: 50, name }));
+        let folder = at_hand(&desk).folder.clone().unwrap();
+        let kept = read(&folder).unwrap();
+        let names: Vec<&str> = kept
+            .about()
+            .markers
+            .iter()
+            .map(|m| m.name.as_str())
+            .collect();
+        assert_eq!(names, ["Marker 1", "a thread"]);
+        desk.dispatch(RecordingCommand::Unmark(first[0].tick));
+        assert_eq!(read(&folder).unwrap().about().markers.len(), 1);
+    }
+
+    #[test]
+    fn a_part_becomes_a_recording_with_its_markers() {
+        let root = ScratchFolder::made("part");
+        let mut desk = replaying(&root);
+        let marked = at_hand(&desk).about().markers[0].tick;
+        desk.dispatch(RecordingCommand::Excerpt(10..60));
+        desk.pass(3);
+        let entries = desk.workbench.bench.exploration.recordings.entries();
+        let part = entries
+            .iter()
+            .find(|entry| entry.about.name.contains(" to "))
+            .unwrap();
+        assert_eq!(part.about.ticks, Some([50, 0]));
+        assert_eq!(part.about.markers[0].tick, marked - 10);
+        assert_eq!(fs::read_dir(&*root).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn without_a_recording_nothing_is_marked_and_it_is_said() {
+        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        desk.dispatch(PlayCommand::Mark);
+        desk.pass(1);
+        assert!(
+            desk.workbench
+                .notices()
+                .iter()
+                .any(|words| words == NO_RECORDING)
+        );
+    }
+}

@@ -1,0 +1,166 @@
+//! What a tick leaves in the tiles: speed, levels and limits of all contactors, or the spectrum
+//! that arrives at one.
+
+use crate::bench::recording::Recording;
+use crate::bench::signals::contact::ContactColumns;
+use crate::bench::signals::rows::{N_ROWS, Rows};
+use crate::tools::timeline::code::{amplitude_code, level_code, mirrored, speed_code};
+use selvedge_device::Coder;
+use selvedge_render::array::{ArrayRenderer, ContactInspector};
+use selvedge_render::scene::Pose;
+use selvedge_textile::tactile::vibrating_mean_um;
+
+/// Rows before those of the contactors: from the highest to the lowest (mirrored) of speed and of
+/// the mean levels of both bands; contactors that a limit bites; ticks that are missing.
+pub(crate) const N_LINES: usize = 8;
+/// The row of how many contactors a limit bites, after 1.
+pub(crate) const LIMITED: usize = 6;
+/// The row that tells that ticks are missing before this one.
+pub(crate) const MISSING: usize = 7;
+
+/// Makes the column of a tick.
+pub(crate) trait TickColumns: Send {
+    /// Bytes in a column.
+    fn n_rows(&self) -> usize;
+
+    /// Writes the column of a tick.
+    fn write(&mut self, tick: u64, pose: &Pose, rows: &mut [u8]);
+}
+
+/// Bytes in a column of what is felt with so many contactors.
+pub(crate) fn n_felt_rows(n_contactors: usize) -> usize {
+    N_LINES + 2 * n_contactors
+}
+
+/// Which contactors limits bite.
+#[derive(Debug)]
+pub(crate) struct Limits {
+    coder: Coder,
+    codes: Vec<[u16; 2]>,
+}
+
+impl Limits {
+    /// Those of a coder for so many contactors.
+    pub(crate) fn of(coder: Coder, n_contactors: usize) -> Self {
+        Self {
+            coder,
+            codes: vec![[0; 2]; n_contactors],
+        }
+    }
+
+    fn n_bitten(&mut self, amplitudes_um: &[[f32; 2]]) -> usize {
+        self.coder.encode_into(amplitudes_um, 1.0, &mut self.codes);
+        let limited = self.coder.limited().iter();
+        limited.filter(|limiter| limiter.any()).count()
+    }
+}
+
+/// Writes the column of a tick that was felt: lines, then A40 of all contactors, then A320.
+/// Without amplitudes their rows are gaps.
+pub(crate) fn write_felt(
+    speed_mm_per_s: f64,
+    amplitudes_um: &[[f32; 2]],
+    limits: &mut Limits,
+    rows: &mut [u8],
+) {
+    rows.fill(0);
+    let (lines, contactors) = rows.split_at_mut(N_LINES);
+    let speed = speed_code(speed_mm_per_s);
+    [lines[0], lines[1]] = [speed, mirrored(speed)];
+    if amplitudes_um.is_empty() {
+        return;
+    }
+    let exact = amplitudes_um.iter().map(|um| um.map(f64::from));
+    let (_, mean_um) = vibrating_mean_um(exact);
+    for band in 0..2 {
+        let code = level_code(selvedge_foundation::quantity::level_db(mean_um[band]));
+        [lines[2 + 2 * band], lines[3 + 2 * band]] = [code, mirrored(code)];
+    }
+    let n_bitten = limits.n_bitten(amplitudes_um);
+    lines[LIMITED] = u8::try_from(1 + n_bitten).unwrap_or(u8::MAX);
+    let (low, high) = contactors.split_at_mut(contactors.len() / 2);
+    for (um, (low, high)) in amplitudes_um.iter().zip(low.iter_mut().zip(high)) {
+        [*low, *high] = um.map(amplitude_code);
+    }
+}
+
+/// How strong each tick is: as a scene renders it now, or as it was recorded.
+pub(crate) enum Amplitudes {
+    /// Rendered.
+    Rendered(Box<Rendered>),
+    /// As they were.
+    Recorded(Recording),
+}
+
+/// A scene that renders one pose after the other.
+pub(crate) struct Rendered {
+    /// The renderer.
+    pub(crate) renderer: ArrayRenderer,
+    /// Which contactors are felt; those beyond its end are.
+    pub(crate) mask: Vec<bool>,
+    /// One for each display.
+    pub(crate) poses: Vec<Pose>,
+}
+
+impl Rendered {
+    fn tick(&mut self, pose: &Pose) -> &[[f32; 2]] {
+        self.poses.fill(*pose);
+        self.renderer.tick(&self.poses);
+        self.renderer.mask_display(0, &self.mask);
+        let first = self.renderer.frames().first();
+        first.map_or(&[], |frame| frame.amplitudes_um())
+    }
+}
+
+/// Columns of what is felt.
+pub(crate) struct FeltColumns {
+    pub(crate) amplitudes: Amplitudes,
+    pub(crate) n_contactors: usize,
+    pub(crate) limits: Limits,
+    /// Ticks before which others are missing, rising.
+    pub(crate) missing: Vec<u64>,
+}
+
+impl TickColumns for FeltColumns {
+    fn n_rows(&self) -> usize {
+        n_felt_rows(self.n_contactors)
+    }
+
+    fn write(&mut self, tick: u64, pose: &Pose, rows: &mut [u8]) {
+        let amplitudes_um = match &mut self.amplitudes {
+            Amplitudes::Rendered(rendered) => rendered.tick(pose),
+            Amplitudes::Recorded(recording) => recording.amplitudes_um(tick).unwrap_or_default(),
+        };
+        let amplitudes_um = &amplitudes_um[..amplitudes_um.len().min(self.n_contactors)];
+        let speed = pose.velocity.speed_mm_per_s();
+        write_felt(speed, amplitudes_um, &mut self.limits, rows);
+        rows[MISSING] = 1 + u8::from(self.missing.binary_search(&tick).is_ok());
+    }
+}
+
+/// Columns of the vibration that arrives at a contactor.
+pub(crate) struct SpectrumColumns {
+    pub(crate) inspector: ContactInspector,
+    pub(crate) contactor: usize,
+    pub(crate) columns: ContactColumns,
+}
+
+impl TickColumns for SpectrumColumns {
+    fn n_rows(&self) -> usize {
+        N_ROWS
+    }
+
+    fn write(&mut self, _tick: u64, pose: &Pose, rows: &mut [u8]) {
+        let mut levels_db: Rows = [0.0; N_ROWS];
+        let at = (&mut self.inspector, self.contactor);
+        self.columns.levels_db(at.0, at.1, pose, &mut levels_db);
+        write_levels(&levels_db, rows);
+    }
+}
+
+/// Writes levels, dB re 1 µm.
+pub(crate) fn write_levels(levels_db: &Rows, rows: &mut [u8]) {
+    for (row, level_db) in rows.iter_mut().zip(levels_db) {
+        *row = level_code(f64::from(*level_db));
+    }
+}
