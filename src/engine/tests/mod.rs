@@ -4,6 +4,7 @@ mod array;
 mod commands;
 mod device;
 mod exact;
+mod headroom;
 mod lift;
 mod mask;
 mod seek;

@@ -8,14 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui::{
-    self, Color32, ColorImage, TextureFilter, TextureHandle, TextureOptions, Vec2, vec2,
-};
+use eframe::egui::{self, Color32, ColorImage, TextureHandle, Vec2, vec2};
 
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::library_shelf::{OWN, SHIPPED, Shelf, plain_id};
 use crate::bench::settings::build_cache;
 use crate::bench::view::{ClothPicture, LibraryEntry};
+use crate::kit::tile::{TILED, tile};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Appearance, Library, elsewhere};
 
@@ -204,15 +203,11 @@ impl LibraryView {
     }
 
     fn hang(&mut self, ctx: &egui::Context, read: Vec<Read>) -> Vec<String> {
-        let options = TextureOptions {
-            mipmap_mode: Some(TextureFilter::Linear),
-            ..TextureOptions::LINEAR_REPEAT
-        };
         let mut flaws = Vec::new();
         for (id, picture) in read {
             match picture {
                 Ok(Some((image, tile_mm))) => {
-                    let handle = ctx.load_texture(format!("textile {id}"), image, options);
+                    let handle = ctx.load_texture(format!("textile {id}"), image, TILED);
                     let texture = handle.id();
                     let picture = ClothPicture { texture, tile_mm };
                     self.pictures.insert(id, (handle, picture));
@@ -271,10 +266,8 @@ fn image(appearance: &Appearance) -> (ColorImage, Vec2) {
     #[expect(clippy::cast_possible_truncation, reason = "a scale, for the screen")]
     let px_per_mm = appearance.px_per_mm.max(1e-3) as f32;
     let tile_mm = vec2(width, height) / px_per_mm;
-    (
-        ColorImage::new([image.width, image.height], pixels),
-        tile_mm,
-    )
+    let picture = ColorImage::new([image.width, image.height], pixels);
+    (tile(&picture), tile_mm)
 }
 
 /// A textile of the library that is carried by the pointer.

@@ -22,6 +22,7 @@ pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod latest;
 pub(crate) mod library_acts;
+pub(crate) mod library_levels;
 pub(crate) mod library_selection;
 pub(crate) mod library_shelf;
 pub(crate) mod library_view;
@@ -31,6 +32,7 @@ pub(crate) mod marking;
 pub(crate) mod mute_solo;
 pub(crate) mod news;
 pub(crate) mod notices;
+pub(crate) mod on_finger;
 pub(crate) mod opening;
 pub(crate) mod overlays;
 pub(crate) mod pane;
@@ -65,6 +67,7 @@ use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
 use crate::bench::library_acts::LibraryActs;
+use crate::bench::library_levels::LibraryLevels;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
@@ -197,7 +200,7 @@ impl Bench {
             },
             library: LibraryState {
                 view: LibraryView::new(library, opened.library_view),
-                dots: Vec::new(),
+                levels: LibraryLevels::default(),
                 selection: LibrarySelection::default(),
                 acts: LibraryActs::default(),
             },
@@ -302,7 +305,8 @@ impl Bench {
 
     /// What depends on the textiles and where they lie is made anew.
     pub(crate) fn scene_has_changed(&mut self) {
-        self.library.dots = query::library_dots(&self.engine_scene.loaded, &self.library.view);
+        let (loaded, view) = (&self.engine_scene.loaded, &self.library.view);
+        self.library.levels.renew(loaded, view);
         let (n_scenes, n_edits) = (self.inspection.n_scenes, self.inspection.n_edits);
         self.inspection = InspectionCache::on(&self.engine_scene.loaded, n_scenes, n_edits + 1);
     }

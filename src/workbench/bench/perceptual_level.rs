@@ -4,6 +4,8 @@
 //! All of it comes from the model of [`Perception`] and is marked as one. Nothing here ever reaches
 //! what is rendered.
 
+use crate::bench::mute_solo::MuteSolo;
+use crate::bench::part::Part;
 use crate::bench::view::SceneView;
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db, with_unit};
 use selvedge_textile::tactile::{
@@ -93,13 +95,13 @@ pub(crate) fn felt_words(felt: &Perception) -> String {
 }
 
 /// What a placed textile feels like on average at 100 mm/s with the gains in force, by all the
-/// contactors of a display at once; `None` when nobody knows its level.
+/// contactors of a display at once; `None` when nobody knows its level. What is muted is silent.
 pub(crate) fn of_textile(
     scene: &SceneView,
-    cloth: usize,
-    n_contactors: usize,
+    index: usize,
+    (n_contactors, mute_solo): (usize, &MuteSolo),
 ) -> Option<Perception> {
-    let cloth = scene.cloths.get(cloth)?;
+    let cloth = scene.cloths.get(index)?;
     let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
     let compression_db = scene.reference_db.map_or(0.0, |reference_db| {
         scene
@@ -107,6 +109,10 @@ pub(crate) fn of_textile(
             .compression_gain_db(Some(dot.level_db), reference_db)
     });
     let tuned_um = Band::ALL.map(|band| {
+        let parts = [Part::Cloth(index), Part::Band(band)];
+        if !parts.into_iter().all(|part| mute_solo.is_felt(part)) {
+            return 0.0;
+        }
         let own_db = dot.gain_db + cloth.gain_db + compression_db;
         dot.mean_um[band.index()] * factor_of_gain(scene.tuning.band_gain_db(band) + own_db)
     });

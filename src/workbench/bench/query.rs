@@ -4,25 +4,26 @@
 use std::sync::Arc;
 
 use crate::bench::document::Document;
+use crate::bench::library_levels::LibraryLevels;
 use crate::bench::library_view::LibraryView;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::notices::Until;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{
-    BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LibraryDot, LibraryEntry,
-    LinkTiming, Marks, PlayView, SceneView, Source, Status, Telemetry,
+    BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LinkTiming, Marks, PlayView,
+    SceneView, Source, Status, Telemetry,
 };
 use selvedge_device::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
 use selvedge_engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
-use selvedge_render::scene::LoadedScene;
-use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::tactile::Band;
 
 /// The scene as panes draw it. A textile that is not ready yet is drawn already.
 pub(crate) fn scene_view(
     document: &Document,
     library_view: &LibraryView,
-    library: &[LibraryDot],
+    levels: &LibraryLevels,
     mute_solo: &MuteSolo,
     reference_db: Option<f64>,
 ) -> SceneView {
@@ -53,49 +54,11 @@ pub(crate) fn scene_view(
         reference_db,
         filters: scene.filters,
         grid: display.and_then(|display| display.geometry.grid()),
-        library: library.to_vec(),
+        library: levels.dots.clone(),
+        library_is_stale: levels.is_stale,
         marks: Marks::default(),
         picked: Arc::default(),
     }
-}
-
-/// The textiles of the scene's library that have a level: from the library's index where the
-/// scene's filters are those that the index was made with, else the placed ones alone.
-pub(crate) fn library_dots(loaded: &LoadedScene, library_view: &LibraryView) -> Vec<LibraryDot> {
-    let scene = loaded.scene();
-    let is_placed = |id: &str| scene.textiles.iter().any(|placed| placed.id == id);
-    let has_index = loaded.library().index().is_some();
-    if has_index && scene.filters == Filters::default() {
-        let dot = |item: &LibraryEntry| {
-            Some(LibraryDot {
-                id: item.id.clone(),
-                name: item.name.clone(),
-                mean_um: item.mean_um,
-                gain_db: item.gain_db,
-                level_db: item.level_db?,
-                is_placed: is_placed(&item.id),
-            })
-        };
-        return library_view.items().iter().filter_map(dot).collect();
-    }
-    let mut seen = Vec::new();
-    let mut dots = Vec::new();
-    for textile in loaded.textiles() {
-        if seen.contains(&textile.id()) {
-            continue;
-        }
-        seen.push(textile.id());
-        let levels = Levels::of(textile.surface(), &scene.filters);
-        dots.extend(levels.level_db().map(|level_db| LibraryDot {
-            id: textile.id().to_owned(),
-            name: textile.manifest().name.clone(),
-            mean_um: levels.mean_um,
-            gain_db: textile.manifest().gain_db,
-            level_db,
-            is_placed: true,
-        }));
-    }
-    dots
 }
 
 /// The engine as panes draw it.
@@ -112,9 +75,10 @@ pub(crate) fn live_view(
     let play = play_view(snapshot);
     // All off silences a display that goes on moving; one that is held stands still.
     let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
+    let on_finger = OnFinger::of_display(snapshot);
     let dots = contactors.iter().enumerate().map(|(index, contactor)| {
-        let is_muted = !mute_solo.is_felt(Part::Contactor(index));
-        dot(contactor, is_muted)
+        let of = |band| on_finger.of_band((index, contactor), band, mute_solo);
+        dot(contactor, Band::ALL.map(of))
     });
     let dots: Vec<Dot> = dots.collect();
     let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
@@ -129,6 +93,7 @@ pub(crate) fn live_view(
         },
         perceptual_level: PerceptualLevel::of(dots.iter().map(|dot| dot.amplitude_um)),
         dots,
+        on_finger,
         is_stopped: snapshot.is_stopped,
         is_silent: snapshot.is_silent,
         play,
@@ -179,13 +144,13 @@ fn play_view(snapshot: &Snapshot) -> PlayView {
     }
 }
 
-fn dot(contactor: &selvedge_engine::ContactorView, is_muted: bool) -> Dot {
+fn dot(contactor: &selvedge_engine::ContactorView, on_finger: [OnFinger; 2]) -> Dot {
     Dot {
         position: contactor.position,
         cloth: contactor.textile.map(usize::from),
         amplitude_um: contactor.amplitude_um.map(f64::from),
         limiter: contactor.limiter,
-        is_muted,
+        on_finger,
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::bench::export::origin::Origin;
+use crate::bench::pane::Pane;
 use crate::bench::view::{Marks, SceneView};
 use crate::bench::{Bench, query};
 
@@ -31,7 +32,7 @@ impl Bench {
         query::scene_view(
             &self.document,
             &self.library.view,
-            &self.library.dots,
+            &self.library.levels,
             &self.selection.mute_solo,
             self.live.reference_db,
         )
@@ -39,6 +40,9 @@ impl Bench {
 
     /// The scene as panes draw it; textiles in it want their pictures.
     pub(crate) fn scene_view(&mut self) -> SceneView {
+        if self.shows(Pane::Tuning) {
+            self.follow_library_levels();
+        }
         let placed = &self.document.scene().textiles;
         for cloth in placed {
             self.library.view.want(&cloth.id);
@@ -46,13 +50,7 @@ impl Bench {
         for flaw in self.library.view.work(&self.ctx, &self.executor) {
             self.notices.give(flaw);
         }
-        let mut view = query::scene_view(
-            &self.document,
-            &self.library.view,
-            &self.library.dots,
-            &self.selection.mute_solo,
-            self.live.reference_db,
-        );
+        let mut view = self.plain_scene_view();
         view.picked = Arc::clone(&self.library.selection.0);
         view.marks = Marks {
             cloth: self.selection.cloth,

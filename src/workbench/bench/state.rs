@@ -12,6 +12,7 @@ use crate::bench::document::Document;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::library_acts::LibraryActs;
+use crate::bench::library_levels::LibraryLevels;
 use crate::bench::library_selection::LibrarySelection;
 use crate::bench::library_view::LibraryView;
 use crate::bench::look_back::LookBack;
@@ -26,7 +27,7 @@ use crate::bench::session::SessionInSight;
 use crate::bench::signals::history::History;
 use crate::bench::sources::Sources;
 use crate::bench::trail::Trail;
-use crate::bench::view::{BridgeView, LibraryDot};
+use crate::bench::view::BridgeView;
 use selvedge_device::FaultWords;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
@@ -75,8 +76,8 @@ impl InspectionCache {
 pub(crate) struct LibraryState {
     /// Their textiles, and their pictures as far as they were wanted.
     pub(crate) view: LibraryView,
-    /// Those with a level.
-    pub(crate) dots: Vec<LibraryDot>,
+    /// How strong those of the scene's library are.
+    pub(crate) levels: LibraryLevels,
     /// Those that are selected.
     pub(crate) selection: LibrarySelection,
     /// What was done with libraries.

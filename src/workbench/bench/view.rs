@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crate::bench::on_finger::OnFinger;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
 pub(crate) use crate::kit::swatch::ClothPicture;
@@ -42,6 +43,8 @@ pub(crate) struct SceneView {
     pub grid: Option<(usize, usize)>,
     /// The textiles of the library with a level, for the compression curve.
     pub library: Vec<LibraryDot>,
+    /// Whether most of those levels are still under the filters before.
+    pub(crate) library_is_stale: bool,
     /// What every view marks.
     pub marks: Marks,
     /// The ids of the library's textiles that are selected.
@@ -187,6 +190,8 @@ pub(crate) struct EngineView {
     pub dots: Vec<Dot>,
     /// What they feel like, by a model.
     pub(crate) perceptual_level: PerceptualLevel,
+    /// What the finger gets of the display as a whole.
+    pub(crate) on_finger: OnFinger,
     /// Whether everything was switched off and nothing was armed since.
     pub is_stopped: bool,
     /// Whether the device plays silence, stopped or held; the screen keeps what it showed.
@@ -229,8 +234,15 @@ pub(crate) struct Dot {
     pub amplitude_um: [f64; 2],
     /// Which output limits bite.
     pub limiter: LimiterState,
-    /// Whether it is silent because it was muted or another one is felt alone.
-    pub(crate) is_muted: bool,
+    /// What the finger gets of both bands.
+    pub(crate) on_finger: [OnFinger; 2],
+}
+
+impl Dot {
+    /// Whether it is left out, both bands of it.
+    pub(crate) fn is_muted(&self) -> bool {
+        self.on_finger == [OnFinger::Muted; 2]
+    }
 }
 
 /// What moves the display.

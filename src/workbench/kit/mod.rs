@@ -9,5 +9,6 @@ pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod swatch;
 pub(crate) mod theme;
+pub(crate) mod tile;
 pub(crate) mod view_transform;
 pub(crate) mod widgets;

@@ -39,17 +39,17 @@ pub(crate) fn limit_words(limiter: LimiterState) -> Option<String> {
             "the array's limit"
         }
     };
-    let held = match limiter.limited {
+    let capped = match limiter.limited {
         [true, true] if limiter.by_device[0] == limiter.by_device[1] => {
-            Some(format!("both bands are held at {}", whose(0)))
+            Some(format!("both bands are capped at {}", whose(0)))
         }
         [true, true] => Some(format!(
-            "40 Hz is held at {}, 320 Hz at {}",
+            "40 Hz is capped at {}, 320 Hz at {}",
             whose(0),
             whose(1)
         )),
-        [true, false] => Some(format!("40 Hz is held at {}", whose(0))),
-        [false, true] => Some(format!("320 Hz is held at {}", whose(1))),
+        [true, false] => Some(format!("40 Hz is capped at {}", whose(0))),
+        [false, true] => Some(format!("320 Hz is capped at {}", whose(1))),
         [false, false] => None,
     };
     let shared = limiter
@@ -57,7 +57,7 @@ pub(crate) fn limit_words(limiter: LimiterState) -> Option<String> {
         .then_some("both bands are scaled down to share full drive");
     let off = limiter.off.then_some("switched off in the array profile");
     let none = limiter.non_finite.then_some("not a number, so silent");
-    let words = [held.as_deref(), shared, off, none].into_iter();
+    let words = [capped.as_deref(), shared, off, none].into_iter();
     let words: Vec<&str> = words.flatten().collect();
     (!words.is_empty()).then(|| format!("Played weaker than shown: {}", words.join("; ")))
 }
@@ -81,7 +81,7 @@ mod tests {
         let words = limit_words(held).unwrap();
         assert_eq!(
             words,
-            "Played weaker than shown: 320 Hz is held at the array's limit"
+            "Played weaker than shown: 320 Hz is capped at the array's limit"
         );
         let by_device = LimiterState {
             limited: [true, true],
@@ -90,7 +90,7 @@ mod tests {
         };
         assert_eq!(
             limit_words(by_device).unwrap(),
-            "Played weaker than shown: 40 Hz is held at the device's own limit, 320 Hz at the \
+            "Played weaker than shown: 40 Hz is capped at the device's own limit, 320 Hz at the \
              array's limit"
         );
         assert_eq!([0, 1].map(|band| limits_band(held, band)), [false, true]);

@@ -2,6 +2,7 @@
 
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet, bar, cells, rgb};
+use crate::bench::on_finger::OnFinger;
 use crate::bench::view::{Dot, EngineView, SceneView};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::contactors::{HeatmapStyle, digits as cell_digits};
@@ -29,14 +30,18 @@ pub(crate) fn heatmaps(
         height_px: (CELL_PX * n_rows as f64).clamp(least, most),
         bar: Some(bar(style.map, Axis::log("peak amplitude, µm").within(ends))),
     };
-    let note = "Peak amplitudes after gains and before output limits; a dash: off every textile. \
-                Row 0 is at the fingertip, column 0 on its left.";
+    let on_finger = live.on_finger.sentence();
+    let on_finger = on_finger.map_or_else(String::new, |sentence| format!(" {sentence}."));
+    let note = format!(
+        "Peak amplitudes after gains and before output limits; a dash: off every textile. Row 0 is \
+         at the fingertip, column 0 on its left.{on_finger}"
+    );
     let origin = origin
         .by_method(live.status.method, live.status.bound_db)
         .in_ticks(std::iter::once(live.tick));
     let title = "Amplitudes of every contactor".to_owned();
     let sheet = sheet(scene, &live.dots, n_columns);
-    Exported::new(title, sheet, vec![row], note, origin)
+    Exported::new(title, sheet, vec![row], &note, origin)
 }
 
 fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
@@ -51,6 +56,10 @@ fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
     let yes = |of: &dyn Fn(&Dot) -> bool| -> Vec<u64> {
         dots.iter().map(|dot| u64::from(of(dot))).collect()
     };
+    let words = |of: &dyn Fn(&Dot) -> OnFinger| -> Vec<String> {
+        let label = |dot: &Dot| of(dot).label().unwrap_or("played").to_owned();
+        dots.iter().map(label).collect()
+    };
     Sheet::default()
         .with("contactor", whole(&|index| index))
         .with("row", whole(&|index| index / n_columns.max(1)))
@@ -61,19 +70,21 @@ fn sheet(scene: &SceneView, dots: &[Dot], n_columns: usize) -> Sheet {
         .with("a40_um", number(&|dot| dot.amplitude_um[0]))
         .with("a320_um", number(&|dot| dot.amplitude_um[1]))
         .with("is_limited", yes(&|dot| dot.limiter.any()))
-        .with("is_muted", yes(&|dot| dot.is_muted))
+        .with("on_finger_40", words(&|dot| dot.on_finger[0]))
+        .with("on_finger_320", words(&|dot| dot.on_finger[1]))
 }
 
 fn panel(dots: &[Dot], band: Band, style: HeatmapStyle, grid: (usize, usize)) -> Chart {
     let (_, n_columns) = grid;
     let share = |dot: &Dot| style.scale.share(dot.amplitude_um[band.index()]);
-    let is_shown = |dot: &Dot| dot.cloth.is_some() && !dot.is_muted;
+    let is_muted = |dot: &Dot| dot.on_finger[band.index()] == OnFinger::Muted;
+    let is_shown = |dot: &Dot| dot.cloth.is_some() && !is_muted(dot);
     let cell = |index: usize| {
         let dot = dots.get(index).filter(|dot| is_shown(dot))?;
         Some(rgb(style.map, share(dot)))
     };
     let words = |(index, dot): (usize, &Dot)| {
-        let (text, tone) = match (dot.is_muted, dot.cloth) {
+        let (text, tone) = match (is_muted(dot), dot.cloth) {
             (true, _) => ("muted".to_owned(), Tone::Dark),
             (false, None) => ("–".to_owned(), Tone::Dark),
             (false, Some(_)) if style.has_numbers => (

@@ -3,13 +3,15 @@
 pub(crate) mod export;
 
 use eframe::egui::{
-    self, Align2, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::NOTHING_FELT;
+use crate::bench::on_finger::{OnFinger, sentences};
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::tool::{PaneContext, Tool};
@@ -108,17 +110,18 @@ fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         } else {
             String::new()
         };
-        let words = format!("Heatmaps of both bands, {least} to {most} µm{below}");
+        let on_finger = live
+            .on_finger
+            .label()
+            .map_or_else(String::new, |label| format!(", {label}"));
+        let words = format!("Heatmaps of both bands, {least} to {most} µm{on_finger}{below}");
         WidgetInfo::labeled(egui::Role::Canvas, true, words)
     });
     let places = Places::new(rect, grid);
     let painter = ui.painter_at(rect.expand(2.0));
     for band in Band::ALL {
         let corner = places.corners[band.index()];
-        let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-        let title_at = corner - vec2(0.0, 0.5 * TITLE + 1.0);
-        let ink = palette.band(band);
-        painter.text(title_at, Align2::LEFT_CENTER, title, theme::body(), ink);
+        paint_title(&painter, corner, (band, band_on_finger(live, band)));
         for (index, dot) in live.dots.iter().enumerate() {
             let rect = places.cell(band.index(), index);
             let is_below = live.perceptual_level.is_below(dot.amplitude_um)[band.index()];
@@ -143,6 +146,30 @@ fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     answer(&response, &places, (scene, live), context.commands);
 }
 
+/// What the finger gets of a band: where all contactors fare alike in it, what they do.
+fn band_on_finger(live: &EngineView, band: Band) -> OnFinger {
+    let mut dots = live.dots.iter().map(|dot| dot.on_finger[band.index()]);
+    let is_muted = live.dots.first().is_some() && dots.all(|one| one == OnFinger::Muted);
+    if is_muted {
+        OnFinger::Muted
+    } else {
+        live.on_finger
+    }
+}
+
+/// Writes a band's name above its heatmap, and why the finger gets nothing of it, if so.
+fn paint_title(painter: &Painter, corner: Pos2, (band, on_finger): (Band, OnFinger)) {
+    let palette = Palette::of(painter.ctx().theme());
+    let title = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
+    let at = corner - vec2(0.0, 0.5 * TITLE + 1.0);
+    let ink = palette.band(band);
+    let name = painter.text(at, Align2::LEFT_CENTER, title, theme::body(), ink);
+    if let Some(label) = on_finger.label() {
+        let at = pos2(name.right() + 6.0, at.y + 1.0);
+        painter.text(at, Align2::LEFT_CENTER, label, theme::small(), palette.dim);
+    }
+}
+
 /// What stands over the heatmaps: numbers, the scale's lock and its top.
 fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let bench = &mut *context.bench;
@@ -153,21 +180,21 @@ fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
     style.greys_below ^= toggle(ui, "SL", before.greys_below, tip);
     let (word, tip) = if scale.is_locked() {
         (
-            "held",
-            "The scale of amplitudes is held everywhere; click to let it follow them",
+            "fixed",
+            "The scale of amplitudes is fixed everywhere; click to let it follow them",
         )
     } else {
         (
             "auto",
-            "The scale of amplitudes follows them everywhere; click to hold it",
+            "The scale of amplitudes follows them everywhere; click to fix it",
         )
     };
     if toggle(ui, word, scale.is_locked(), tip) {
         style.scale = scale.with_lock(!scale.is_locked());
     }
     let tops = [
-        ("−", 0.4, "A scale that ends lower, held"),
-        ("+", 2.0, "A scale that ends higher, held"),
+        ("−", 0.4, "A scale that ends lower, fixed"),
+        ("+", 2.0, "A scale that ends higher, fixed"),
     ];
     for (sign, factor, tip) in tops.into_iter().rev() {
         if toggle(ui, sign, false, tip) {
@@ -211,11 +238,13 @@ fn paint_cell(
     style: HeatmapStyle,
 ) {
     let palette = Palette::of(painter.ctx().theme());
-    if dot.cloth.is_none() || dot.is_muted {
+    let on_finger = dot.on_finger[band.index()];
+    let is_muted = on_finger == OnFinger::Muted;
+    if dot.cloth.is_none() || is_muted {
         // Off every textile: an empty frame, which no amplitude looks like. Muted: crossed out.
         let edge = Stroke::new(1.0, palette.hovered);
         painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
-        if dot.is_muted {
+        if is_muted {
             let stroke = Stroke::new(1.0, palette.line);
             painter.line_segment([rect.left_bottom(), rect.right_top()], stroke);
         }
@@ -223,13 +252,14 @@ fn paint_cell(
     }
     let amplitude_um = dot.amplitude_um[band.index()];
     let share = style.scale.share(amplitude_um);
+    let colour = style.map.colour(share).gamma_multiply(on_finger.presence());
     if is_grey {
         // Hollow: the colour of its level is left at the edge.
         painter.rect_filled(rect, 2, palette.raised);
-        let edge = Stroke::new(1.5, style.map.colour(share));
+        let edge = Stroke::new(1.5, colour);
         painter.rect_stroke(rect, 2, edge, StrokeKind::Inside);
     } else {
-        painter.rect_filled(rect, 2, style.map.colour(share));
+        painter.rect_filled(rect, 2, colour);
     }
     if limits_band(dot.limiter, band.index()) && rect.width() >= 2.0 * LIMIT_MARK {
         paint_limit_mark(painter, rect.right_top() + vec2(-6.0, 6.0));
@@ -294,7 +324,7 @@ fn answer(
 fn show_menu(ui: &mut Ui, index: usize, live: &EngineView, commands: &mut Commands) {
     ui.label(format!("Contactor {index}"));
     let part = Part::Contactor(index);
-    let is_muted = live.dots.get(index).is_some_and(|dot| dot.is_muted);
+    let is_muted = live.dots.get(index).is_some_and(Dot::is_muted);
     let mute = if is_muted { "Mute or unmute" } else { "Mute" };
     let choices = [
         (mute, ShowCommand::Mute(part)),
@@ -320,9 +350,12 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, perceptual_level: &Perceptu
     };
     let bands = perceptual_level.band_lines(dot.amplitude_um);
     let limited = limit_words(dot.limiter).map_or_else(String::new, |words| format!("\n{words}"));
-    let muted = if dot.is_muted { "\nmuted" } else { "" };
+    let on_finger: String = sentences(dot.on_finger)
+        .iter()
+        .map(|one| format!("\n{one}"))
+        .collect();
     format!(
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
-         limits{limited}{muted}\nclick to look closer"
+         limits{limited}{on_finger}\nclick to look closer"
     )
 }

@@ -4,6 +4,7 @@ use eframe::egui::{Sense, Ui};
 
 use crate::bench::Bench;
 use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT};
+use crate::bench::on_finger::{OnFinger, paint_label, sentences};
 use crate::bench::pane::Pane;
 use crate::bench::signals::drive::{drive_um, wave_um};
 use crate::bench::tool::{PaneContext, Tool};
@@ -26,11 +27,10 @@ const N_EXPORTED: u32 = 1000;
 /// The axis at the least, µm.
 const LEAST_TOP_UM: f64 = 0.1;
 /// How long a smaller axis must have sufficed before it is taken, s.
-const PATIENCE_S: f64 = 2.0;
+const PATIENCE_S: f64 = 1.0;
 
 /// What drove a contactor in the last two ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[expect(clippy::struct_field_names, reason = "units are part of names")]
 pub(crate) struct TwoTicks {
     /// [A40, A320] of the tick before, µm.
     pub before_um: [f64; 2],
@@ -38,20 +38,31 @@ pub(crate) struct TwoTicks {
     pub(crate) now_um: [f64; 2],
     /// The output limits of both bands, µm.
     pub limit_um: [f64; 2],
+    /// What the finger gets of both bands.
+    on_finger: [OnFinger; 2],
 }
 
 impl TwoTicks {
-    /// Those of the chosen contactor.
+    /// Those of the chosen contactor: now as every other view shows it, before as it was played. A
+    /// display that is held shows the tick at which it stands.
     pub(crate) fn of_chosen(bench: &Bench) -> Self {
-        let (history, tick) = (&bench.past.history, bench.live.tick);
+        let live = &bench.live;
+        let dot = live.dots.get(contactor(bench));
+        let now_um = dot.map_or([0.0; 2], |dot| dot.amplitude_um);
         let watched = u32::try_from(contactor(bench)).unwrap_or(u32::MAX);
-        let bridge = bench.live.bridge.as_ref();
+        let before_um = if live.on_finger == OnFinger::Held {
+            now_um
+        } else {
+            drive_um(&bench.past.history, watched, live.tick.saturating_sub(1))
+        };
+        let bridge = live.bridge.as_ref();
         let mut coder = Coder::of_contactor(bench.engine.profile(), contactor(bench));
         coder.set_link(bridge.and_then(|bridge| bridge.scale));
         Self {
-            before_um: drive_um(history, watched, tick.saturating_sub(1)),
-            now_um: drive_um(history, watched, tick),
+            before_um,
+            now_um,
             limit_um: coder.limits(0).map(|limit| limit.um),
+            on_finger: dot.map_or([live.on_finger; 2], |dot| dot.on_finger),
         }
         .finite()
     }
@@ -63,6 +74,7 @@ impl TwoTicks {
             before_um: finite(self.before_um),
             now_um: finite(self.now_um),
             limit_um: finite(self.limit_um),
+            ..self
         }
     }
 
@@ -83,8 +95,8 @@ impl TwoTicks {
     }
 }
 
-/// The upper end of the axis: 1, 2 or 5 · 10ⁿ µm. It rises at once, and falls only when a smaller
-/// one has sufficed for two seconds.
+/// The upper end of the axis: 1, 2 or 5 · 10ⁿ µm. It rises at once, and falls when a smaller one
+/// has sufficed for a second, in which silence counts as time alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WaveScale {
     most_um: f64,
@@ -110,31 +122,24 @@ impl WaveScale {
     /// The scale after a reach at a time.
     pub(crate) fn following(self, reach_um: f64, time_s: f64) -> Self {
         let round = |um: f64| round_step(um.clamp(LEAST_TOP_UM, 1e9));
-        if !(reach_um > 0.0 && reach_um.is_finite()) {
-            // Silence says nothing of what comes after it.
+        let is_sound = reach_um > 0.0 && reach_um.is_finite();
+        if is_sound && round(reach_um) >= self.most_um {
             return Self {
-                smaller: None,
-                ..self
-            };
-        }
-        let needed = round(reach_um);
-        if needed >= self.most_um {
-            return Self {
-                most_um: needed,
+                most_um: round(reach_um),
                 smaller: None,
             };
         }
-        let (largest, since_s) = self.smaller.unwrap_or((reach_um, time_s));
-        let largest = largest.max(reach_um);
-        if time_s - since_s >= PATIENCE_S {
-            return Self {
+        let smaller = match self.smaller {
+            Some((largest, since_s)) if is_sound => Some((largest.max(reach_um), since_s)),
+            None if is_sound => Some((reach_um, time_s)),
+            before => before,
+        };
+        match smaller {
+            Some((largest, since_s)) if time_s - since_s >= PATIENCE_S => Self {
                 most_um: round(largest),
                 smaller: None,
-            };
-        }
-        Self {
-            smaller: Some((largest, since_s)),
-            ..self
+            },
+            _ => Self { smaller, ..self },
         }
     }
 }
@@ -154,11 +159,13 @@ fn chart(view: &TwoTicks, most_um: f64, n_steps: u32) -> Chart {
         .with("wave_40_um", column(&|sample| sample[1]))
         .with("wave_320_um", column(&|sample| sample[2]))
         .with("sum_um", column(&|sample| sample[1] + sample[2]));
-    let line = |name: &str, column: &str, ink, weight| Series {
+    let [low, high] = view.on_finger.map(OnFinger::presence);
+    let line = |name: &str, column: &str, (ink, presence), weight| Series {
         name: name.to_owned(),
         points: columns.points("t_s", column),
         style: Style::Line,
         ink,
+        faintness: 1.0 - presence,
         weight,
         ..Series::default()
     };
@@ -166,9 +173,9 @@ fn chart(view: &TwoTicks, most_um: f64, n_steps: u32) -> Chart {
         x: Axis::linear("time, s").within([0.0, 2e-3 * TICK_MS]),
         y: Axis::linear("displacement, µm").within([-most_um, most_um]),
         series: vec![
-            line("40 Hz", "wave_40_um", Ink::Amber, Weight::Normal),
-            line("320 Hz", "wave_320_um", Ink::Cyan, Weight::Normal),
-            line("sum", "sum_um", Ink::Black, Weight::Thin),
+            line("40 Hz", "wave_40_um", (Ink::Amber, low), Weight::Normal),
+            line("320 Hz", "wave_320_um", (Ink::Cyan, high), Weight::Normal),
+            line("sum", "sum_um", (Ink::Black, low.max(high)), Weight::Thin),
         ],
         rules: limits(view.limit_um, most_um),
         columns,
@@ -211,7 +218,9 @@ impl DriveWave {
             ..Setting::default()
         };
         let chart = chart(&shown, self.scale.most_um(), N_SHOWN);
-        plot::show(ui, rect, &chart, &setting);
+        if let Some(plot) = plot::show(ui, rect, &chart, &setting) {
+            paint_label(ui.painter(), plot.area(), shown.on_finger);
+        }
     }
 }
 
@@ -230,19 +239,21 @@ impl Tool for DriveWave {
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
         let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
+        let shown = TwoTicks::of_chosen(bench);
         let tick_samples = bench.past.history.tick_samples();
         let mut felt_um = tick_samples.flat_map(|one| one.watched_um);
-        if !felt_um.any(|um| um > 0.0) {
+        if !felt_um.any(|um| um > 0.0) && shown.reach_um() <= 0.0 {
             return Err(NOTHING_FELT);
         }
-        let shown = TwoTicks::of_chosen(bench);
         let tick = bench.live.tick;
         let most_um = self.scale.most_um().max(shown.reach_um());
         let [low, high] = shown.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
+        let on_finger = sentences(shown.on_finger).into_iter();
+        let on_finger: String = on_finger.map(|sentence| format!(" {sentence}.")).collect();
         let note = format!(
             "The last two ticks of the drive, after gains and before output limits ({low} at 40 \
              Hz, {high} at 320 Hz, dashed where they lie on the axis); amplitudes change at ticks, \
-             where both waves cross zero."
+             where both waves cross zero.{on_finger}"
         );
         let pair = |[low, high]: [f64; 2]| format!("{low} and {high}");
         let origin = bench.rendered_origin();
@@ -262,6 +273,23 @@ impl Tool for DriveWave {
 mod tests {
     use super::*;
     use selvedge_textile::tactile::Band;
+
+    #[test]
+    fn a_display_that_is_held_shows_what_the_heatmaps_show_and_says_so() {
+        let ctx = eframe::egui::Context::default();
+        let mut bench = Bench::new(&ctx, None, crate::bench::Drive::Stepped).unwrap();
+        let dot = crate::bench::view::Dot {
+            amplitude_um: [49.0, 3.0],
+            on_finger: [OnFinger::Held; 2],
+            ..crate::bench::view::Dot::default()
+        };
+        bench.live.dots = vec![dot; 24];
+        bench.live.on_finger = OnFinger::Held;
+        let shown = TwoTicks::of_chosen(&bench);
+        assert_eq!((shown.before_um, shown.now_um), ([49.0, 3.0], [49.0, 3.0]));
+        let chart = chart(&shown, 100.0, 10);
+        assert!(chart.series.iter().all(|one| one.faintness > 0.3), "dimmed");
+    }
 
     #[test]
     fn each_tick_has_its_own_amplitudes_and_the_waves_meet_at_zero() {
@@ -304,17 +332,28 @@ mod tests {
     }
 
     #[test]
-    fn the_axis_rises_at_once_and_falls_after_two_calm_seconds() {
+    fn the_axis_rises_at_once_and_falls_after_a_calm_second() {
         let mut scale = WaveScale::default().following(7.0, 0.0);
         assert_eq!(scale.most_um(), 10.0);
-        scale = scale.following(3.0, 0.1).following(0.4, 1.9);
+        scale = scale.following(3.0, 0.1).following(0.4, 0.9);
         assert_eq!(scale.most_um(), 10.0, "a dip moves nothing");
-        scale = scale.following(6.0, 2.0);
+        scale = scale.following(6.0, 1.0);
         assert_eq!(scale.smaller, None, "it is needed again");
-        scale = scale.following(1.5, 3.0).following(0.1, 5.1);
+        scale = scale.following(1.5, 3.0).following(0.1, 4.1);
         assert_eq!(scale.most_um(), 2.0);
         for nothing in [0.0, f64::NAN, f64::INFINITY] {
             assert_eq!(scale.following(nothing, 9.0).most_um(), 2.0, "{nothing}");
         }
+    }
+
+    #[test]
+    fn silent_ticks_do_not_keep_the_axis_from_falling() {
+        let mut scale = WaveScale::default().following(400.0, 0.0);
+        for tick in 1..60_u8 {
+            // Every other tick lies in a gap between two textiles.
+            let reach_um = if tick % 2 == 0 { 60.0 } else { 0.0 };
+            scale = scale.following(reach_um, f64::from(tick) / 40.0);
+        }
+        assert_eq!(scale.most_um(), 100.0);
     }
 }

@@ -24,6 +24,8 @@ use selvedge_textile::tactile::{self, Band, Filters, Perception};
 
 /// What every slider can do.
 const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
+/// How opaque figures of the library are that are of the filters before.
+const STALE: f32 = 0.45;
 /// Bounds of the filters' width, octaves.
 const OCTAVES: [f64; 2] = [0.5, 6.0];
 
@@ -45,8 +47,10 @@ impl Tool for Tuning {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        bench.follow_library_levels();
         let scene = bench.plain_scene_view();
-        let reference_db = scene.reference_db.filter(|_| !scene.library.is_empty());
+        let is_there = !(scene.library.is_empty() || scene.library_is_stale);
+        let reference_db = scene.reference_db.filter(|_| is_there);
         let reference_db = reference_db.ok_or(
             "There is nothing to export yet: levels are being computed, or the library has no \
              textile with a level",
@@ -62,7 +66,8 @@ impl Tuning {
         let palette = Palette::in_ui(ui);
         let (now, rest) = (scene.tuning, scene.default_tuning);
         let under = live.cloth_under_display();
-        let felt = under.and_then(|cloth| of_textile(scene, cloth, live.dots.len()));
+        let display = (live.dots.len(), mute_solo);
+        let felt = under.and_then(|cloth| of_textile(scene, cloth, display));
         self.last_felt = felt.or(self.last_felt);
         let marked = self.last_felt;
         let noticed = marked.and_then(|felt| noticed_db(&felt, None));
@@ -81,8 +86,13 @@ impl Tuning {
         let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
         tell(&response, tip);
         commands.extend(new.map(|share| Edit::Compression(share).into()));
-        curve::show(ui, scene, commands);
-        show_ranges(ui, scene);
+        ui.scope(|ui| {
+            if scene.library_is_stale {
+                ui.multiply_opacity(STALE);
+            }
+            curve::show(ui, scene, commands);
+            show_ranges(ui, scene);
+        });
         ui.add_space(theme::STEP);
         show_filters(ui, scene.filters, commands);
     }
@@ -171,7 +181,12 @@ fn show_felt(ui: &mut Ui, felt: Option<&Perception>) {
         ui.label(small("int."));
         ui.label(small("dB SL"));
         for band in [Band::High, Band::Low] {
-            let above_db = quantity::fixed(felt.perceptual_level_db[band.index()], 1);
+            let above_db = felt.perceptual_level_db[band.index()];
+            let above_db = if above_db.is_finite() {
+                quantity::fixed(above_db, 1)
+            } else {
+                "–".to_owned()
+            };
             let words = number(format!("{above_db:>5}"));
             ui.label(words.color(palette.band(band)));
         }
@@ -245,10 +260,16 @@ fn show_ranges(ui: &mut Ui, scene: &SceneView) {
             ui.label(words.font(theme::number()).color(palette.band(band)));
         }
     });
-    response.on_hover_text(
-        "From the weakest to the strongest textile of the library at 40 Hz and at 320 Hz, mean \
-         over all points and directions at 100 mm/s: without compression → with it",
-    );
+    let pending = if scene.library_is_stale {
+        "\nBeing measured under the filters that were just chosen"
+    } else {
+        ""
+    };
+    response.on_hover_text(format!(
+        "From the weakest to the strongest of the library’s {} textiles at 40 Hz and at 320 Hz, \
+         mean over all points and directions at 100 mm/s: without compression → with it{pending}",
+        scene.library.len()
+    ));
 }
 
 /// Kind and width of the filters.

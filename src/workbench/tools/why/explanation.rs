@@ -6,7 +6,7 @@
 //! [`ContactInspector`]: selvedge_render::array::ContactInspector
 
 use crate::bench::Bench;
-use crate::bench::command::Part;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::Source;
 use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState, LinkScale};
@@ -28,8 +28,8 @@ pub(crate) struct Explanation {
     pub trace: ContactTrace,
     /// What the textile is called in the scene: label and name.
     pub textile: Option<String>,
-    /// Whether the contactor is left out for the moment.
-    pub(crate) is_muted: bool,
+    /// What the finger gets of both bands.
+    pub(crate) on_finger: [OnFinger; 2],
     /// What the whole display feels like, by a model.
     pub(crate) perceptual_level: PerceptualLevel,
     /// What becomes of the amplitudes at the output.
@@ -41,8 +41,6 @@ pub(crate) struct Explanation {
 pub(crate) struct Output {
     /// Whether a device is armed; otherwise these are the codes it would get at full gain.
     pub(crate) is_sent: bool,
-    /// Whether the display is silent, stopped or held, whatever its amplitudes.
-    pub is_silent: bool,
     /// The soft-start gain.
     pub gain: f64,
     /// Limits of both bands that come first, and whose they are.
@@ -64,20 +62,20 @@ impl Output {
         (profile, contactor): (&ArrayProfile, usize),
         amplitudes_um: [f64; 2],
         (gain, scale): (Option<f64>, Option<LinkScale>),
-        is_silent: bool,
+        on_finger: [OnFinger; 2],
     ) -> Self {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "the renderer hands amplitudes on in single precision"
         )]
         let single = amplitudes_um.map(|um| um as f32);
-        let felt = if is_silent { [0.0; 2] } else { single };
+        let played = |band: usize| !on_finger[band].is_silence();
+        let felt = [0, 1].map(|band| if played(band) { single[band] } else { 0.0 });
         let mut coder = Coder::of_contactor(profile, contactor);
         coder.set_link(scale);
         let codes = coder.encode(&[felt], gain.unwrap_or(1.0));
         Self {
             is_sent: gain.is_some(),
-            is_silent,
             gain: gain.unwrap_or(1.0),
             limits: coder.limits(0),
             calibration: profile.calibration_of(contactor),
@@ -109,18 +107,17 @@ impl Explanation {
             let n_columns = n_columns.max(1);
             (contactor / n_columns, contactor % n_columns)
         });
-        let mute_solo = &bench.selection.mute_solo;
-        let is_muted = !mute_solo.is_felt(Part::Contactor(contactor));
+        let dot = live.dots.get(contactor);
+        let on_finger = dot.map_or([live.on_finger; 2], |dot| dot.on_finger);
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);
         let scale = bridge.and_then(|bridge| bridge.scale);
-        let is_silent = live.is_silent || is_muted;
         let amplitudes_um = trace.amplitudes_um;
         let output = Output::of(
             (bench.engine.profile(), contactor),
             amplitudes_um,
             (gain, scale),
-            is_silent,
+            on_finger,
         );
         Some(Self {
             contactor,
@@ -131,7 +128,7 @@ impl Explanation {
             },
             trace,
             textile,
-            is_muted,
+            on_finger,
             perceptual_level: live.perceptual_level,
             output,
         })

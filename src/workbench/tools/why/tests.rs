@@ -1,5 +1,6 @@
 //! A case worked by hand, and what is said of the rest.
 
+use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::tools::why::explanation::{Explanation, Output};
 use crate::tools::why::text::{sheet, to_text};
@@ -59,7 +60,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Explanation {
         (&ArrayProfile::default(), 0),
         trace.amplitudes_um,
         (None, None),
-        false,
+        [OnFinger::ShownOnly; 2],
     );
     Explanation {
         contactor: 0,
@@ -67,7 +68,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Explanation {
         tick: 7,
         trace,
         textile: Some("1 Sine".to_owned()),
-        is_muted: false,
+        on_finger: [OnFinger::ShownOnly; 2],
         perceptual_level: PerceptualLevel::default(),
         output,
     }
@@ -141,10 +142,11 @@ fn outside_at_rest_and_silent_are_said() {
         (&ArrayProfile::default(), 0),
         amplitudes,
         (Some(1.0), None),
-        true,
+        [OnFinger::Held, OnFinger::Felt],
     );
-    assert_eq!(held.output.codes, [0, 0]);
-    assert!(to_text(&held).contains("silent now"));
+    held.on_finger = [OnFinger::Held, OnFinger::Felt];
+    assert!(held.output.codes[0] == 0 && held.output.codes[1] > 0);
+    assert!(to_text(&held).contains("held / sent"));
 }
 
 fn csv_of(explained: &Explanation) -> String {
@@ -178,12 +180,12 @@ fn limits_that_hold_are_named() {
         (&ArrayProfile::default(), 0),
         [80.0, 1.0],
         (Some(1.0), None),
-        false,
+        [OnFinger::Felt; 2],
     );
     assert!(loud.limiter.limited[0] && loud.is_sent, "{loud:?}");
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     explained.output = loud;
-    assert!(to_text(&explained).contains("40 Hz is held"));
+    assert!(to_text(&explained).contains("40 Hz is capped"));
 }
 
 #[test]
@@ -203,7 +205,7 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
         (&profile, 0),
         [30.0, 30.0],
         (Some(1.0), Some(of_50_v(half))),
-        false,
+        [OnFinger::Felt; 2],
     );
     assert_eq!(
         described.limits.map(|limit| limit.is_of_device),
@@ -214,7 +216,7 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
     explained.output = described;
     let text = to_text(&explained);
     assert!(
-        text.contains("25.0 (device) / 20.0 µm, both are held"),
+        text.contains("25.0 (device) / 20.0 µm, both are capped"),
         "{text}"
     );
     // What the device was asked for because of the profile is the profile's.
@@ -223,7 +225,7 @@ fn the_limit_that_comes_first_is_shown_and_whose_it_is() {
         (&profile, 0),
         [60.0, 60.0],
         (Some(1.0), Some(of_50_v(asked))),
-        false,
+        [OnFinger::Felt; 2],
     );
     assert_eq!(described.limiter.by_device, [false, false]);
     assert_eq!(described.limits.map(|limit| limit.um), profile.limit_um);

@@ -1,6 +1,7 @@
 //! The explanation as text to be copied, and as a table to be saved.
 
 use crate::bench::export::Sheet;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::felt_words;
 use crate::tools::why::explanation::{Explanation, FULL_CODE};
 use selvedge_device::Calibration;
@@ -105,9 +106,9 @@ fn limits(why: &Explanation) -> String {
         _ if limiter.off => "switched off in the array profile",
         ([false, false], false) => "not met",
         ([false, false], true) => "both scaled down to share full drive",
-        ([true, false], _) => "40 Hz is held",
-        ([false, true], _) => "320 Hz is held",
-        ([true, true], _) => "both are held",
+        ([true, false], _) => "40 Hz is capped",
+        ([false, true], _) => "320 Hz is capped",
+        ([true, true], _) => "both are capped",
     };
     format!("{numbers}, {words}")
 }
@@ -126,11 +127,10 @@ fn calibration(why: &Explanation) -> Option<(String, String)> {
 
 fn codes(why: &Explanation) -> String {
     let [low, high] = why.output.codes;
-    let state = match (why.output.is_silent, why.output.is_sent) {
-        _ if why.is_muted => "muted".to_owned(),
-        (true, _) => "silent now".to_owned(),
-        (false, true) => format!("sent at {}", with_unit(why.output.gain * 100.0, 0, "%")),
-        (false, false) => "no device is armed".to_owned(),
+    let state = match why.on_finger.map(OnFinger::label) {
+        [None, None] => format!("sent at {}", with_unit(why.output.gain * 100.0, 0, "%")),
+        [low, high] if low == high => low.unwrap_or_default().to_owned(),
+        of_bands => of_bands.map(|label| label.unwrap_or("sent")).join(" / "),
     };
     format!("{low} / {high} of {FULL_CODE}, {state}")
 }

@@ -2,11 +2,12 @@
 //!
 //! Dots show amplitudes on the scale of the heatmaps; outside every textile a contactor is a ring,
 //! and a muted one is hollow and struck through. What is too weak to be felt, by a model, is a grey
-//! ring.
+//! ring. The less of a dot is on the finger the fainter it is.
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use crate::bench::command::DotStyle;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::selection::Selection;
 use crate::bench::trail::TRAIL_S;
@@ -38,7 +39,7 @@ pub(crate) fn paint(
 ) {
     let dots = &live.dots;
     let brush = Brush {
-        painter,
+        painter: painter.clone(),
         palette: Palette::of(painter.ctx().theme()),
         points_per_mm: view.length(1.0).max(LEAST_SCALE),
         scale: selection.scale,
@@ -49,11 +50,11 @@ pub(crate) fn paint(
     let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
     if brush.style == DotStyle::SizeAndGlow {
         for dot in dots.iter().filter(in_sight) {
-            brush.glow(view.screen(dot.position), dot);
+            brush.faded(dot).glow(view.screen(dot.position), dot);
         }
     }
     for dot in dots.iter().filter(in_sight) {
-        brush.dot(view.screen(dot.position), dot);
+        brush.faded(dot).dot(view.screen(dot.position), dot);
     }
     for dot in dots.iter().filter(in_sight) {
         brush.limit(view.screen(dot.position), dot);
@@ -104,8 +105,8 @@ pub(crate) fn paint_trail(
 }
 
 /// What dots are drawn with.
-struct Brush<'a> {
-    painter: &'a Painter,
+struct Brush {
+    painter: Painter,
     palette: &'static Palette,
     points_per_mm: f32,
     scale: AmplitudeScale,
@@ -114,7 +115,15 @@ struct Brush<'a> {
     perceptual_level: Option<PerceptualLevel>,
 }
 
-impl Brush<'_> {
+impl Brush {
+    /// The same for one dot: fainter the less of it is on the finger.
+    fn faded(&self, dot: &Dot) -> Self {
+        let [low, high] = dot.on_finger.map(OnFinger::presence);
+        let mut painter = self.painter.clone();
+        painter.multiply_opacity(low.max(high));
+        Self { painter, ..*self }
+    }
+
     /// How strongly both amplitudes of a dot are drawn, 0…1.
     fn strengths(&self, dot: &Dot) -> [f32; 2] {
         dot.amplitude_um.map(|um| share(self.scale.share(um)))
@@ -122,7 +131,7 @@ impl Brush<'_> {
 
     fn glow(&self, at: Pos2, dot: &Dot) {
         let [_, strength] = self.strengths(dot);
-        if dot.cloth.is_none() || dot.is_muted || strength <= 0.0 || self.is_below(dot)[1] {
+        if dot.cloth.is_none() || dot.is_muted() || strength <= 0.0 || self.is_below(dot)[1] {
             return;
         }
         let radius = (1.0 + 1.3 * strength) * self.points_per_mm;
@@ -135,7 +144,7 @@ impl Brush<'_> {
             let ring = Stroke::new(1.0, self.palette.contactor);
             let radius = 0.34 * self.points_per_mm;
             self.painter.circle_stroke(at, radius, ring);
-        } else if dot.is_muted {
+        } else if dot.is_muted() {
             self.muted(at);
         } else {
             self.felt(at, self.strengths(dot), self.is_below(dot));
@@ -145,9 +154,9 @@ impl Brush<'_> {
     /// Where the dots have room, the mark of an output limit that bites stands beside them.
     fn limit(&self, at: Pos2, dot: &Dot) {
         let has_room = self.points_per_mm >= LEAST_FOR_LIMIT;
-        if has_room && dot.limiter.any() && dot.cloth.is_some() && !dot.is_muted {
+        if has_room && dot.limiter.any() && dot.cloth.is_some() && !dot.is_muted() {
             let beside = 0.7 * self.points_per_mm;
-            paint_limit_mark(self.painter, at + vec2(beside, -beside));
+            paint_limit_mark(&self.painter, at + vec2(beside, -beside));
         }
     }
 

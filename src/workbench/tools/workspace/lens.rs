@@ -10,6 +10,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Commands, Part, ShowCommand};
+use crate::bench::on_finger::paint_label;
 use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -147,6 +148,7 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Comm
         let painter = ui.painter_at(glass);
         paint_cloths(&painter, &view, stage);
         paint_display(&painter, &view, stage);
+        paint_label(&painter, glass, [stage.sight.live.on_finger; 2]);
         choose(&response, &view, stage, commands);
         paint_scale_bar(&painter, glass, scale);
     } else {

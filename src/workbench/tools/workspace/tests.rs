@@ -46,6 +46,7 @@ impl Window {
             filters: Filters::default(),
             grid: Some((6, 4)),
             library: Vec::new(),
+            library_is_stale: false,
             marks: crate::bench::view::Marks::default(),
             picked: std::sync::Arc::default(),
         };

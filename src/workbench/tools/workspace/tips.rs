@@ -4,6 +4,7 @@
 
 use eframe::egui::{Label, Pos2, Response, Ui};
 
+use crate::bench::on_finger::sentences;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Cloth, Dot, SceneView};
 use crate::kit::widgets::limit_mark::limit_words;
@@ -94,11 +95,9 @@ fn of_dot(
     };
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
     let bands = perceptual_level.band_lines(dot.amplitude_um);
-    let state = match limit_words(dot.limiter) {
-        _ if dot.is_muted => "\nMuted".to_owned(),
-        Some(words) => format!("\n{words}"),
-        None => String::new(),
-    };
+    let limited = limit_words(dot.limiter).filter(|_| !dot.is_muted());
+    let state = limited.into_iter().chain(sentences(dot.on_finger));
+    let state: String = state.map(|words| format!("\n{words}")).collect();
     format!(
         "Contactor {index}{grid}\n{on}, at {x}, {y} mm\n{bands}\nPeak, after gains, before output \
          limits{state}\nClick to look closer at it"
@@ -155,6 +154,7 @@ mod tests {
             filters: selvedge_textile::tactile::Filters::default(),
             grid: None,
             library: Vec::new(),
+            library_is_stale: false,
             marks: crate::bench::view::Marks::default(),
             picked: std::sync::Arc::default(),
         }

@@ -216,7 +216,7 @@ fn the_compression_curve_holds_the_library_at_its_levels() {
         column(&exported, "level_in_db"),
         column(&exported, "level_out_db"),
     );
-    assert_eq!(before.len(), desk.workbench.bench.library.dots.len());
+    assert_eq!(before.len(), desk.workbench.bench.library.levels.dots.len());
     let reference = desk.workbench.bench.live.reference_db.unwrap();
     for (before, after) in before.iter().zip(after) {
         assert!(
