@@ -31,6 +31,10 @@ pub enum Ink {
     Black,
     /// Grey.
     Grey,
+    /// Violet: one of several lines that belong to no band.
+    Violet,
+    /// Rose: another of them.
+    Rose,
 }
 
 /// How heavy a line is.

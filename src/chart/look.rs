@@ -41,6 +41,8 @@ pub(super) struct Inks {
     pub(super) edge: &'static str,
     /// Amber and cyan where letters are written in them: 4.5 : 1.
     letters: [&'static str; 2],
+    /// Violet and rose.
+    others: [&'static str; 2],
     /// Blue, vermilion, bluish green, reddish purple, and that of texts.
     colours: [&'static str; 5],
 }
@@ -52,6 +54,7 @@ const WHITE: Inks = Inks {
     grid: "#e4e4e4",
     edge: "#9a9a9a",
     letters: ["#8f5a00", "#0b6a9e"],
+    others: ["#6a4fc4", "#b8326e"],
     colours: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", INK],
 };
 
@@ -68,6 +71,7 @@ const ON_DARK: Inks = Inks {
     grid: "#252a31",
     edge: "#4a525c",
     letters: [AMBER, CYAN],
+    others: ["#a08cff", "#ff7fb4"],
     colours: ["#4a9fe0", "#e8743b", "#2cb58a", "#d68fb6", "#e7eaee"],
 };
 
@@ -126,6 +130,8 @@ impl Ink {
             Self::Cyan => Some(CYAN),
             Self::Black => Some(inks.ink),
             Self::Grey => Some(inks.grey),
+            Self::Violet => Some(inks.others[0]),
+            Self::Rose => Some(inks.others[1]),
         }
     }
 
@@ -135,6 +141,8 @@ impl Ink {
             Self::Amber => inks.letters[0],
             Self::Cyan => inks.letters[1],
             Self::Grey => inks.grey,
+            Self::Violet => inks.others[0],
+            Self::Rose => inks.others[1],
             Self::Own | Self::Black => inks.ink,
         }
     }

@@ -1,15 +1,18 @@
-//! Headroom: at the tuning that a new scene begins with, no textile of the program's library meets
-//! an output limit, wherever, in whatever direction and however fast a hand moves over it.
+//! Headroom: at the tuning that a new scene begins with, no textile of the program's library comes
+//! near an output limit, wherever, in whatever direction and however fast a hand moves over it.
 
 use std::path::Path;
 
 use super::*;
 use selvedge_device::Coder;
+use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::LoadedScene;
 
 /// The fastest that hands explore at, mm/s.
 const FASTEST_MM_PER_S: f64 = 120.0;
+/// What is left before a limit bites, at least: speeds and directions between those tried, dB.
+const HEADROOM_DB: f64 = 1.0;
 /// Speeds and directions that are tried: amplitudes change little from one to the next.
 const N_SPEEDS: u32 = 24;
 const N_DIRECTIONS: u32 = 12;
@@ -36,7 +39,8 @@ fn strongest(inspector: &ContactInspector, textile: usize) -> Vec<[f32; 2]> {
             let all = points.map(|point| map.at_points_um(point));
             let loudest = all.max_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
             #[expect(clippy::cast_possible_truncation, reason = "as renderers hand it on")]
-            found.extend(loudest.map(|pair| pair.map(|um| um as f32)));
+            let louder = |um: f64| (um * factor_of_gain(HEADROOM_DB)) as f32;
+            found.extend(loudest.map(|pair| pair.map(louder)));
         }
     }
     found

@@ -6,6 +6,7 @@ use crate::bench::part::DotStyle;
 use crate::bench::probe::Probe;
 use crate::bench::view::Hovered;
 use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::level_range::LevelRange;
 
 /// What all views share.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,6 +17,10 @@ pub(crate) struct Selection {
     pub contactor: Option<usize>,
     /// The scale on which amplitudes are drawn.
     pub scale: AmplitudeScale,
+    /// The levels that the colours of spectrograms stand for.
+    pub(crate) levels: LevelRange,
+    /// Whether the frequencies of spectrograms lie evenly, not by their logarithms.
+    pub(crate) has_linear_frequencies: bool,
     /// What the dots show by what.
     pub(crate) dot_style: DotStyle,
     /// Whether what is below the threshold of detection is greyed.

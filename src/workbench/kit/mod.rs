@@ -5,6 +5,7 @@
 pub(crate) mod amplitude;
 pub(crate) mod drop;
 pub(crate) mod foot;
+pub(crate) mod level_range;
 pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod swatch;

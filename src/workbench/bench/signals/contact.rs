@@ -37,7 +37,7 @@ impl ContactColumns {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::signals::rows::row_of;
+    use crate::bench::signals::rows::row_at;
     use crate::bench::signals::spatial::tests::scene;
     use selvedge_foundation::geometry::Velocity;
     use selvedge_render::RenderScene;
@@ -57,7 +57,7 @@ mod tests {
         // 1 µm, but for what the window leaves of a sine that does not fit into it.
         assert!((amplitude_um - 1.0).abs() < 0.02, "{amplitude_um}");
         let strongest = (0..N_ROWS).max_by(|a, b| squares[*a].total_cmp(&squares[*b]));
-        let expected = row_of((200.0_f64 / 10.0).log10() / 2.0);
+        let expected = row_at(200.0);
         let off = strongest.unwrap().abs_diff(expected);
         assert!(off <= 5, "bins are 63 Hz wide: {off} rows off 200 Hz");
     }

@@ -137,7 +137,7 @@ fn whole(bin: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::signals::rows::{N_ROWS, row_of};
+    use crate::bench::signals::rows::{N_ROWS, row_at};
     use selvedge_engine::TickSample;
 
     fn driven(ticks: std::ops::Range<u64>, watched_um: [f32; 2]) -> History {
@@ -151,10 +151,6 @@ mod tests {
             });
         }
         history
-    }
-
-    fn row_at(frequency_hz: f64) -> usize {
-        row_of((frequency_hz / 10.0).log10() / 2.0)
     }
 
     #[test]

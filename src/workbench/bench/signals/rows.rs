@@ -59,8 +59,8 @@ impl RowEdges {
     }
 }
 
-/// The lower border of a row, Hz.
-fn edge_hz(row: usize) -> f64 {
+/// The lower border of a row, Hz; that of the row behind the last is the highest frequency.
+pub(crate) fn edge_hz(row: usize) -> f64 {
     LEAST_HZ * (MOST_HZ / LEAST_HZ).powf(row as f64 / N_ROWS as f64)
 }
 
@@ -69,13 +69,14 @@ pub(crate) fn row_centre_hz(row: usize) -> f64 {
     (edge_hz(row) * edge_hz(row + 1)).sqrt()
 }
 
-/// The row that a share of the frequency axis (0 at 10 Hz, 1 at 1 kHz) lies in; the nearest beyond.
+/// The row of a frequency, Hz; the nearest beyond the ends.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "clamped to the rows"
 )]
-pub(crate) fn row_of(share: f64) -> usize {
+pub(crate) fn row_at(frequency_hz: f64) -> usize {
+    let share = (frequency_hz / LEAST_HZ).ln() / (MOST_HZ / LEAST_HZ).ln();
     let place = (share * N_ROWS as f64).floor();
     place.clamp(0.0, (N_ROWS - 1) as f64).max(0.0) as usize
 }
@@ -115,7 +116,7 @@ mod tests {
         assert!((9..=11).contains(&lit), "77 to 123 Hz: {lit} rows");
         let narrow = spread(&[bin(100.1, 0.1, 1.0)]);
         assert!(
-            (narrow[row_of(0.5)] - 1.0).abs() < 1e-9,
+            (narrow[row_at(100.0)] - 1.0).abs() < 1e-9,
             "its own row alone"
         );
     }
@@ -136,6 +137,6 @@ mod tests {
             bin(9e9, 1.0, 1.0),
         ];
         assert_eq!(spread(&bins), [0.0; N_ROWS]);
-        assert_eq!((row_of(nan), row_of(-1.0), row_of(2.0)), (0, 0, N_ROWS - 1));
+        assert_eq!((row_at(nan), row_at(1.0), row_at(1e5)), (0, 0, N_ROWS - 1));
     }
 }

@@ -15,8 +15,6 @@ use selvedge_chart::{At, Chart, Ink, Ruler, Scale};
 const GAP: f32 = 5.0;
 /// A frame with less room on its left has no vertical labels, points.
 const LABELS: f32 = 20.0;
-/// How much of what is drawn the ground of a title covers.
-const GROUND: f32 = 0.6;
 /// From one label to the next, points: beside and below one another.
 const APART: [f32; 2] = [48.0, 22.0];
 
@@ -100,7 +98,7 @@ fn paint_title(painter: &Painter, (at, anchor): (Pos2, Align2), title: &str, roo
         galley = text(title.rsplit_once(", ").map_or("", |(_, unit)| unit));
     }
     let place = anchor.anchor_size(at, galley.size());
-    painter.rect_filled(place, 0, palette.panel.gamma_multiply(GROUND));
+    painter.rect_filled(place, 0, palette.panel);
     painter.galley(place.min, galley, ink);
 }
 

@@ -44,6 +44,8 @@ pub(crate) fn colour(ink: Ink, palette: &Palette) -> Color32 {
         Ink::Cyan => palette.high,
         Ink::Own | Ink::Black => palette.text,
         Ink::Grey => palette.line,
+        Ink::Violet => palette.others()[0],
+        Ink::Rose => palette.others()[1],
     }
 }
 

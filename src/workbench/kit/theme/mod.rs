@@ -146,6 +146,21 @@ impl Palette {
         }
     }
 
+    /// Violet and rose, for lines that belong to no band.
+    pub(crate) fn others(&self) -> [Color32; 2] {
+        if self == &DARK {
+            [
+                Color32::from_rgb(0xa0, 0x8c, 0xff),
+                Color32::from_rgb(0xff, 0x7f, 0xb4),
+            ]
+        } else {
+            [
+                Color32::from_rgb(0x6a, 0x4f, 0xc4),
+                Color32::from_rgb(0xb8, 0x32, 0x6e),
+            ]
+        }
+    }
+
     /// The colour of a band.
     pub(crate) fn band(&self, band: Band) -> Color32 {
         match band {

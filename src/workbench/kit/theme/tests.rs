@@ -65,6 +65,8 @@ fn graphics_stand_out_from_panel_and_floor() {
                 palette.contactor,
                 palette.danger,
                 palette.line,
+                palette.others()[0],
+                palette.others()[1],
             ];
             for ink in inks {
                 assert!(

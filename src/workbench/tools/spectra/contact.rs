@@ -4,30 +4,30 @@
 //! before filters and gains. The two filters stand beside it on the same frequency axis.
 
 use eframe::egui::{
-    self, Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
+    self, Align2, Color32, Painter, Pos2, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
 };
 
 use crate::bench::Bench;
-use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT, bar, ink, rgb};
+use crate::bench::export::{Exported, NO_CONTACTOR, NOTHING_FELT, ink};
 use crate::bench::pane::Pane;
 use crate::bench::signals::contact::ContactColumns;
-use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ};
+use crate::bench::signals::history::Entry;
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, Rows};
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
-use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
-use crate::tools::spectra::waterfall;
-use crate::tools::spectra::waterfall::{ColourScale, Layout, Under, Waterfall};
-use crate::tools::spectra::{HEIGHT_PX, contactor, frequencies, picture, sheet, show_contactor};
+use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
+use crate::tools::spectra::{
+    Colours, HEIGHT_PX, contactor, frequencies, level_bar, on_finger, picture, sheet,
+    show_spectrogram_corner, waterfall,
+};
 use selvedge_chart as chart;
 use selvedge_chart::{Chart, Row, Series, Style, Upright};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
 
-/// Ends of the colour scale, dB re 1 µm.
-const LEVELS_DB: [f64; 2] = [-40.0, 20.0];
 /// Width of the filters' strip, points.
 const STRIP: f32 = 40.0;
 /// The same where the pane is narrow.
@@ -35,9 +35,9 @@ const NARROW_STRIP: f32 = 28.0;
 /// Steps of a filter's exported curve.
 const N_STEPS: u8 = 96;
 
-/// What a spectrogram is made for: history, scene, contactor, colours. Columns stay as they were
-/// felt when a textile is moved afterwards; gains and filters come after what is shown.
-type Key = (u64, u64, usize, ColourMap);
+/// What a spectrogram is made for: history, scene, contactor. Columns stay as they were felt when a
+/// textile is moved afterwards; gains and filters come after what is shown.
+type Key = (u64, u64, usize);
 
 /// The spectrum that arrives: the columns that were computed and the texture that holds them.
 #[derive(Debug, Default)]
@@ -60,16 +60,19 @@ impl ContactSpectrum {
 
     /// Computes what is new, as much as one frame may; says whether more is due.
     fn catch_up(&mut self, bench: &mut Bench) -> bool {
-        let (contactor, map) = (contactor(bench), bench.settings.preferences.colour_map);
+        let (contactor, colours) = (contactor(bench), Colours::in_force(bench));
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
-        let key = (history.n_clears(), inspection.n_scenes, contactor, map);
-        let colour = |level_db: f32| map.colour(share_of(level_db));
+        let key = (history.n_clears(), inspection.n_scenes, contactor);
         let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
         let name = (&bench.ctx, "contact spectrogram");
+        let fill = |entry: &Entry, levels_db: &mut Rows| {
+            columns.levels_db(inspector, contactor, &entry.tick_sample.pose, levels_db);
+            // Where nothing arrives is a gap, not a very low level.
+            let nothing = levels_db.iter_mut().filter(|level| level.is_infinite());
+            nothing.for_each(|level| *level = f32::NAN);
+        };
         self.waterfall
-            .catch_up(name, (history, key), colour, |entry, levels_db| {
-                columns.levels_db(inspector, contactor, &entry.tick_sample.pose, levels_db);
-            })
+            .catch_up(name, (history, key), (colours, f64::from), fill)
     }
 
     /// Shows the spectrogram in the space that is left.
@@ -85,23 +88,25 @@ impl ContactSpectrum {
         } else {
             STRIP
         };
-        let Some(layout) = Layout::of(rect, strip) else {
+        let axis = waterfall::frequency_axis(bench.selection.has_linear_frequencies);
+        let Some(layout) = Layout::of(rect, strip, axis) else {
             return;
         };
         self.catch_up(bench);
         let Waterfall { ring, image, .. } = &self.waterfall;
         let painter = ui.painter();
-        let scale = scale(bench.settings.preferences.colour_map);
-        waterfall::paint(painter, &layout, (ring, image), &scale);
+        waterfall::paint(painter, &layout, (ring, image), on_finger(bench));
         if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what arrives at the contactor is drawn here";
             paint_sentence(painter, layout.picture, words);
         }
         let filters = &bench.document.scene().filters;
-        paint_filters(painter, layout.strip, filters);
+        paint_filters(painter, &layout, filters);
+        let map = bench.settings.preferences.colour_map;
+        level_bar::show(ui, layout.bar, map, &mut bench.selection.levels);
         let pointer = response.hover_pos();
         if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
-            response.on_hover_text_at_pointer(filter_words(layout.strip, at, filters));
+            response.on_hover_text_at_pointer(filter_words(&layout, at, filters));
         } else if let Some(under) = pointer.and_then(|at| self.waterfall.read(&layout, at)) {
             waterfall::describe(ui, response, &layout, || words_of(&under));
         }
@@ -118,31 +123,35 @@ impl Tool for ContactSpectrum {
     }
 
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        show_contactor(ui, context.bench);
+        show_spectrogram_corner(ui, context.bench);
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
         let contactor = bench.selection.contactor.ok_or(NO_CONTACTOR)?;
         while self.catch_up(bench) {}
         let columns = self.waterfall.shown(&bench.past.history);
-        let mut levels_db = columns.iter().flat_map(|column| column.rows);
-        if !levels_db.any(f32::is_finite) {
+        if columns.is_empty() {
             return Err(NOTHING_FELT);
         }
-        let map = bench.settings.preferences.colour_map;
+        let (colours, is_linear) = (
+            Colours::in_force(bench),
+            bench.selection.has_linear_frequencies,
+        );
         let picture = Chart {
             width: 9.0,
-            ..picture(&columns, |level_db| rgb(map, share_of(level_db)))
+            ..picture(&columns, is_linear, |level_db| {
+                colours.on_paper(level_db.into())
+            })
         };
-        let levels = chart::Axis::linear("level, dB re 1 µm").within(LEVELS_DB);
+        let filters = filters(&bench.document.scene().filters, is_linear);
         let row = Row {
-            panels: vec![picture, filters(&bench.document.scene().filters)],
+            panels: vec![picture, filters],
             height_px: HEIGHT_PX,
-            bar: Some(bar(map, levels)),
+            bar: Some(colours.bar()),
         };
         let title = format!("Vibration that arrives at contactor {contactor}");
         let note = "Peak amplitude at the surface, before filters and gains, in rows 4.9 % of the \
-                    frequency wide; each column is a tick of 25 ms, white where nothing was felt. \
+                    frequency wide; each column is a tick of 25 ms, white where nothing arrived. \
                     Right: amplitude gain of the filters.";
         let ticks = columns.iter().map(|column| column.tick);
         let origin = bench.origin().of_contactor(contactor).in_ticks(ticks);
@@ -151,29 +160,9 @@ impl Tool for ContactSpectrum {
     }
 }
 
-/// Where a level stands on the colour scale, 0…1.
-fn share_of(level_db: f32) -> f64 {
-    let [least_db, most_db] = LEVELS_DB;
-    (f64::from(level_db) - least_db) / (most_db - least_db)
-}
-
-fn scale(map: ColourMap) -> ColourScale {
-    let levels_db = Axis::linear(LEVELS_DB[0], LEVELS_DB[1]);
-    let mark = |tick: Tick| Tick {
-        value: levels_db.share(tick.value),
-        ..tick
-    };
-    ColourScale {
-        map,
-        marks: levels_db.ticks(4.0, 1.0).into_iter().map(mark).collect(),
-        unit: "dB re 1 µm",
-    }
-}
-
 fn words_of(under: &Under) -> String {
     let level = match under.value {
-        None => "nothing was felt".to_owned(),
-        Some(level_db) if level_db < -300.0 => "nothing arrives".to_owned(),
+        None => "nothing arrives".to_owned(),
         Some(level_db) => quantity::with_unit(f64::from(level_db), 1, "dB re 1 µm"),
     };
     format!(
@@ -184,8 +173,8 @@ fn words_of(under: &Under) -> String {
     )
 }
 
-fn filter_words(strip: Rect, at: Pos2, filters: &Filters) -> String {
-    let frequency_hz = waterfall::frequency_axis().value_at_y(strip.y_range(), at.y);
+fn filter_words(layout: &Layout, at: Pos2, filters: &Filters) -> String {
+    let frequency_hz = (layout.frequencies).value_at_y(layout.strip.y_range(), at.y);
     let gain = |band| quantity::fixed(filters.gain(band, frequency_hz), 2);
     format!(
         "Filters at {}\n40 Hz  {}\n320 Hz  {}\namplitude gain",
@@ -196,10 +185,10 @@ fn filter_words(strip: Rect, at: Pos2, filters: &Filters) -> String {
 }
 
 /// Draws both filters upright: gain 0…1 to the right, frequency as in the picture beside.
-fn paint_filters(painter: &Painter, strip: Rect, filters: &Filters) {
+fn paint_filters(painter: &Painter, layout: &Layout, filters: &Filters) {
     let palette = Palette::of(painter.ctx().theme());
+    let (strip, frequencies) = (layout.strip, layout.frequencies);
     painter.rect_filled(strip, 0, palette.floor);
-    let frequencies = waterfall::frequency_axis();
     let gains = Axis::linear(0.0, 1.0);
     let clip = painter.with_clip_rect(strip.expand(1.0));
     for band in Band::ALL {
@@ -230,7 +219,7 @@ fn faint(ink: Color32) -> Color32 {
 }
 
 /// Both filters upright on the frequency axis of the exported picture.
-fn filters(filters: &Filters) -> Chart {
+fn filters(filters: &Filters, is_linear: bool) -> Chart {
     let curve = |band: Band| {
         let point = |i: u8| {
             let share = f64::from(i) / f64::from(N_STEPS);
@@ -246,7 +235,7 @@ fn filters(filters: &Filters) -> Chart {
     };
     Chart {
         x: chart::Axis::whole("gain").within([0.0, 1.0]),
-        y: frequencies(),
+        y: frequencies(is_linear),
         upright: Upright::Shared,
         series: Band::ALL.map(curve).to_vec(),
         ..Chart::default()

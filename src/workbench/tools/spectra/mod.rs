@@ -3,6 +3,7 @@
 
 pub(crate) mod contact;
 pub(crate) mod drive;
+pub(crate) mod level_bar;
 pub(crate) mod spatial;
 pub(crate) mod spatial_chart;
 #[cfg(test)]
@@ -10,16 +11,20 @@ mod tests;
 pub(crate) mod waterfall;
 pub(crate) mod wave;
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::{Color32, RichText, Ui};
 
 use crate::bench::Bench;
-use crate::bench::export::Sheet;
+use crate::bench::export::{Sheet, bar, rgb};
+use crate::bench::on_finger::OnFinger;
 use crate::bench::signals::ring::N_COLUMNS;
-use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at, row_centre_hz};
+use crate::kit::level_range::LevelRange;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::text::toggle;
 use crate::tools::spectra::waterfall::ShownColumn;
-use selvedge_chart::{Axis, Chart, Raster};
+use selvedge_chart::{Axis, Chart, ColourBar, Raster};
 use selvedge_render::scene::TICKS_PER_S;
 
 /// Height of a spectrogram on paper, px.
@@ -41,6 +46,56 @@ fn show_contactor(ui: &mut Ui, bench: &Bench) {
     label.on_hover_text("Click a cell of the heatmaps to choose another contactor");
 }
 
+/// What the finger gets of both bands of the contactor.
+fn on_finger(bench: &Bench) -> [OnFinger; 2] {
+    let live = &bench.live;
+    let dot = live.dots.get(contactor(bench));
+    dot.map_or([live.on_finger; 2], |dot| dot.on_finger)
+}
+
+/// What stands over a spectrogram: whose it is, and how its frequencies lie.
+fn show_spectrogram_corner(ui: &mut Ui, bench: &mut Bench) {
+    let is_linear = bench.selection.has_linear_frequencies;
+    let tip = "Frequencies evenly along the axis, not by their logarithms";
+    if toggle(ui, "linear", is_linear, tip) {
+        bench.selection.has_linear_frequencies = !is_linear;
+    }
+    show_contactor(ui, bench);
+}
+
+/// The colours of a spectrogram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Colours {
+    map: ColourMap,
+    levels: LevelRange,
+}
+
+impl Colours {
+    /// Those in force in every spectrogram.
+    fn in_force(bench: &Bench) -> Self {
+        Self {
+            map: bench.settings.preferences.colour_map,
+            levels: bench.selection.levels,
+        }
+    }
+
+    /// The colour of a level, dB re 1 µm.
+    pub(crate) fn of(&self, level_db: f64) -> Color32 {
+        self.map.colour(self.levels.share(level_db))
+    }
+
+    /// The same on paper.
+    fn on_paper(&self, level_db: f64) -> [u8; 3] {
+        rgb(self.map, self.levels.share(level_db))
+    }
+
+    /// Their bar on paper.
+    fn bar(&self) -> ColourBar {
+        let levels = Axis::linear("level, dB re 1 µm").within(self.levels.ends_db());
+        bar(self.map, levels)
+    }
+}
+
 /// One row a cell, old to new and low to high.
 fn sheet(columns: &[ShownColumn], value: &'static str) -> Sheet {
     let each = |of: &dyn Fn(&ShownColumn) -> f64| -> Vec<f64> {
@@ -58,27 +113,41 @@ fn sheet(columns: &[ShownColumn], value: &'static str) -> Sheet {
         .with(value, values.collect::<Vec<f32>>())
 }
 
-fn frequencies() -> Axis {
-    Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ])
+fn frequencies(is_linear: bool) -> Axis {
+    let axis = if is_linear {
+        Axis::linear("frequency, Hz")
+    } else {
+        Axis::log("frequency, Hz")
+    };
+    axis.within([LEAST_HZ, MOST_HZ])
 }
 
 /// A spectrogram on paper with its axes, the newest column at its right edge.
-fn picture(columns: &[ShownColumn], colour: impl Fn(f32) -> [u8; 3]) -> Chart {
+fn picture(columns: &[ShownColumn], is_linear: bool, colour: impl Fn(f32) -> [u8; 3]) -> Chart {
+    let row = |y: usize| {
+        if is_linear {
+            let share = (N_ROWS as f64 - y as f64 - 0.5) / N_ROWS as f64;
+            row_at(LEAST_HZ + share * (MOST_HZ - LEAST_HZ))
+        } else {
+            N_ROWS - 1 - y
+        }
+    };
     let mut cells = vec![None; N_COLUMNS * N_ROWS];
     for column in columns {
         let from_right = usize::try_from(column.ago).unwrap_or(usize::MAX);
         let Some(x) = N_COLUMNS.checked_sub(from_right.saturating_add(1)) else {
             continue;
         };
-        for (y, value) in column.rows.iter().rev().enumerate() {
-            cells[y * N_COLUMNS + x] = (!value.is_nan()).then(|| colour(*value));
+        for y in 0..N_ROWS {
+            let value = column.rows[row(y)];
+            cells[y * N_COLUMNS + x] = (!value.is_nan()).then(|| colour(value));
         }
     }
     let shown_s = N_COLUMNS as f64 / TICKS_PER_S;
     let felt = "felt time before the newest tick, s";
     Chart {
         x: Axis::linear(felt).within([-shown_s, 0.0]),
-        y: frequencies(),
+        y: frequencies(is_linear),
         raster: Some(Raster {
             n_columns: N_COLUMNS,
             cells,

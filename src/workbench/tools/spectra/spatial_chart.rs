@@ -1,7 +1,7 @@
 //! The spatial spectra as a chart, with the bins that sound in bold.
 //!
-//! Warp is black, weft grey; forward is solid, reverse dashed: amber and cyan are left to the
-//! wavenumbers that sound at 40 and 320 Hz.
+//! Every direction has a colour of its own, and reverse ones are dashed: amber and cyan are left to
+//! the wavenumbers that sound at 40 and 320 Hz.
 
 use crate::bench::export::ink;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ};
@@ -168,10 +168,11 @@ pub(crate) fn line(direction: Direction, points: Vec<[f64; 2]>, weight: Weight) 
         } else {
             Style::Line
         },
-        ink: if direction.index() >= 2 {
-            Ink::Grey
-        } else {
-            Ink::Black
+        ink: match direction {
+            Direction::WarpForward => Ink::Black,
+            Direction::WarpReverse => Ink::Violet,
+            Direction::WeftForward => Ink::Rose,
+            Direction::WeftReverse => Ink::Grey,
         },
         weight,
         ..Series::default()
@@ -194,6 +195,15 @@ fn carriers(view: &SpatialView) -> Vec<Rule> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_direction_is_told_apart_by_its_colour() {
+        let inks = Direction::ALL.map(|direction| line(direction, Vec::new(), Weight::Thin).ink);
+        for (nth, ink) in inks.iter().enumerate() {
+            assert!(!inks[..nth].contains(ink), "{ink:?} twice");
+            assert!(![Ink::Amber, Ink::Cyan, Ink::Own].contains(ink), "{ink:?}");
+        }
+    }
 
     #[test]
     fn a_flat_density_stays_flat_however_many_bins_fall_together() {

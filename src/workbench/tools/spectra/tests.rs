@@ -9,6 +9,7 @@ use crate::bench::command::Commands;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
 use crate::bench::{Bench, Drive};
+use crate::kit::level_range::Handle;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::spectra::contact::ContactSpectrum;
 use crate::tools::spectra::drive::DriveSpectrum;
@@ -192,24 +193,60 @@ fn what_nobody_sees_is_not_computed() {
 }
 
 #[test]
-fn other_colours_and_another_contactor_begin_anew() {
+fn other_colours_are_sent_anew_and_another_contactor_is_computed_anew() {
     let mut plots = Plots::shipped();
     plots.explore(0..50);
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Viridis));
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
-    assert_eq!(plots.contact().n_columns_computed(), 100);
+    let floor = plots.bench.selection.levels.moved(Handle::Floor, 10.0);
+    plots.bench.selection.levels = floor;
+    plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
+    assert_eq!(plots.work()[..2], [50, 3], "only colours changed");
     plots.bench.selection.contactor = Some(3);
     plots.explore(50..51);
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
-    assert_eq!(plots.contact().n_columns_computed(), 151);
+    assert_eq!(plots.contact().n_columns_computed(), 101);
     plots.frame(SIZE, |plots, ui| plots.show(ui, Pane::DriveSpectrum));
     plots.bench.past.history.clear();
     plots.frame(SIZE, Plots::all);
     assert_eq!(
         plots.contact().n_columns_computed(),
-        151,
+        101,
         "nothing is left to compute"
     );
+}
+
+#[test]
+fn where_nothing_is_felt_is_a_gap_in_what_is_exported_too() {
+    let mut plots = Plots::shipped();
+    plots.explore(0..30);
+    for tick in 30..60 {
+        let outside = Pose {
+            position: Point::new(-40.0, -40.0),
+            velocity: Velocity::new(50.0, 0.0),
+            ..Pose::default()
+        };
+        plots.take(TickSample {
+            tick,
+            pose: outside,
+            watched: 9,
+            ..TickSample::default()
+        });
+    }
+    for (pane, value) in [
+        (Pane::ContactSpectrum, "level_db"),
+        (Pane::DriveSpectrum, "amplitude_um"),
+    ] {
+        let Plots { bench, tools } = &mut plots;
+        let exported = tools.showing(pane).unwrap().export(pane, bench).unwrap();
+        let cells = exported.sheet.points("tick", value);
+        let last = cells.iter().map(|[tick, _]| *tick).fold(0.0, f64::max);
+        assert!(!cells.is_empty() && last < 34.0, "{pane:?}: tick {last}");
+        assert!(
+            cells.iter().all(|[_, value]| !value.is_infinite()),
+            "{pane:?}"
+        );
+    }
 }
 
 #[test]

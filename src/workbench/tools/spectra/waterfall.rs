@@ -6,16 +6,17 @@
 use std::ops::Range;
 
 use eframe::egui::{
-    Align2, Color32, ColorImage, Context, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke,
-    TextureHandle, TextureOptions, TextureWrapMode, Ui, pos2,
+    Align2, Color32, ColorImage, Context, Mesh, Painter, Pos2, Rangef, Rect, Response, Shape,
+    Stroke, TextureHandle, TextureOptions, TextureWrapMode, Ui, pos2,
 };
 
+use crate::bench::on_finger::{OnFinger, paint_label};
 use crate::bench::signals::history::{Entry, History};
 use crate::bench::signals::ring::{ColumnRing, N_COLUMNS, N_SLOTS, slot_of};
-use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, row_of};
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, edge_hz, row_at};
 use crate::kit::theme::Palette;
-use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::tools::spectra::Colours;
 use selvedge_foundation::quantity;
 use selvedge_render::scene::TICKS_PER_S;
 use selvedge_textile::tactile::Band;
@@ -38,9 +39,13 @@ const READ: TextureOptions = TextureOptions {
 /// Rows of the texture: the edge rows stand twice, so that no edge mixes with the other.
 const N_PIXELS: usize = N_ROWS + 2;
 
-/// The frequency axis of both spectrograms.
-pub(crate) fn frequency_axis() -> Axis {
-    Axis::log(LEAST_HZ, MOST_HZ)
+/// The frequency axis of both spectrograms, linear or logarithmic.
+pub(crate) fn frequency_axis(is_linear: bool) -> Axis {
+    if is_linear {
+        Axis::linear(LEAST_HZ, MOST_HZ)
+    } else {
+        Axis::log(LEAST_HZ, MOST_HZ)
+    }
 }
 
 /// A column of a spectrogram as it is shown.
@@ -100,26 +105,37 @@ impl RingImage {
         }
     }
 
-    /// Paints the columns before `next` over `area`, the newest at its right edge.
-    fn paint(&self, painter: &Painter, area: Rect, next: u64) {
+    /// Paints the columns before `next` over the picture, the newest at its right edge, with this
+    /// much of their ink: a strip for every row, as high as the frequency axis has it.
+    fn paint(&self, painter: &Painter, layout: &Layout, next: u64, presence: f32) {
         let Some(texture) = &self.texture else { return };
         let first = slot_of((next + N_SLOTS as u64).saturating_sub(N_COLUMNS as u64));
         let across = |column: usize| column as f32 / N_SLOTS as f32;
-        let inset = 1.0 / N_PIXELS as f32;
-        let uv = Rect::from_min_max(
-            pos2(across(first), inset),
-            pos2(across(first + N_COLUMNS), 1.0 - inset),
-        );
+        let columns = Rangef::new(across(first), across(first + N_COLUMNS));
+        let ink = Color32::WHITE.gamma_multiply(presence);
         let mut mesh = Mesh::with_texture(texture.id());
-        mesh.add_rect_with_uv(area, uv, Color32::WHITE);
+        for row in 0..N_ROWS {
+            let y = |edge: usize| {
+                layout
+                    .frequencies
+                    .y(layout.picture.y_range(), edge_hz(edge))
+            };
+            // The lowest frequency is the last row of pixels but one.
+            let v = |edge: usize| (N_ROWS + 1 - edge) as f32 / N_PIXELS as f32;
+            let strip = layout.picture.with_min_y(y(row + 1)).with_max_y(y(row));
+            let uv = Rect::from_x_y_ranges(columns, v(row + 1)..=v(row));
+            mesh.add_rect_with_uv(strip, uv, ink);
+        }
         painter.add(Shape::mesh(mesh));
     }
 }
 
-/// A spectrogram: its columns and its texture, made for one key and made anew for another.
+/// A spectrogram: its columns, made for one key and made anew for another, and its texture in the
+/// colours that were asked for last.
 #[derive(Debug, Clone)]
 pub(crate) struct Waterfall<K> {
     key: Option<K>,
+    colours: Option<Colours>,
     pub(crate) ring: ColumnRing,
     pub(crate) image: RingImage,
 }
@@ -128,6 +144,7 @@ impl<K> Default for Waterfall<K> {
     fn default() -> Self {
         Self {
             key: None,
+            colours: None,
             ring: ColumnRing::default(),
             image: RingImage::default(),
         }
@@ -136,12 +153,13 @@ impl<K> Default for Waterfall<K> {
 
 impl<K: PartialEq> Waterfall<K> {
     /// Catches up with the history: computes what is new (everything, under a new key), sends it to
-    /// the graphics card, and asks for another frame while more is due, which it says.
+    /// the graphics card (everything, in new colours), and asks for another frame while more is
+    /// due, which it says. `fill` leaves NaN where there is nothing, which stays clear.
     pub(crate) fn catch_up(
         &mut self,
         (ctx, name): (&Context, &str),
         (history, key): (&History, K),
-        colour: impl Fn(f32) -> Color32,
+        (colours, level_db): (Colours, fn(f32) -> f64),
         fill: impl FnMut(&Entry, &mut Rows),
     ) -> bool {
         if self.key.as_ref() != Some(&key) {
@@ -149,9 +167,14 @@ impl<K: PartialEq> Waterfall<K> {
             self.ring.restart();
             self.image.restart();
         }
+        if self.colours.replace(colours) != Some(colours) {
+            self.image.restart();
+        }
         let progress = self.ring.catch_up(history, fill);
         self.image
-            .upload((ctx, name), &self.ring, progress.fresh, colour);
+            .upload((ctx, name), &self.ring, progress.fresh, |value| {
+                colours.of(level_db(value))
+            });
         if progress.is_behind {
             ctx.request_repaint();
         }
@@ -216,13 +239,15 @@ pub(crate) struct Layout {
     pub(crate) picture: Rect,
     /// A strip beside it that shares its frequency axis; of no width where none is wanted.
     pub(crate) strip: Rect,
-    bar: Rect,
-    all: Rect,
+    /// The bar of colours.
+    pub(crate) bar: Rect,
+    /// The frequencies, along its height.
+    pub(crate) frequencies: Axis,
 }
 
 impl Layout {
     /// The parts in `all`, with a strip of `strip` points; `None` where there is no room.
-    pub(crate) fn of(all: Rect, strip: f32) -> Option<Self> {
+    pub(crate) fn of(all: Rect, strip: f32, frequencies: Axis) -> Option<Self> {
         let rows = all.y_range();
         let (top, bottom) = (rows.min + TOP, rows.max - BOTTOM);
         let bar_left = all.right() - BAR;
@@ -233,49 +258,40 @@ impl Layout {
             picture: part(all.left() + LEFT, right),
             strip: part(strip_right - strip, strip_right),
             bar: part(bar_left, bar_left + 8.0),
-            all,
+            frequencies,
         };
         let size = layout.picture.size();
         (size.x >= 24.0 && size.y >= 16.0).then_some(layout)
     }
 }
 
-/// A scale of colours: which numbers it names, and the colour at every share of it.
-#[derive(Debug, Clone)]
-pub(crate) struct ColourScale {
-    /// The colours.
-    pub(crate) map: ColourMap,
-    /// What is named on it: shares 0…1 and their texts.
-    pub(crate) marks: Vec<Tick>,
-    /// Its unit.
-    pub(crate) unit: &'static str,
-}
-
-/// Paints a spectrogram: axes, picture, colour bar.
+/// Paints a spectrogram with its axes, with what becomes of it on the finger.
 pub(crate) fn paint(
     painter: &Painter,
     layout: &Layout,
     (ring, image): (&ColumnRing, &RingImage),
-    scale: &ColourScale,
+    on_finger: [OnFinger; 2],
 ) {
     let palette = Palette::of(painter.ctx().theme());
     let picture = layout.picture;
     painter.rect_filled(picture, 0, palette.floor);
-    image.paint(painter, picture, ring.next());
-    let axis = frequency_axis();
+    let presence = on_finger.map(OnFinger::presence);
+    image.paint(painter, layout, ring.next(), presence[0].max(presence[1]));
+    paint_label(painter, picture, on_finger);
+    let axis = layout.frequencies;
     let ticks = axis.ticks(picture.height(), 18.0);
     paint_outer_ticks(painter, picture, (&axis, Side::Left), &ticks);
     let unit_at = pos2(picture.left() - 5.0, picture.top() - 6.0);
     paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, "Hz");
     paint_time(painter, picture);
-    paint_bar(painter, layout, scale);
 }
 
 /// Marks the carriers at the right edge of a picture, in their bands' colours.
-pub(crate) fn paint_carriers(painter: &Painter, picture: Rect) {
+pub(crate) fn paint_carriers(painter: &Painter, layout: &Layout) {
     let palette = Palette::of(painter.ctx().theme());
+    let picture = layout.picture;
     for band in Band::ALL {
-        let y = frequency_axis().y(picture.y_range(), band.carrier_hz());
+        let y = layout.frequencies.y(picture.y_range(), band.carrier_hz());
         let y = painter.round_to_pixel_center(y);
         let across = picture.right() + 1.0..=picture.right() + 5.0;
         painter.hline(across, y, Stroke::new(2.0, palette.band(band)));
@@ -298,29 +314,6 @@ fn paint_time(painter: &Painter, picture: Rect) {
     paint_outer_ticks(painter, picture, (&axis, Side::Bottom), &ticks);
 }
 
-fn paint_bar(painter: &Painter, layout: &Layout, scale: &ColourScale) {
-    let bar = layout.bar;
-    let mut mesh = Mesh::default();
-    let n_steps = 32_u8;
-    for i in 0..=n_steps {
-        let share = f32::from(i) / f32::from(n_steps);
-        let y = bar.bottom() - share * bar.height();
-        let colour = scale.map.colour(f64::from(share));
-        mesh.colored_vertex(pos2(bar.left(), y), colour);
-        mesh.colored_vertex(pos2(bar.right(), y), colour);
-        if i > 0 {
-            let corner = 2 * u32::from(i) - 2;
-            mesh.add_triangle(corner, corner + 1, corner + 2);
-            mesh.add_triangle(corner + 1, corner + 2, corner + 3);
-        }
-    }
-    painter.add(Shape::mesh(mesh));
-    let axis = Axis::linear(0.0, 1.0);
-    paint_outer_ticks(painter, bar, (&axis, Side::Right), &scale.marks);
-    let unit_at = pos2(layout.all.right(), bar.top() - 6.0);
-    paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, scale.unit);
-}
-
 /// What lies under the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Under {
@@ -338,7 +331,7 @@ fn read(layout: &Layout, ring: &ColumnRing, at: Pos2) -> Option<Under> {
     if !picture.contains(at) {
         return None;
     }
-    let axis = frequency_axis();
+    let axis = layout.frequencies;
     let frequency_hz = axis.value_at_y(picture.y_range(), at.y);
     let n_columns = N_COLUMNS as f32;
     let from_right = ((picture.right() - at.x) / picture.width()).clamp(0.0, 1.0) * n_columns;
@@ -349,7 +342,7 @@ fn read(layout: &Layout, ring: &ColumnRing, at: Pos2) -> Option<Under> {
     )]
     let back = (from_right.floor().min(n_columns - 1.0)) as u64;
     let rows = (ring.next().checked_sub(back + 1)).and_then(|column| ring.column(column));
-    let value = rows.map(|rows| rows[row_of(axis.share(frequency_hz))]);
+    let value = rows.map(|rows| rows[row_at(frequency_hz)]);
     Some(Under {
         ago_s: back as f64 / TICKS_PER_S,
         frequency_hz,
@@ -392,10 +385,8 @@ mod tests {
     use selvedge_engine::TickSample;
 
     fn layout(width: f32, height: f32) -> Option<Layout> {
-        Layout::of(
-            Rect::from_min_size(pos2(3.0, 5.0), vec2(width, height)),
-            40.0,
-        )
+        let all = Rect::from_min_size(pos2(3.0, 5.0), vec2(width, height));
+        Layout::of(all, 40.0, frequency_axis(false))
     }
 
     #[test]
@@ -441,5 +432,11 @@ mod tests {
         assert_eq!(under.ago_s, 0.1);
         assert!((under.frequency_hz - 100.0).abs() < 0.1, "{under:?}");
         assert_eq!(read(&layout, &ring, picture.max + vec2(1.0, 0.0)), None);
+        let linear = Layout {
+            frequencies: frequency_axis(true),
+            ..layout
+        };
+        let under = read(&linear, &ring, at(4.0, picture.center().y)).unwrap();
+        assert!((under.frequency_hz - 505.0).abs() < 2.0, "{under:?}");
     }
 }

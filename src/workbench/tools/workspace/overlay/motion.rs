@@ -1,7 +1,7 @@
 //! What every contactor reads, and how it moves: lines to the points, arrows along the velocities.
 //!
 //! Everything comes from the inspector's readings, which are those of the renderer. Warp is bright
-//! and weft dim, forward solid and reverse dashed, as in the spatial spectra.
+//! and weft dim, forward solid and reverse dashed.
 
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
 
