@@ -7,7 +7,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::bench::Bench;
+use eframe::egui;
+
+use crate::bench::background::Executor;
 use crate::bench::latest::{Computed, Latest};
 use crate::bench::library_view::LibraryView;
 use crate::bench::view::{LibraryDot, LibraryEntry};
@@ -93,6 +95,29 @@ pub(crate) struct LibraryLevels {
 }
 
 impl LibraryLevels {
+    /// Has the whole library measured under the present filters, as long as it is asked for that,
+    /// and takes what was measured.
+    pub(crate) fn follow(
+        &mut self,
+        (ctx, executor): (&egui::Context, &Executor),
+        loaded: &LoadedScene,
+        library_view: &LibraryView,
+    ) {
+        let before = self.latest.value().map(Arc::as_ptr);
+        self.latest.poll();
+        if self.is_stale {
+            let key = Key {
+                library: Arc::clone(library_view.library()),
+                filters: loaded.scene().filters,
+                loaded: loaded.textiles().to_vec(),
+            };
+            self.latest.follow(ctx, executor, &key);
+        }
+        if self.latest.value().map(Arc::as_ptr) != before {
+            self.renew(loaded, library_view);
+        }
+    }
+
     /// Makes the dots anew: of the scene as it is, and of the library as far as it is measured.
     pub(crate) fn renew(&mut self, loaded: &LoadedScene, library_view: &LibraryView) {
         let filters = &loaded.scene().filters;
@@ -103,12 +128,17 @@ impl LibraryLevels {
         self.is_stale = !is_indexed && !key.is_some_and(is_fresh);
         let of_library = key.filter(|key| key.library.root() == library.root());
         let measured = of_library.and(self.latest.value());
+        let is_stale = self.is_stale;
         let dot = |item: &LibraryEntry| {
             let placed = loaded.textiles().iter().find(|one| one.id() == item.id);
             let (mean_um, level_db) = match placed {
                 _ if is_indexed => (item.mean_um, item.level_db),
                 Some(textile) => figures(&Levels::of(textile.surface(), filters)),
-                None => figures(measured?.levels.get(&item.id)?),
+                None => match measured.and_then(|all| all.levels.get(&item.id)) {
+                    Some(levels) => figures(levels),
+                    None if is_stale => (item.mean_um, item.level_db),
+                    None => return None,
+                },
             };
             Some(LibraryDot {
                 id: item.id.clone(),
@@ -127,35 +157,11 @@ fn figures(levels: &Levels) -> ([f64; 2], Option<f64>) {
     (levels.mean_um, levels.level_db())
 }
 
-impl Bench {
-    /// Has the levels of the whole library under the present filters measured, as long as it is
-    /// asked for them, and takes what was measured.
-    pub(crate) fn follow_library_levels(&mut self) {
-        let levels = &mut self.library.levels;
-        let before = levels.latest.value().map(Arc::as_ptr);
-        levels.latest.poll();
-        let loaded = &self.engine_scene.loaded;
-        if levels.is_stale {
-            let key = Key {
-                library: Arc::clone(self.library.view.library()),
-                filters: loaded.scene().filters,
-                loaded: loaded.textiles().to_vec(),
-            };
-            levels.latest.follow(&self.ctx, &self.executor, &key);
-        }
-        if levels.latest.value().map(Arc::as_ptr) != before {
-            levels.renew(loaded, &self.library.view);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::Drive;
-    use crate::bench::background::Executor;
     use crate::bench::command::edit::Edit;
-    use eframe::egui;
+    use crate::bench::{Bench, Drive};
 
     fn wider(bench: &mut Bench, octaves: f64) {
         let filters = Filters::LogGaussian { octaves };
@@ -172,7 +178,11 @@ mod tests {
         let mut bench = Bench::new(&ctx, None, Drive::Stepped).unwrap();
         assert_eq!(bench.library.levels.dots.len(), 16, "from the index");
         wider(&mut bench, 2.5);
-        assert!(bench.library.levels.is_stale, "not measured yet");
+        let levels = &bench.library.levels;
+        assert!(
+            levels.is_stale && levels.dots.len() == 16,
+            "not measured yet"
+        );
         bench.follow_library_levels();
         let levels = &bench.library.levels;
         assert!(levels.dots.len() == 16 && !levels.is_stale);

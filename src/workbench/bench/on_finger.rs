@@ -107,6 +107,11 @@ impl OnFinger {
     }
 }
 
+/// Whether a contactor is left out, both bands of it.
+pub(crate) fn is_muted(bands: [OnFinger; 2]) -> bool {
+    bands == [OnFinger::Muted; 2]
+}
+
 /// The sentences about both bands of a contactor: one where they fare alike.
 pub(crate) fn sentences(bands: [OnFinger; 2]) -> Vec<String> {
     said_once(bands.map(OnFinger::sentence), ": ")

@@ -38,6 +38,14 @@ impl Bench {
         )
     }
 
+    /// Has the levels of the whole library measured under the present filters, as long as it is
+    /// asked for them.
+    pub(crate) fn follow_library_levels(&mut self) {
+        let (loaded, library) = (&self.engine_scene.loaded, &mut self.library);
+        let with = (&self.ctx, &self.executor);
+        library.levels.follow(with, loaded, &library.view);
+    }
+
     /// The scene as panes draw it; textiles in it want their pictures.
     pub(crate) fn scene_view(&mut self) -> SceneView {
         if self.shows(Pane::Tuning) {

@@ -238,13 +238,6 @@ pub(crate) struct Dot {
     pub(crate) on_finger: [OnFinger; 2],
 }
 
-impl Dot {
-    /// Whether it is left out, both bands of it.
-    pub(crate) fn is_muted(&self) -> bool {
-        self.on_finger == [OnFinger::Muted; 2]
-    }
-}
-
 /// What moves the display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Source {

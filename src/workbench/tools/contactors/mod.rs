@@ -11,7 +11,7 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::NOTHING_FELT;
-use crate::bench::on_finger::{OnFinger, sentences};
+use crate::bench::on_finger::{OnFinger, is_muted, sentences};
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::tool::{PaneContext, Tool};
@@ -324,8 +324,15 @@ fn answer(
 fn show_menu(ui: &mut Ui, index: usize, live: &EngineView, commands: &mut Commands) {
     ui.label(format!("Contactor {index}"));
     let part = Part::Contactor(index);
-    let is_muted = live.dots.get(index).is_some_and(Dot::is_muted);
-    let mute = if is_muted { "Mute or unmute" } else { "Mute" };
+    let is_left_out = live
+        .dots
+        .get(index)
+        .is_some_and(|dot| is_muted(dot.on_finger));
+    let mute = if is_left_out {
+        "Mute or unmute"
+    } else {
+        "Mute"
+    };
     let choices = [
         (mute, ShowCommand::Mute(part)),
         (

@@ -7,7 +7,7 @@
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use crate::bench::command::DotStyle;
-use crate::bench::on_finger::OnFinger;
+use crate::bench::on_finger::{OnFinger, is_muted};
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::selection::Selection;
 use crate::bench::trail::TRAIL_S;
@@ -131,7 +131,11 @@ impl Brush {
 
     fn glow(&self, at: Pos2, dot: &Dot) {
         let [_, strength] = self.strengths(dot);
-        if dot.cloth.is_none() || dot.is_muted() || strength <= 0.0 || self.is_below(dot)[1] {
+        if dot.cloth.is_none()
+            || is_muted(dot.on_finger)
+            || strength <= 0.0
+            || self.is_below(dot)[1]
+        {
             return;
         }
         let radius = (1.0 + 1.3 * strength) * self.points_per_mm;
@@ -144,7 +148,7 @@ impl Brush {
             let ring = Stroke::new(1.0, self.palette.contactor);
             let radius = 0.34 * self.points_per_mm;
             self.painter.circle_stroke(at, radius, ring);
-        } else if dot.is_muted() {
+        } else if is_muted(dot.on_finger) {
             self.muted(at);
         } else {
             self.felt(at, self.strengths(dot), self.is_below(dot));
@@ -154,7 +158,7 @@ impl Brush {
     /// Where the dots have room, the mark of an output limit that bites stands beside them.
     fn limit(&self, at: Pos2, dot: &Dot) {
         let has_room = self.points_per_mm >= LEAST_FOR_LIMIT;
-        if has_room && dot.limiter.any() && dot.cloth.is_some() && !dot.is_muted() {
+        if has_room && dot.limiter.any() && dot.cloth.is_some() && !is_muted(dot.on_finger) {
             let beside = 0.7 * self.points_per_mm;
             paint_limit_mark(&self.painter, at + vec2(beside, -beside));
         }
