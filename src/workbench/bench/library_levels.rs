@@ -127,7 +127,7 @@ impl LibraryLevels {
         let is_fresh = |key: &Key| Arc::ptr_eq(&key.library, library) && key.filters == *filters;
         self.is_stale = !is_indexed && !key.is_some_and(is_fresh);
         let of_library = key.filter(|key| key.library.root() == library.root());
-        let measured = of_library.and(self.latest.value());
+        let measured = of_library.and_then(|_| self.latest.value());
         let is_stale = self.is_stale;
         let dot = |item: &LibraryEntry| {
             let placed = loaded.textiles().iter().find(|one| one.id() == item.id);

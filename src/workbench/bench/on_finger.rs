@@ -117,6 +117,16 @@ pub(crate) fn sentences(bands: [OnFinger; 2]) -> Vec<String> {
     said_once(bands.map(OnFinger::sentence), ": ")
 }
 
+/// The same, each on a line of its own behind other words.
+pub(crate) fn sentence_lines(bands: [OnFinger; 2]) -> String {
+    let mut lines = String::new();
+    for sentence in sentences(bands) {
+        lines.push('\n');
+        lines.push_str(&sentence);
+    }
+    lines
+}
+
 /// What is said of both bands: once where it is the same, else behind the name of its band.
 fn said_once(bands: [Option<&str>; 2], between: &str) -> Vec<String> {
     if bands[0] == bands[1] {

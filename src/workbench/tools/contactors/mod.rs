@@ -11,7 +11,7 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::NOTHING_FELT;
-use crate::bench::on_finger::{OnFinger, is_muted, sentences};
+use crate::bench::on_finger::{OnFinger, is_muted, sentence_lines};
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::tool::{PaneContext, Tool};
@@ -149,7 +149,7 @@ fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
 /// What the finger gets of a band: where all contactors fare alike in it, what they do.
 fn band_on_finger(live: &EngineView, band: Band) -> OnFinger {
     let mut dots = live.dots.iter().map(|dot| dot.on_finger[band.index()]);
-    let is_muted = live.dots.first().is_some() && dots.all(|one| one == OnFinger::Muted);
+    let is_muted = !live.dots.is_empty() && dots.all(|one| one == OnFinger::Muted);
     if is_muted {
         OnFinger::Muted
     } else {
@@ -357,10 +357,7 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, perceptual_level: &Perceptu
     };
     let bands = perceptual_level.band_lines(dot.amplitude_um);
     let limited = limit_words(dot.limiter).map_or_else(String::new, |words| format!("\n{words}"));
-    let on_finger: String = sentences(dot.on_finger)
-        .iter()
-        .map(|one| format!("\n{one}"))
-        .collect();
+    let on_finger = sentence_lines(dot.on_finger);
     format!(
         "Contactor {index}, {on}\n{bands}\npeak, after gains, before output \
          limits{limited}{on_finger}\nclick to look closer"

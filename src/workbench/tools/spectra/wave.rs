@@ -248,8 +248,10 @@ impl Tool for DriveWave {
         let tick = bench.live.tick;
         let most_um = self.scale.most_um().max(shown.reach_um());
         let [low, high] = shown.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
-        let on_finger = sentences(shown.on_finger).into_iter();
-        let on_finger: String = on_finger.map(|sentence| format!(" {sentence}.")).collect();
+        let on_finger = match sentences(shown.on_finger).join("; ") {
+            words if words.is_empty() => words,
+            words => format!(" {words}."),
+        };
         let note = format!(
             "The last two ticks of the drive, after gains and before output limits ({low} at 40 \
              Hz, {high} at 320 Hz, dashed where they lie on the axis); amplitudes change at ticks, \

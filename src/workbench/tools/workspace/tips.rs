@@ -4,7 +4,7 @@
 
 use eframe::egui::{Label, Pos2, Response, Ui};
 
-use crate::bench::on_finger::{is_muted, sentences};
+use crate::bench::on_finger::{is_muted, sentence_lines};
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Cloth, Dot, SceneView};
 use crate::kit::widgets::limit_mark::limit_words;
@@ -96,8 +96,8 @@ fn of_dot(
     let [x, y] = [dot.position.x_mm, dot.position.y_mm].map(|mm| quantity::fixed(mm, 2));
     let bands = perceptual_level.band_lines(dot.amplitude_um);
     let limited = limit_words(dot.limiter).filter(|_| !is_muted(dot.on_finger));
-    let state = limited.into_iter().chain(sentences(dot.on_finger));
-    let state: String = state.map(|words| format!("\n{words}")).collect();
+    let limited = limited.map_or_else(String::new, |words| format!("\n{words}"));
+    let state = limited + &sentence_lines(dot.on_finger);
     format!(
         "Contactor {index}{grid}\n{on}, at {x}, {y} mm\n{bands}\nPeak, after gains, before output \
          limits{state}\nClick to look closer at it"
