@@ -22,6 +22,7 @@ pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod latest;
 pub(crate) mod library_acts;
+pub(crate) mod library_entry;
 pub(crate) mod library_levels;
 pub(crate) mod library_selection;
 pub(crate) mod library_shelf;
