@@ -5,7 +5,7 @@
 //! Moving the pointer over the cloth ends it.
 
 use crate::bench::Bench;
-use crate::bench::part::Part;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::{Dot, EngineView, Source};
 use selvedge_device::{Coder, LimiterState};
@@ -69,7 +69,7 @@ impl Bench {
             cloth: trace.and_then(|trace| Some(trace.touch?.textile)),
             amplitude_um: um.map(f64::from),
             limiter,
-            is_muted: !self.selection.mute_solo.is_felt(Part::Contactor(contactor)),
+            on_finger: [OnFinger::Past; 2],
         }
     }
 
@@ -97,6 +97,7 @@ impl Bench {
         live.centre = Some(back.pose.position);
         live.speed_mm_per_s = back.pose.velocity.speed_mm_per_s();
         live.dots.clone_from(&back.dots);
+        live.on_finger = OnFinger::Past;
         let amplitudes_um = back.dots.iter().map(|dot| dot.amplitude_um);
         live.perceptual_level = PerceptualLevel::of(amplitudes_um);
     }

@@ -25,6 +25,8 @@ pub(crate) enum OnFinger {
     ShownOnly,
     /// The display stands still in the middle of a stroke or a replay: nothing is played.
     Held,
+    /// A tick of the past, which is looked back at: the finger gets what is felt now.
+    Past,
     /// Everything was switched off: nothing is played.
     AllOff,
     /// It was muted, or another part is felt alone.
@@ -78,7 +80,7 @@ impl OnFinger {
         match self {
             Self::Felt | Self::Limited => 1.0,
             Self::ShownOnly => 0.85,
-            Self::Held => 0.6,
+            Self::Held | Self::Past => 0.6,
             Self::AllOff => 0.5,
             Self::Muted => 0.4,
         }
@@ -90,6 +92,7 @@ impl OnFinger {
             Self::Felt | Self::Limited => None,
             Self::ShownOnly => Some("screen only"),
             Self::Held => Some("held"),
+            Self::Past => Some("past"),
             Self::AllOff => Some("all off"),
             Self::Muted => Some("muted"),
         }
@@ -101,6 +104,7 @@ impl OnFinger {
             Self::Felt | Self::Limited => None,
             Self::ShownOnly => Some("On the screen only: no device is armed"),
             Self::Held => Some("Held: shown as it was; the finger gets nothing"),
+            Self::Past => Some("Looking back: shown as it was; the finger gets what is felt now"),
             Self::AllOff => Some("All off: the finger gets nothing"),
             Self::Muted => Some("Muted: the finger gets nothing"),
         }

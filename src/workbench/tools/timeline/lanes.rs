@@ -7,7 +7,7 @@ use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2}
 
 use crate::bench::recording::tiles::Tiles;
 use crate::bench::settings::timeline::TimelineStyle;
-use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_of};
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{self, Palette};
@@ -210,13 +210,10 @@ fn drawing(
 
 /// The rows of each pixel of the spectrum, high frequencies on top.
 fn spectrum_rows(height: usize, is_linear: bool) -> Vec<Range<usize>> {
-    let row_at = |share: f64| {
-        let frequency_hz = frequency_at(share, is_linear).max(LEAST_HZ);
-        row_of((frequency_hz / LEAST_HZ).log10() / (MOST_HZ / LEAST_HZ).log10())
-    };
+    let row = |share: f64| row_at(frequency_at(share, is_linear));
     let of = |y: usize| {
         let share = |y: usize| 1.0 - y as f64 / height as f64;
-        let (low, high) = (row_at(share(y + 1)), row_at(share(y) - 1e-9));
+        let (low, high) = (row(share(y + 1)), row(share(y) - 1e-9));
         low..(high + 1).min(N_ROWS)
     };
     (0..height).map(of).collect()

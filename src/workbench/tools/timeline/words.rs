@@ -3,7 +3,7 @@
 use eframe::egui::{Pos2, Rect};
 
 use crate::bench::recording::tiles::Tiles;
-use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, row_of};
+use crate::bench::signals::rows::{LEAST_HZ, row_at};
 use crate::tools::timeline::code::{GAP, level_of, speed_of};
 use crate::tools::timeline::columns::{LIMITED, MISSING, N_LINES};
 use crate::tools::timeline::lanes::{Lane, LaneStyle, frequency_at};
@@ -54,7 +54,7 @@ fn level_words(code: u8) -> String {
 
 fn spectrum_words(rows: &[u8], share: f64, style: &LaneStyle) -> String {
     let frequency_hz = frequency_at(share, style.kept.is_linear).max(LEAST_HZ);
-    let row = row_of((frequency_hz / LEAST_HZ).log10() / (MOST_HZ / LEAST_HZ).log10());
+    let row = row_at(frequency_hz);
     let code = rows.get(row).copied().unwrap_or(GAP);
     format!(
         "{}\n{}\nPeak amplitude that arrives in a row 4.9 % of the frequency wide, before filters \
