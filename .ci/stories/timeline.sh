@@ -3,23 +3,23 @@
 source "$(dirname "$0")/lib.sh"
 display
 start
-slowly "key space" "key r"
+slowly "key r"
 sleep 5
 slowly "key r"
 sleep 1
 folder=$work/data/selvedge/recordings
 first=$(ls -d "$folder"/*Z*)
 # The source below the buttons at the left end of the bar.
-slowly "mousemove 200 822" "click 1" "key Home"
+slowly "mousemove 200 790" "click 1" "key Home"
 sleep 1
 shot whole
-slowly "mousemove 800 840" "click 4" "click 4" "click 4" "click 4"
+slowly "mousemove 800 800" "click 4" "click 4" "click 4" "click 4"
 sleep 0.5
 shot zoomed
-slowly "mousedown 1" "mousemove 700 840" "mousemove 640 840" "mouseup 1"
+slowly "mousedown 1" "mousemove 700 800" "mousemove 640 800" "mouseup 1"
 sleep 0.5
 shot panned
-slowly "mousemove 760 780" "click 1"
+slowly "mousemove 760 746" "click 1"
 sleep 0.5
 slowly "key shift+m"
 slowly "key ctrl+a" "type --delay 40 'a thread'" "key Return"
@@ -27,14 +27,14 @@ sleep 0.8
 shot marked
 grep -q '^name = "a thread"' "$first/recording.toml" || fail "the marker is not on the page"
 # Two clicks show all of it again.
-slowly "mousemove 900 870"
+slowly "mousemove 900 850"
 xdotool click --repeat 2 --delay 90 1
 sleep 0.8
-slowly "keydown shift" "mousemove 600 840" "mousedown 1" "mousemove 700 840" "mousemove 800 840" "mouseup 1" "keyup shift"
+slowly "keydown shift" "mousemove 600 800" "mousedown 1" "mousemove 700 800" "mousemove 800 800" "mouseup 1" "keyup shift"
 sleep 0.5
 shot selected
 # The second button of the selection, at its upper left corner.
-slowly "mousemove 660 788" "click 1"
+slowly "mousemove 660 764" "click 1"
 sleep 1.5
 n=$(ls -d "$folder"/*Z* | wc -l)
 [ "$n" = 2 ] || fail "$n recordings instead of the whole and its part"
@@ -42,7 +42,7 @@ part=$(ls -td "$folder"/*Z* | head -n 1)
 [ "$(wc -l < "$part/ticks.csv")" -lt "$(wc -l < "$first/ticks.csv")" ] || fail "the part is as long as the whole"
 # What was felt last, in every view.
 slowly "key p" "mousemove 600 300" "mousemove 640 330" "mousemove 690 360" "mousemove 640 300"
-slowly "mousemove 700 840" "click 1"
+slowly "mousemove 700 800" "click 1"
 sleep 0.8
 shot past
 stop

@@ -12,6 +12,8 @@ use crate::kit::theme::{Palette, STEP};
 const ARMED_FRAME: f32 = 5.0;
 /// The same while every view shows the past.
 const PAST_FRAME: f32 = 3.0;
+/// How far below the window's upper edge that is said, points.
+const PAST_TOP: f32 = 47.0;
 
 /// A pane with space around it.
 pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
@@ -71,7 +73,8 @@ pub(crate) fn frame_as_past(ctx: &Context, words: &str) {
     let stroke = Stroke::new(PAST_FRAME, palette.selection);
     painter.rect_stroke(window, 0, stroke, StrokeKind::Inside);
     let galley = painter.layout_no_wrap(words.to_owned(), theme::body(), palette.panel);
-    let at = window.center_top() + vec2(-0.5 * galley.size().x, 0.0);
+    // Below the header, where a row of tabs has room.
+    let at = window.center_top() + vec2(-0.5 * galley.size().x, PAST_TOP);
     let ground = Rect::from_min_size(at, galley.size()).expand2(vec2(10.0, 2.0));
     painter.rect_filled(ground, 3, palette.selection);
     painter.galley(at, galley, palette.panel);
