@@ -4,7 +4,7 @@
 use crate::bench::recording::Recording;
 use crate::bench::signals::contact::ContactColumns;
 use crate::bench::signals::rows::{N_ROWS, Rows};
-use crate::tools::timeline::code::{amplitude_code, level_code, mirrored, speed_code};
+use crate::tools::timeline::code::{GAP, SILENT, amplitude_code, level_code, mirrored, speed_code};
 use selvedge_device::Coder;
 use selvedge_render::array::{ArrayRenderer, ContactInspector};
 use selvedge_render::scene::Pose;
@@ -74,7 +74,9 @@ pub(crate) fn write_felt(
     let (_, mean_um) = vibrating_mean_um(exact);
     for band in 0..2 {
         let code = level_code(selvedge_foundation::quantity::level_db(mean_um[band]));
-        [lines[2 + 2 * band], lines[3 + 2 * band]] = [code, mirrored(code)];
+        // The lower end is that of the ticks that sound.
+        let low = if code == SILENT { GAP } else { mirrored(code) };
+        [lines[2 + 2 * band], lines[3 + 2 * band]] = [code, low];
     }
     let n_bitten = limits.n_bitten(amplitudes_um);
     lines[LIMITED] = u8::try_from(1 + n_bitten).unwrap_or(u8::MAX);
@@ -162,5 +164,36 @@ impl TickColumns for SpectrumColumns {
 pub(crate) fn write_levels(levels_db: &Rows, rows: &mut [u8]) {
     for (row, level_db) in rows.iter_mut().zip(levels_db) {
         *row = level_code(f64::from(*level_db));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_device::ArrayProfile;
+
+    fn column(amplitudes_um: &[[f32; 2]]) -> Vec<u8> {
+        let n = amplitudes_um.len();
+        let mut limits = Limits::of(Coder::new(&ArrayProfile::default(), n), n);
+        let mut rows = vec![9; n_felt_rows(2)];
+        write_felt(120.0, amplitudes_um, &mut limits, &mut rows);
+        rows
+    }
+
+    #[test]
+    fn a_column_holds_both_bands_of_every_contactor_and_what_limits_bite() {
+        let rows = column(&[[2.0, 0.0], [900.0, 4.0]]);
+        let bands = [[2.0, 900.0], [0.0, 4.0]].map(|band| band.map(amplitude_code));
+        assert_eq!(rows[N_LINES..], bands.concat());
+        assert_eq!(rows[LIMITED], 2, "one of them");
+        assert_eq!(rows[5], mirrored(amplitude_code(2.0)), "the mean of 320 Hz");
+    }
+
+    #[test]
+    fn the_lower_end_of_a_line_is_of_ticks_that_sound() {
+        let rows = column(&[[0.0; 2]; 2]);
+        assert_eq!(rows[2..6], [SILENT, GAP, SILENT, GAP]);
+        let unknown = column(&[]);
+        assert_eq!(unknown[2..], [GAP; N_LINES + 2]);
     }
 }
