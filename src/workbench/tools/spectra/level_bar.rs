@@ -61,8 +61,10 @@ pub(crate) fn show(ui: &Ui, bar: Rect, map: ColourMap, range: &mut LevelRange) {
 
 fn drag(response: &Response, bar: Rect, range: &mut LevelRange) {
     let rows = bar.y_range();
+    // Where it was pressed: a drag is known only once it has moved away from there.
+    let pressed = response.ctx.input(|input| input.pointer.press_origin());
     if response.drag_started()
-        && let Some(at) = response.interact_pointer_pos()
+        && let Some(at) = pressed
     {
         let grip: Grip = (handle_at(rows, at.y, *range), *range);
         response
@@ -113,6 +115,42 @@ fn paint(painter: &Painter, bar: Rect, map: ColourMap, range: LevelRange) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::{self, Pos2, RawInput};
+
+    /// One frame of a window that holds nothing but a bar.
+    fn frame(ctx: &egui::Context, range: &mut LevelRange, event: egui::Event) {
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(100.0, 300.0))),
+            events: vec![event],
+            ..RawInput::default()
+        };
+        let bar = Rect::from_min_max(pos2(40.0, 100.0), pos2(48.0, 260.0));
+        let output = ctx.run_ui(input, |ui| show(ui, bar, ColourMap::Viridis, range));
+        output.drop_without_applying_deltas();
+    }
+
+    #[test]
+    fn a_handle_that_is_pressed_moves_alone_however_fast_it_is_dragged() {
+        let (ctx, mut range) = (egui::Context::default(), LevelRange::default());
+        let button = |y: f32, pressed| egui::Event::PointerButton {
+            pos: pos2(44.0, y),
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: egui::Modifiers::NONE,
+        };
+        let moved = |y: f32| egui::Event::PointerMoved(pos2(44.0, y));
+        frame(&ctx, &mut range, moved(220.0));
+        // A decibel is a point high: the floor of −40 dB stands at 220.
+        for event in [
+            moved(220.0),
+            button(220.0, true),
+            moved(200.0),
+            button(200.0, false),
+        ] {
+            frame(&ctx, &mut range, event);
+        }
+        assert_eq!(range.ends_db(), [-20.0, 40.0]);
+    }
 
     #[test]
     fn the_nearest_handle_is_taken_and_between_them_both() {

@@ -26,6 +26,8 @@ const N_SHOWN: u32 = 384;
 const N_EXPORTED: u32 = 1000;
 /// The axis at the least, µm.
 const LEAST_TOP_UM: f64 = 0.1;
+/// Height that is left for what the finger gets of it, points.
+const LABEL: f32 = 18.0;
 /// How long a smaller axis must have sufficed before it is taken, s.
 const PATIENCE_S: f64 = 1.0;
 
@@ -219,7 +221,9 @@ impl DriveWave {
         };
         let chart = chart(&shown, self.scale.most_um(), N_SHOWN);
         if let Some(plot) = plot::show(ui, rect, &chart, &setting) {
-            paint_label(ui.painter(), plot.area(), shown.on_finger);
+            // The upper corner is the axis's.
+            let lower = plot.area().with_min_y(plot.area().bottom() - LABEL);
+            paint_label(ui.painter(), lower, shown.on_finger);
         }
     }
 }
