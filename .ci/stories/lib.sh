@@ -6,6 +6,7 @@
 #   slowly 'key r' 'click 1'…   xdotool's words, slowly enough for software drawing
 #   answer PATH                 answers the field that asks for a path
 #   shot NAME                   a screenshot, in the folder that SELVEDGE_SHOTS names, if it does
+#   look NAME | differ A B      keeps what is on the screen; pixels in which two such pictures differ
 #   crash | stop                SIGKILL; SIGTERM and a clean end
 #   fail WHY                    ends the story
 #
@@ -71,6 +72,14 @@ shot() {
   [ -n "${SELVEDGE_SHOTS:-}" ] && command -v import > /dev/null || return 0
   mkdir -p "$SELVEDGE_SHOTS"
   import -window root "$SELVEDGE_SHOTS/$story-$1.png" 2> /dev/null || true
+}
+
+look() {
+  import -window root "$work/look-$1.png"
+}
+
+differ() {
+  compare -metric AE "$work/look-$1.png" "$work/look-$2.png" null: 2>&1 | sed 's/[^0-9.e+].*//' | xargs printf '%.0f\n' || true
 }
 
 crash() {

@@ -23,6 +23,7 @@ mod bridge_show;
 mod certify;
 mod experiment;
 mod failure;
+mod help;
 mod identify;
 mod input;
 mod mds;
@@ -107,6 +108,8 @@ enum Command {
     Report(report::ReportArgs),
     /// The workbench as a picture, no display needed
     Screenshot(screenshot::ScreenshotArgs),
+    /// The guide, page by page
+    Help(help::HelpArgs),
 }
 
 /// Runs the command line of this process.
@@ -142,6 +145,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Screenshot(args)) => screenshot::run(&args),
+        Some(Command::Help(args)) => help::run(&args),
     }
 }
 

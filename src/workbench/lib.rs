@@ -32,6 +32,7 @@ pub use crate::bench::Drive;
 pub use crate::bench::error::AppError;
 pub use crate::bench::settings::build_cache;
 pub use crate::bench::settings::{own_arrays, own_certificates};
+pub use crate::shell::guide::{GuidePage, guide_pages};
 pub use crate::shell::native::EndSwitch;
 pub use crate::shell::native::run;
 pub use crate::shell::raster::Picture;

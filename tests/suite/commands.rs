@@ -348,6 +348,16 @@ fn without_a_display_the_workbench_says_what_works_without_one() {
 }
 
 #[test]
+fn the_guide_is_printed_page_by_page() {
+    let lab = Lab::named("guide");
+    let list = lab.print(&["help"]);
+    for page in selvedge_workbench::guide_pages() {
+        assert!(list.contains(page.name), "{list}");
+        assert_eq!(lab.print(&["help", page.name]), page.text);
+    }
+}
+
+#[test]
 fn help_and_version_are_results() {
     let lab = Lab::new();
     assert!(lab.print(&["--help"]).contains("Usage: selvedge [SCENE]"));

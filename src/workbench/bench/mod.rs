@@ -3,6 +3,7 @@
 //!
 //! Knows neither the tools nor the window around them.
 
+pub(crate) mod acts;
 pub(crate) mod applied_gains;
 pub(crate) mod arrays;
 pub(crate) mod background;

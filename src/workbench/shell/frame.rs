@@ -137,6 +137,7 @@ fn show_panes(
         n_drawn: &mut window.shell.n_drawn,
         is_rearranged: false,
         row: TabRow::default(),
+        focus: &mut window.shell.focus,
     };
     tree.ui(&mut desk, ui);
     let is_rearranged = desk.is_rearranged;
@@ -158,8 +159,14 @@ fn show_overlays(window: &mut Workbench, ui: &Ui, commands: &mut Commands) {
     if let Some(question) = &shell.question {
         crate::shell::question::show(ui, whole, question, commands);
     }
-    if shell.is_help_shown {
-        crate::shell::help::show(ui, whole, commands);
+    if let Some(search) = &mut shell.help {
+        crate::shell::help::show(ui, whole, search, commands);
+    }
+    if let Some(reading) = &mut shell.reading {
+        crate::shell::guide::show(ui, reading, commands);
+    }
+    if let Some(palette) = &mut shell.palette {
+        crate::shell::palette::show(ui, whole, palette, &mut window.bench, commands);
     }
 }
 
@@ -197,6 +204,7 @@ impl Workbench {
             return;
         }
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
+            self.shell.restore_panes();
             let kept = &self.bench.settings.preferences.arrangements;
             for (resting, kept) in self.shell.resting.iter_mut().zip(kept) {
                 resting.take_if(|_| kept.is_none());
@@ -230,6 +238,7 @@ impl Workbench {
             return;
         }
         self.bench.pointer.pane_in_use = None;
+        self.shell.restore_panes();
         let resting = self.shell.resting[perspective.index()].take();
         let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
         let left = std::mem::replace(&mut self.shell.tree, tree);

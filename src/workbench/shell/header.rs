@@ -13,7 +13,9 @@ use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, mark};
-use crate::shell::menu::{Appearance, show_edit_menu, show_scene_menu, show_view_menu};
+use crate::shell::menu::{
+    Appearance, show_edit_menu, show_help_menu, show_scene_menu, show_view_menu,
+};
 
 /// Width of the place that says whether the device is armed, points.
 const ARMED_TAG: f32 = 84.0;
@@ -34,6 +36,7 @@ pub(crate) fn show(
         show_scene_menu(ui, scene, appearance, commands);
         show_edit_menu(ui, steps, commands);
         show_view_menu(ui, appearance, commands);
+        show_help_menu(ui, commands);
         ui.add_space(STEP);
         show_history(ui, steps, commands);
         ui.add_space(2.0 * STEP);

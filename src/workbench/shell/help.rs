@@ -1,11 +1,12 @@
-//! The list of keys, and of what the pointer does.
+//! The list of keys, and of what the pointer does, to be searched.
 //!
-//! The keys come from the one table that input is read from: what stands here is what happens.
+//! The keys come from the acts that input is read from: what stands here is what happens.
 
-use eframe::egui::{self, Align, KeyboardShortcut, Layout, Rect, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{self, Align, Context, Layout, Rect, RichText, ScrollArea, TextEdit, Ui, vec2};
 
+use crate::bench::acts;
 use crate::bench::command::{Command, Commands};
-use crate::bench::keys::{Shortcut, table};
+use crate::bench::keys::all_written;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
@@ -54,62 +55,65 @@ const SAFETY: [&str; 2] = [
     "Nothing arms the device again but you.",
 ];
 
-/// Keys of one kind.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Group {
-    title: &'static str,
-    /// What is done, and the keys that do it.
-    rows: Vec<(&'static str, Vec<KeyboardShortcut>)>,
-}
+/// A row of the list: what is done, and how.
+type Row = (String, String);
 
-/// The keys by kind, in the order of the table; keys that do the same share a row.
-fn groups(table: &[Shortcut]) -> Vec<Group> {
+/// Rows that belong together, under their title.
+type Group = (&'static str, Vec<Row>);
+
+/// The keys by what they concern, in the order of the acts; those that do the same share a row.
+fn keys(ctx: &Context) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for shortcut in table {
-        let title = kind(&shortcut.command);
-        let known = groups.iter().position(|group| group.title == title);
-        let group = known.unwrap_or_else(|| {
-            groups.push(Group {
-                title,
-                rows: Vec::new(),
-            });
-            groups.len() - 1
-        });
-        let rows = &mut groups[group].rows;
-        match rows.iter_mut().find(|(what, _)| *what == shortcut.what) {
-            Some((_, keys)) => keys.push(shortcut.key),
-            None => rows.push((shortcut.what, vec![shortcut.key])),
+    for act in acts::all().iter().filter(|act| !act.keys.is_empty()) {
+        let title = act.concern.title();
+        let row = (act.what.clone(), all_written(ctx, act));
+        match groups.iter_mut().find(|(known, _)| *known == title) {
+            Some((_, rows)) => rows.push(row),
+            None => groups.push((title, vec![row])),
         }
     }
     groups
 }
 
-fn kind(command: &Command) -> &'static str {
-    match command {
-        Command::Escape | Command::AllOff => "From anywhere",
-        Command::Edit(_)
-        | Command::Undo
-        | Command::Redo
-        | Command::StepTo(_)
-        | Command::Chosen(_) => "Scene",
-        Command::Device(_) => "Device",
-        Command::File(_) | Command::Library(_) => "Files",
-        Command::Play(_) | Command::Recording(_) | Command::Source(_) => "Play and record",
-        Command::Show(_)
-        | Command::Lab(_)
-        | Command::Render(_)
-        | Command::Dismiss
-        | Command::DismissNotice(_) => "View",
-    }
+/// What the pointer does.
+fn pointer() -> Vec<Group> {
+    let rows = |acts: &[(&str, &str)]| {
+        let rows = acts.iter();
+        rows.map(|(what, how)| ((*what).to_owned(), (*how).to_owned()))
+            .collect()
+    };
+    POINTER
+        .iter()
+        .map(|(title, acts)| (*title, rows(acts)))
+        .collect()
 }
 
-/// Shows the list at the upper edge of `over`.
-pub(crate) fn show(ui: &Ui, over: Rect, commands: &mut Commands) {
-    card(ui, over, WIDTH, "Keys and pointer", |ui, _| {
-        // Above: the title and the card's edge. Below: the safety lines and the button.
-        let room = over.height() - 2.0 * CARD_DROP - 2.0 * CARD_MARGIN - 112.0;
+/// The rows that hold every word that is sought, in what they do or how.
+fn sought(groups: Vec<Group>, sought: &str) -> Vec<Group> {
+    let sought = sought.to_lowercase();
+    let holds = |(what, how): &Row| {
+        let row = format!("{what} {how}").to_lowercase();
+        sought.split_whitespace().all(|word| row.contains(word))
+    };
+    let matching = |(title, rows): Group| (title, rows.into_iter().filter(holds).collect());
+    let groups = groups.into_iter().map(matching);
+    groups
+        .filter(|(_, rows): &Group| !rows.is_empty())
+        .collect()
+}
+
+/// Shows the list at the upper edge of `over`; `search` is what is sought in it.
+pub(crate) fn show(ui: &Ui, over: Rect, search: &mut String, commands: &mut Commands) {
+    card(ui, over, WIDTH, "Keys and pointer", |ui, title| {
+        let field = TextEdit::singleline(search)
+            .desired_width(f32::INFINITY)
+            .hint_text("Search");
+        ui.add(field).labelled_by(title.id);
+        ui.add_space(STEP);
+        // Above: the title, the field and the card's edge. Below: the safety lines and the button.
+        let room = over.height() - 2.0 * CARD_DROP - 2.0 * CARD_MARGIN - 152.0;
         let list = ScrollArea::vertical().max_height(room.max(4.0 * ROW));
-        list.show(ui, show_lists);
+        list.show(ui, |ui| show_lists(ui, search));
         ui.add_space(2.0 * STEP);
         let palette = Palette::in_ui(ui);
         for sentence in SAFETY {
@@ -126,42 +130,37 @@ pub(crate) fn show(ui: &Ui, over: Rect, commands: &mut Commands) {
 }
 
 /// Keys on the left, the pointer on the right; below each other where that is too narrow.
-fn show_lists(ui: &mut Ui) {
+fn show_lists(ui: &mut Ui, search: &str) {
+    let lists = [keys(ui.ctx()), pointer()].map(|groups| sought(groups, search));
     let width = ui.available_width();
+    if lists.iter().all(Vec::is_empty) {
+        ui.label("No key and nothing that the pointer does is called so");
+    }
     if width < 0.75 * WIDTH {
-        show_keys(ui);
-        show_pointer(ui);
+        for groups in &lists {
+            show_groups(ui, groups);
+        }
         return;
     }
     let column = vec2((width - GAP) / 2.0, 0.0);
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        for show in [show_keys, show_pointer] {
+        for groups in &lists {
             let down = Layout::top_down(Align::Min);
             ui.allocate_ui_with_layout(column, down, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0 * STEP;
                 ui.set_width(column.x);
-                show(ui);
+                show_groups(ui, groups);
             });
         }
     });
 }
 
-fn show_keys(ui: &mut Ui) {
-    for group in groups(&table()) {
-        section(ui, group.title);
-        for (what, keys) in group.rows {
-            let keys = keys.iter().map(|key| ui.ctx().format_shortcut(key));
-            show_row(ui, what, &keys.collect::<Vec<_>>().join(" or "));
-        }
-    }
-}
-
-fn show_pointer(ui: &mut Ui) {
-    for (title, acts) in POINTER {
+fn show_groups(ui: &mut Ui, groups: &[Group]) {
+    for (title, rows) in groups {
         section(ui, title);
-        for (what, act) in acts {
-            show_row(ui, what, act);
+        for (what, how) in rows {
+            show_row(ui, what, how);
         }
     }
 }
@@ -179,27 +178,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_key_of_the_table_is_listed_once() {
-        let table = table();
-        let groups = groups(&table);
-        let listed = groups.iter().flat_map(|group| &group.rows);
-        let listed: Vec<_> = listed.flat_map(|(_, keys)| keys).collect();
-        assert_eq!(listed.len(), table.len());
-        for shortcut in &table {
-            assert!(listed.contains(&&shortcut.key), "{shortcut:?}");
-        }
+    fn every_key_is_listed_once_under_a_title_of_its_own_and_escape_first() {
+        let groups = keys(&Context::default());
+        let rows: Vec<&Row> = groups.iter().flat_map(|(_, rows)| rows).collect();
+        let n_keys = acts::all().iter().filter(|act| !act.keys.is_empty());
+        assert_eq!(rows.len(), n_keys.count());
+        assert_eq!(rows[0].1, "Esc");
+        let mut titles: Vec<_> = groups.iter().map(|(title, _)| *title).collect();
+        let n_titles = titles.len();
+        titles.sort_unstable();
+        titles.dedup();
+        assert_eq!(titles.len(), n_titles);
+        let redo = rows.iter().find(|(what, _)| what == "Redo");
+        assert!(
+            redo.is_some_and(|(_, keys)| keys.contains(" or ")),
+            "{redo:?}"
+        );
     }
 
     #[test]
-    fn all_off_stands_first_and_two_keys_that_do_the_same_share_a_row() {
-        let groups = groups(&table());
-        assert!(groups[0].rows[0].0.starts_with("Everything off"));
-        let titles: Vec<_> = groups.iter().map(|group| group.title).collect();
-        let mut unique = titles.clone();
-        unique.dedup();
-        assert_eq!(titles, unique);
-        let mut rows = groups.iter().flat_map(|group| &group.rows);
-        let redo = rows.find(|(what, _)| *what == "Redo");
-        assert_eq!(redo.map(|(_, keys)| keys.len()), Some(2));
+    fn the_list_is_searched_by_what_is_done_and_by_the_key() {
+        let redo = sought(keys(&Context::default()), "ctrl+y");
+        assert_eq!((redo.len(), redo[0].1[0].0.as_str()), (1, "Redo"));
+        let wheel = sought(pointer(), "turn wheel");
+        assert_eq!(wheel[0].1[0].1, "Alt + wheel");
+        assert!(sought(keys(&Context::default()), "no such thing").is_empty());
     }
 }

@@ -1,10 +1,12 @@
-//! The two menus of the header: what can be done with scenes, and what is shown how.
+//! The menus of the header: what can be done with scenes, what was done, what is shown how, help.
+//! Acts have the names and keys that they have everywhere.
 
 use std::path::PathBuf;
 
-use eframe::egui::{Button, RichText, ScrollArea, ThemePreference, Ui};
+use eframe::egui::{Button, RichText, ScrollArea, Ui};
 
-use crate::bench::clips::{CLIPS, ClipsView};
+use crate::bench::acts::{self, CLIP, COLOURS, CONTACTORS, SIZE, THEME, group};
+use crate::bench::clips::ClipsView;
 use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
 use crate::bench::history::StepList;
 use crate::bench::keys::hint;
@@ -17,8 +19,6 @@ use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::text::tick_box;
 use selvedge_foundation::quantity;
 
-/// Sizes that are offered, %.
-const ZOOMS: [u8; 5] = [100, 125, 150, 175, 200];
 /// Height of the list of steps, points.
 const LIST: f32 = 360.0;
 
@@ -54,32 +54,29 @@ pub(crate) fn show_scene_menu(
 ) {
     ui.menu_button("Scene", |ui| {
         ui.set_min_width(220.0);
-        entry(ui, "New", FileCommand::New.into(), None, commands);
-        let open = FileCommand::Ask(Purpose::OpenScene);
-        entry(ui, "Open…", open.into(), None, commands);
+        let ask = |purpose| -> Command { FileCommand::Ask(purpose).into() };
+        entry(ui, FileCommand::New.into(), None, commands);
+        entry(ui, ask(Purpose::OpenScene), None, commands);
         show_recent(ui, &appearance.recent, commands);
-        let shipped = FileCommand::OpenShipped;
-        entry(ui, "Open the shipped scene", shipped.into(), None, commands);
+        entry(ui, FileCommand::OpenShipped.into(), None, commands);
         ui.separator();
         let unchanged = !scene.is_edited && scene.path.is_some();
         let why = unchanged.then_some("Nothing has changed");
-        entry(ui, "Save", FileCommand::Save.into(), why, commands);
-        let save_as = FileCommand::Ask(Purpose::SaveScene);
-        entry(ui, "Save as…", save_as.into(), None, commands);
+        entry(ui, FileCommand::Save.into(), why, commands);
+        entry(ui, ask(Purpose::SaveScene), None, commands);
         ui.separator();
-        let import = FileCommand::Ask(Purpose::ImportFiles);
-        entry(ui, "Import measurements…", import.into(), None, commands);
-        let picture = FileCommand::Ask(Purpose::OpenPicture);
-        entry(ui, "Cloth from a picture…", picture.into(), None, commands);
-        let experiment = ShowCommand::Perspective(Perspective::Experiment);
-        entry(ui, "Run an experiment…", experiment.into(), None, commands);
-        let analyse = FileCommand::Ask(Purpose::OpenLogs);
-        entry(ui, "Analyse sessions…", analyse.into(), None, commands);
-        let open = FileCommand::Ask(Purpose::OpenRecording);
-        entry(ui, "Open a path to replay…", open.into(), None, commands);
+        for purpose in [
+            Purpose::ImportFiles,
+            Purpose::OpenPicture,
+            Purpose::AddLibrary,
+            Purpose::OpenLogs,
+            Purpose::OpenRecording,
+        ] {
+            entry(ui, ask(purpose), None, commands);
+        }
         show_clips(ui, appearance.clips, commands);
         ui.separator();
-        entry(ui, "Close", FileCommand::Close.into(), None, commands);
+        entry(ui, FileCommand::Close.into(), None, commands);
     });
 }
 
@@ -88,13 +85,12 @@ fn show_clips(ui: &mut Ui, clips: ClipsView, commands: &mut Commands) {
     if let Some(share) = clips.share {
         let percent = quantity::with_unit(f64::from(share) * 100.0, 0, "%");
         let words = format!("Stop the export ({percent})");
-        return entry(ui, &words, FileCommand::StopClip.into(), None, commands);
+        return line(ui, &words, FileCommand::StopClip.into(), None, commands);
     }
     ui.add_enabled_ui(clips.has_take, |ui| {
         let menu = ui.menu_button("Export the recording", |ui| {
-            for (kind, words) in CLIPS {
-                let ask = FileCommand::Ask(Purpose::Clip(kind));
-                entry(ui, words, ask.into(), None, commands);
+            for (label, act) in group(CLIP) {
+                line(ui, &label, act.command.clone(), None, commands);
             }
         });
         menu.response
@@ -131,13 +127,8 @@ pub(crate) fn show_edit_menu(ui: &mut Ui, steps: &StepList, commands: &mut Comma
             let named = step.map(|step| format!("{act}: {step}"));
             let why = format!("Nothing to {}", act.to_lowercase());
             let refusal = step.is_none().then_some(why.as_str());
-            entry(
-                ui,
-                named.as_deref().unwrap_or(act),
-                command,
-                refusal,
-                commands,
-            );
+            let label = named.as_deref().unwrap_or(act);
+            line(ui, label, command, refusal, commands);
         }
         ui.separator();
         ui.add_enabled_ui(!steps.names.is_empty(), |ui| {
@@ -179,94 +170,96 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, commands: &mu
         for perspective in Perspective::ALL {
             let command = ShowCommand::Perspective(perspective);
             let is_shown = perspective == appearance.perspective;
-            choice(ui, perspective.title(), is_shown, command, commands);
+            choice(ui, perspective.title(), is_shown, command.into(), commands);
         }
         ui.separator();
         ui.menu_button("Panes", |ui| {
             for (pane, is_shown) in &appearance.panes {
                 let command = ShowCommand::Pane(*pane);
-                choice(ui, pane.title(), *is_shown, command, commands);
+                choice(ui, pane.title(), *is_shown, command.into(), commands);
             }
         });
-        let default = ShowCommand::DefaultArrangement;
-        entry(ui, "Default arrangement", default.into(), None, commands);
+        for command in [
+            ShowCommand::WalkPanes(1),
+            ShowCommand::Maximise(None),
+            ShowCommand::DefaultArrangement,
+            ShowCommand::FullScreen,
+        ] {
+            entry(ui, command.into(), None, commands);
+        }
         ui.separator();
-        ui.menu_button("Theme", |ui| show_themes(ui, commands));
-        ui.menu_button("Colours of numbers", |ui| {
-            for map in ColourMap::ALL {
-                let command = ShowCommand::ColourMap(map);
-                choice(ui, map.label(), map == appearance.map, command, commands);
-            }
-        });
-        ui.menu_button("Size of everything", |ui| {
-            for percent in ZOOMS {
-                let zoom = f32::from(percent) / 100.0;
-                let is_chosen = (zoom - appearance.zoom).abs() < 0.01;
-                let label = quantity::with_unit(f64::from(percent), 0, "%");
-                choice(ui, &label, is_chosen, ShowCommand::Zoom(zoom), commands);
-            }
-        });
-        ui.menu_button("Contactors", |ui| {
-            show_dot_styles(ui, appearance.dots, commands);
-        });
-        let command = ShowCommand::ToggleThreshold;
-        let label = "Grey below threshold (a model)";
-        choice(ui, label, appearance.greys_below, command, commands);
+        for (title, prefix) in [
+            ("Theme", THEME),
+            ("Colours of numbers", COLOURS),
+            ("Size of everything", SIZE),
+            ("Contactors", CONTACTORS),
+        ] {
+            ui.menu_button(title, |ui| {
+                for (label, act) in group(prefix) {
+                    let is_chosen = appearance.has_chosen(ui, &act.command);
+                    choice(ui, &label, is_chosen, act.command.clone(), commands);
+                }
+            });
+        }
+        let greys: Command = ShowCommand::ToggleThreshold.into();
+        let label = acts::label(&greys);
+        choice(ui, label, appearance.greys_below, greys, commands);
         ui.menu_button("Over the cloth", |ui| {
             for (overlay, label) in Overlays::ALL {
                 let command = ShowCommand::Overlay(overlay);
                 let is_shown = appearance.overlays.shows(overlay);
-                choice(ui, label, is_shown, command, commands);
+                choice(ui, label, is_shown, command.into(), commands);
             }
         });
         ui.separator();
-        let calibrate = ShowCommand::Calibrate;
-        entry(
-            ui,
-            "Calibrate to true size…",
-            calibrate.into(),
-            None,
-            commands,
-        );
-        entry(ui, "Keys", ShowCommand::Help.into(), None, commands);
+        entry(ui, ShowCommand::Calibrate.into(), None, commands);
     });
 }
 
-fn show_themes(ui: &mut Ui, commands: &mut Commands) {
-    let theme = ui.ctx().options(|options| options.theme_preference);
-    let themes = [
-        (ThemePreference::System, "As the system"),
-        (ThemePreference::Dark, "Dark"),
-        (ThemePreference::Light, "Light"),
-    ];
-    for (preference, label) in themes {
-        let command = ShowCommand::Theme(preference);
-        choice(ui, label, theme == preference, command, commands);
+/// What tells more.
+pub(crate) fn show_help_menu(ui: &mut Ui, commands: &mut Commands) {
+    ui.menu_button("Help", |ui| {
+        ui.set_min_width(220.0);
+        for command in [
+            ShowCommand::Guide(None),
+            ShowCommand::Help,
+            ShowCommand::Palette,
+        ] {
+            entry(ui, command.into(), None, commands);
+        }
+    });
+}
+
+impl Appearance {
+    /// Whether this is what was chosen of its kind.
+    fn has_chosen(&self, ui: &Ui, command: &Command) -> bool {
+        match command {
+            Command::Show(ShowCommand::Theme(theme)) => {
+                ui.ctx().options(|options| options.theme_preference) == *theme
+            }
+            Command::Show(ShowCommand::ColourMap(map)) => *map == self.map,
+            Command::Show(ShowCommand::Zoom(zoom)) => (zoom - self.zoom).abs() < 0.01,
+            Command::Show(ShowCommand::DotStyle(style)) => *style == self.dots,
+            _ => false,
+        }
     }
 }
 
-fn show_dot_styles(ui: &mut Ui, chosen: DotStyle, commands: &mut Commands) {
-    let styles = [
-        (DotStyle::SizeAndGlow, "40 Hz by size, 320 Hz by glow"),
-        (DotStyle::Size, "Both by size"),
-        (DotStyle::Brightness, "Both by brightness"),
-    ];
-    for (style, label) in styles {
-        let command = ShowCommand::DotStyle(style);
-        choice(ui, label, style == chosen, command, commands);
-    }
+/// An act, by the name and key that it has everywhere; grey, with the reason, when it does nothing.
+fn entry(ui: &mut Ui, command: Command, refusal: Option<&str>, commands: &mut Commands) {
+    let label = acts::label(&command);
+    line(ui, label, command, refusal, commands);
 }
 
 /// A line that does something, with its key; grey, with the reason, when it does nothing.
-fn entry(
+fn line(
     ui: &mut Ui,
     label: &str,
     command: Command,
     refusal: Option<&str>,
     commands: &mut Commands,
 ) {
-    let key = hint(ui.ctx(), &command);
-    let button = Button::new(label).shortcut_text(key);
+    let button = Button::new(label).shortcut_text(hint(ui.ctx(), &command));
     let response = ui.add_enabled(refusal.is_none(), button);
     let response = match refusal {
         Some(why) => response.on_disabled_hover_text(why),
@@ -279,14 +272,7 @@ fn entry(
 }
 
 /// A line that is ticked or not; the menu stays open.
-fn choice(
-    ui: &mut Ui,
-    label: &str,
-    is_chosen: bool,
-    command: ShowCommand,
-    commands: &mut Commands,
-) {
-    let command = command.into();
+fn choice(ui: &mut Ui, label: &str, is_chosen: bool, command: Command, commands: &mut Commands) {
     if tick_box(ui, label, is_chosen, hint(ui.ctx(), &command)) {
         commands.push(command);
     }

@@ -18,6 +18,8 @@ use crate::bench::tool::Bar;
 use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
+use crate::shell::guide::Reading;
+use crate::shell::palette::Palette;
 use crate::shell::pointer::PointerTap;
 
 /// The window around the tools.
@@ -42,8 +44,18 @@ pub(crate) struct Shell {
     pub(crate) may_close: bool,
     /// Set when the program is told to end, with nobody there to be asked.
     pub(crate) ends: Arc<AtomicBool>,
-    /// Whether the list of keys is shown.
-    pub(crate) is_help_shown: bool,
+    /// What is sought in the list of keys, while that is shown.
+    pub(crate) help: Option<String>,
+    /// What is sought of everything, while that is asked.
+    pub(crate) palette: Option<Palette>,
+    /// What is read of the guide, while that is shown.
+    pub(crate) reading: Option<Reading>,
+    /// All panes, while one of them stands alone.
+    pub(crate) whole: Option<Tree<Pane>>,
+    /// The pane that has the focus as a whole.
+    pub(crate) focus: PaneFocus,
+    /// Whether the window was told to fill the screen.
+    pub(crate) fills_screen: bool,
     /// What is being exported.
     pub(crate) exports: Exports,
     /// Motion that gives way to the pointer, as long as it does.
@@ -72,7 +84,12 @@ impl Shell {
             was_typing: false,
             may_close: false,
             ends: Arc::default(),
-            is_help_shown: false,
+            help: None,
+            palette: None,
+            reading: None,
+            whole: None,
+            focus: PaneFocus::default(),
+            fills_screen: false,
             exports: Exports::default(),
             start_motion: None,
             left_since_s: None,
@@ -89,8 +106,34 @@ impl Shell {
 
     /// Whether something lies over the panes that wants an answer.
     pub(crate) fn is_covered(&self) -> bool {
-        self.ask.is_some() || self.question.is_some() || self.is_help_shown
+        let is_asked = self.ask.is_some() || self.question.is_some();
+        is_asked || self.help.is_some() || self.palette.is_some() || self.reading.is_some()
     }
+
+    /// Puts away what lies over the panes.
+    pub(crate) fn uncover(&mut self) {
+        self.ask = None;
+        self.exports.seen = None;
+        self.question = None;
+        self.help = None;
+        self.palette = None;
+        self.reading = None;
+    }
+
+    /// Shows all panes again, if one stands alone.
+    pub(crate) fn restore_panes(&mut self) {
+        if let Some(whole) = self.whole.take() {
+            self.tree = whole;
+        }
+    }
+}
+
+/// The pane that has the focus as a whole: from it Tab goes to what it holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct PaneFocus {
+    pub(crate) pane: Option<Pane>,
+    /// Whether it is yet to be given the focus.
+    pub(crate) is_wanted: bool,
 }
 
 /// Motion that gives way to the pointer.

@@ -126,9 +126,10 @@ fn the_question_on_closing_has_three_answers_and_enter_saves() {
 
 #[test]
 fn the_list_of_keys_names_a_key_and_can_be_put_away() {
+    let mut search = String::new();
     let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_help(ui, over, commands);
+        show_help(ui, over, &mut search, commands);
     });
     harness.run();
     harness.get_by_label("Ctrl+O");

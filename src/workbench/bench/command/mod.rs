@@ -311,6 +311,17 @@ pub(crate) enum ShowCommand {
     Calibrate,
     /// Show or hide the list of keys.
     Help,
+    /// Show or hide the field that finds everything by its name.
+    Palette,
+    /// Show a page of the guide, by its name and perhaps a heading after `#`; hide the guide if it
+    /// is shown and no page is named.
+    Guide(Option<String>),
+    /// Put the focus on the pane so many further in reading order.
+    WalkPanes(i8),
+    /// Show this pane alone, or the one in use; all again if one is alone.
+    Maximise(Option<Pane>),
+    /// Fill the screen, or no longer.
+    FullScreen,
 }
 
 /// What a drag in the workspace does.

@@ -55,7 +55,7 @@ impl Workbench {
         }
         match command {
             Command::Escape => self.escape(),
-            Command::AllOff | Command::Dismiss => self.dismiss(),
+            Command::AllOff | Command::Dismiss => self.shell.uncover(),
             Command::File(command) => self.dispatch_file(command),
             Command::Show(command) => self.dispatch_show(&command),
             Command::Undo => self.undo(),
@@ -63,13 +63,6 @@ impl Workbench {
             Command::StepTo(n_done) => self.step_to(n_done),
             command => self.bench.act(command),
         }
-    }
-
-    fn dismiss(&mut self) {
-        self.shell.ask = None;
-        self.shell.exports.seen = None;
-        self.shell.question = None;
-        self.shell.is_help_shown = false;
     }
 }
 
@@ -109,6 +102,9 @@ fn leaves_session(command: &Command) -> bool {
                 | ShowCommand::DefaultArrangement
                 | ShowCommand::Hover(_)
                 | ShowCommand::Help
+                | ShowCommand::Guide(_)
+                | ShowCommand::Maximise(_)
+                | ShowCommand::FullScreen
         ),
         _ => false,
     }

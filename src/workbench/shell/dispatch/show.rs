@@ -1,9 +1,14 @@
 //! What is shown how: kept per user where that makes sense, never undone.
 
+use eframe::egui::ViewportCommand;
+
 use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
+use crate::bench::pane::Pane;
 use crate::shell::arrangement;
+use crate::shell::guide::Reading;
+use crate::shell::palette::Palette;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::window::Workbench;
 
@@ -15,31 +20,75 @@ impl Workbench {
         }
         match *command {
             ShowCommand::Pane(pane) => {
+                self.shell.restore_panes();
                 arrangement::toggle(&mut self.shell.tree, pane);
                 self.keep_arrangement();
             }
-            ShowCommand::Reveal(pane) if !self.shell.shows(pane) => {
-                arrangement::toggle(&mut self.shell.tree, pane);
-                self.keep_arrangement();
-            }
+            ShowCommand::Reveal(pane) => self.reveal(pane),
             ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
             ShowCommand::DefaultArrangement => {
+                self.shell.restore_panes();
                 let preferences = &mut self.bench.settings.preferences;
                 let perspective = preferences.perspective;
                 self.shell.tree = arrangement_for(perspective, self.shell.size);
                 preferences.arrangements[perspective.index()] = None;
             }
-            ShowCommand::Help => self.shell.is_help_shown = !self.shell.is_help_shown,
+            ShowCommand::WalkPanes(by) => self.walk_panes(by),
+            ShowCommand::Maximise(pane) => self.maximise(pane),
+            ShowCommand::FullScreen => self.fill_screen(),
+            ShowCommand::Help | ShowCommand::Palette | ShowCommand::Guide(_) => {
+                self.cover(command);
+            }
             _ => self.bench.dispatch_show(command),
         }
         self.bench.send_gains();
     }
 
-    /// Keeps the arrangement as it is now.
+    /// Brings a pane to the front if it is not in sight.
+    fn reveal(&mut self, pane: Pane) {
+        if self.shell.shows(pane) {
+            return;
+        }
+        self.shell.restore_panes();
+        if !self.shell.shows(pane) {
+            arrangement::toggle(&mut self.shell.tree, pane);
+            self.keep_arrangement();
+        }
+    }
+
+    /// Shows keys, palette or guide in the place of whatever lies over the panes; the same again
+    /// puts it away.
+    fn cover(&mut self, command: &ShowCommand) {
+        let shell = &mut self.shell;
+        let had = [
+            shell.help.is_some(),
+            shell.palette.is_some(),
+            shell.reading.is_some(),
+        ];
+        shell.uncover();
+        match command {
+            ShowCommand::Help if !had[0] => shell.help = Some(String::new()),
+            ShowCommand::Palette if !had[1] => shell.palette = Some(Palette::default()),
+            ShowCommand::Guide(page) if page.is_some() || !had[2] => {
+                shell.reading = Some(Reading::of(page.as_deref()));
+            }
+            _ => {}
+        }
+    }
+
+    fn fill_screen(&mut self) {
+        let ctx = &self.bench.ctx;
+        let is_full = ctx.input(|input| input.viewport().fullscreen);
+        let is_full = is_full.unwrap_or(self.shell.fills_screen);
+        self.shell.fills_screen = !is_full;
+        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+    }
+
+    /// Keeps the arrangement as it is now, of all panes.
     pub(crate) fn keep_arrangement(&mut self) {
         let preferences = &mut self.bench.settings.preferences;
-        preferences.arrangements[preferences.perspective.index()] =
-            arrangement::to_text(&self.shell.tree);
+        let tree = self.shell.whole.as_ref().unwrap_or(&self.shell.tree);
+        preferences.arrangements[preferences.perspective.index()] = arrangement::to_text(tree);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
 use crate::kit::pane::framed;
 use crate::kit::theme::{Palette, STEP};
+use crate::shell::state::PaneFocus;
 use crate::shell::tab_row::TabRow;
 
 /// Everything that panes are drawn from, and what came of drawing them.
@@ -23,6 +24,8 @@ pub(crate) struct PaneHost<'a> {
     pub(crate) n_drawn: &'a mut [u64; Pane::ALL.len()],
     /// Whether panes were moved.
     pub(crate) is_rearranged: bool,
+    /// The pane that has the focus as a whole.
+    pub(crate) focus: &'a mut PaneFocus,
     /// Where titles and the pane's corner have no room side by side, the corner stands in the pane.
     pub row: TabRow,
 }
@@ -34,6 +37,7 @@ impl PaneHost<'_> {
         {
             self.context.bench.pointer.pane_in_use = Some(pane);
         }
+        self.focus.take(ui, pane);
         if self.context.bench.is_veiled(pane) {
             return framed(ui, 10, show_veil);
         }

@@ -6,6 +6,7 @@ use egui_tiles::{
     UiResponse,
 };
 
+use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -27,7 +28,9 @@ impl Behavior<Pane> for PaneHost<'_> {
                 self.show_corner(ui, *pane);
             });
         }
+        let rect = ui.max_rect();
         self.show(ui, *pane);
+        self.focus.frame(ui, rect, *pane);
         UiResponse::None
     }
 
@@ -49,6 +52,10 @@ impl Behavior<Pane> for PaneHost<'_> {
             && let Some(Tile::Pane(pane)) = tiles.get(tile)
         {
             self.context.bench.pointer.pane_in_use = Some(*pane);
+            if response.double_clicked() {
+                let alone = ShowCommand::Maximise(Some(*pane));
+                self.context.commands.push(alone.into());
+            }
         }
         response
     }

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Everything by keys: found by name, the guide, the list of keys, from pane to pane, one pane alone.
+. "$(dirname "$0")/lib.sh"
+display
+start
+slowly 'key Escape'
+# A textile of another library, found by a few letters and laid into the scene.
+slowly 'key ctrl+k' "type --delay 30 'poplin'"
+sleep 1
+shot palette
+slowly 'key Return'
+sleep 1
+slowly 'key ctrl+shift+s'
+answer "$work/found.scene.toml"
+grep -q poplin "$work/found.scene.toml" || fail "the textile that was found is not in the scene"
+# The guide, found by its name; Esc closes it.
+look before
+slowly 'key ctrl+p' "type --delay 30 'guide'" 'key Return'
+sleep 1
+shot guide
+look guide
+[ "$(differ before guide)" -gt 100000 ] || fail "the guide is not shown"
+slowly 'key Escape'
+slowly 'key F1' "type --delay 30 'redo'"
+shot keys
+slowly 'key Escape'
+sleep 0.5
+look after
+[ "$(differ before after)" -lt 20000 ] || fail "Esc did not close what lay on top"
+# From pane to pane: the frame of the one that has the focus moves.
+slowly 'key F6'
+look first
+slowly 'key F6'
+look second
+shot walked
+[ "$(differ first second)" -gt 500 ] || fail "F6 does not show where it goes"
+slowly 'key shift+F6'
+look back
+[ "$(differ first back)" -lt "$(differ first second)" ] || fail "Shift+F6 does not go back"
+# One pane alone, and all again.
+slowly 'key shift+F11'
+sleep 0.5
+shot alone
+look alone
+[ "$(differ back alone)" -gt 200000 ] || fail "no pane stands alone"
+slowly 'key shift+F11'
+sleep 0.5
+look again
+[ "$(differ back again)" -lt 20000 ] || fail "the panes did not come back"
+slowly 'key F11' 'key F11'
+stop
+"$selvedge" help | grep -q workbench || fail "the guide is not listed"
+"$selvedge" help bridge | grep -q '^## Armed' || fail "a page of the guide is not printed"
