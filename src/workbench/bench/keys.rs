@@ -32,7 +32,7 @@ fn n_modifiers(modifiers: Modifiers) -> usize {
 /// that has the focus is none.
 pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let is_typing = ctx.text_edit_focused();
-    let focused = ctx.memory(|memory| memory.focused());
+    let focused = ctx.memory(egui::Memory::focused);
     let is_panes = |id| Pane::ALL.into_iter().any(|pane| pane_focus(pane) == id);
     let has_focus = focused.is_some_and(|id| !is_panes(id));
     let mut commands = Vec::new();
@@ -56,12 +56,12 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
 /// How the first key of a command is written, for tips; empty when it has none.
 pub(crate) fn hint(ctx: &egui::Context, command: &Command) -> String {
     let key = acts::of(command).and_then(|act| act.keys.first());
-    key.map(|key| written(ctx, key)).unwrap_or_default()
+    key.map(|key| written(ctx, *key)).unwrap_or_default()
 }
 
 /// The keys of an act as they are written; empty if it has none.
 pub(crate) fn all_written(ctx: &egui::Context, act: &Act) -> String {
-    let keys = act.keys.iter().map(|key| written(ctx, key));
+    let keys = act.keys.iter().map(|key| written(ctx, *key));
     keys.collect::<Vec<_>>().join(" or ")
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn pane_focus(pane: Pane) -> Id {
 }
 
 /// How a key is written, everywhere.
-fn written(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
+fn written(ctx: &egui::Context, key: KeyboardShortcut) -> String {
     let is_mac = ctx.os().is_mac();
     let modifiers = key.modifiers;
     let mut words = String::new();
@@ -132,11 +132,11 @@ mod tests {
         ];
         for (modifiers, key, expected) in keys {
             assert_eq!(
-                written(&ctx, &KeyboardShortcut::new(modifiers, key)),
+                written(&ctx, KeyboardShortcut::new(modifiers, key)),
                 expected
             );
         }
-        let redo = written(&ctx, &KeyboardShortcut::new(shift, Key::Z));
+        let redo = written(&ctx, KeyboardShortcut::new(shift, Key::Z));
         assert!(redo.ends_with("+Shift+Z"), "{redo}");
     }
 }

@@ -98,7 +98,7 @@ fn reading_order(tree: &Tree<Pane>) -> Vec<Pane> {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, Key, Modifiers, vec2};
+    use eframe::egui::{Event, Key, Memory, Modifiers, vec2};
 
     use super::*;
     use crate::bench::command::ShowCommand;
@@ -123,7 +123,7 @@ mod tests {
     }
 
     fn focused(window: &Headless) -> Option<Pane> {
-        let id = window.ctx.memory(|memory| memory.focused())?;
+        let id = window.ctx.memory(Memory::focused)?;
         Pane::ALL.into_iter().find(|pane| pane_focus(*pane) == id)
     }
 
@@ -151,7 +151,7 @@ mod tests {
         );
         press(&mut window, Modifiers::NONE, Key::Tab);
         assert_eq!(focused(&window), None, "Tab goes into the pane");
-        assert!(window.ctx.memory(|memory| memory.focused()).is_some());
+        assert!(window.ctx.memory(Memory::focused).is_some());
     }
 
     #[test]

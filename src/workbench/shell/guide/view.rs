@@ -117,7 +117,7 @@ fn show_contents(ui: &mut Ui, reading: &mut Reading) {
                     goes = Some(page.name.to_owned());
                 }
                 if is_read {
-                    goes = show_headings(ui, page).or(goes.take());
+                    goes = show_headings(ui, page).or_else(|| goes.take());
                 }
             }
             return;
@@ -249,7 +249,7 @@ fn show_page(ui: &mut Ui, page: &GuidePage, goes_to: Option<&str>) -> Option<Str
                     let font = theme::body();
                     ui.painter()
                         .text(at, egui::Align2::RIGHT_TOP, bullet.trim(), font, ink);
-                    ui.vertical(|ui| went = show_spans(ui, &spans).or(went.take()));
+                    ui.vertical(|ui| went = show_spans(ui, &spans).or_else(|| went.take()));
                 });
             }
             Block::Code(code) => {
@@ -282,7 +282,7 @@ fn show_table(ui: &mut Ui, rows: &[Vec<Vec<Span>>]) -> Option<String> {
                 let size = vec2(share * width, 0.0);
                 ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                     ui.set_width(size.x);
-                    went = show_spans(ui, cell).or(went.take());
+                    went = show_spans(ui, cell).or_else(|| went.take());
                 });
             }
         });
