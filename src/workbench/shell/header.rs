@@ -17,6 +17,10 @@ use crate::shell::menu::{
     Appearance, show_edit_menu, show_help_menu, show_scene_menu, show_view_menu,
 };
 
+/// What also stands in a menu has no room in a narrower window, points: whether the device is armed
+/// and what Esc does is always seen.
+const ROOM_FOR_STEPS: f32 = 900.0;
+const ROOM_FOR_PERSPECTIVES: f32 = 720.0;
 /// Width of the place that says whether the device is armed, points.
 const ARMED_TAG: f32 = 84.0;
 
@@ -30,17 +34,24 @@ pub(crate) fn show(
 ) {
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
         let palette = Palette::in_ui(ui);
-        let name = RichText::new("Selvedge").font(theme::title());
-        ui.label(name.color(palette.dim));
-        ui.add_space(STEP);
+        let width = ui.available_width();
+        if width > ROOM_FOR_PERSPECTIVES {
+            let name = RichText::new("Selvedge").font(theme::title());
+            ui.label(name.color(palette.dim));
+            ui.add_space(STEP);
+        }
         show_scene_menu(ui, scene, appearance, commands);
         show_edit_menu(ui, steps, commands);
         show_view_menu(ui, appearance, commands);
         show_help_menu(ui, commands);
         ui.add_space(STEP);
-        show_history(ui, steps, commands);
-        ui.add_space(2.0 * STEP);
-        show_perspectives(ui, appearance.perspective, commands);
+        if width > ROOM_FOR_STEPS {
+            show_history(ui, steps, commands);
+            ui.add_space(2.0 * STEP);
+        }
+        if width > ROOM_FOR_PERSPECTIVES {
+            show_perspectives(ui, appearance.perspective, commands);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             show_escape(ui, bench, commands);
             show_armed(ui, &bench.live);

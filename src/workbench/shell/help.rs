@@ -108,7 +108,10 @@ pub(crate) fn show(ui: &Ui, over: Rect, search: &mut String, commands: &mut Comm
         let field = TextEdit::singleline(search)
             .desired_width(f32::INFINITY)
             .hint_text("Search");
-        ui.add(field).labelled_by(title.id);
+        let field = ui.add(field).labelled_by(title.id);
+        if ui.memory(|memory| memory.focused().is_none()) {
+            field.request_focus();
+        }
         ui.add_space(STEP);
         // Above: the title, the field and the card's edge. Below: the safety lines and the button.
         let room = over.height() - 2.0 * CARD_DROP - 2.0 * CARD_MARGIN - 152.0;
