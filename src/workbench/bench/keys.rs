@@ -113,7 +113,8 @@ mod tests {
         // Consuming Ctrl+Z would otherwise swallow Ctrl+Shift+Z.
         for (i, (key, act)) in table().iter().enumerate() {
             for (later, by) in &table()[i + 1..] {
-                let same_key = key.logical_key == later.logical_key;
+                let same_key = key.logical_key == later.logical_key
+                    && key.modifiers.command == later.modifiers.command;
                 let hides = same_key && !key.modifiers.shift && later.modifiers.shift;
                 assert!(!hides, "{} hides {}", act.what, by.what);
             }
