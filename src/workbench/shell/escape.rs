@@ -105,7 +105,7 @@ mod tests {
         window.dispatch(ShowCommand::Calibrate);
         window.pass(2);
         press(&mut window, Key::Escape);
-        assert!(window.workbench.shell.help.is_none());
+        assert!(window.workbench.shell.cover.is_none());
         assert!(window.workbench.bench.live.play.is_playing);
         press(&mut window, Key::Escape);
         assert!(!window.workbench.bench.live.play.is_playing);

@@ -17,6 +17,7 @@ use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
 use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
+use crate::shell::state::Cover;
 use crate::shell::tab_row::TabRow;
 use crate::shell::window::Workbench;
 
@@ -159,14 +160,13 @@ fn show_overlays(window: &mut Workbench, ui: &Ui, commands: &mut Commands) {
     if let Some(question) = &shell.question {
         crate::shell::question::show(ui, whole, question, commands);
     }
-    if let Some(search) = &mut shell.help {
-        crate::shell::help::show(ui, whole, search, commands);
-    }
-    if let Some(reading) = &mut shell.reading {
-        crate::shell::guide::show(ui, reading, commands);
-    }
-    if let Some(palette) = &mut shell.palette {
-        crate::shell::palette::show(ui, whole, palette, &mut window.bench, commands);
+    match &mut shell.cover {
+        Some(Cover::Keys(search)) => crate::shell::help::show(ui, whole, search, commands),
+        Some(Cover::Guide(reading)) => crate::shell::guide::show(ui, reading, commands),
+        Some(Cover::Palette(palette)) => {
+            crate::shell::palette::show(ui, whole, palette, &mut window.bench, commands);
+        }
+        None => {}
     }
 }
 

@@ -44,12 +44,8 @@ pub(crate) struct Shell {
     pub(crate) may_close: bool,
     /// Set when the program is told to end, with nobody there to be asked.
     pub(crate) ends: Arc<AtomicBool>,
-    /// What is sought in the list of keys, while that is shown.
-    pub(crate) help: Option<String>,
-    /// What is sought of everything, while that is asked.
-    pub(crate) palette: Option<Palette>,
-    /// What is read of the guide, while that is shown.
-    pub(crate) reading: Option<Reading>,
+    /// What lies over the panes to be read or searched.
+    pub(crate) cover: Option<Cover>,
     /// All panes, while one of them stands alone.
     pub(crate) whole: Option<Tree<Pane>>,
     /// The pane that has the focus as a whole.
@@ -84,9 +80,7 @@ impl Shell {
             was_typing: false,
             may_close: false,
             ends: Arc::default(),
-            help: None,
-            palette: None,
-            reading: None,
+            cover: None,
             whole: None,
             focus: PaneFocus::default(),
             fills_screen: false,
@@ -106,8 +100,7 @@ impl Shell {
 
     /// Whether something lies over the panes that wants an answer.
     pub(crate) fn is_covered(&self) -> bool {
-        let is_asked = self.ask.is_some() || self.question.is_some();
-        is_asked || self.help.is_some() || self.palette.is_some() || self.reading.is_some()
+        self.ask.is_some() || self.question.is_some() || self.cover.is_some()
     }
 
     /// Puts away what lies over the panes.
@@ -115,9 +108,7 @@ impl Shell {
         self.ask = None;
         self.exports.seen = None;
         self.question = None;
-        self.help = None;
-        self.palette = None;
-        self.reading = None;
+        self.cover = None;
     }
 
     /// Shows all panes again, if one stands alone.
@@ -126,6 +117,17 @@ impl Shell {
             self.tree = whole;
         }
     }
+}
+
+/// What lies over the panes to be read or searched.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Cover {
+    /// The list of keys, with what is sought in it.
+    Keys(String),
+    /// The field that finds everything by its name.
+    Palette(Palette),
+    /// The guide.
+    Guide(Reading),
 }
 
 /// The pane that has the focus as a whole: from it Tab goes to what it holds.

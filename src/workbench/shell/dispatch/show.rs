@@ -10,6 +10,7 @@ use crate::shell::arrangement;
 use crate::shell::guide::Reading;
 use crate::shell::palette::Palette;
 use crate::shell::perspective::arrangement_for;
+use crate::shell::state::Cover;
 use crate::shell::window::Workbench;
 
 impl Workbench {
@@ -59,21 +60,17 @@ impl Workbench {
     /// Shows keys, palette or guide in the place of whatever lies over the panes; the same again
     /// puts it away.
     fn cover(&mut self, command: &ShowCommand) {
-        let shell = &mut self.shell;
-        let had = [
-            shell.help.is_some(),
-            shell.palette.is_some(),
-            shell.reading.is_some(),
-        ];
-        shell.uncover();
-        match command {
-            ShowCommand::Help if !had[0] => shell.help = Some(String::new()),
-            ShowCommand::Palette if !had[1] => shell.palette = Some(Palette::default()),
-            ShowCommand::Guide(page) if page.is_some() || !had[2] => {
-                shell.reading = Some(Reading::of(page.as_deref()));
-            }
-            _ => {}
-        }
+        let was = self.shell.cover.take();
+        self.shell.uncover();
+        self.shell.cover = match (command, was) {
+            (ShowCommand::Help, Some(Cover::Keys(_)))
+            | (ShowCommand::Palette, Some(Cover::Palette(_)))
+            | (ShowCommand::Guide(None), Some(Cover::Guide(_))) => None,
+            (ShowCommand::Help, _) => Some(Cover::Keys(String::new())),
+            (ShowCommand::Palette, _) => Some(Cover::Palette(Palette::default())),
+            (ShowCommand::Guide(page), _) => Some(Cover::Guide(Reading::of(page.as_deref()))),
+            (_, was) => was,
+        };
     }
 
     fn fill_screen(&mut self) {

@@ -325,6 +325,7 @@ mod tests {
     use super::*;
     use crate::bench::command::ShowCommand;
     use crate::shell::headless::Headless;
+    use crate::shell::state::Cover;
 
     #[test]
     fn a_search_finds_each_section_once_with_the_words_around() {
@@ -344,11 +345,13 @@ mod tests {
         for page in guide_pages() {
             window.dispatch(ShowCommand::Guide(Some(page.name.to_owned())));
             window.pass(2);
-            let reading = window.workbench.shell.reading.clone();
-            assert_eq!(reading.map(|reading| reading.page.name), Some(page.name));
+            let Some(Cover::Guide(reading)) = &window.workbench.shell.cover else {
+                panic!("the guide is not shown")
+            };
+            assert_eq!(reading.page.name, page.name);
         }
         window.dispatch(Command::Escape);
-        assert_eq!(window.workbench.shell.reading, None);
+        assert_eq!(window.workbench.shell.cover, None);
     }
 
     #[test]

@@ -134,6 +134,7 @@ mod tests {
     use super::*;
     use crate::bench::command::ShowCommand;
     use crate::shell::headless::Headless;
+    use crate::shell::state::Cover;
 
     fn type_into(window: &mut Headless, text: &str) {
         window.events.push(Event::Text(text.to_owned()));
@@ -155,7 +156,7 @@ mod tests {
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
         window.pass(2);
         press(&mut window, Modifiers::COMMAND, Key::K);
-        assert!(window.workbench.shell.palette.is_some());
+        assert!(window.workbench.shell.cover.is_some());
         window
     }
 
@@ -164,7 +165,7 @@ mod tests {
         let mut window = window();
         type_into(&mut window, "cal true");
         press(&mut window, Modifiers::NONE, Key::Enter);
-        assert!(window.workbench.shell.palette.is_none(), "it closed");
+        assert!(window.workbench.shell.cover.is_none(), "it closed");
         let mut tools = window.workbench.tools.iter();
         assert!(
             tools.any(|tool| tool.is_open(&window.workbench.bench)),
@@ -197,15 +198,17 @@ mod tests {
         press(&mut window, Modifiers::NONE, Key::ArrowDown);
         press(&mut window, Modifiers::NONE, Key::ArrowDown);
         press(&mut window, Modifiers::NONE, Key::ArrowUp);
-        let palette = window.workbench.shell.palette.clone();
-        assert_eq!(palette.map(|palette| palette.chosen), Some(1));
+        let Some(Cover::Palette(palette)) = &window.workbench.shell.cover else {
+            panic!("the palette is not shown")
+        };
+        assert_eq!(palette.chosen, 1);
         press(&mut window, Modifiers::NONE, Key::Escape);
-        assert!(window.workbench.shell.palette.is_none());
+        assert!(window.workbench.shell.cover.is_none());
         window.dispatch(ShowCommand::Palette);
         window.pass(1);
         window.dispatch(ShowCommand::Palette);
         assert!(
-            window.workbench.shell.palette.is_none(),
+            window.workbench.shell.cover.is_none(),
             "the same key closes it"
         );
     }
