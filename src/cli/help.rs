@@ -25,15 +25,13 @@ pub(super) fn run(args: &HelpArgs) -> Result<(), CliError> {
              command:\n{list}"
         ));
     };
-    match guide_pages().iter().find(|page| page.name == *name) {
-        Some(page) => output::print(page.text),
-        None => {
-            let names: Vec<&str> = guide_pages().iter().map(|page| page.name).collect();
-            Err(CliError::Input(format!(
-                "the guide has no page {name:?}; it has {}; a command is explained by selvedge \
-                 COMMAND --help",
-                names.join(", ")
-            )))
-        }
+    if let Some(page) = guide_pages().iter().find(|page| page.name == *name) {
+        return output::print(page.text);
     }
+    let names: Vec<&str> = guide_pages().iter().map(|page| page.name).collect();
+    Err(CliError::Input(format!(
+        "the guide has no page {name:?}; it has {}; a command is explained by selvedge COMMAND \
+         --help",
+        names.join(", ")
+    )))
 }

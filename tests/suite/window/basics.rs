@@ -176,6 +176,21 @@ fn with_nothing_armed_escape_ends_typing_and_closes_menus_and_nothing_else() {
 }
 
 #[test]
+fn titles_of_panes_stand_still_whichever_is_in_front() {
+    let folder = Folder::new("titles");
+    let mut harness = window(&folder.scene());
+    harness.run();
+    let titles = ["Why", "Response", "Accuracy", "Compare"];
+    let places =
+        |harness: &Harness<'_, Workbench>| titles.map(|title| harness.get_by_label(title).rect());
+    let before = places(&harness);
+    for title in titles {
+        click_tab(&mut harness, title);
+        assert_eq!(places(&harness), before, "{title} is in front");
+    }
+}
+
+#[test]
 fn the_emulator_is_armed_by_a_button_and_disarmed_by_escape() {
     let folder = Folder::new("arm");
     let mut harness = window(&folder.scene());
