@@ -303,6 +303,12 @@ impl Engine {
         self.device.session_log = Some(log);
     }
 
+    /// Says in the log of every link, of this one and of those to come, what is felt: `name` with
+    /// its unit or kind. The last value of a name holds.
+    pub fn say_what(&mut self, name: &'static str, value: String) {
+        self.device.say(name, value);
+    }
+
     /// The log that links are written to.
     pub fn session_log(&self) -> Option<&SessionLog> {
         self.device.session_log.as_ref()

@@ -75,6 +75,8 @@ struct Shared {
 struct Source {
     number: u32,
     entries: Consumer<Entry>,
+    /// Said by others than the link's owner.
+    said: Vec<Entry>,
     /// Of the thread that reads and of the one that writes.
     taps: Option<[TapEnd; 2]>,
     recorder: Recorder,
@@ -108,6 +110,7 @@ impl Source {
         while let Ok(entry) = self.entries.pop() {
             items.push(Item::Entry(entry));
         }
+        items.extend(self.said.drain(..).map(Item::Entry));
         for tap in self.taps.iter_mut().flatten() {
             n_lost += tap.take_lost();
             let passing = std::iter::from_fn(|| tap.next());
@@ -194,6 +197,7 @@ impl SessionLog {
         self.shared.sources().push(Source {
             number,
             entries: end,
+            said: Vec::new(),
             taps: None,
             recorder: Recorder::new(self.epoch, self.keeps_frames),
         });
@@ -209,8 +213,16 @@ impl SessionLog {
         let program = selvedge_foundation::PROGRAM;
         let frames = if self.keeps_frames { "" } else { HASHED };
         let text = format!("n={number} target={target:?} program={program}{frames}");
-        feed.say(event::LINK, text);
+        feed.push(said(event::LINK, text));
         feed
+    }
+
+    /// Says what is played on the link that was opened last, if it is open: `name` with its unit or
+    /// kind, such as `scene_sha256`.
+    pub fn about(&self, name: &str, value: &str) {
+        if let Some(newest) = self.shared.sources().last_mut() {
+            newest.said.push(about(name, value));
+        }
     }
 
     /// Writes what is left.
@@ -256,7 +268,7 @@ pub struct LogFeed {
 impl LogFeed {
     /// Says what is played and on what: `name` with its unit or kind, such as `scene_sha256`.
     pub fn about(&mut self, name: &str, value: &str) {
-        self.say(event::ABOUT, format!("{name}={value}"));
+        self.push(about(name, value));
     }
 
     /// Says on which array, and with which settings of it.
@@ -265,15 +277,6 @@ impl LogFeed {
             self.about("profile", &format!("{:?}", profile.name));
             self.about("profile_sha256", &sha256_hex([text.as_bytes()]));
         }
-    }
-
-    fn say(&mut self, event: &'static str, text: String) {
-        self.push(Entry {
-            at: Instant::now(),
-            tick: None,
-            device_us: None,
-            note: Note::Said(event, text),
-        });
     }
 
     /// From now on what passes the port is recorded too.
@@ -299,6 +302,20 @@ impl LogFeed {
             drop(self.entries.push(missing));
         }
         self.n_lost += u64::from(self.entries.push(entry).is_err());
+    }
+}
+
+fn about(name: &str, value: &str) -> Entry {
+    said(event::ABOUT, format!("{name}={value}"))
+}
+
+/// An entry in words, of now.
+fn said(event: &'static str, text: String) -> Entry {
+    Entry {
+        at: Instant::now(),
+        tick: None,
+        device_us: None,
+        note: Note::Said(event, text),
     }
 }
 
@@ -374,12 +391,7 @@ impl OfLink {
             .replace(number)
             .is_some_and(|last| last != number)
         {
-            let entry = Entry {
-                at: Instant::now(),
-                tick: None,
-                device_us: None,
-                note: Note::Said(event::OF_LINK, format!("n={number}")),
-            };
+            let entry = said(event::OF_LINK, format!("n={number}"));
             line::write_entry(lines, &entry, self.epoch);
         }
         lines.push_str(own);

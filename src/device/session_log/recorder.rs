@@ -55,17 +55,14 @@ impl Recorder {
     /// Adds the line of an entry.
     pub(super) fn entry(&mut self, entry: Entry, lines: &mut String) {
         write_entry(lines, &entry, self.epoch);
-        let is_said = |event| matches!(entry.note, Note::Said(said, _) if said == event);
-        let is_link = is_said(event::LINK);
-        if is_link {
+        if matches!(entry.note, Note::Said(event::LINK, _)) {
             self.code = PacketCode::default();
             self.headings.clear();
         }
-        let is_heading = matches!(entry.note, Note::Caps(_) | Note::Effective(_));
-        if is_link || is_heading || is_said(event::ABOUT) {
-            let same = std::mem::discriminant(&entry.note);
-            let is_told = |told: &Entry| is_heading && std::mem::discriminant(&told.note) == same;
-            self.headings.retain(|told| !is_told(told));
+        let subject = subject_of(&entry.note);
+        if subject.is_some() {
+            self.headings
+                .retain(|told| subject_of(&told.note) != subject);
             if self.headings.len() < MAX_HEADINGS {
                 self.headings.push(entry);
             }
@@ -139,6 +136,17 @@ impl Recorder {
             let words = self.code.again(run.n);
             write_packet(lines, run.last, &words, self.epoch);
         }
+    }
+}
+
+/// What a heading is about; the last one of each is written again. `None` for other entries.
+fn subject_of(note: &Note) -> Option<&str> {
+    match note {
+        Note::Caps(_) => Some(event::CAPS),
+        Note::Effective(_) => Some(event::CFG),
+        Note::Said(event::LINK, _) => Some(event::LINK),
+        Note::Said(event::ABOUT, text) => text.split('=').next(),
+        _ => None,
     }
 }
 

@@ -1,5 +1,7 @@
 //! The device that was connected last: what its emulated contactors do, and the log of its link.
 
+use std::collections::BTreeMap;
+
 use super::array::DrivenArray;
 use crate::StopSwitch;
 use crate::ready::ReadyCommand;
@@ -12,6 +14,8 @@ pub(super) struct DeviceHandle {
     pub(super) actuators: Option<ActuatorWatch>,
     /// What links are written to.
     pub(super) session_log: Option<SessionLog>,
+    /// What is felt, as every link's log says it.
+    said: BTreeMap<&'static str, String>,
 }
 
 impl DeviceHandle {
@@ -29,9 +33,20 @@ impl DeviceHandle {
         if let Some(log) = &self.session_log {
             let mut feed = log.feed(bridge.target());
             feed.about_array(&driven.profile);
+            for (name, value) in &self.said {
+                feed.about(name, value);
+            }
             bridge.log_to(feed);
         }
         switch.set_device(bridge.stop_handle());
         ReadyCommand::Connect(Box::new(bridge))
+    }
+
+    /// Says what is felt to the link that is open, and to those to come.
+    pub(super) fn say(&mut self, name: &'static str, value: String) {
+        if let Some(log) = &self.session_log {
+            log.about(name, &value);
+        }
+        self.said.insert(name, value);
     }
 }

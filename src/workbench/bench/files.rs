@@ -88,6 +88,7 @@ impl Bench {
         let Some(take) = self.exploration.at_hand.clone() else {
             return;
         };
+        self.log_path(take.path());
         let source = selvedge_engine::InputSource::Replay(Arc::clone(take.path()));
         self.send(selvedge_engine::Command::SetSource(source));
         self.send(selvedge_engine::Command::SetLoop(

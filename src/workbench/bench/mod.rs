@@ -15,6 +15,7 @@ pub(crate) mod edit;
 pub(crate) mod editing;
 pub(crate) mod error;
 pub(crate) mod export;
+pub(crate) mod felt_log;
 pub(crate) mod files;
 pub(crate) mod folders;
 pub(crate) mod free_places;
@@ -102,7 +103,7 @@ use std::time::{Duration, Instant};
 pub(crate) const FRAME: Duration = Duration::from_nanos(33_333_333);
 
 /// How much the log of links may take: five files of 1 MB.
-const LOG_BOUND: LogBound = LogBound {
+pub(crate) const LOG_BOUND: LogBound = LogBound {
     bytes: 16_000_000,
     n_older: 4,
 };
@@ -249,17 +250,6 @@ impl Bench {
         self.send(Command::Watch(FIRST_CONTACTOR));
         self.send(Command::SampleTicks(true));
         self.show_document();
-    }
-
-    /// Lets every link to a device be logged in the user's own folder.
-    fn log_links(&mut self) {
-        let Some(path) = session_log() else { return };
-        // The program's own folder is made; what is wrong with it is said below.
-        drop(path.parent().map(std::fs::create_dir_all));
-        match SessionLog::append(&path, Some(LOG_BOUND)) {
-            Ok(log) => self.engine.log_links_to(log),
-            Err(error) => self.notices.give(error.to_string()),
-        }
     }
 
     fn read_arrays(&mut self) {

@@ -31,6 +31,7 @@ impl Bench {
         self.poll_recordings();
         self.poll_excerpt();
         self.follow_array(ctx);
+        self.log_what_is_felt();
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
                          the program again";

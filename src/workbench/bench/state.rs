@@ -9,6 +9,7 @@ use crate::bench::arrays::Arrays;
 use crate::bench::background::Task;
 use crate::bench::clips::Clips;
 use crate::bench::document::Document;
+use crate::bench::felt_log::FeltLog;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::library_acts::LibraryActs;
@@ -135,6 +136,8 @@ pub(crate) struct DeviceState {
     pub(crate) pictured: Option<BridgeView>,
     /// The device's measured interval between frames.
     pub(crate) interval: IntervalMeter,
+    /// What the log of links was told.
+    pub(crate) felt_log: FeltLog,
 }
 
 /// What was felt lately.
