@@ -5,19 +5,11 @@ use std::sync::Arc;
 
 use selvedge_device::SessionLog;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_render::scene::{ExplorationPath, Scene};
+use selvedge_render::scene::ExplorationPath;
 
-use crate::bench::background::{Task, finished};
+use crate::bench::background::finished;
 use crate::bench::settings::session_log;
 use crate::bench::{Bench, LOG_BOUND};
-
-/// What the log was told last.
-#[derive(Debug, Default)]
-pub(crate) struct FeltLog {
-    scene: Option<Scene>,
-    /// A path whose hash is being worked out.
-    hashing: Option<Task<String>>,
-}
 
 impl Bench {
     /// Lets every link to a device be logged in the user's own folder.

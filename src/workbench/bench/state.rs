@@ -9,7 +9,6 @@ use crate::bench::arrays::Arrays;
 use crate::bench::background::Task;
 use crate::bench::clips::Clips;
 use crate::bench::document::Document;
-use crate::bench::felt_log::FeltLog;
 use crate::bench::folders::Folders;
 use crate::bench::history::Moment;
 use crate::bench::library_acts::LibraryActs;
@@ -32,7 +31,7 @@ use crate::bench::view::BridgeView;
 use selvedge_device::FaultWords;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
-use selvedge_render::scene::LoadedScene;
+use selvedge_render::scene::{LoadedScene, Scene};
 
 /// The scene as the engine has it.
 pub(crate) struct EngineScene {
@@ -169,4 +168,12 @@ pub(crate) struct SessionState {
     pub(crate) active: Option<SessionInSight>,
     /// Whether a participant's view has a window of its own.
     pub(crate) has_window: bool,
+}
+
+/// What the log of links was told of what is felt.
+#[derive(Debug, Default)]
+pub(crate) struct FeltLog {
+    pub(crate) scene: Option<Scene>,
+    /// The hash of a path, being worked out.
+    pub(crate) hashing: Option<Task<String>>,
 }
