@@ -43,11 +43,10 @@ impl Bench {
     /// Tells the log which path is replayed: the hash of the file that it would be exported to.
     pub(crate) fn log_path(&mut self, path: &Arc<ExplorationPath>) {
         let path = Arc::clone(path);
-        let hashed = move |_: &mut _| {
+        let task = self.executor.start("selvedge-hash", move |_| {
             let text = path.to_csv().map_err(|error| error.to_string())?;
             Ok(sha256_hex([text.as_bytes()]))
-        };
-        let task = self.executor.start("selvedge-hash", hashed);
+        });
         self.device.felt_log.hashing = Some(task);
     }
 }

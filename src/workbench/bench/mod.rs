@@ -81,9 +81,7 @@ use crate::bench::preparing::Preparing;
 use crate::bench::recording::Recordings;
 use crate::bench::recovery::Recovery;
 use crate::bench::selection::Selection;
-use crate::bench::settings::{
-    Settings, own_arrays, own_libraries, own_recordings, own_work, session_log,
-};
+use crate::bench::settings::{Settings, own_arrays, own_libraries, own_recordings, own_work};
 use crate::bench::state::{
     DeviceState, EngineScene, Exploration, Files, InspectionCache, LibraryState, Past,
     PointerState, SessionState,
@@ -92,7 +90,7 @@ use crate::bench::trail::Trail;
 use crate::bench::view::EngineView;
 use crate::kit::theme;
 use eframe::egui;
-use selvedge_device::{LogBound, SessionLog};
+use selvedge_device::LogBound;
 use selvedge_engine::{Command, Engine, EngineConfig, TICK};
 use selvedge_render::scene::LoadedScene;
 use std::path::Path;
