@@ -162,15 +162,15 @@ fn amplitude_um(read: &Experience, [channel, band, tick]: [usize; 3]) -> f64 {
 }
 
 #[test]
-fn every_amplitude_of_24_contactors_comes_back() {
+fn every_amplitude_of_all_contactors_comes_back() {
     let of = |tick: u16, contactor: u16| [f32::from(tick % 40) / 7.0, f32::from(contactor) / 3.0];
     // More than a block of the spool.
     let ticks: Vec<Vec<[f32; 2]>> = (0..1030)
-        .map(|tick| (0..24).map(|contactor| of(tick, contactor)).collect())
+        .map(|tick| (0..8).map(|contactor| of(tick, contactor)).collect())
         .collect();
-    let read = written("full", 24, &ticks);
-    assert_eq!(read.perceptions[0].channels.len(), 24);
-    for (tick, contactor) in [(0, 0), (1023, 3), (1024, 23), (1029, 7)] {
+    let read = written("full", 8, &ticks);
+    assert_eq!(read.perceptions[0].channels.len(), 8);
+    for (tick, contactor) in [(0, 0), (1023, 3), (1024, 6), (1029, 7)] {
         let expected = of(tick, contactor);
         let at = |band| [usize::from(contactor), band, usize::from(tick)];
         for (band, expected) in expected.into_iter().enumerate() {

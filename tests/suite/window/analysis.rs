@@ -13,13 +13,12 @@ use crate::program::Lab;
 fn in_front(scene: &Folder, logs: &Path) -> Harness<'static, Workbench> {
     let mut harness = window(&scene.scene());
     harness.run_steps(3);
-    harness.get_by_label("Analysis").click();
-    harness.run_steps(2);
+    click_tab(&mut harness, "Analysis");
     let field = harness.get_by_role_and_label(Role::TextInput, "folder");
     field.click();
     harness.step();
     let path = logs.display().to_string();
-    harness.event(eframe::egui::Event::Text(path));
+    harness.event(Event::Text(path));
     harness.run_steps(2);
     harness.get_by_label_contains("For a look").click();
     harness.run_steps(2);

@@ -115,7 +115,7 @@ fn values_can_be_typed_with_their_unit() {
     );
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
     harness.step();
-    harness.event(eframe::egui::Event::Text("−6,5 dB".to_owned()));
+    harness.event(Event::Text("−6,5 dB".to_owned()));
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(harness.state().tuning().gain_40_db, -6.5);

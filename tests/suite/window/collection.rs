@@ -33,8 +33,7 @@ impl Bare {
 fn in_front(folder: &Bare) -> Harness<'static, Workbench> {
     let mut harness = window(&folder.scene());
     harness.run_steps(3);
-    harness.get_by_label("Collection").click();
-    harness.run_steps(2);
+    click_tab(&mut harness, "Collection");
     wait(&mut harness, |bench| bench.n_textiles_measured() == 16);
     harness.run_steps(3);
     harness
@@ -71,7 +70,7 @@ fn click_more(harness: &mut Harness<'_, Workbench>, name: &str) {
     harness.hover_at(pos);
     harness.step();
     for pressed in [true, false] {
-        let press = eframe::egui::Event::PointerButton {
+        let press = Event::PointerButton {
             pos,
             button: eframe::egui::PointerButton::Primary,
             pressed,
@@ -177,7 +176,7 @@ fn a_point_is_dragged_into_the_workspace_and_a_double_click_finds_a_place() {
         "its middle is where it was let go"
     );
     press(&mut harness, Modifiers::COMMAND, Key::Z);
-    harness.get_by_label("Collection").click();
+    click_tab(&mut harness, "Collection");
     harness.run_steps(40);
     let at = point(&harness, "Polyester satin").center();
     for _ in 0..2 {
@@ -197,8 +196,7 @@ fn the_pointer_over_a_point_marks_the_textile_in_every_view() {
     let folder = Folder::new("pointed");
     let mut harness = window(&folder.scene());
     harness.run_steps(3);
-    harness.get_by_label("Collection").click();
-    harness.run_steps(2);
+    click_tab(&mut harness, "Collection");
     wait(&mut harness, |bench| bench.n_textiles_measured() == 1);
     harness.run_steps(3);
     let at = point(&harness, "Ripple").center();
@@ -222,7 +220,7 @@ fn cloths_share_search_and_selection_and_only_those_in_sight_are_there() {
     let field = harness.get_by_role_and_label(Role::TextInput, "Search the collection");
     field.click();
     harness.step();
-    harness.event(eframe::egui::Event::Text("knitted polyamide".to_owned()));
+    harness.event(Event::Text("knitted polyamide".to_owned()));
     harness.run_steps(3);
     assert!(
         harness.query_by_label("Piece of Polyester satin").is_none(),
@@ -249,8 +247,7 @@ fn seventy_four_textiles_are_measured_beside_the_frames_until_somebody_stops_it(
     let folder = Bare::new("many", "library = \"seventy-four\"\n");
     let mut harness = window(&folder.scene());
     harness.run_steps(3);
-    harness.get_by_label("Collection").click();
-    harness.run_steps(2);
+    click_tab(&mut harness, "Collection");
     harness.get_by_label_contains("measured 0 of 74");
     // Textiles are woven meanwhile; frames go on without one of them being ready.
     let began = Instant::now();

@@ -9,7 +9,9 @@ use egui_kittest::kittest::Queryable as _;
 use super::*;
 
 fn choose(harness: &mut Harness<'_, Workbench>, button: &str, entry: &str) {
-    harness.get_by_role_and_label(Role::Button, button).click();
+    harness
+        .get_by_role_and_label(Role::Button, button)
+        .click_accesskit();
     harness.run_steps(3);
     harness.get_by_role_and_label(Role::Button, entry).click();
     harness.run_steps(5);

@@ -153,7 +153,7 @@ fn a_family_is_tried_and_all_of_it_is_kept() {
     harness.get_by_label("Try").click();
     harness.run_steps(4);
     harness.render().unwrap();
-    harness.get_by_label("Keep all 5").click();
+    harness.get_by_label("Keep all 5").click_accesskit();
     harness.run_steps(4);
     let library = Library::open(&folder.path("library")).unwrap();
     let kept = (1..=5).map(|n| library.manifest(&format!("brownian-surface-{n}")).unwrap());

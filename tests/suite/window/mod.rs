@@ -27,7 +27,7 @@ use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{
-    Color32, Context, FullOutput, Key, Modifiers, Pos2, TexturesDelta, ViewportId, vec2,
+    Color32, Context, Event, FullOutput, Key, Modifiers, Pos2, TexturesDelta, ViewportId, vec2,
 };
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{Harness, TestRenderer};
@@ -159,11 +159,16 @@ fn loudest_um(harness: &Harness<'_, Workbench>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Brings a pane to the front by its tab, whose title is shortened where there is little room.
+/// Brings a pane to the front by its tab, or finds it by its name where it has none.
 fn click_tab(harness: &mut Harness<'_, Workbench>, title: &str) {
-    let first = title.split(' ').next().unwrap_or(title);
-    let tab = harness.query_by_label(title);
-    tab.unwrap_or_else(|| harness.get_by_label(first)).click();
+    let Some(tab) = harness.query_by_label(title) else {
+        press(harness, Modifiers::COMMAND, Key::K);
+        let sought = Event::Text(format!("{title} pane"));
+        harness.event(sought);
+        harness.run_steps(2);
+        return press(harness, Modifiers::NONE, Key::Enter);
+    };
+    tab.click();
     harness.run_steps(2);
 }
 
@@ -196,7 +201,7 @@ fn type_over(harness: &mut Harness<'_, Workbench>, text: &str) {
     harness.run_steps(2);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
     harness.step();
-    harness.event(eframe::egui::Event::Text(text.to_owned()));
+    harness.event(Event::Text(text.to_owned()));
     harness.step();
 }
 

@@ -28,7 +28,7 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
             _ => None,
         };
         if front.is_some() {
-            harness.get_by_label(title).click();
+            click_tab(harness, title);
         }
         harness.run_steps(4);
         assert!(drawn(harness, title) > before, "{title} is not drawn");

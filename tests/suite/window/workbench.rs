@@ -329,7 +329,7 @@ fn a_tap_that_comes_and_goes_within_a_frame_chooses_a_textile() {
     harness.hover_at(cloth);
     harness.step();
     for pressed in [true, false] {
-        harness.event(eframe::egui::Event::PointerButton {
+        harness.event(Event::PointerButton {
             pos: cloth,
             button: eframe::egui::PointerButton::Primary,
             pressed,

@@ -172,7 +172,7 @@ mod tests {
         rasteriser.apply(&mut window.run().textures_delta);
         window.dispatch(PlayCommand::Source(PlaySource::Stroke));
         window.dispatch(ShowCommand::Pane(Pane::Why));
-        window.dispatch(ArrayCommand::Limit(Band::Low, 2.0));
+        window.dispatch(ArrayCommand::Limit(Band::Low, 1.0));
         for contactor in [6, 13] {
             let off = Calibration {
                 is_off: true,
@@ -187,12 +187,12 @@ mod tests {
         let off: Vec<usize> = (0..24).filter(|index| dots[*index].limiter.off).collect();
         assert_eq!(off, [6, 13]);
         for dot in dots.iter().filter(|dot| !dot.limiter.off) {
-            assert_eq!(dot.limiter.limited[0], dot.amplitude_um[0] > 2.0, "{dot:?}");
+            assert_eq!(dot.limiter.limited[0], dot.amplitude_um[0] > 1.0, "{dot:?}");
         }
         assert!(dots.iter().any(|dot| dot.limiter.limited[0]));
         let why = window.workbench.tools.get::<Why>().unwrap();
         let why = why.shown.as_ref().unwrap();
-        assert_eq!(why.output.limits.map(|limit| limit.um), [2.0, 50.0]);
+        assert_eq!(why.output.limits.map(|limit| limit.um), [1.0, 50.0]);
         assert!(why.output.limiter.limited[0], "{:?}", why.output);
         let mut last = window.run();
         rasteriser.apply(&mut last.textures_delta);
