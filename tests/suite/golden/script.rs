@@ -69,7 +69,7 @@ impl Script {
     /// Tells what a file holds.
     pub(super) fn file(&mut self, name: &str) -> &mut Self {
         let path = self.lab.path(name);
-        let text = content(&path);
+        let text = content(&path, |text| self.steady(text));
         self.part(name, &text);
         self
     }
@@ -92,19 +92,27 @@ impl Script {
         golden.text(name, &self.described);
     }
 
-    /// A part of what is told, without what depends on place, version and clock.
-    fn part(&mut self, head: &str, text: &str) {
+    /// A text without what depends on place, version and clock.
+    fn steady(&self, text: &str) -> String {
         let place = self.lab.path("").display().to_string();
         let text = text
             .replace(place.trim_end_matches('/'), "LAB")
             .replace(env!("CARGO_PKG_VERSION"), "VERSION");
-        let steady: Vec<String> = text.lines().map(self.unsteady).collect();
+        let steady = |line: &str| match line.strip_suffix('\n') {
+            Some(line) => (self.unsteady)(line) + "\n",
+            None => (self.unsteady)(line),
+        };
+        text.split_inclusive('\n').map(steady).collect()
+    }
+
+    /// A part of what is told, steady.
+    fn part(&mut self, head: &str, text: &str) {
         let mut head = format!("{PART}{head}\n");
         while self.described.contains(&head) {
             head.insert_str(head.len() - 1, " (again)");
         }
         self.described.push_str(&head);
-        for line in steady {
+        for line in self.steady(text).lines() {
             // A line of the text may look as the beginning of a part.
             writeln!(self.described, "{}", line.replace(PART.trim_end(), "= = =")).unwrap();
         }
@@ -128,8 +136,8 @@ pub(super) fn files_in(folder: &Path) -> Vec<String> {
     found
 }
 
-/// A file as text: what is no text, and drawings, by size and hash.
-pub(super) fn content(path: &Path) -> String {
+/// A file as text that was made steady: what is no text, and drawings, by size and hash.
+fn content(path: &Path, steady: impl Fn(&str) -> String) -> String {
     let bytes = fs::read(path).unwrap();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     if ending == "png" {
@@ -144,8 +152,7 @@ pub(super) fn content(path: &Path) -> String {
             format!("{} bytes, {}", bytes.len(), hash(&bytes))
         }
         Ok(text) => {
-            // The version stands in drawings, too.
-            let steady = text.replace(env!("CARGO_PKG_VERSION"), "VERSION");
+            let steady = steady(&text);
             match ending.as_ref() {
                 "svg" => format!(
                     "{} lines, {}",
