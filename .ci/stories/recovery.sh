@@ -16,5 +16,6 @@ shot restored
 slowly "key ctrl+shift+s"
 answer "$work/restored.scene.toml"
 grep -q '^gain_db = -' "$work/restored.scene.toml" || fail "the gain is not as it was"
+grep -q '^gain_db = -2.0$' "$work/restored.scene.toml" && fail "the gain is the default one"
 stop
 [ -z "$(ls "$work/state/selvedge/unsaved" 2> /dev/null)" ] || fail "saved work is still kept"

@@ -4,7 +4,7 @@
 display
 start
 # A change of the scene that undo in the lab must not touch: a saved file would miss it.
-slowly 'key a' 'mousemove 646 420' 'click 1' 'key Delete'
+slowly 'key a' 'mousemove 545 400' 'click 1' 'key Delete'
 shot removed
 slowly 'key ctrl+2'
 sleep 3
