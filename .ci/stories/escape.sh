@@ -10,6 +10,13 @@ display
 "$selvedge" bridge emulate --link "$work/array" --log "$work/device.csv" > /dev/null 2>&1 &
 device=$!
 start
+# What the device went through, whether it has come to a state since the last that was asked for.
+n_lines=0
+comes_to() { tail -n "+$((n_lines + 1))" "$work/device.csv" 2> /dev/null | grep -q "$1"; }
+await_state() {
+  await 20 comes_to "$1" || fail "$2"
+  n_lines=$(wc -l < "$work/device.csv")
+}
 # It moves by itself from the start: paused by Esc, moved on by Space, recorded without a device armed.
 sleep 1
 shot moving
@@ -28,16 +35,14 @@ shot keys
 slowly 'key Escape'
 # Armed: everything off at once.
 slowly "mousemove $port" 'click 1' "type --delay 30 '$work/array'" 'key Return'
-sleep 1.5
+await_state READY "the device was not found"
+sleep 1
 slowly "mousemove $arm" 'click 1'
-sleep 1.5
+await_state ARMED "the device was never armed"
 shot armed
 slowly 'key Escape'
-sleep 1
+await_state READY "Esc did not stop the device"
 shot all-off
-grep -q ARMED "$work/device.csv" || fail "the device was never armed"
-awk '/ARMED/ { armed = 1 } armed && /READY/ { off = 1 } END { exit !off }' "$work/device.csv" ||
-  fail "Esc did not stop the device"
 slowly "mousemove $escape" 'click 1'
 sleep 1
 shot gone-on

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Everything by keys: found by name, the guide, the list of keys, from pane to pane, one pane alone.
+# Everything by keys, and panes by two clicks: found by name, the guide, the list of keys, from pane to pane, one pane alone.
 . "$(dirname "$0")/lib.sh"
 display
 start
@@ -47,7 +47,16 @@ slowly 'key shift+F11'
 sleep 0.5
 look again
 [ "$(differ back again)" -lt 20000 ] || fail "the panes did not come back"
+# The same by the pointer: two clicks on a tab, and two on the tab of the one that is left.
+double_click() { xdotool mousemove "$1" "$2" click --repeat 2 --delay 90 1; }
+double_click 230 56
+await 10 differs again 200000 || fail "two clicks on a tab show no pane alone"
+shot double-click
+double_click 30 56
+await 10 looks_like again 20000 || fail "two clicks on a tab do not bring the panes back"
+# Full screen and back: without a window manager the window stays as it is, and keeps its keys.
 slowly 'key F11' 'key F11'
+await 10 looks_like again 20000 || fail "F11 twice changes the window"
 stop
 "$selvedge" help | grep -q workbench || fail "the guide is not listed"
 "$selvedge" help bridge | grep -q '^## Armed' || fail "a page of the guide is not printed"

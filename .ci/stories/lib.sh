@@ -4,9 +4,11 @@
 #   display [WIDTHxHEIGHT]      a display of its own
 #   start [ARGUMENT…]           the program, its window found and focused
 #   slowly 'key r' 'click 1'…   xdotool's words, slowly enough for software drawing
-#   answer PATH                 answers the field that asks for a path
+#   await SECONDS COMMAND…      waits until the command succeeds
+#   answer PATH                 answers the field that asks where to save, and waits for the file
 #   shot NAME                   a screenshot, in the folder that SELVEDGE_SHOTS names, if it does
 #   look NAME | differ A B      keeps what is on the screen; pixels in which two such pictures differ
+#   differs A N | looks_like A N   whether what is on the screen differs from A in more, or in fewer pixels
 #   crash | stop                SIGKILL; SIGTERM and a clean end
 #   fail WHY                    ends the story
 #
@@ -31,14 +33,11 @@ fail() {
 }
 
 display() {
-  export DISPLAY=:$((90 + RANDOM % 4000))
-  Xvfb "$DISPLAY" -screen 0 "${1:-1400x900}x24" > "$work/xvfb.log" 2>&1 &
+  # The server chooses a number that no other has.
+  Xvfb -displayfd 3 -noreset -screen 0 "${1:-1400x900}x24" 3> "$work/display" > "$work/xvfb.log" 2>&1 &
   server=$!
-  for _ in $(seq 100); do
-    xdotool getdisplaygeometry > /dev/null 2>&1 && return
-    sleep 0.1
-  done
-  fail "no display"
+  await 20 test -s "$work/display" || fail "no display"
+  export DISPLAY=:$(cat "$work/display")
 }
 
 start() {
@@ -53,8 +52,11 @@ start() {
   done
   [ -n "$window" ] || fail "no window came up"
   xdotool windowfocus "$window"
-  sleep 1.5
+  await 30 is_drawn || fail "nothing is drawn"
+  sleep 1
 }
+
+is_drawn() { [ "$(import -window root -format %k info:)" -gt 100 ]; }
 
 slowly() {
   for step in "$@"; do
@@ -63,9 +65,18 @@ slowly() {
   done
 }
 
+await() {
+  local until=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    [ "$SECONDS" -lt "$until" ] || return 1
+    sleep 0.2
+  done
+}
+
 answer() {
   slowly "key ctrl+a" "type --delay 30 '$1'" "key Return"
-  sleep 0.6
+  await 10 test -s "$1" || fail "nothing was saved as $1"
 }
 
 shot() {
@@ -81,6 +92,13 @@ look() {
 differ() {
   compare -metric AE "$work/look-$1.png" "$work/look-$2.png" null: 2>&1 | sed 's/[^0-9.e+].*//' | xargs printf '%.0f\n' || true
 }
+
+differs() {
+  look now
+  [ "$(differ "$1" now)" -gt "$2" ]
+}
+
+looks_like() { ! differs "$1" "$2"; }
 
 crash() {
   kill -KILL "$program"

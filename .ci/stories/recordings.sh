@@ -23,8 +23,8 @@ start
 for name in 1 2 3; do
   grep -q "^name = \"Recording $name\"" "$folder"/*/recording.toml || fail "Recording $name is gone"
 done
-sleep 1
-grep -L '^ticks' "$folder"/*/recording.toml | grep -q . && fail "one was not listed"
+all_counted() { [ "$(grep -l '^ticks' "$folder"/*/recording.toml | wc -l)" = 3 ]; }
+await 20 all_counted || fail "one was not listed"
 slowly "mousemove 150 59" "click 1"
 sleep 0.5
 shot listed

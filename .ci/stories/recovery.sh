@@ -3,15 +3,16 @@ source "$(dirname "$0")/lib.sh"
 display
 start
 slowly "mousemove 1247 85" "mousedown 1" "mousemove 1225 85" "mousemove 1215 85" "mouseup 1"
-sleep 9
+is_kept() { grep -q 'master gain' "$work"/state/selvedge/unsaved/*/work.json 2> /dev/null; }
+await 20 is_kept || fail "the step was not kept"
 crash
-work_file=$(ls "$work"/state/selvedge/unsaved/*/work.json) || fail "nothing was kept"
-grep -q 'master gain' "$work_file" || fail "the step was not kept"
+work_file=$(ls "$work"/state/selvedge/unsaved/*/work.json)
 start
 shot offer
 # The last but two of the buttons at the right end of the line below the header.
 slowly "mousemove 1232 62" "click 1"
-sleep 4
+# It stays on disk until it is written anew.
+await 20 test ! -e "$work_file" || fail "it was not taken up"
 shot restored
 slowly "key ctrl+shift+s"
 answer "$work/restored.scene.toml"

@@ -22,27 +22,15 @@ pub(super) const HELP: &str =
 pub(super) struct BaudArgs {
     /// Rate of a bridge with a real UART, baud; without it the array profile's, usually 1000000.
     /// USB ignores it
-    #[arg(long, value_name = "BAUD", value_parser = baud)]
+    #[arg(long, value_name = "BAUD", value_parser = ArrayProfile::read_baud)]
     baud: Option<u32>,
 }
 
 impl BaudArgs {
     /// Lets the rate of the command line, if there is one, take the place of the profile's.
     pub(super) fn set(&self, profile: &mut ArrayProfile) {
-        profile.baud = self.rate(profile);
+        profile.baud = self.baud.unwrap_or(profile.baud);
     }
-
-    /// The rate of the command line, or else the profile's.
-    pub(super) fn rate(&self, profile: &ArrayProfile) -> u32 {
-        self.baud.unwrap_or(profile.baud)
-    }
-}
-
-fn baud(word: &str) -> Result<u32, String> {
-    let [slowest, fastest] = ArrayProfile::BAUD;
-    let rate = word.parse().ok();
-    rate.filter(|rate| (slowest..=fastest).contains(rate))
-        .ok_or_else(|| format!("give a whole number, {slowest} to {fastest} baud"))
 }
 
 /// The profile that the word on the command line names: a file if it ends in .toml, otherwise one

@@ -18,10 +18,12 @@ use selvedge_device::wiring::{Answer, WiringWalk};
 use selvedge_device::{
     ArrayProfile, Bridge, BridgeEvent, DeviceUid, Driver, FrameSource, SessionLog, Target,
 };
-use selvedge_foundation::files;
+use selvedge_foundation::files::{self, FileError};
 
 /// How long one channel is driven, ms.
 const PULSE_MS: u16 = 600;
+/// More answers than any array asks for.
+const MAX_ANSWERS: usize = 10_000;
 /// Part of the limit at 320 Hz that it is driven with.
 const SHARE: f64 = 0.5;
 
@@ -101,10 +103,15 @@ impl Answers {
             let lines = lines.map(|(index, line)| (index + 1, line.trim().to_owned()));
             let is_answer =
                 |(_, line): &(usize, String)| !line.is_empty() && !line.starts_with('#');
-            return Ok(Self::File {
-                path: path.to_owned(),
-                lines: lines.filter(is_answer).collect(),
-            });
+            let answers = lines.filter(is_answer).take(MAX_ANSWERS + 1);
+            let lines: VecDeque<_> = answers.collect();
+            if lines.is_empty() || lines.len() > MAX_ANSWERS {
+                let what = "this file holds no answer, or too many";
+                let mend = "write an answer for every channel, one a line";
+                return Err(FileError::whole(path, what, mend).into());
+            }
+            let path = path.to_owned();
+            return Ok(Self::File { path, lines });
         }
         if !io::stdin().is_terminal() {
             let what = "answers are typed on a terminal, and standard input is none; \

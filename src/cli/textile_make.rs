@@ -99,6 +99,10 @@ pub(super) fn build(args: &BuildArgs) -> Result<(), CliError> {
 }
 
 fn build_into(library: &Library, to: &Path, n_threads: Option<u8>) -> Result<(), CliError> {
+    if library.ids().is_empty() {
+        let mend = "name a folder with a folder for every textile, or a file of recipes";
+        return Err(FileError::whole(&library.root(), "this holds no textile", mend).into());
+    }
     let started = Instant::now();
     let mut tuning = library.default_tuning();
     // The reference level follows from the textiles made.

@@ -36,6 +36,16 @@ impl Packet {
         }
     }
 
+    /// These bytes as they are, packet or not; `None` where they are too many for one.
+    pub(crate) fn verbatim(wire: &[u8]) -> Option<Self> {
+        let mut packet = Self {
+            bytes: [0; LARGEST_PACKET],
+            len: wire.len(),
+        };
+        packet.bytes.get_mut(..wire.len())?.copy_from_slice(wire);
+        Some(packet)
+    }
+
     /// Header and payload, closed by CRC-32 and framed. A payload beyond the largest body gives
     /// `None`.
     pub fn encode(kind: u8, seq: u16, payload: &[u8]) -> Option<Self> {

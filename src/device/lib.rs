@@ -60,14 +60,14 @@ pub use actuator_model::{
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use certify::{
     Certificate, CertificateFolder, CheckOutcome, CheckResult, Extent, Line, Trial, VirtualLine,
-    certify, certify_port,
+    certify,
 };
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, FirmwareLie, Load, Miswiring,
     Moment, Sense,
 };
-pub use driver::{Driver, Ended, FrameSource, Pacer};
+pub use driver::{DirectLine, Driver, Ended, FrameSource, Pacer};
 #[cfg(unix)]
 pub use emulator::PtyEmulator;
 pub use error::{BridgeError, SinkError};

@@ -173,7 +173,8 @@ impl Runner {
         let notices = &mut self.channels.notices;
         let ended = self.core.record(sent, &mut |notice| notices.push(notice));
         self.retire(ended);
-        self.channels.sampler.look(&self.core);
+        let apply_tick = sent.map(|sent| sent.apply_tick);
+        self.channels.sampler.look(&self.core, apply_tick);
         if let Some(tap) = &mut self.channels.tap {
             self.core.write_to(tap);
         }

@@ -26,6 +26,8 @@ pub struct TickSample {
     pub pose: Pose,
     /// Whether the device played silence (stopped, or held).
     pub is_silent: bool,
+    /// The device's tick at which its frame is played; `None` when no armed device got it.
+    pub apply_tick: Option<u32>,
     /// Mean amplitudes [A40, A320] over the contactors of the first display that lie on a textile,
     /// after gains and before output limits, µm; 0 when none does.
     pub mean_um: [f32; 2],
@@ -39,7 +41,7 @@ pub struct TickSample {
 
 impl TickSample {
     /// The tick that a core did last.
-    fn of(core: &EngineCore, watched: usize) -> Self {
+    fn of(core: &EngineCore, watched: usize, apply_tick: Option<u32>) -> Self {
         let amplitudes_um = core.felt_um();
         let frame = core.scene().renderer().frames().first();
         let is_placed = |&(index, _): &(usize, &[f32; 2])| {
@@ -54,6 +56,7 @@ impl TickSample {
             tick: core.tick_count(),
             pose: core.shown_pose(),
             is_silent: core.is_silent(),
+            apply_tick,
             mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
             watched: u32::try_from(watched).unwrap_or(u32::MAX),
             watched_um: amplitudes_um.get(watched).copied().unwrap_or_default(),
@@ -116,7 +119,7 @@ impl TickSampler {
 
     /// Leaves a sample of the tick that was just done, if it moved, turned or sounded, or is the
     /// first that did not. A tick that is held, or shows where it was put to, leaves none.
-    pub(super) fn look(&mut self, core: &EngineCore) {
+    pub(super) fn look(&mut self, core: &EngineCore, apply_tick: Option<u32>) {
         if !self.is_heard {
             return;
         }
@@ -137,18 +140,18 @@ impl TickSampler {
         self.last = Some(pose);
         let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
         let is_left = !(is_quiet && was_quiet);
-        if is_left && !self.leave(core) {
+        if is_left && !self.leave(core, apply_tick) {
             self.n_lost += 1;
         }
     }
 
     /// Leaves a sample if there is room for all of it.
-    fn leave(&mut self, core: &EngineCore) -> bool {
+    fn leave(&mut self, core: &EngineCore, apply_tick: Option<u32>) -> bool {
         let amplitudes_um = core.felt_um();
         if self.ring.slots() == 0 || self.amplitudes.slots() < amplitudes_um.len() {
             return false;
         }
-        let sample = TickSample::of(core, self.watched);
+        let sample = TickSample::of(core, self.watched, apply_tick);
         let is_whole = amplitudes_um
             .iter()
             .all(|&um| self.amplitudes.push(um).is_ok());

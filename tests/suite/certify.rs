@@ -5,7 +5,7 @@
 
 use selvedge_device::{Certificate, CheckOutcome};
 
-use crate::bridge_device::{Device, signal, wait_for_log};
+use crate::bridge_device::Device;
 use crate::program::Lab;
 
 const CERTIFY: [&str; 6] = ["bridge", "certify", "--port", "array", "--out", "reports"];
@@ -81,19 +81,4 @@ fn a_device_that_does_not_answer_gets_a_report_too() {
     assert_eq!(outcome.code, 1, "{outcome:?}");
     assert_eq!(failed(&certificate(&lab)), ["HELLO"]);
     drop(device.end(&lab));
-}
-
-#[test]
-fn a_signal_ends_it_with_stop_and_the_device_is_at_rest() {
-    let lab = Lab::with_scene();
-    let device = Device::start(&lab, &[]);
-    let mut child = lab.command(&CERTIFY).spawn().unwrap();
-    wait_for_log(&lab, |log| log.contains(",state,RUN,"));
-    signal("TERM", &child);
-    assert_eq!(child.wait().unwrap().code(), Some(1));
-    let rows = device.end(&lab);
-    let states = rows.text("state");
-    let last = states.last().map_or("", |state| state);
-    assert!(["READY", "IDLE"].contains(&last), "{last}");
-    assert!(!certificate(&lab).passed());
 }

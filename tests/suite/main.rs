@@ -8,9 +8,12 @@
 )]
 
 mod bad_input;
+#[cfg(target_os = "linux")]
+mod bounded;
 mod bridge_arrays;
 mod bridge_device;
 mod bridge_end_to_end;
+mod bridge_ends;
 mod bridge_faults;
 mod certify;
 mod commands;
@@ -29,6 +32,7 @@ mod program;
 mod programs;
 mod report;
 mod sinks;
+mod watched;
 mod window;
 
 /// Aborts when something allocates inside `assert_no_alloc`.

@@ -133,11 +133,22 @@ impl ArrayProfile {
     /// Largest drive peak of full scale, mV.
     pub const LARGEST_FULL_SCALE_MV: u32 = 1_000_000;
     /// Symbols a second where a profile names none.
-    pub const USUAL_BAUD: u32 = 1_000_000;
+    pub(crate) const USUAL_BAUD: u32 = 1_000_000;
     /// Slowest and fastest rate of a serial line: a slower one has no time for frames.
     pub const BAUD: [u32; 2] = [115_200, 12_000_000];
     /// Temperatures outside of which no device works, °C.
     pub const TEMPERATURE_C: [f64; 2] = [-10.0, 70.0];
+
+    /// A rate of a serial line as people write it, baud.
+    ///
+    /// # Errors
+    /// One line: what was expected.
+    pub fn read_baud(word: &str) -> Result<u32, String> {
+        let [slowest, fastest] = Self::BAUD;
+        let rate = word.trim().parse().ok();
+        rate.filter(|rate| (slowest..=fastest).contains(rate))
+            .ok_or_else(|| format!("give a whole number, {slowest} to {fastest} baud"))
+    }
 
     /// `rows · cols`.
     pub fn n_contactors(&self) -> usize {

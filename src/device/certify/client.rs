@@ -11,13 +11,13 @@ use super::answers::{Heard, compare};
 use super::line::Line;
 use super::link_times::LinkTimes;
 use super::predict::Between;
-use super::say::{Say, Want, packet};
+use super::say::{Say, Want};
 use super::speech::Speech;
 use super::tally::Tally;
 use super::verdict::{Trouble, Verdict, ensure};
 use super::watch::Watch;
 use crate::framing::{Decoder, LARGEST_BODY};
-use crate::message::{Caps, Message as _, Pong, Status, TICK_US, kind};
+use crate::message::{Message as _, Pong, Status, TICK_US, kind};
 
 /// How long an answer may take, µs of the host's time.
 const REPLY_US: u64 = 1_000_000;
@@ -35,15 +35,16 @@ pub(super) struct Client<'a> {
     stop: &'a AtomicBool,
     end_us: u64,
     decoder: Decoder,
-    heard: Vec<Heard>,
+    pub(super) heard: Vec<Heard>,
     /// How much of it was read.
     read: usize,
-    caps_payload: Vec<u8>,
-    speech: Speech,
+    pub(super) caps_payload: Vec<u8>,
+    pub(super) speech: Speech,
     pub(super) tally: Tally,
     pub(super) watch: Watch,
     pub(super) times: LinkTimes,
-    is_open: bool,
+    /// Something was said since the last acknowledged STOP.
+    pub(super) is_open: bool,
 }
 
 impl<'a> Client<'a> {
@@ -206,8 +207,15 @@ impl<'a> Client<'a> {
         if now_us >= self.end_us {
             return Err(Trouble::Over(String::from("time is up")));
         }
+        self.listen(until_us.min(now_us + GLANCE_US))?;
+        ensure(self.heard.len() < FLOOD, || {
+            format!("more than {FLOOD} packets came")
+        })
+    }
+
+    /// Hears what comes until then, whoever wants to end.
+    pub(super) fn listen(&mut self, until_us: u64) -> Verdict {
         let mut bytes = Vec::new();
-        let until_us = until_us.min(now_us + GLANCE_US);
         self.line
             .read(until_us, &mut bytes)
             .map_err(|error| gone(&error))?;
@@ -222,9 +230,7 @@ impl<'a> Client<'a> {
             self.watch.byte(byte);
         }
         self.decoder = decoder;
-        ensure(self.heard.len() < FLOOD, || {
-            format!("more than {FLOOD} packets came")
-        })
+        Ok(())
     }
 
     fn hear(&mut self, kind: u8, payload: &[u8]) {
@@ -249,56 +255,12 @@ impl<'a> Client<'a> {
         self.heard.push(heard.unwrap_or_else(reply));
     }
 
-    /// HELLO until CAPS with our own session come; everything before is ignored.
-    pub(super) fn open(&mut self, patience_us: u64) -> Result<(), Trouble> {
-        let end_us = self.line.now_us() + patience_us;
-        let hello = self.hello();
-        self.write(&Speech::noise(&[0]))?;
-        while self.line.now_us() < end_us {
-            self.write(&hello)?;
-            let until_us = self.line.now_us() + 250_000;
-            while self.line.now_us() < until_us {
-                self.pump(until_us)?;
-                if self.find_caps() {
-                    // Late answers to repeated HELLOs are no concern of the checks.
-                    self.pass(100_000)?;
-                    self.forget();
-                    self.watch = Watch::default();
-                    self.watch.pause();
-                    return Ok(());
-                }
-            }
-        }
-        let what = if self.heard.is_empty() {
-            "nothing comes: check power, cable and port"
-        } else {
-            "bytes come, but no CAPS with the session of our HELLO"
-        };
-        Err(Trouble::Wrong(what.to_owned()))
-    }
-
-    /// Whether CAPS of this session came; they are kept.
-    fn find_caps(&mut self) -> bool {
-        let session = self.session.to_le_bytes();
-        let found = self.heard.iter().find_map(|heard| match heard {
-            Heard::Reply(kind::CAPS, payload) if payload.get(4..8) == Some(&session) => {
-                Some(payload.clone())
-            }
-            _ => None,
-        });
-        let Some(payload) = found else { return false };
-        self.speech.caps = Caps::decode(&payload).unwrap_or_default();
-        self.tally.know_largest_body(self.speech.caps.max_body);
-        self.caps_payload = payload;
-        true
-    }
-
     /// The payload of CAPS as it came.
     pub(super) fn caps_payload(&self) -> &[u8] {
         &self.caps_payload
     }
 
-    fn forget(&mut self) {
+    pub(super) fn forget(&mut self) {
         self.heard.clear();
         self.read = 0;
     }
@@ -346,14 +308,6 @@ impl<'a> Client<'a> {
             .saturating_add_signed(self.times.offset_us());
         us / 1000
     }
-
-    /// STOP, acknowledged: nothing is left to be stopped.
-    pub(super) fn end(&mut self) -> Verdict {
-        let stop = self.stop(0);
-        self.tell(&[stop])?;
-        self.is_open = false;
-        Ok(())
-    }
 }
 
 /// Everything that can be said can be said by the client.
@@ -374,9 +328,7 @@ impl DerefMut for Client<'_> {
 impl Drop for Client<'_> {
     fn drop(&mut self) {
         if self.is_open {
-            let stop = packet(kind::STOP, 0, self.seq, &[0, 1]);
-            // The device's own silence is what is left when the link takes nothing.
-            drop(self.line.write(&stop));
+            self.line.stop();
         }
     }
 }

@@ -1,16 +1,14 @@
 //! The link to the device that is judged: bytes and the host's own time, nothing else.
 //!
-//! In virtual time it stands around an emulated device, in real time around a port. Time here only
-//! says how long to wait; what a device did when is judged by the device's own clock.
+//! In virtual time it stands around an emulated device, in real time it is the driver's. Time here
+//! only says how long to wait; what a device did when is judged by the device's own clock.
 
 use std::io;
-use std::time::{Duration, Instant};
 
-use crate::port::Port;
+use super::say::packet;
+use crate::driver::DirectLine;
+use crate::message::kind;
 use crate::wire::WiredDevice;
-
-/// How long a port may take one packet, twice at most.
-const WRITE_PATIENCE: Duration = Duration::from_millis(100);
 
 /// A byte link to a device, and a clock to wait by.
 pub trait Line {
@@ -23,6 +21,15 @@ pub trait Line {
     /// Adds what arrives to `bytes`; returns when something came, and at `until_us` at the latest.
     /// An error: the link is gone.
     fn read(&mut self, until_us: u64, bytes: &mut Vec<u8>) -> io::Result<()>;
+
+    /// STOP with zero now, ahead of whatever waits to be written. The device's own silence is what
+    /// is left where the link takes nothing.
+    fn stop(&mut self) {
+        drop(self.write(&packet(kind::STOP, 0, 0, &[0, 1])));
+    }
+
+    /// For the record: what is tried from now on, or what came of it.
+    fn check(&mut self, _text: &str) {}
 }
 
 /// An emulated device and its link in virtual time: waiting takes none of ours.
@@ -74,42 +81,24 @@ impl Line for VirtualLine {
     }
 }
 
-/// A port in real time.
-pub(crate) struct PortLine<'a> {
-    port: &'a mut dyn Port,
-    start: Instant,
-}
-
-impl<'a> PortLine<'a> {
-    /// A line over an open port.
-    pub(crate) fn new(port: &'a mut dyn Port) -> Self {
-        Self {
-            port,
-            start: Instant::now(),
-        }
-    }
-}
-
-impl Line for PortLine<'_> {
+impl Line for DirectLine {
     fn now_us(&self) -> u64 {
-        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
+        self.now_us()
     }
 
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.port
-            .write(bytes, WRITE_PATIENCE)
-            .or_else(|error| match error.kind() {
-                // Whatever was cut off ends with the zero that opens the next.
-                io::ErrorKind::TimedOut => self.port.write(bytes, WRITE_PATIENCE),
-                _ => Err(error),
-            })
+        self.write(bytes)
     }
 
     fn read(&mut self, until_us: u64, bytes: &mut Vec<u8>) -> io::Result<()> {
-        let mut buffer = [0; 1024];
-        let left = Duration::from_micros(until_us.saturating_sub(self.now_us()));
-        let count = self.port.read(&mut buffer, left)?;
-        bytes.extend_from_slice(buffer.get(..count).unwrap_or(&[]));
-        Ok(())
+        self.read(until_us, bytes)
+    }
+
+    fn stop(&mut self) {
+        self.stop();
+    }
+
+    fn check(&mut self, text: &str) {
+        self.check(text);
     }
 }

@@ -1,7 +1,7 @@
 //! Certifies a device: tries it as its maker would fear, and says what held.
 //!
 //! ```text
-//! checks ── says, wants ── client ── bytes ── Line ── a port, or a device in virtual time
+//! checks ── says, wants ── client ── bytes ── Line ── the driver, or a device in virtual time
 //!    └── predict: what is right    └── watch: what must hold in all that comes
 //! ```
 //!
@@ -25,16 +25,13 @@ mod tally;
 #[cfg(test)]
 mod tests;
 mod verdict;
+mod visit;
 mod watch;
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::BridgeError;
-use crate::port::SerialLink;
 use checks::{Check, When};
 use client::Client;
-use line::PortLine;
 pub use line::{Line, VirtualLine};
 pub use report::{Certificate, CheckOutcome, CheckResult};
 pub use store::CertificateFolder;
@@ -104,7 +101,10 @@ pub fn certify(
     }
     let ended = match over {
         None => client.end(),
-        Some(reason) => Err(Trouble::Untested(reason)),
+        Some(reason) => {
+            client.line.check(&reason);
+            client.rest().and(Err(Trouble::Untested(reason)))
+        }
     };
     results.push(CheckResult {
         section: String::from("STOP"),
@@ -117,25 +117,6 @@ pub fn certify(
     Certificate::new(&client.caps, trial.extent == Extent::Full, results)
 }
 
-/// Tries the device behind the serial port at `path`.
-///
-/// # Errors
-/// The port cannot be opened.
-pub fn certify_port(
-    (path, baud): (&Path, u32),
-    trial: Trial,
-    stop: &AtomicBool,
-    progress: &mut dyn FnMut(&str),
-) -> Result<Certificate, BridgeError> {
-    let mut port = SerialLink::open(&path.display().to_string(), baud)?;
-    Ok(certify(
-        &mut PortLine::new(&mut port),
-        trial,
-        stop,
-        progress,
-    ))
-}
-
 /// What a check gave, and whether nothing more can be tried.
 struct Tried {
     result: CheckResult,
@@ -146,6 +127,7 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
     let from_ms = client.device_ms();
     let mut verdict = Err(Trouble::Late);
     for _ in 0..N_TRIES {
+        client.line.check(check.name);
         let tried = client
             .begin_check()
             .and_then(|()| (check.run)(client))
@@ -160,13 +142,15 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
             }
         }
     }
+    let came = came_of(&verdict);
+    client.line.check(&format!("{}: {came}", check.name));
     Tried {
         // No host would go on with a device that is refused by its CAPS.
         ends: matches!(verdict, Err(Trouble::Over(_)))
             || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_)))),
         result: CheckResult {
             outcome: outcome_of(&verdict),
-            came: came_of(&verdict),
+            came,
             device_ms: client.device_ms().saturating_sub(from_ms),
             ..blank(check)
         },

@@ -5,8 +5,12 @@
 //! others: it waits for the device, arms it, asks a [`FrameSource`] at every tick, and whatever
 //! ends the session, sends STOP first and waits for its acknowledgement.
 //!
+//! [`DirectLine`] has the same threads, STOP and record without a session, for the checks that must
+//! say what no host says.
+//!
 //! It knows nothing of paths, textiles or terminals.
 
+mod direct;
 mod pacer;
 
 use std::ops::ControlFlow;
@@ -18,7 +22,9 @@ use super::BridgeError;
 use super::codes::ArrayProfile;
 use super::handle::{Bridge, Target};
 use super::host::{BridgeEvent, BridgeState, DisarmedBy};
+use super::link::StopHandle;
 use super::message::{StopHow, TICK_US, fault_bit};
+pub use direct::DirectLine;
 pub use pacer::Pacer;
 use selvedge_foundation::panics::{OnPanic, on_panic};
 
@@ -85,7 +91,7 @@ impl Driver {
             pacer: Pacer::waiting(),
             armed: None,
             is_ending: false,
-            _on_panic: handle.map(|handle| on_panic(move || handle.last_word())),
+            _on_panic: handle.map(stop_on_panic),
         }
     }
 
@@ -247,6 +253,11 @@ impl Driver {
         let bare = bare.map(|rest| rest.trim_start_matches([':', ' ']));
         bare.unwrap_or(reason).to_owned()
     }
+}
+
+/// From now on a panic of any thread stops the device.
+fn stop_on_panic(handle: StopHandle) -> OnPanic {
+    on_panic(move || handle.last_word())
 }
 
 /// Why a session ends.

@@ -64,7 +64,7 @@ impl Bridge {
         match (event, &mut self.pulse) {
             (BridgeEvent::Identified { channel }, Some(pulse)) if *channel == pulse.channel => {
                 let is_first = pulse.taken(now);
-                if pulse.is_whole() {
+                if pulse.is_last() {
                     self.pulse = None;
                 }
                 is_first

@@ -16,10 +16,11 @@ use std::time::{Duration, Instant};
 use super::actuator_model::{ActuatorWatch, ContactorModel, actuator_watch};
 use super::codes::ArrayProfile;
 use super::host::{BridgeCounters, BridgeEvent, BridgeState, HostSession, SentFrame, Sequence};
-use super::link::{Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
+use super::link::{Hearing, Incoming, Link, QueuedFrame, StopHandle, Timings, Waker};
 use super::message::StopHow;
 use super::session_log::Note;
 use notes::Notes;
+pub(crate) use notes::host_counters;
 use pulse::Pulse;
 pub use target::Target;
 
@@ -56,8 +57,11 @@ impl Bridge {
         let (feed, actuators) = actuators.unzip();
         let opener = Box::new(move || target.open(&shape, feed));
         let waker: Waker = Arc::new(waker);
+        let hearing = Hearing::Messages {
+            n_channels: n_contactors,
+        };
         let mut session = HostSession::new(nonce(), profile, n_contactors, sequence.clone());
-        let link = match Link::open(opener, n_contactors, sequence, waker) {
+        let link = match Link::open(opener, hearing, sequence, waker) {
             Ok(link) => Some(link),
             Err(error) => {
                 session.link_gone(Instant::now(), error.to_string());
@@ -103,6 +107,8 @@ impl Bridge {
                 Incoming::Message { message, received } => {
                     self.session.on_message(received, &message);
                 }
+                // Only a link without a session is asked for them.
+                Incoming::Bytes(_) => {}
                 Incoming::Gone(reason) => self.session.link_gone(now, reason),
             }
             if let Some(event) = self.session.next_event() {
@@ -228,7 +234,8 @@ impl Bridge {
             link.send_stop(&packet);
         }
         while let Some(packet) = self.session.next_packet() {
-            link.send_control(&packet);
+            // A packet without room is sent again later, as every request is.
+            let _has_room = link.send_control(&packet);
         }
     }
 

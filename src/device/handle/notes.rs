@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::Bridge;
-use crate::host::BridgeEvent;
+use crate::host::{BridgeCounters, BridgeEvent};
 use crate::link::Link;
 use crate::session_log::{HostCounters, LogFeed, Note};
 
@@ -49,7 +49,7 @@ impl Bridge {
     }
 
     fn note_tick(&mut self, now: Instant) {
-        let counted = self.host_counters();
+        let counted = host_counters(&self.counters());
         if self.notes.counted != counted {
             self.notes.counted = counted;
             self.session.note(now, Note::HostCounters(counted));
@@ -77,7 +77,7 @@ impl Bridge {
         self.note_telemetry(now);
         let device = self.session.counters().device;
         self.session.note(now, Note::DeviceCounters(device));
-        self.notes.counted = self.host_counters();
+        self.notes.counted = host_counters(&self.counters());
         self.session
             .note(now, Note::HostCounters(self.notes.counted));
     }
@@ -89,22 +89,22 @@ impl Bridge {
         }
     }
 
-    fn host_counters(&self) -> HostCounters {
-        let counters = self.counters();
-        HostCounters {
-            rejected: counters.frames_rejected,
-            superseded: counters.frames_superseded,
-            bad_received: counters.bad_received,
-            events_dropped: counters.events_dropped,
-            write_timeouts: counters.write_timeouts,
-        }
-    }
-
     pub(super) fn write_notes(&mut self) {
         if let Some(log) = &mut self.notes.log {
             while let Some(entry) = self.session.next_note() {
                 log.push(entry);
             }
         }
+    }
+}
+
+/// What a log holds of the counters of a link.
+pub(crate) fn host_counters(counters: &BridgeCounters) -> HostCounters {
+    HostCounters {
+        rejected: counters.frames_rejected,
+        superseded: counters.frames_superseded,
+        bad_received: counters.bad_received,
+        events_dropped: counters.events_dropped,
+        write_timeouts: counters.write_timeouts,
     }
 }

@@ -42,7 +42,7 @@ impl Target {
     }
 
     /// Opens both ends. May block.
-    pub(super) fn open(
+    pub(crate) fn open(
         &self,
         profile: &ArrayProfile,
         actuators: Option<ActuatorFeed>,

@@ -32,6 +32,11 @@ use writer::{Outgoing, Writer};
 
 const INCOMING: usize = 256;
 const CONTROLS: usize = 16;
+/// The same for whoever says what no session says: many packets at once.
+const DIRECT_CONTROLS: usize = 256;
+/// Room for packets on their way to the log: more than arrive while its writer sleeps.
+const PASSING: usize = 256;
+const DIRECT_PASSING: usize = 4096;
 const FRAMES: usize = 4;
 /// Longest wait for the STOP of a program that fails.
 const LAST_WORD: Duration = Duration::from_millis(250);
@@ -43,6 +48,25 @@ pub(super) type Opener = Box<dyn FnOnce() -> Result<Ends, BridgeError> + Send>;
 /// Called whenever there may be news.
 pub(super) type Waker = Arc<dyn Fn() + Send + Sync>;
 
+/// What the reader hands on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Hearing {
+    /// Messages of a device with so many channels; what is none is counted.
+    Messages { n_channels: usize },
+    /// Bytes as they come, for an owner that believes no framing either.
+    Bytes,
+}
+
+impl Hearing {
+    /// Places in the ring of control packets, and in each ring to the log.
+    fn places(self) -> [usize; 2] {
+        match self {
+            Self::Messages { .. } => [CONTROLS, PASSING],
+            Self::Bytes => [DIRECT_CONTROLS, DIRECT_PASSING],
+        }
+    }
+}
+
 /// What the threads tell the owner.
 #[derive(Debug)]
 pub(super) enum Incoming {
@@ -53,6 +77,8 @@ pub(super) enum Incoming {
         message: DeviceMessage,
         received: Instant,
     },
+    /// Bytes arrived.
+    Bytes(Vec<u8>),
     /// The port could not be opened, or is gone.
     Gone(String),
 }
@@ -185,19 +211,20 @@ impl Link {
     /// Starts the reader, which opens the port and then starts the writer. Never waits.
     pub(super) fn open(
         opener: Opener,
-        n_channels: usize,
+        hearing: Hearing,
         sequence: Sequence,
         waker: Waker,
     ) -> Result<Self, BridgeError> {
         let shared = Arc::new(Shared::new(sequence, waker));
+        let [n_controls, n_passing] = hearing.places();
         let (to_owner, incoming) = RingBuffer::new(INCOMING);
         let (failed, failures) = RingBuffer::new(FRAMES);
-        let (controls, controls_out) = RingBuffer::new(CONTROLS);
+        let (controls, controls_out) = RingBuffer::new(n_controls);
         let (frames, frames_out) = RingBuffer::new(FRAMES);
         let outgoing = Outgoing::new(controls_out, frames_out);
-        let [(sent, sent_end), (received, received_end)] = [tap(), tap()];
+        let [(sent, sent_end), (received, received_end)] = [tap(n_passing), tap(n_passing)];
         let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
-        let reader = Reader::new(Arc::clone(&shared), to_owner, n_channels, received);
+        let reader = Reader::new(Arc::clone(&shared), to_owner, hearing, received);
         let running = Running::new(&shared);
         Builder::new()
             .name(String::from("bridge-reader"))
@@ -232,11 +259,11 @@ impl Link {
         self.shared.put_stop(packet);
     }
 
-    /// Without room the packet is dropped: every request is repeated.
-    pub(super) fn send_control(&mut self, packet: &Packet) {
-        if self.controls.push(*packet).is_ok() {
-            self.shared.unpark_writer();
-        }
+    /// Whether there was room for it. A session may drop it then: every request is repeated.
+    pub(super) fn send_control(&mut self, packet: &Packet) -> bool {
+        let has_room = self.controls.push(*packet).is_ok();
+        self.shared.unpark_writer();
+        has_room
     }
 
     /// Without room the frame is dropped and counted: the writer is stuck, and the device is on its

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use rtrb::Producer;
 
-use super::{Incoming, Opener, Running, Shared, Writer, count};
-use crate::framing::{Decoder, LARGEST_BODY};
+use super::{Hearing, Incoming, Opener, Running, Shared, Writer, count};
+use crate::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::message::{DeviceMessage, Unreadable};
 use crate::port::Port;
 use crate::session_log::{Body, Passed, Tap};
@@ -17,12 +17,18 @@ use crate::session_log::{Body, Passed, Tap};
 /// How long a read waits before it looks whether to end.
 const PATIENCE: Duration = Duration::from_millis(50);
 
+/// Of a text that is no packet so many bytes are recorded.
+const RECORDED: usize = 256;
+
 /// What the reading thread owns.
 pub(super) struct Reader {
     shared: Arc<Shared>,
     to_owner: Producer<Incoming>,
-    n_channels: usize,
+    hearing: Hearing,
     decoder: Decoder,
+    /// The beginning of the text since the last zero, and what had been bad before it.
+    text: Vec<u8>,
+    bad_before: u64,
     tap: Tap,
 }
 
@@ -30,14 +36,16 @@ impl Reader {
     pub(super) fn new(
         shared: Arc<Shared>,
         to_owner: Producer<Incoming>,
-        n_channels: usize,
+        hearing: Hearing,
         tap: Tap,
     ) -> Self {
         Self {
             shared,
             to_owner,
-            n_channels,
+            hearing,
             decoder: Decoder::new(LARGEST_BODY),
+            text: Vec::with_capacity(RECORDED),
+            bad_before: 0,
             tap,
         }
     }
@@ -80,34 +88,12 @@ impl Reader {
     }
 
     fn take(&mut self, bytes: &[u8], received: Instant) {
-        let mut found = false;
-        let bad_before = self.decoder.bad();
-        for &byte in bytes {
-            let Some(packet) = self.decoder.push(byte) else {
-                continue;
-            };
-            let body = Body::new(&packet);
-            let message = DeviceMessage::decode(&packet, self.n_channels);
-            if let Some(body) = body {
-                let body = body.with_flags(self.decoder.flags());
-                self.tap.put(received, &Passed::Received(body));
-            }
-            match message {
-                Ok(message) => {
-                    found = true;
-                    let incoming = Incoming::Message { message, received };
-                    if self.to_owner.push(incoming).is_err() {
-                        count(&self.shared.events_dropped);
-                    }
-                }
-                // A later version may send what this one does not know.
-                Err(Unreadable::UnknownKind) => {}
-                Err(Unreadable::Short) => self.decoder.count_bad(),
-            }
+        let mut found = self.hearing == Hearing::Bytes;
+        if found {
+            self.hand_on(Incoming::Bytes(bytes.to_vec()));
         }
-        let n_bad = self.decoder.bad() - bad_before;
-        if n_bad > 0 {
-            self.tap.put(received, &Passed::Bad(n_bad));
+        for &byte in bytes {
+            found |= self.push(byte, received);
         }
         let n_bytes = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         self.shared
@@ -121,10 +107,63 @@ impl Reader {
         }
     }
 
-    fn send(&mut self, incoming: Incoming) {
+    /// Takes a byte; whether it completes a message for the owner.
+    fn push(&mut self, byte: u8, received: Instant) -> bool {
+        if byte != 0 && self.text.len() < RECORDED {
+            self.text.push(byte);
+        }
+        let message = self.complete(byte, received);
+        if byte == 0 {
+            self.record_broken(received);
+        }
+        let Some(message) = message else {
+            return false;
+        };
+        self.hand_on(Incoming::Message { message, received });
+        true
+    }
+
+    /// The message that a byte completes, for an owner who hears messages.
+    fn complete(&mut self, byte: u8, received: Instant) -> Option<DeviceMessage> {
+        let packet = self.decoder.push(byte)?;
+        let body = Body::new(&packet);
+        let message = match self.hearing {
+            Hearing::Messages { n_channels } => DeviceMessage::decode(&packet, n_channels),
+            // Those who hear bytes judge for themselves.
+            Hearing::Bytes => Err(Unreadable::UnknownKind),
+        };
+        match (&message, body) {
+            (Err(Unreadable::Short), _) => self.decoder.count_bad(),
+            (_, Some(body)) => {
+                let body = body.with_flags(self.decoder.flags());
+                self.tap.put(received, &Passed::Received(body));
+            }
+            // No body is larger than the decoder's.
+            (_, None) => {}
+        }
+        // A later version may send what this one does not know.
+        message.ok()
+    }
+
+    /// A text has ended: if it was no packet, it is recorded as it came.
+    fn record_broken(&mut self, received: Instant) {
+        let bad = self.decoder.bad();
+        if std::mem::replace(&mut self.bad_before, bad) != bad
+            && let Some(text) = Packet::verbatim(&self.text)
+        {
+            self.tap.put(received, &Passed::Broken(text));
+        }
+        self.text.clear();
+    }
+
+    fn hand_on(&mut self, incoming: Incoming) {
         if self.to_owner.push(incoming).is_err() {
             count(&self.shared.events_dropped);
         }
+    }
+
+    fn send(&mut self, incoming: Incoming) {
+        self.hand_on(incoming);
         (self.shared.waker)();
     }
 }

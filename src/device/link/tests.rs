@@ -43,7 +43,7 @@ fn desk() -> Desk {
     let (controls, controls_out) = RingBuffer::new(CONTROLS);
     let (frames, frames_out) = RingBuffer::new(FRAMES);
     let outgoing = Outgoing::new(controls_out, frames_out);
-    let [(sent, sent_end), (_, received_end)] = [tap(), tap()];
+    let [(sent, sent_end), (_, received_end)] = [tap(PASSING), tap(PASSING)];
     let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
     Desk {
         link: Link {

@@ -17,6 +17,8 @@ const TICK_US: u64 = 25 * MS_US;
 const MAX_WAITING: usize = 512;
 /// A packet without a sign of the device for so long did not arrive, s.
 const PATIENCE_S: f64 = 1.0;
+/// A host that waits for an answer asks again after no less, s.
+const ANSWER_S: f64 = 0.2;
 /// By how much a guessed time may be off before it is taken as another tick, µs.
 const DOUBT_US: u64 = 2 * MS_US;
 
@@ -25,21 +27,34 @@ const DOUBT_US: u64 = 2 * MS_US;
 pub(super) enum Written {
     Body(Box<Body>),
     Hashed(HashedFrame),
+    /// Bytes that are no packet: no sign tells of them.
+    Bytes(Vec<u8>),
 }
 
 impl Written {
-    pub(super) fn kind(&self) -> u8 {
+    /// Type and number, if it is a packet.
+    fn name(&self) -> Option<(u8, u16)> {
         match self {
-            Self::Body(body) => body.kind,
-            Self::Hashed(_) => kind::FRAME,
+            Self::Body(body) => Some((body.kind, body.seq)),
+            Self::Hashed(frame) => Some((kind::FRAME, frame.seq)),
+            Self::Bytes(_) => None,
         }
     }
 
-    fn seq(&self) -> u16 {
+    /// The tick that a FRAME is for.
+    pub(super) fn apply_tick(&self) -> Option<u32> {
         match self {
-            Self::Body(body) => body.seq,
-            Self::Hashed(frame) => frame.seq,
+            Self::Hashed(frame) => Some(frame.apply_tick),
+            Self::Body(body) if body.kind == kind::FRAME => {
+                let first = body.payload().first_chunk()?;
+                Some(u32::from_le_bytes(*first))
+            }
+            Self::Body(_) | Self::Bytes(_) => None,
         }
+    }
+
+    pub(super) fn is(&self, kind: u8) -> bool {
+        self.name().is_some_and(|(own, _)| own == kind)
     }
 }
 
@@ -108,17 +123,28 @@ impl Placer {
 
     /// The device acknowledged a packet, or refused it.
     pub(super) fn acknowledged(&mut self, ack: Ack) {
-        let is_it =
-            |it: &&mut Waiting| it.written.kind() == ack.kind && it.written.seq() == ack.seq;
+        let is_it = |it: &&mut Waiting| it.written.name() == Some((ack.kind, ack.seq));
         if let Some(waiting) = self.waiting.iter_mut().rev().find(is_it) {
             waiting.sign = Sign::Answered;
         }
     }
 
-    /// The device answered the last request of this type; gives it to be changed.
-    pub(super) fn answered(&mut self, kind: u8, at_us: Option<u64>) -> Option<&mut Written> {
-        let mut of_kind = self.waiting.iter_mut().rev();
-        let waiting = of_kind.find(|waiting| waiting.written.kind() == kind)?;
+    /// The device answered a request that `is_it`; gives it to be changed. Of several the last, but
+    /// not one that was written within the time of an answer to another.
+    pub(super) fn answered(
+        &mut self,
+        is_it: impl Fn(&Body) -> bool,
+        at_us: Option<u64>,
+    ) -> Option<&mut Written> {
+        let is_asked = |waiting: &Waiting| match &waiting.written {
+            Written::Body(body) => waiting.sign == Sign::None && is_it(body),
+            Written::Hashed(_) | Written::Bytes(_) => false,
+        };
+        let last = self.waiting.iter().rposition(is_asked)?;
+        let since_s = self.waiting.get(last)?.host_s - ANSWER_S;
+        let is_one = |waiting: &Waiting| waiting.host_s >= since_s && is_asked(waiting);
+        let first = self.waiting.iter().position(is_one)?;
+        let waiting = self.waiting.get_mut(first)?;
         waiting.sign = at_us.map_or(Sign::Answered, Sign::At);
         Some(&mut waiting.written)
     }
@@ -141,10 +167,11 @@ impl Placer {
         for (at, waiting) in self.waiting.drain(..n_before).enumerate() {
             let guess_us = rounded(waiting.host_s * 1e6 + shift_us);
             let was_before = self.status_us.is_some_and(|us| guess_us + DOUBT_US < us);
-            let is_frame = waiting.written.kind() == kind::FRAME;
+            let is_frame = waiting.written.is(kind::FRAME);
             // A later one would be the last that STATUS names.
             let may_be = is_frame && confirmed.is_some_and(|confirmed| at < confirmed);
-            if is_told(&waiting) {
+            let is_packet = waiting.written.name().is_some();
+            if is_told(&waiting) || !is_packet {
                 before.push((waiting, guess_us));
             } else if !may_be || is_next && was_before {
                 placement.n_lost += 1;
@@ -165,8 +192,7 @@ impl Placer {
 
     /// The FRAME that a STATUS names came at its age, known within a ms. Its place, if it waits.
     fn confirm(&mut self, status: &Status, device_us: u64) -> Option<usize> {
-        let is_it =
-            |it: &Waiting| it.written.kind() == kind::FRAME && it.written.seq() == status.last_seq;
+        let is_it = |it: &Waiting| it.written.name() == Some((kind::FRAME, status.last_seq));
         let age_us = u64::from(status.age_ms) * MS_US + MS_US / 2;
         if status.age_ms == u16::MAX {
             return None;

@@ -92,7 +92,10 @@ impl ReplayedLink {
             ));
         }
         let numbers = [
-            (counts.lost, "packets of the host did not arrive"),
+            (
+                counts.lost,
+                "packets of the host did not arrive, or have no answer",
+            ),
             (
                 counts.doubtful,
                 "packets may have arrived or not; the ticks after them are not judged",

@@ -21,6 +21,8 @@ const MAX_JUMP: i32 = 40;
 const DOUBTFUL_TICKS: u32 = 8;
 /// The same after packets that the log lost.
 const BLIND_TICKS: u32 = 80;
+/// By how much the time of a FRAME may be off that is known by its age, µs.
+const AGE_US: u64 = 600;
 /// How long a STOP or CLEAR whose time is a guess may show, µs.
 const RAMP_US: u64 = 150_000;
 
@@ -70,6 +72,8 @@ impl LinkReplay {
             Seen::Sent(body) | Seen::Unsent(body) => {
                 self.wrote(Written::Body(Box::new(body)), host_s);
             }
+            Seen::SentBytes(bytes) => self.wrote(Written::Bytes(bytes), host_s),
+            Seen::ReceivedBytes => self.report.counts.bad += 1,
             Seen::Hashed(hashed) => self.wrote(Written::Hashed(hashed), host_s),
             Seen::Received(body) => return self.received(&body, host_s),
             Seen::Note(name, detail) => self.noted(&name, &detail),
@@ -86,7 +90,7 @@ impl LinkReplay {
     }
 
     fn wrote(&mut self, written: Written, host_s: f64) {
-        self.report.counts.frames += u64::from(written.kind() == kind::FRAME);
+        self.report.counts.frames += u64::from(written.is(kind::FRAME));
         self.report.counts.lost += self.placer.wrote(written, host_s);
     }
 
@@ -128,7 +132,10 @@ impl LinkReplay {
             }
             Ok(DeviceMessage::Pong(pong)) => {
                 let at_us = Self::unwrapped(pong.tick, pong.dev_us);
-                self.placer.answered(kind::PING, at_us);
+                let token = pong.token.to_le_bytes();
+                let is_it =
+                    |body: &Body| body.kind == kind::PING && body.payload().starts_with(&token);
+                self.placer.answered(is_it, at_us);
             }
             Ok(DeviceMessage::Status(status)) => return self.status(&status, host_s),
             Ok(DeviceMessage::Fault(fault)) => self.fault(fault.faults),
@@ -139,10 +146,16 @@ impl LinkReplay {
 
     /// CAPS of a session: another device from here on, unless it says the same.
     fn caps(&mut self, caps: Caps) -> Vec<ReplayedTick> {
-        self.placer.answered(kind::HELLO, None);
+        let session = caps.session.to_le_bytes();
+        let is_it =
+            |body: &Body| body.kind == kind::HELLO && body.payload().get(4..8) == Some(&session);
+        self.placer.answered(is_it, None);
+        let known = self.caps.unwrap_or_default();
         let same = Caps {
             session: caps.session,
-            ..self.caps.unwrap_or_default()
+            // A device that was offered no version of its own ends its session with version 0.
+            version: caps.version.min(known.version),
+            ..known
         };
         if self.twin.is_some() && same == caps {
             return Vec::new();
@@ -163,7 +176,8 @@ impl LinkReplay {
     /// was granted, and must grant that.
     fn cfg(&mut self, config: Config) {
         let n_channels = self.n_channels();
-        if let Some(Written::Body(asked)) = self.placer.answered(kind::CONFIG, None)
+        if let Some(Written::Body(asked)) =
+            self.placer.answered(|body| body.kind == kind::CONFIG, None)
             && let Some(packet) = config.request(asked.seq, n_channels)
             && let Some(body) = Body::of_wire(packet.as_bytes())
         {
@@ -233,11 +247,11 @@ impl LinkReplay {
             self.doubtful_until = status.tick.saturating_add(DOUBTFUL_TICKS);
         }
         for placed in &placement.packets {
-            if placed.is_guess {
+            if placed.is_guess || is_at_edge(placed) {
                 self.guessed_until_us = self.guessed_until_us.max(shows_until_us(placed));
             }
-            if let (Some(packet), Some(twin)) = (packet_of(&placed.written), &mut self.twin) {
-                twin.receive(placed.device_us, &packet);
+            if let Some(twin) = &mut self.twin {
+                twin.receive(placed.device_us, &wire_of(&placed.written));
             }
         }
         if let Some(twin) = &mut self.twin {
@@ -319,6 +333,14 @@ impl LinkReplay {
     }
 }
 
+/// Whether nobody can tell if a FRAME came before its own tick or was late: its age is known within
+/// a ms.
+fn is_at_edge(placed: &Placed) -> bool {
+    let tick = (placed.device_us + TICK / 2) / TICK;
+    let is_near = (tick * TICK).abs_diff(placed.device_us) < AGE_US;
+    is_near && placed.written.apply_tick() == Some(crate::fields::wrapped_u32(tick))
+}
+
 /// Until when the device shows that a request came at another time than guessed, µs.
 fn shows_until_us(placed: &Placed) -> u64 {
     let shows_us = match &placed.written {
@@ -343,13 +365,16 @@ fn other_ack(told: Ack, own: &[Ack]) -> Option<Disagreement> {
         .then(|| Disagreement::new("ACK", &told.code.describe(), &own.code.describe()))
 }
 
-/// The packet as it was written; one of which the log has a hash is silent, and of the same length.
-fn packet_of(written: &Written) -> Option<Packet> {
-    match written {
+/// The bytes as they were written; a FRAME of which the log has a hash is silent, and of the same
+/// length.
+fn wire_of(written: &Written) -> Vec<u8> {
+    let packet = match written {
         Written::Body(body) => Packet::encode(body.kind, body.seq, body.payload()),
+        Written::Bytes(bytes) => return bytes.clone(),
         Written::Hashed(hashed) => {
             let codes = vec![[0; 2]; hashed.n_channels];
             frame::packet(hashed.seq, hashed.apply_tick, &codes)
         }
-    }
+    };
+    packet.map_or_else(Vec::new, |packet| packet.as_bytes().to_vec())
 }

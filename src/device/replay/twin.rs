@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use crate::BridgeError;
 use crate::actuator_model::{ActuatorModel, ContactorModel};
 use crate::device::{DeviceCore, DeviceModel, DeviceSink, Moment};
-use crate::framing::{Decoder, LARGEST_BODY, Packet};
+use crate::framing::{Decoder, LARGEST_BODY};
 use crate::message::{
     Ack, Caps, Config, DeviceMessage, DeviceState, LARGEST_CHANNELS, Status, TICK_US,
 };
@@ -108,9 +108,8 @@ impl Twin {
         self.core.advance(device_us, &mut self.ear);
     }
 
-    /// Gives it a packet.
-    pub(super) fn receive(&mut self, device_us: u64, packet: &Packet) {
-        let bytes = packet.as_bytes();
+    /// Gives it bytes.
+    pub(super) fn receive(&mut self, device_us: u64, bytes: &[u8]) {
         self.core.receive(device_us, bytes, &mut self.ear);
     }
 

@@ -49,13 +49,21 @@ pub(super) fn body_words(body: &Body) -> String {
     if !body.payload().is_empty() {
         detail.push(' ');
     }
-    for byte in body.payload() {
-        push(&mut detail, format_args!("{byte:02x}"));
-    }
+    detail.push_str(&hex_of(body.payload()));
     detail
 }
 
-fn bytes_of(digits: &str) -> Option<Vec<u8>> {
+/// Bytes in hexadecimal digits.
+pub(super) fn hex_of(bytes: &[u8]) -> String {
+    let mut digits = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
+        push(&mut digits, format_args!("{byte:02x}"));
+    }
+    digits
+}
+
+/// Reads what [`hex_of`] wrote.
+pub(super) fn bytes_of(digits: &str) -> Option<Vec<u8>> {
     let pairs = digits.as_bytes().chunks(2);
     pairs
         .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())

@@ -35,25 +35,35 @@ events! {
     /// Hashes of what is played and on what.
     ABOUT = "about";
     /// A FRAME was written: ticks ahead of the last STATUS, then codes.
-    FRAME = "frame";
+    FRAME = "f";
     /// The same with a hash in place of codes.
     FRAME_HASH = "frame-hash";
     /// So many frames more, equal but for their numbers and ticks.
     FRAME_AGAIN = "frame-again";
     /// A STATUS arrived: age, `amp_sum`, then what is not as in the last.
-    STATUS = "status";
+    STATUS = "s";
+    /// Both in logs of earlier versions.
+    LONG_FRAME = "frame";
+    /// The same.
+    LONG_STATUS = "status";
     /// Another packet was written: type, number, payload in hexadecimal digits.
     OUT = "out";
     /// Another packet arrived.
     IN = "in";
     /// A packet that the port did not take.
     UNSENT = "unsent";
-    /// So many texts arrived that were no packet.
+    /// Bytes were written that are no packet of ours, in hexadecimal digits.
+    OUT_BYTES = "out-bytes";
+    /// A text arrived that was no packet; of a long one its beginning.
+    IN_BYTES = "in-bytes";
+    /// So many such texts arrived, in logs of earlier versions.
     BAD = "bad";
     /// So many packets were not recorded.
     PACKETS_LOST = "packets-lost";
     /// So many other entries were not recorded.
     ENTRIES_LOST = "entries-lost";
+    /// What a device is certified by now, and what came of it.
+    CHECK = "check";
     /// HELLO was sent.
     HELLO = "hello";
     /// What the device says of itself, every field.

@@ -1,11 +1,11 @@
 //! A line of CSV and what stands in it: see [`COLUMNS`].
 //!
 //! The detail of a note is `name=value` pairs with the unit in the name, or a text, in quotes; that
-//! of a packet has neither commas nor quotes. The lines of packets have no `utc`: it follows from
-//! the other time, and they are most of a log.
+//! of a packet has neither commas nor quotes. The lines of packets are most of a log: they have no
+//! `utc`, which follows from the other time, and of that mostly the step from the packet before.
 
 use std::fmt::Write as _;
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use super::bodies::kind_name;
 use super::events::{COLUMNS, event};
@@ -55,12 +55,67 @@ pub(super) fn write_entry(lines: &mut String, entry: &Entry, epoch: Epoch) {
     lines.push('\n');
 }
 
+/// Tenths of a ms in a second, in which the times of packets are written.
+const PER_S: i64 = 10_000;
+/// From one time of a packet that is whole to the next, the same.
+const WHOLE_TIME_EVERY: i64 = PER_S;
+/// A log is never open for longer, s.
+pub(super) const LONGEST_S: f64 = 1e9;
+
+/// The times of a link's packets: whole once a second, differences between.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PacketTimes {
+    /// Of the packet before, and of the last whole one, in tenths of a ms.
+    last: Option<[i64; 2]>,
+}
+
+impl PacketTimes {
+    /// How a time is written: s since the log was opened, or signed tenths of a ms since the packet
+    /// before.
+    fn write(&mut self, since: Duration) -> String {
+        let now = i64::try_from(since.as_micros() / 100).unwrap_or(i64::MAX);
+        match self.last {
+            Some([last, whole]) if now - whole < WHOLE_TIME_EVERY => {
+                self.last = Some([now, whole]);
+                format!("{:+}", now - last)
+            }
+            _ => {
+                self.last = Some([now, now]);
+                format!("{}.{:04}", now / PER_S, now % PER_S)
+            }
+        }
+    }
+
+    /// A difference that was written so, as the time that it means, s.
+    pub(super) fn read_step(&mut self, text: &str) -> Option<f64> {
+        let [last, whole] = self.last?;
+        let now = last.checked_add(text.parse().ok()?)?;
+        self.last = Some([now, whole]);
+        (now >= 0).then_some(now as f64 / PER_S as f64)
+    }
+
+    /// The time of a packet that was written whole, s: not longer than a log is open.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "of a size that was checked"
+    )]
+    pub(super) fn take_whole(&mut self, s: f64) {
+        let now = (s * PER_S as f64).round() as i64;
+        self.last = Some([now, now]);
+    }
+}
+
 /// Appends the line of a packet.
-pub(super) fn write_packet(lines: &mut String, at: Instant, words: &PacketWords, epoch: Epoch) {
-    let since_s = at.saturating_duration_since(epoch.monotonic).as_secs_f64();
+pub(super) fn write_packet(
+    lines: &mut String,
+    at: Instant,
+    words: &PacketWords,
+    (epoch, times): (Epoch, &mut PacketTimes),
+) {
+    let time = times.write(at.saturating_duration_since(epoch.monotonic));
     let tick = words.tick.map_or_else(String::new, |tick| tick.to_string());
     let PacketWords { event, detail, .. } = words;
-    let written = writeln!(lines, ",{since_s:.4},{tick},,{event},{detail}");
+    let written = writeln!(lines, ",{time},{tick},,{event},{detail}");
     debug_assert!(written.is_ok(), "a String takes everything");
 }
 
@@ -221,7 +276,7 @@ fn host_words(counters: &HostCounters) -> String {
 mod tests {
     use super::*;
     use crate::message::{AckCode, kind};
-    use std::time::{Duration, UNIX_EPOCH};
+    use std::time::UNIX_EPOCH;
 
     fn line_of(note: Note) -> String {
         let epoch = Epoch {

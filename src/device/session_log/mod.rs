@@ -8,6 +8,7 @@
 
 mod bodies;
 mod digits;
+mod earlier_digits;
 mod events;
 mod file;
 mod line;
@@ -22,7 +23,7 @@ mod virtual_log;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, Builder, JoinHandle};
+use std::thread::{self, Builder, JoinHandle, Thread};
 use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -201,13 +202,13 @@ impl SessionLog {
             taps: None,
             recorder: Recorder::new(self.epoch, self.keeps_frames),
         });
-        if let Some(writer) = &self.writer {
-            writer.thread().unpark();
-        }
+        let writer = self.writer.as_ref().map(|writer| writer.thread().clone());
+        writer.iter().for_each(Thread::unpark);
         let mut feed = LogFeed {
             entries,
             n_lost: 0,
             number,
+            writer,
             shared: Arc::clone(&self.shared),
         };
         let program = selvedge_foundation::PROGRAM;
@@ -262,6 +263,7 @@ pub struct LogFeed {
     entries: Producer<Entry>,
     n_lost: u64,
     number: u32,
+    writer: Option<Thread>,
     shared: Arc<Shared>,
 }
 
@@ -279,6 +281,11 @@ impl LogFeed {
         }
     }
 
+    /// Adds an entry of now, by the host's clock alone.
+    pub(super) fn note(&mut self, note: Note) {
+        self.push(at_once(note));
+    }
+
     /// From now on what passes the port is recorded too.
     pub(super) fn follow(&self, taps: [TapEnd; 2]) {
         let mut sources = self.shared.sources();
@@ -286,7 +293,11 @@ impl LogFeed {
             .iter_mut()
             .find(|source| source.number == self.number);
         if let Some(source) = source {
-            taps.iter().for_each(TapEnd::open);
+            if let Some(writer) = &self.writer {
+                for tap in &taps {
+                    tap.open(writer);
+                }
+            }
             source.taps = Some(taps);
         }
     }
@@ -311,11 +322,15 @@ fn about(name: &str, value: &str) -> Entry {
 
 /// An entry in words, of now.
 fn said(event: &'static str, text: String) -> Entry {
+    at_once(Note::Said(event, text))
+}
+
+fn at_once(note: Note) -> Entry {
     Entry {
         at: Instant::now(),
         tick: None,
         device_us: None,
-        note: Note::Said(event, text),
+        note,
     }
 }
 

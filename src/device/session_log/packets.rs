@@ -7,6 +7,7 @@
 
 use super::bodies::{body_words, push, read_body};
 use super::digits::{pack, unpack};
+use super::earlier_digits;
 use super::events::event;
 use super::tap::Body;
 use crate::fields::wrapped_u32;
@@ -16,6 +17,8 @@ use selvedge_foundation::files::sha256_hex;
 
 /// Frames from one that is written whole to the next.
 const WHOLE_EVERY: u32 = 40;
+/// From one tick that is written although it was to be expected to the next.
+const TICK_EVERY: u32 = 40;
 /// The most frames that one line stands for.
 pub(super) const MAX_AGAIN: u16 = 400;
 /// Digits of a frame's hash.
@@ -194,6 +197,8 @@ impl PacketCode {
         if body_of_status(&status, body.seq).as_ref() != Some(body) {
             return None;
         }
+        let is_next = status.tick == self.status.tick.wrapping_add(1);
+        let tick = (!is_next || status.tick.is_multiple_of(TICK_EVERY)).then_some(status.tick);
         let expected = self.expected(status.tick);
         let mut detail = format!("{} {}", status.age_ms, status.amp_sum);
         if body.seq != self.received_seq.wrapping_add(1) {
@@ -204,13 +209,17 @@ impl PacketCode {
         self.heard(status);
         Some(PacketWords {
             event: event::STATUS,
-            tick: Some(status.tick),
+            tick,
             detail,
         })
     }
 
-    /// Reads a `frame`.
-    pub(super) fn read_frame(&mut self, detail: &str) -> Option<Body> {
+    /// Reads a FRAME of this event.
+    pub(super) fn read_frame(&mut self, event: &str, detail: &str) -> Option<Body> {
+        let unpack = match event {
+            event::FRAME => unpack,
+            _ => earlier_digits::unpack,
+        };
         let mut words = detail.split(' ');
         let apply_tick = self.read_apply_tick(words.next()?)?;
         let first = words.next()?;
@@ -263,7 +272,7 @@ impl PacketCode {
     }
 
     /// Reads a `status`.
-    pub(super) fn read_status(&mut self, tick: u32, detail: &str) -> Option<Body> {
+    pub(super) fn read_status(&mut self, tick: Option<u32>, detail: &str) -> Option<Body> {
         macro_rules! take {
             ($status:ident $name:ident $value:ident $($field:ident)+) => {
                 match $name {
@@ -273,7 +282,8 @@ impl PacketCode {
             };
         }
         let mut words = detail.split(' ');
-        let mut status = self.expected(tick);
+        let next = self.status.tick.wrapping_add(1);
+        let mut status = self.expected(tick.unwrap_or(next));
         status.age_ms = words.next()?.parse().ok()?;
         status.amp_sum = words.next()?.parse().ok()?;
         let mut seq = self.received_seq.wrapping_add(1);

@@ -6,7 +6,9 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, BufRead, Read as _};
 
+use super::bodies::bytes_of;
 use super::events::{COLUMNS, CUT, event};
+use super::line::{LONGEST_S, PacketTimes};
 use super::packets::{HashedFrame, MAX_AGAIN, PacketCode};
 use super::tap::Body;
 
@@ -26,6 +28,10 @@ pub(crate) enum Seen {
     Unsent(Body),
     /// This packet arrived.
     Received(Body),
+    /// These bytes were written, which are no packet.
+    SentBytes(Vec<u8>),
+    /// A text arrived that was no packet.
+    ReceivedBytes,
     /// Something else: the event's name and its detail.
     Note(String, String),
 }
@@ -56,6 +62,7 @@ pub(crate) struct Unreadable {
 #[derive(Debug, Default)]
 struct LinkState {
     code: PacketCode,
+    times: PacketTimes,
     /// When its last FRAME was written.
     last_frame_s: f64,
 }
@@ -159,37 +166,42 @@ impl<R: BufRead> LogReader<R> {
             }
         }
         let state = self.links.entry(self.link).or_default();
+        let host_s = parts.time.read(&mut state.times)?;
         let seen = match *event {
-            event::FRAME => {
-                state.last_frame_s = parts.host_s;
-                Seen::Sent(state.code.read_frame(detail)?)
+            event::FRAME | event::LONG_FRAME => {
+                state.last_frame_s = host_s;
+                Seen::Sent(state.code.read_frame(event, detail)?)
             }
             event::FRAME_HASH => {
-                state.last_frame_s = parts.host_s;
+                state.last_frame_s = host_s;
                 Seen::Hashed(state.code.read_hash(detail)?)
             }
-            event::FRAME_AGAIN => return self.add_again(parts),
-            event::STATUS => Seen::Received(state.code.read_status(parts.tick?, detail)?),
+            event::FRAME_AGAIN => return self.add_again(parts, host_s),
+            event::STATUS | event::LONG_STATUS => {
+                Seen::Received(state.code.read_status(parts.tick, detail)?)
+            }
             event::IN => Seen::Received(state.code.read_plain(event, detail)?),
             event::OUT => Seen::Sent(state.code.read_plain(event, detail)?),
+            event::OUT_BYTES => Seen::SentBytes(bytes_of(detail)?),
+            event::IN_BYTES => bytes_of(detail).map(|_| Seen::ReceivedBytes)?,
             event::UNSENT => Seen::Unsent(state.code.read_plain(event, detail)?),
             _ => Seen::Note((*event).to_owned(), detail.clone()),
         };
-        self.push(parts, parts.host_s, seen);
+        self.push(parts, host_s, seen);
         Some(())
     }
 
     /// Frames that are told by their number: they are spread over the time that they took.
-    fn add_again(&mut self, parts: &Parts<'_>) -> Option<()> {
+    fn add_again(&mut self, parts: &Parts<'_>, to_s: f64) -> Option<()> {
         let n: u16 = parts.detail.parse().ok()?;
         if n > MAX_AGAIN {
             return None;
         }
         let state = self.links.get_mut(&self.link)?;
-        let from_s = std::mem::replace(&mut state.last_frame_s, parts.host_s);
+        let from_s = std::mem::replace(&mut state.last_frame_s, to_s);
         for at in 1..=n {
             let share = f64::from(at) / f64::from(n);
-            let host_s = from_s + share * (parts.host_s - from_s);
+            let host_s = from_s + share * (to_s - from_s);
             let seen = match self.links.get_mut(&self.link)?.code.next_frame() {
                 Ok(body) => Seen::Sent(body?),
                 Err(hashed) => Seen::Hashed(hashed),
@@ -220,27 +232,62 @@ impl<R: BufRead> LogReader<R> {
 /// The columns of a line.
 struct Parts<'a> {
     utc: &'a str,
-    host_s: f64,
+    time: Time<'a>,
     tick: Option<u32>,
     event: &'a str,
     detail: String,
 }
 
+/// When it was, by the host's clock.
+enum Time<'a> {
+    /// Of an entry, s.
+    OfEntry(f64),
+    /// Of a packet, s.
+    OfPacket(f64),
+    /// Of a packet, since the one before.
+    Step(&'a str),
+}
+
+impl<'a> Time<'a> {
+    fn of(text: &'a str, is_packet: bool) -> Option<Self> {
+        if text.starts_with(['+', '-']) {
+            return is_packet.then_some(Self::Step(text));
+        }
+        let s = text.parse().ok().filter(|s| (0.0..LONGEST_S).contains(s))?;
+        Some(if is_packet {
+            Self::OfPacket(s)
+        } else {
+            Self::OfEntry(s)
+        })
+    }
+
+    /// The time, s, after the packets of the same link before.
+    fn read(&self, times: &mut PacketTimes) -> Option<f64> {
+        match *self {
+            Self::OfEntry(s) => Some(s),
+            Self::OfPacket(s) => {
+                times.take_whole(s);
+                Some(s)
+            }
+            Self::Step(text) => times.read_step(text),
+        }
+    }
+}
+
 fn parts(text: &str) -> Option<Parts<'_>> {
     let mut columns = text.splitn(COLUMNS.len(), ',');
     let mut next = || columns.next();
-    let (utc, host_s) = (next()?, next()?.parse().ok()?);
+    let (utc, time) = (next()?, next()?);
     let (tick, device_us, event, detail) = (next()?, next()?, next()?, next()?);
     let is_number = |text: &str| text.is_empty() || text.parse::<u64>().is_ok();
     let is_name =
         |name: &str| !name.is_empty() && name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
-    let is_time = |s: &f64| s.is_finite() && (0.0..1e9).contains(s);
-    if !(is_number(tick) && is_number(device_us) && is_name(event) && is_time(&host_s)) {
+    if !(is_number(tick) && is_number(device_us) && is_name(event)) {
         return None;
     }
     Some(Parts {
         utc,
-        host_s,
+        time: Time::of(time, utc.is_empty())?,
         tick: tick.parse().ok(),
         event,
         detail: detail_of(detail)?,

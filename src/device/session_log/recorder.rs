@@ -5,8 +5,9 @@
 
 use std::time::{Duration, Instant};
 
+use super::bodies::hex_of;
 use super::events::event;
-use super::line::{Epoch, write_entry, write_packet};
+use super::line::{Epoch, PacketTimes, write_entry, write_packet};
 use super::note::{Entry, Note};
 use super::packets::{MAX_AGAIN, PacketCode, PacketWords};
 use super::tap::{Body, Passed, Passing};
@@ -34,6 +35,7 @@ pub(crate) struct Recorder {
     epoch: Epoch,
     keeps_frames: bool,
     code: PacketCode,
+    times: PacketTimes,
     run: Option<Run>,
     /// What a reader must know before anything else: the link, what is played on what, CAPS, CFG.
     headings: Vec<Entry>,
@@ -47,6 +49,7 @@ impl Recorder {
             epoch,
             keeps_frames,
             code: PacketCode::default(),
+            times: PacketTimes::default(),
             run: None,
             headings: Vec::new(),
         }
@@ -57,6 +60,7 @@ impl Recorder {
         write_entry(lines, &entry, self.epoch);
         if matches!(entry.note, Note::Said(event::LINK, _)) {
             self.code = PacketCode::default();
+            self.times = PacketTimes::default();
             self.headings.clear();
         }
         let subject = subject_of(&entry.note);
@@ -85,18 +89,21 @@ impl Recorder {
     pub(super) fn passing(&mut self, passing: &Passing, lines: &mut String) {
         let at = passing.at;
         let words = match &passing.what {
-            Passed::Sent(packet) => match Body::of_wire(packet.as_bytes()) {
-                Some(body) => return self.sent(at, &body, lines),
-                None => return,
-            },
-            Passed::Unsent(packet) => match Body::of_wire(packet.as_bytes()) {
-                Some(body) => PacketCode::unsent(&body),
-                None => return,
-            },
+            Passed::Sent(packet) | Passed::Unsent(packet) => {
+                let wire = packet.as_bytes();
+                match (Body::of_whole(wire), &passing.what) {
+                    (Some(body), Passed::Sent(_)) => return self.sent(at, &body, lines),
+                    (Some(body), _) => PacketCode::unsent(&body),
+                    (None, _) => {
+                        self.end_run(lines);
+                        bytes_words(event::OUT_BYTES, wire)
+                    }
+                }
+            }
             Passed::Received(body) => self.code.received(body),
-            Passed::Bad(n) => count_words(event::BAD, *n),
+            Passed::Broken(text) => bytes_words(event::IN_BYTES, text.as_bytes()),
         };
-        write_packet(lines, at, &words, self.epoch);
+        write_packet(lines, at, &words, (self.epoch, &mut self.times));
     }
 
     fn sent(&mut self, at: Instant, body: &Body, lines: &mut String) {
@@ -112,14 +119,18 @@ impl Recorder {
         }
         self.end_run(lines);
         let words = self.code.sent(body, self.keeps_frames);
-        write_packet(lines, at, &words, self.epoch);
+        write_packet(lines, at, &words, (self.epoch, &mut self.times));
     }
 
     /// So many packets could not be taken: what comes next may be unlike what came before.
     pub(super) fn lost(&mut self, at: Instant, n: u64, lines: &mut String) {
         self.end_run(lines);
-        let words = count_words(event::PACKETS_LOST, n);
-        write_packet(lines, at, &words, self.epoch);
+        let words = PacketWords {
+            event: event::PACKETS_LOST,
+            tick: None,
+            detail: n.to_string(),
+        };
+        write_packet(lines, at, &words, (self.epoch, &mut self.times));
     }
 
     /// Writes how many frames were equal, if that waits for longer than it may.
@@ -134,7 +145,7 @@ impl Recorder {
     pub(super) fn end_run(&mut self, lines: &mut String) {
         if let Some(run) = self.run.take() {
             let words = self.code.again(run.n);
-            write_packet(lines, run.last, &words, self.epoch);
+            write_packet(lines, run.last, &words, (self.epoch, &mut self.times));
         }
     }
 }
@@ -150,10 +161,10 @@ fn subject_of(note: &Note) -> Option<&str> {
     }
 }
 
-fn count_words(event: &'static str, n: u64) -> PacketWords {
+fn bytes_words(event: &'static str, bytes: &[u8]) -> PacketWords {
     PacketWords {
         event,
         tick: None,
-        detail: n.to_string(),
+        detail: hex_of(bytes),
     }
 }

@@ -3,16 +3,15 @@
 //! counted.
 
 use std::fmt;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::thread::Thread;
 use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use crate::framing::{CRC_LEN, Decoder, HEADER_LEN, LARGEST_BODY, Packet, Received};
 
-/// Room for packets on their way to the log: more than arrive while its writer sleeps.
-const MAX_PASSING: usize = 256;
 const LARGEST_PAYLOAD: usize = LARGEST_BODY - HEADER_LEN - CRC_LEN;
 
 /// A packet without its framing.
@@ -49,6 +48,15 @@ impl Body {
         body.map(|body| body.with_flags(decoder.flags()))
     }
 
+    /// The body of a packet that is framed as we frame it, to the byte, with nothing beside it.
+    pub(crate) fn of_whole(wire: &[u8]) -> Option<Self> {
+        let body = Self::of_wire(wire)?;
+        let [seq_low, seq_high] = body.seq.to_le_bytes();
+        let covered = [&[body.kind, body.flags, seq_low, seq_high], body.payload()].concat();
+        let is_whole = Packet::sealed(&covered)?.as_bytes() == wire;
+        is_whole.then_some(body)
+    }
+
     /// The same with these flags.
     pub(crate) fn with_flags(self, flags: u8) -> Self {
         Self { flags, ..self }
@@ -75,14 +83,14 @@ impl fmt::Debug for Body {
 /// What passes a port.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Passed {
-    /// The port took this packet.
+    /// The port took this.
     Sent(Packet),
     /// The port did not take it.
     Unsent(Packet),
     /// This packet arrived.
     Received(Body),
-    /// So many texts arrived that were no packet.
-    Bad(u64),
+    /// These bytes arrived between two zeros and were no packet; of a long text its beginning.
+    Broken(Packet),
 }
 
 /// The same with its time.
@@ -95,7 +103,8 @@ pub(crate) struct Passing {
 /// What both ends of a tap share.
 #[derive(Debug, Default)]
 struct Shared {
-    is_on: AtomicBool,
+    /// Who empties the ring, once somebody does.
+    log: OnceLock<Thread>,
     n_lost: AtomicU64,
 }
 
@@ -103,6 +112,8 @@ struct Shared {
 #[derive(Debug)]
 pub(crate) struct Tap {
     ring: Producer<Passing>,
+    /// With fewer free places the log is woken.
+    few: usize,
     shared: Arc<Shared>,
 }
 
@@ -113,12 +124,13 @@ pub(crate) struct TapEnd {
     shared: Arc<Shared>,
 }
 
-/// Both ends; nothing is taken before the log's end is opened.
-pub(crate) fn tap() -> (Tap, TapEnd) {
-    let (to_log, ring) = RingBuffer::new(MAX_PASSING);
+/// Both ends, with room for so many; nothing is taken before the log's end is opened.
+pub(crate) fn tap(n_places: usize) -> (Tap, TapEnd) {
+    let (to_log, ring) = RingBuffer::new(n_places);
     let shared = Arc::new(Shared::default());
     let tap = Tap {
         ring: to_log,
+        few: n_places / 2,
         shared: Arc::clone(&shared),
     };
     (tap, TapEnd { ring, shared })
@@ -128,17 +140,22 @@ impl Tap {
     /// Takes note of what passed; without room it is counted.
     pub(crate) fn put(&mut self, at: Instant, what: &Passed) {
         let what = *what;
-        let is_wanted = self.shared.is_on.load(Ordering::Relaxed);
-        if is_wanted && self.ring.push(Passing { at, what }).is_err() {
+        let Some(log) = self.shared.log.get() else {
+            return;
+        };
+        if self.ring.push(Passing { at, what }).is_err() {
             self.shared.n_lost.fetch_add(1, Ordering::Relaxed);
+        }
+        if self.ring.slots() < self.few {
+            log.unpark();
         }
     }
 }
 
 impl TapEnd {
-    /// From now on what passes is taken.
-    pub(super) fn open(&self) {
-        self.shared.is_on.store(true, Ordering::Relaxed);
+    /// From now on what passes is taken; this thread is woken when much of it waits.
+    pub(super) fn open(&self, log: &Thread) {
+        self.shared.log.get_or_init(|| log.clone());
     }
 
     /// Whether nothing more can come.
@@ -162,18 +179,31 @@ mod tests {
 
     #[test]
     fn a_full_ring_counts_what_it_lost() {
-        let (mut tap, mut end) = tap();
-        tap.put(Instant::now(), &Passed::Bad(1));
+        let (mut tap, mut end) = tap(64);
+        let passed = Passed::Broken(Packet::delimiter());
+        tap.put(Instant::now(), &passed);
         assert!(end.next().is_none(), "nobody records yet");
-        end.open();
-        for _ in 0..MAX_PASSING + 5 {
-            tap.put(Instant::now(), &Passed::Bad(1));
+        end.open(&std::thread::current());
+        for _ in 0..64 + 5 {
+            tap.put(Instant::now(), &passed);
         }
         let n_kept = std::iter::from_fn(|| end.next()).count();
-        assert_eq!((n_kept, end.take_lost()), (MAX_PASSING, 5));
-        tap.put(Instant::now(), &Passed::Bad(2));
+        assert_eq!((n_kept, end.take_lost()), (64, 5));
+        tap.put(Instant::now(), &passed);
         assert!(end.next().is_some() && end.take_lost() == 0 && !end.is_over());
         drop(tap);
         assert!(end.is_over());
+    }
+
+    #[test]
+    fn only_a_packet_that_is_framed_as_ours_is_whole() {
+        let packet = Packet::sealed(&[6, 0x80, 1, 2, 9, 0, 9]).unwrap();
+        let wire = packet.as_bytes();
+        let body = Body::of_whole(wire).unwrap();
+        assert_eq!((body.flags, body.payload()), (0x80, &[9, 0, 9][..]));
+        let longer = [&wire[..wire.len() - 1], &[1, 0]].concat();
+        for other in [&wire[1..], &wire[..wire.len() - 1], &[0], &longer, &[]] {
+            assert_eq!(Body::of_whole(other), None, "{other:02x?}");
+        }
     }
 }

@@ -77,6 +77,8 @@ impl Faults {
 pub struct LinkFaults {
     /// How long a write takes to arrive.
     pub latency: Latency,
+    /// Rate of a serial line, on which a byte takes ten bits; `None` takes no time.
+    pub baud: Option<u32>,
     /// Share of writes that take [`hiccup_us`](Self::hiccup_us) longer, 0…1.
     pub hiccup_rate: f64,
     /// How much longer those take, µs.

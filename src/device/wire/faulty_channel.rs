@@ -15,6 +15,8 @@ const USB_PACKET: usize = 64;
 /// Bytes at which an FTDI adapter sends without waiting for its timer.
 const FTDI_FULL: usize = 62;
 const USB_FRAME_US: u64 = 1000;
+/// Bits of a byte on a serial line, times µs in a second.
+const BIT_US: u64 = 10 * 1_000_000;
 /// A host that wrote nothing for so long begins a new visit.
 const VISIT_GAP_US: u64 = 1_000_000;
 /// What a modem manager asks a port that it does not know.
@@ -79,6 +81,8 @@ pub(super) struct FaultyChannel {
     last_write_us: Option<u64>,
     next_garbage_us: Option<u64>,
     stalled_until_us: u64,
+    /// When the last byte has left the serial line.
+    line_free_us: u64,
     /// When the adapter's timer runs out, and how many bytes wait for it.
     timer: Option<(u64, usize)>,
     injections: Vec<Injection>,
@@ -104,6 +108,7 @@ impl FaultyChannel {
             last_write_us: None,
             next_garbage_us: None,
             stalled_until_us: 0,
+            line_free_us: 0,
             timer: None,
             injections: Vec::new(),
         };
@@ -116,7 +121,8 @@ impl FaultyChannel {
         self.chatter(now_us);
         self.last_write_us = Some(now_us);
         let arriving = self.harmed(bytes);
-        let due_us = self.due_us(now_us, arriving.len());
+        let left_us = self.left_line_us(now_us, arriving.len());
+        let due_us = self.due_us(left_us, arriving.len());
         if self.chance(self.faults.repeat_rate) {
             self.note(InjectionKind::Repeated(self.direction), arriving.len());
             self.put(due_us, arriving.clone());
@@ -171,6 +177,7 @@ impl FaultyChannel {
         self.waiting.clear();
         self.n_waiting = 0;
         self.timer = None;
+        self.line_free_us = 0;
         self.stalled_until_us = 0;
         self.last_write_us = None;
     }
@@ -241,6 +248,16 @@ impl FaultyChannel {
         } else {
             arriving.push(byte);
         }
+    }
+
+    /// When all of them have left a serial line, one byte behind the other.
+    fn left_line_us(&mut self, now_us: u64, n_bytes: usize) -> u64 {
+        let Some(baud) = self.faults.baud else {
+            return now_us;
+        };
+        let takes_us = (n_bytes as u64 * BIT_US).div_ceil(u64::from(baud.max(1)));
+        self.line_free_us = self.line_free_us.max(now_us) + takes_us;
+        self.line_free_us
     }
 
     fn due_us(&mut self, now_us: u64, n_bytes: usize) -> u64 {

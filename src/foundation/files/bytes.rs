@@ -1,5 +1,6 @@
 //! Numbers in binary files, little endian, read one after the other; nothing past the end.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::FileError;
@@ -202,13 +203,13 @@ fn each<const N: usize>(bytes: &[u8], decode: impl Fn([u8; N]) -> f64) -> Vec<f6
 
 /// A text, without a byte-order mark: UTF-8, UTF-16 or Latin-1, as old programs write it. `None`
 /// where it begins as UTF-16 and is none.
-pub fn decoded(bytes: &[u8]) -> Option<String> {
+pub fn decoded(bytes: &[u8]) -> Option<Cow<'_, str>> {
     match bytes {
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes).map(Cow::Owned),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes).map(Cow::Owned),
         _ => Some(match std::str::from_utf8(bytes) {
-            Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
-            Err(_) => latin1(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+            Ok(text) => Cow::Borrowed(text.strip_prefix('\u{feff}').unwrap_or(text)),
+            Err(_) => Cow::Owned(latin1(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes))),
         }),
     }
 }

@@ -6,7 +6,6 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::FileError;
-use super::keys::check_length;
 
 /// A value as indented JSON with a final newline; numbers that are not finite become `null`.
 /// `path` only names the file in errors.
@@ -17,9 +16,16 @@ pub fn to_json_string<T: Serialize>(value: &T, path: &Path) -> Result<String, Fi
     Ok(text)
 }
 
+/// Most bytes of what is read.
+const MAX_BYTES: usize = 16_000_000;
+
 /// A value from JSON text. `path` only names the file in errors.
 pub fn from_json_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, FileError> {
-    check_length(text, path)?;
+    if text.len() > MAX_BYTES {
+        let what = format!("this file is larger than {} MB", MAX_BYTES / 1_000_000);
+        let mend = "give a file that Selvedge wrote";
+        return Err(FileError::whole(path, what, mend));
+    }
     serde_json::from_str(text).map_err(|error| {
         let mend = "mend it, or remove the file";
         FileError::content(path, error.line(), error.to_string(), mend)

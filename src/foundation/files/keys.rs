@@ -35,7 +35,7 @@ pub fn keys_from_str<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, 
 const MAX_BYTES: usize = 4_000_000;
 
 /// Refuses a text that is longer than keys and values may be.
-pub(super) fn check_length(text: &str, path: &Path) -> Result<(), FileError> {
+fn check_length(text: &str, path: &Path) -> Result<(), FileError> {
     if text.len() <= MAX_BYTES {
         return Ok(());
     }
@@ -122,9 +122,14 @@ fn offset_of_key(root: &DeTable<'_>, table: &str, nth: usize, key: &str) -> Opti
 }
 
 /// A value as TOML text.
+///
+/// # Errors
+/// It is no table of keys, or longer than [`keys_from_str`] would take it.
 pub fn keys_to_string<T: Serialize>(value: &T, path: &Path) -> Result<String, FileError> {
-    toml::to_string(value)
-        .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as TOML"))
+    let text = toml::to_string(value)
+        .map_err(|e| FileError::content(path, 1, e.to_string(), "this cannot be saved as TOML"))?;
+    check_length(&text, path)?;
+    Ok(text)
 }
 
 /// Keys and values as a file states them, of whatever kind.

@@ -111,6 +111,10 @@ impl Reader<'_> {
                 let what = "two columns of whole numbers, or one with a decimal comma";
                 asks(self.path, line, what, KesAsk::Decimal)
             }
+            NoTable::TooLong => {
+                let [what, mend] = NoTable::TOO_LONG;
+                FileError::whole(self.path, what, mend).into()
+            }
         }
     }
 

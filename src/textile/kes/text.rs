@@ -1,5 +1,6 @@
 //! The text of a tester's export: UTF-8, UTF-16 or Latin-1, as old programs write it.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use selvedge_foundation::files::FileError;
@@ -12,13 +13,13 @@ const MAX_BYTES: usize = 64 << 20;
 ///
 /// # Errors
 /// An empty file, one that is no text, one above 64 MB.
-pub(super) fn text_of(bytes: &[u8], path: &Path) -> Result<String, FileError> {
+pub(super) fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, FileError> {
     let mend = "give the tester's export as text: rows of numbers under an optional header";
     let wrong = |what: &str| FileError::content(path, 1, what, mend);
     if bytes.len() > MAX_BYTES {
         return Err(wrong("this file is larger than 64 MB"));
     }
-    let is_binary = |text: &String| {
+    let is_binary = |text: &Cow<'_, str>| {
         text.chars()
             .any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\x0c' | '\x1a'))
     };
@@ -34,7 +35,8 @@ mod tests {
     use super::*;
 
     fn read(bytes: &[u8]) -> Result<String, String> {
-        text_of(bytes, Path::new("a.txt")).map_err(|error| error.to_string())
+        let text = text_of(bytes, Path::new("a.txt"));
+        text.map(Cow::into_owned).map_err(|error| error.to_string())
     }
 
     #[test]

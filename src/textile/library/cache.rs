@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use crate::build::BuiltFile;
-use selvedge_foundation::files::{sha256_hex, write_atomic};
+use selvedge_foundation::files::{read_known, sha256_hex, write_atomic};
 
 /// How large the folder may grow, bytes.
 const LIMIT_BYTES: u64 = 256 << 20;
@@ -45,7 +45,7 @@ impl BuildCache {
     /// The files of an entry; `None` if there is none or it is damaged.
     pub fn get(&self, key: &str) -> Option<Vec<BuiltFile>> {
         let path = self.path(key);
-        let bytes = fs::read(&path).ok()?;
+        let bytes = read_known(&path, |head| head.starts_with(HEAD.as_bytes())).ok()?;
         let files = decode(&bytes);
         if files.is_some()
             && let Ok(file) = fs::File::options().append(true).open(&path)

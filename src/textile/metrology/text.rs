@@ -59,6 +59,10 @@ fn no_table(none: &NoTable, path: &Path) -> FileError {
             let mend = "give lines of numbers, parted by tab, semicolon, comma or blanks";
             FileError::content(path, line, "no numbers at the end of the text", mend)
         }
+        NoTable::TooLong => {
+            let [what, mend] = NoTable::TOO_LONG;
+            FileError::whole(path, what, mend)
+        }
     }
 }
 

@@ -12,13 +12,9 @@ use crate::bench::editing;
 use crate::bench::history::{History, Moment, StepList};
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
-use selvedge_foundation::files::{keys_from_str, keys_to_string};
 use selvedge_render::scene::{PlacedTextile, Scene, SceneError};
 use selvedge_textile::is_of_the_program;
 use selvedge_textile::tactile::Tuning;
-
-/// What unsaved work is called in errors.
-const WORK: &str = "unsaved work";
 
 /// A scene that is being edited.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -72,16 +68,21 @@ impl Document {
         let last = steps
             .undo()
             .map_or_else(String::new, |last| format!(", the last: {last}"));
-        Some(Unsaved {
-            name: format!("Scene “{}”{file}", self.scene.name),
-            what: format!("{n_steps}{last}"),
-            work: keys_to_string(self, Path::new(WORK)).unwrap_or_default(),
-        })
+        let name = format!("Scene “{}”{file}", self.scene.name);
+        let what = format!("{n_steps}{last}");
+        let whole = |history| Self {
+            history,
+            ..self.without_steps()
+        };
+        Some(Unsaved::with_steps(name, &what, &self.history, whole))
     }
 
-    /// The document of such work.
-    pub(crate) fn from_work(work: &str) -> Result<Self, String> {
-        keys_from_str(work, Path::new(WORK)).map_err(|error| error.to_string())
+    fn without_steps(&self) -> Self {
+        Self {
+            path: self.path.clone(),
+            saved: self.saved.clone(),
+            ..Self::new(self.scene.clone(), None, self.default_tuning)
+        }
     }
 
     /// The tuning of a scene that states none.
@@ -179,6 +180,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::bench::background::Executor;
+    use crate::bench::recovery::{Part, Recovery};
     use selvedge_scratch::ScratchFolder;
     use selvedge_textile::tactile::Band;
 
@@ -259,6 +262,44 @@ mod tests {
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
         document.step_to(0);
         assert!(document.is_edited(), "undone after saving");
+    }
+
+    #[test]
+    fn unsaved_work_of_many_textiles_and_steps_is_read_back_without_the_oldest() {
+        let root = ScratchFolder::made("many");
+        for (n_textiles, is_whole) in [(16, true), (74, false), (600, false)] {
+            let mut scene = document().scene().clone();
+            scene.textiles = (0..n_textiles)
+                .map(|i| PlacedTextile {
+                    id: format!("textile-with-a-long-name-{i}"),
+                    label: "a label that says \"what\" it is".to_owned(),
+                    ..scene.textiles[0].clone()
+                })
+                .collect();
+            let mut document = Document::new(scene, None, Tuning::default());
+            for step in 1..=200_u32 {
+                let edit = Edit::TextileGain(0, -f64::from(step));
+                document.edit(&edit, at(u64::from(step))).unwrap();
+            }
+            let part = Part {
+                owner: "Scene".to_owned(),
+                unsaved: document.unsaved().unwrap(),
+            };
+            let mut recovery = Recovery::in_folder(root.to_path_buf());
+            recovery.write(vec![part], 0.0, &Executor::InLine);
+            assert_eq!(recovery.failure(), None, "{n_textiles}");
+            drop(recovery);
+            let mut recovery = Recovery::in_folder(root.to_path_buf());
+            let parts = recovery.restore();
+            recovery.end(Vec::new()).unwrap();
+            let mut read: Document = parts[0].unsaved.read().unwrap();
+            assert_eq!(read.scene(), document.scene());
+            let n_steps = read.steps().n_done;
+            assert_eq!(n_steps == 200, is_whole, "{n_textiles}: {n_steps}");
+            assert!(n_steps > 5, "{n_textiles}: {n_steps}");
+            read.step_to(n_steps - 1);
+            assert_eq!(read.scene().textiles[0].gain_db, -199.0);
+        }
     }
 
     #[test]

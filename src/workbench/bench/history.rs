@@ -168,6 +168,21 @@ impl<S: Clone + PartialEq, K: PartialEq + Copy> History<S, K> {
         self.future.clear();
     }
 
+    /// The same with no more than so many steps back, and on.
+    pub(crate) fn newest(&self, n_steps: usize) -> Self {
+        let newest = |steps: &[Step<S>]| steps[steps.len().saturating_sub(n_steps)..].to_vec();
+        Self {
+            past: newest(&self.past),
+            future: newest(&self.future),
+            open: self.open,
+        }
+    }
+
+    /// How many steps there are, back or on.
+    pub(crate) fn len(&self) -> usize {
+        self.past.len().max(self.future.len())
+    }
+
     /// Changes every state that undo and redo could bring back.
     pub(crate) fn change_all(&mut self, change: impl Fn(&mut S)) {
         let steps = self.past.iter_mut().chain(&mut self.future);

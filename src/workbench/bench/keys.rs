@@ -35,11 +35,7 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let focused = ctx.memory(egui::Memory::focused);
     let is_panes = |id| Pane::ALL.into_iter().any(|pane| pane_focus(pane) == id);
     let has_focus = focused.is_some_and(|id| !is_panes(id));
-    let mut commands = Vec::new();
-    // Not used up: a field that is being typed in also ends on Esc.
-    if ctx.input(|input| input.key_pressed(Key::Escape)) {
-        commands.push(Command::Escape);
-    }
+    let mut commands: Vec<Command> = escape(ctx).into_iter().collect();
     for (key, act) in table() {
         let is_for_widget = has_focus && key.logical_key == Key::Space;
         let waits = (is_typing && !act.while_typing) || is_for_widget;
@@ -51,6 +47,12 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
         }
     }
     commands
+}
+
+/// Esc, if it was pressed. It is not used up: a field that is being typed in also ends on it.
+pub(crate) fn escape(ctx: &egui::Context) -> Option<Command> {
+    let is_pressed = ctx.input(|input| input.key_pressed(Key::Escape));
+    is_pressed.then_some(Command::Escape)
 }
 
 /// How the first key of a command is written, for tips; empty when it has none.

@@ -7,13 +7,16 @@ use crate::bench::Bench;
 use crate::bench::background::{Executor, finished};
 use crate::bench::command::RecordingCommand;
 use crate::bench::recording::excerpt::cut;
+use crate::bench::recording::file::{FeltTick, RecordingFile};
 use crate::bench::recording::{About, Marker};
+use crate::bench::signals::history::Entry;
 use crate::bench::view::Source;
+use selvedge_foundation::files::FileError;
 use selvedge_foundation::quantity;
 
 /// Why nothing is marked.
-const NO_RECORDING: &str =
-    "Markers stand in recordings: record the exploration, or choose a recording in the list";
+const NO_RECORDING: &str = "Markers stand in recordings: make one, choose one in the list, or \
+    keep a part of what was felt last (Shift and drag on the line of time)";
 
 impl Bench {
     /// Puts a marker where the recording is that is made or replayed.
@@ -37,12 +40,25 @@ impl Bench {
         self.exploration.unnamed = Some(play.tick);
     }
 
+    /// The page of a recording that begins now.
+    pub(crate) fn new_page(&self) -> About {
+        About {
+            name: self.exploration.recordings.next_name(),
+            began: quantity::rfc3339(SystemTime::now()),
+            scene: self.document.scene().name.clone(),
+            scene_file: self.document.path().cloned(),
+            tuning: Some(self.document.tuning()),
+            ..About::default()
+        }
+    }
+
     /// Does something within the recording at hand.
     pub(crate) fn dispatch_within(&mut self, command: RecordingCommand) {
         match command {
             RecordingCommand::Mark(marker) => self.mark(marker),
             RecordingCommand::Unmark(tick) => self.unmark(tick),
             RecordingCommand::Excerpt(ticks) => self.excerpt(ticks),
+            RecordingCommand::Keep(columns) => self.keep_felt(columns),
             _ => {}
         }
     }
@@ -71,10 +87,54 @@ impl Bench {
             return self.notices.give(words);
         };
         let about = excerpt_page(at_hand.about(), &ticks);
+        self.make_recording(about.name.clone(), move || {
+            cut(&folder, &root, &about, ticks).map(|_| ())
+        });
+    }
+
+    /// Makes columns of what was felt last a recording.
+    fn keep_felt(&mut self, columns: Range<u64>) {
+        let Some(root) = self.exploration.recordings.root.clone() else {
+            return self
+                .notices
+                .give("This system has no folder for recordings");
+        };
+        let (about, history) = (self.new_page(), &self.past.history);
+        let places = history.place_of(columns.start)..history.place_of(columns.end);
+        let entries: Vec<Entry> = history.entries().range(places).copied().collect();
+        let felt_um: Vec<Vec<[f32; 2]>> = entries
+            .iter()
+            .map(|entry| {
+                history
+                    .felt_um(entry.column)
+                    .into_iter()
+                    .flatten()
+                    .collect()
+            })
+            .collect();
+        let n_contactors = history.n_contactors();
+        self.make_recording(about.name.clone(), move || {
+            let mut file = RecordingFile::create(&root, about, n_contactors)?;
+            let ticks = entries.iter().zip(&felt_um);
+            file.append_ticks(ticks.map(|(entry, amplitudes_um)| FeltTick {
+                tick: entry.tick_sample.tick,
+                pose: entry.tick_sample.pose,
+                apply_tick: entry.tick_sample.apply_tick,
+                amplitudes_um,
+            }))?;
+            file.finish().map(|_| ())
+        });
+    }
+
+    /// Makes a recording of this name on a thread.
+    fn make_recording(
+        &mut self,
+        name: String,
+        make: impl FnOnce() -> Result<(), FileError> + Send + 'static,
+    ) {
         let task = self.executor.start("selvedge-excerpt", move |_| {
-            let made = cut(&folder, &root, &about, ticks);
-            made.map_err(|error| error.to_string())?;
-            Ok(format!("{} is in the list of recordings", about.name))
+            make().map_err(|error| error.to_string())?;
+            Ok(format!("{name} is in the list of recordings"))
         });
         self.exploration.recordings.cutting = Some(task);
         if matches!(self.executor, Executor::InLine) {
@@ -121,8 +181,8 @@ mod tests {
 
     use super::*;
     use crate::bench::command::{PlayCommand, PlaySource};
-    use crate::bench::recording::Recordings;
     use crate::bench::recording::file::read;
+    use crate::bench::recording::{Place, Recordings};
     use crate::shell::headless::Headless;
     use selvedge_scratch::ScratchFolder;
 
@@ -187,6 +247,27 @@ mod tests {
         assert_eq!(part.about.ticks, Some([50, 0]));
         assert_eq!(part.about.markers[0].tick, marked - 10);
         assert_eq!(fs::read_dir(&*root).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn what_was_felt_last_is_kept_as_a_recording_that_nobody_began() {
+        let root = ScratchFolder::made("kept");
+        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        desk.workbench.bench.exploration.recordings = Recordings::in_folder(root.to_path_buf());
+        desk.dispatch(PlayCommand::Toggle);
+        desk.pass_ticks(80);
+        let history = &desk.workbench.bench.past.history;
+        let newest = history.newest().unwrap().column;
+        let felt: Vec<[f32; 2]> = history.felt_um(newest).unwrap().collect();
+        desk.dispatch(RecordingCommand::Keep(newest - 29..newest + 1));
+        desk.pass(3);
+        let entries = desk.workbench.bench.exploration.recordings.entries();
+        let Place::Folder(folder) = &entries[0].place else {
+            panic!("it is on disk")
+        };
+        let kept = read(folder).unwrap();
+        assert_eq!(kept.about().ticks, Some([30, 0]));
+        assert_eq!(kept.amplitudes_um(29), Some(felt.as_slice()));
     }
 
     #[test]

@@ -242,6 +242,7 @@ impl Bench {
             self.ctx.set_theme(kept.theme);
         }
         self.selection.scale = kept.scales.amplitude;
+        self.selection.spectrum = kept.scales.spectrum;
         self.selection.dot_style = kept.dots;
         self.selection.greys_below = kept.greys_below;
         self.selection.contactor = Some(FIRST_CONTACTOR);

@@ -131,6 +131,7 @@ impl Bench {
     pub(crate) fn keep_settings(&mut self) {
         let kept = &mut self.settings.preferences;
         kept.scales.amplitude = self.selection.scale;
+        kept.scales.spectrum = self.selection.spectrum;
         kept.dots = self.selection.dot_style;
         kept.greys_below = self.selection.greys_below;
     }

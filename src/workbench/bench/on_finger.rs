@@ -41,11 +41,14 @@ impl OnFinger {
             Self::AllOff
         } else if snapshot.is_silent {
             Self::Held
-        } else if snapshot.link.as_ref().is_some_and(is_driven) {
-            Self::Felt
         } else {
-            Self::ShownOnly
+            Self::sent(snapshot.link.as_ref().is_some_and(is_driven))
         }
+    }
+
+    /// Of a tick that went to an armed device, or did not.
+    pub(crate) fn sent(is_sent: bool) -> Self {
+        if is_sent { Self::Felt } else { Self::ShownOnly }
     }
 
     /// Of one band of one contactor on a display that is `self` as a whole.

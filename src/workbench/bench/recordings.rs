@@ -5,7 +5,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use crate::bench::Bench;
 use crate::bench::background::{Executor, finished};
@@ -18,7 +18,6 @@ use crate::bench::recording::list::Then;
 use crate::bench::recording::running::{Running, Standing};
 use crate::bench::recording::{About, Place, Recording};
 use selvedge_foundation::files::FileError;
-use selvedge_foundation::quantity;
 use selvedge_render::scene::{ExplorationPath, RecordingReference};
 
 /// Where deleted ones wait, in the folder of recordings.
@@ -34,15 +33,7 @@ impl Bench {
         if self.live.play.is_recording {
             return self.send(selvedge_engine::Command::StopRecording);
         }
-        let scene = self.document.scene();
-        let about = About {
-            name: self.exploration.recordings.next_name(),
-            began: quantity::rfc3339(SystemTime::now()),
-            scene: scene.name.clone(),
-            scene_file: self.document.path().cloned(),
-            tuning: Some(self.document.tuning()),
-            ..About::default()
-        };
+        let about = self.new_page();
         match self.engine.record() {
             Ok(recording) => {
                 let recordings = &mut self.exploration.recordings;

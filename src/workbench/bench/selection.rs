@@ -6,7 +6,7 @@ use crate::bench::part::DotStyle;
 use crate::bench::probe::Probe;
 use crate::bench::view::Hovered;
 use crate::kit::amplitude::AmplitudeScale;
-use crate::kit::level_range::LevelRange;
+use crate::kit::spectrum_scale::SpectrumScale;
 
 /// What all views share.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,10 +17,8 @@ pub(crate) struct Selection {
     pub contactor: Option<usize>,
     /// The scale on which amplitudes are drawn.
     pub scale: AmplitudeScale,
-    /// The levels that the colours of spectrograms stand for.
-    pub(crate) levels: LevelRange,
-    /// Whether the frequencies of spectrograms lie evenly, not by their logarithms.
-    pub(crate) has_linear_frequencies: bool,
+    /// The scale on which spectrograms are drawn.
+    pub(crate) spectrum: SpectrumScale,
     /// What the dots show by what.
     pub(crate) dot_style: DotStyle,
     /// Whether what is below the threshold of detection is greyed.

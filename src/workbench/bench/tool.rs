@@ -103,7 +103,7 @@ pub(crate) trait Tool: Any {
     ///
     /// # Errors
     /// Why it cannot, in one line.
-    fn restore(&mut self, _work: &str, _bench: &mut Bench) -> Result<(), String> {
+    fn restore(&mut self, _unsaved: &Unsaved, _bench: &mut Bench) -> Result<(), String> {
         Ok(())
     }
 

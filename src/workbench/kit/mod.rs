@@ -5,9 +5,9 @@
 pub(crate) mod amplitude;
 pub(crate) mod drop;
 pub(crate) mod foot;
-pub(crate) mod level_range;
 pub(crate) mod pane;
 pub(crate) mod plot;
+pub(crate) mod spectrum_scale;
 pub(crate) mod swatch;
 pub(crate) mod theme;
 pub(crate) mod tile;

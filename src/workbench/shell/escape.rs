@@ -30,7 +30,7 @@ impl Workbench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, Key, Modifiers, vec2};
+    use eframe::egui::{Key, Modifiers, vec2};
 
     use super::*;
     use crate::bench::command::{PlayCommand, ShowCommand};
@@ -45,19 +45,6 @@ mod tests {
         window
     }
 
-    fn press(window: &mut Headless, key: Key) {
-        for pressed in [true, false] {
-            window.events.push(Event::Key {
-                key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers: Modifiers::NONE,
-            });
-        }
-        window.pass(3);
-    }
-
     fn loudest_um(window: &Headless) -> f64 {
         let levels = window.workbench.amplitudes_um();
         levels.into_iter().flatten().fold(0.0, f64::max)
@@ -69,20 +56,20 @@ mod tests {
         let mut window = window();
         let recordings = &mut window.workbench.bench.exploration.recordings;
         *recordings = Recordings::in_folder(root.to_owned());
-        press(&mut window, Key::Space);
+        window.press(Modifiers::NONE, Key::Space);
         window.pass_ticks(20);
-        press(&mut window, Key::Escape);
+        window.press(Modifiers::NONE, Key::Escape);
         let bench = &window.workbench.bench;
         assert!(!bench.live.is_stopped && !bench.live.play.is_playing);
         assert!(
             loudest_um(&window) > 0.1,
             "what it felt last is still shown"
         );
-        press(&mut window, Key::Space);
-        press(&mut window, Key::R);
+        window.press(Modifiers::NONE, Key::Space);
+        window.press(Modifiers::NONE, Key::R);
         window.pass_ticks(20);
         assert!(loudest_um(&window) > 0.1 && window.workbench.is_recording());
-        press(&mut window, Key::R);
+        window.press(Modifiers::NONE, Key::R);
         window.pass(2);
         let recordings = window.workbench.bench.exploration.recordings.entries();
         let [n_ticks, n_felt] = recordings[0].about.ticks.unwrap();
@@ -100,14 +87,14 @@ mod tests {
     #[test]
     fn escape_closes_what_lies_on_top_before_it_pauses() {
         let mut window = window();
-        press(&mut window, Key::Space);
+        window.press(Modifiers::NONE, Key::Space);
         window.dispatch(ShowCommand::Help);
         window.dispatch(ShowCommand::Calibrate);
         window.pass(2);
-        press(&mut window, Key::Escape);
+        window.press(Modifiers::NONE, Key::Escape);
         assert!(window.workbench.shell.cover.is_none());
         assert!(window.workbench.bench.live.play.is_playing);
-        press(&mut window, Key::Escape);
+        window.press(Modifiers::NONE, Key::Escape);
         assert!(!window.workbench.bench.live.play.is_playing);
     }
 

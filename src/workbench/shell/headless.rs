@@ -5,6 +5,8 @@ use std::path::Path;
 
 use eframe::App as _;
 use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
+#[cfg(test)]
+use eframe::egui::{Event, Key, Modifiers};
 
 use crate::bench::Drive;
 use crate::bench::command::Command;
@@ -25,7 +27,7 @@ pub(crate) struct Headless {
     n_ticks: u32,
     /// What the user does in the next frame.
     #[cfg(test)]
-    pub(crate) events: Vec<eframe::egui::Event>,
+    pub(crate) events: Vec<Event>,
 }
 
 impl Headless {
@@ -83,6 +85,19 @@ impl Headless {
         for _ in 0..n_frames {
             self.run().textures_delta.clear();
         }
+    }
+
+    /// Presses a key, and draws what becomes of it.
+    #[cfg(test)]
+    pub(crate) fn press(&mut self, modifiers: Modifiers, key: Key) {
+        self.events.extend([true, false].map(|pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers,
+        }));
+        self.pass(3);
     }
 
     /// Lets so many ticks pass with fewer frames, which nobody looks at.

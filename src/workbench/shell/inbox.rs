@@ -8,6 +8,7 @@ use eframe::egui;
 
 use crate::bench::FRAME;
 use crate::bench::command::{Command, FileCommand};
+use crate::bench::keys;
 use crate::bench::pane::Pane;
 use crate::shell::dialogs::Answer;
 use crate::shell::window::Workbench;
@@ -79,12 +80,13 @@ impl Workbench {
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(Command::AllOff);
         }
-        let has_session = self.bench.has_session();
-        for command in crate::bench::keys::pressed(ctx) {
-            // A participant who presses a key is told nothing of what it does elsewhere.
-            if has_session && command != Command::Escape {
-                continue;
-            }
+        // While a session is held every other key is an answer, and does nothing elsewhere.
+        let pressed = if self.bench.has_session() {
+            keys::escape(ctx).into_iter().collect()
+        } else {
+            keys::pressed(ctx)
+        };
+        for command in pressed {
             self.dispatch(command);
         }
     }

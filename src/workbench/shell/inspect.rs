@@ -162,6 +162,11 @@ impl Workbench {
         &self.bench.document.scene().name
     }
 
+    /// Steps that undo can take back now.
+    pub fn n_undo_steps(&self) -> usize {
+        self.steps().n_done
+    }
+
     /// Whether the scene differs from its file.
     pub fn is_edited(&self) -> bool {
         self.bench.document.is_edited()

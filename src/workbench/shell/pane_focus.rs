@@ -98,23 +98,12 @@ fn reading_order(tree: &Tree<Pane>) -> Vec<Pane> {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, Key, Memory, Modifiers, vec2};
+    use eframe::egui::{Key, Memory, Modifiers, vec2};
 
     use super::*;
     use crate::bench::command::ShowCommand;
     use crate::bench::perspective::Perspective;
     use crate::shell::headless::Headless;
-
-    fn press(window: &mut Headless, modifiers: Modifiers, key: Key) {
-        window.events.push(Event::Key {
-            key,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers,
-        });
-        window.pass(3);
-    }
 
     fn window() -> Headless {
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
@@ -133,23 +122,23 @@ mod tests {
         let n_shown = window.workbench.bench.in_sight.len();
         let mut walked = Vec::new();
         for _ in 0..n_shown {
-            press(&mut window, Modifiers::NONE, Key::F6);
+            window.press(Modifiers::NONE, Key::F6);
             walked.push(focused(&window).unwrap());
         }
         let mut unique = walked.clone();
         unique.sort_unstable();
         unique.dedup();
         assert_eq!(unique.len(), n_shown, "{walked:?}");
-        press(&mut window, Modifiers::NONE, Key::F6);
+        window.press(Modifiers::NONE, Key::F6);
         assert_eq!(focused(&window), Some(walked[0]), "round");
-        press(&mut window, Modifiers::SHIFT, Key::F6);
+        window.press(Modifiers::SHIFT, Key::F6);
         assert_eq!(focused(&window), walked.last().copied());
-        press(&mut window, Modifiers::NONE, Key::Space);
+        window.press(Modifiers::NONE, Key::Space);
         assert!(
             window.workbench.bench.live.play.is_playing,
             "Space still plays"
         );
-        press(&mut window, Modifiers::NONE, Key::Tab);
+        window.press(Modifiers::NONE, Key::Tab);
         assert_eq!(focused(&window), None, "Tab goes into the pane");
         assert!(window.ctx.memory(Memory::focused).is_some());
     }

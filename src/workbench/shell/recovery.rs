@@ -87,17 +87,17 @@ impl Workbench {
     }
 
     fn restore(&mut self, part: &Part) {
-        let work = part.unsaved.work.as_str();
+        let unsaved = &part.unsaved;
         let bench = &mut self.bench;
         let mut tools = self.tools.iter_mut();
         let restored = if part.owner == SCENE {
-            bench.restore_scene(work)
+            bench.restore_scene(unsaved)
         } else {
             let owner = tools.find(|tool| owner_of(&**tool) == Some(part.owner.as_str()));
-            owner.map_or(Ok(()), |tool| tool.restore(work, bench))
+            owner.map_or(Ok(()), |tool| tool.restore(unsaved, bench))
         };
         if let Err(line) = restored {
-            let name = &part.unsaved.name;
+            let name = &unsaved.name;
             bench
                 .notices
                 .give(format!("{name} could not be restored: {line}"));
@@ -114,8 +114,8 @@ fn owner_of(tool: &dyn Tool) -> Option<&'static str> {
 }
 
 impl Bench {
-    fn restore_scene(&mut self, work: &str) -> Result<(), String> {
-        let document = Document::from_work(work)?;
+    fn restore_scene(&mut self, unsaved: &Unsaved) -> Result<(), String> {
+        let document: Document = unsaved.read()?;
         let text = document
             .scene()
             .to_toml()
@@ -136,10 +136,14 @@ mod tests {
 
     use super::*;
     use crate::bench::command::lab::Beginning;
-    use crate::bench::command::{Command, Edit, FileCommand};
+    use crate::bench::command::{Command, Edit, FileCommand, Purpose};
     use crate::bench::recovery::Recovery;
     use crate::shell::headless::Headless;
+    use crate::tools::import::Import;
     use crate::tools::lab::Lab;
+    use crate::tools::picture::Picture;
+    use crate::tools::picture::draft::Part as PicturePart;
+    use selvedge_foundation::files::{Rgb8Image, encode_png};
     use selvedge_scratch::ScratchFolder;
     use selvedge_textile::Place;
 
@@ -217,6 +221,40 @@ mod tests {
     }
 
     #[test]
+    fn work_on_an_import_and_on_a_picture_survives_a_crash() {
+        let (root, files) = (ScratchFolder::made("drafts"), ScratchFolder::made("files"));
+        let (table, picture) = (files.join("strip.csv"), files.join("cloth.png"));
+        let rows = (0..200).map(|n| format!("{},{}\n", 0.1 * f64::from(n), n % 7));
+        fs::write(&table, rows.collect::<String>()).unwrap();
+        let grey = |nth: usize| if nth % 8 < 4 { 40 } else { 210 };
+        let image = Rgb8Image {
+            width: 64,
+            height: 64,
+            pixels: (0..64 * 64).map(|n| [grey(n % 64 + n / 64); 3]).collect(),
+        };
+        fs::write(&picture, encode_png(&image, &picture).unwrap()).unwrap();
+        let mut first = window(&root);
+        first.dispatch(FileCommand::Use(Purpose::ImportFiles, table));
+        first.dispatch(FileCommand::Use(Purpose::OpenPicture, picture));
+        first.pass(6);
+        let import = first.workbench.tools.get_mut::<Import>().unwrap();
+        import.draft.looked.sections[1] = Some([1.0, 2.5]);
+        import.draft.words.figures = vec![("thickness_mm".to_owned(), "0.4".to_owned())];
+        let picture = first.workbench.tools.get_mut::<Picture>().unwrap();
+        picture.draft.part = PicturePart::Corners([[0.0, 1.5]; 4]);
+        picture.draft.scale = "600".to_owned();
+        let before = first.workbench.unsaved();
+        assert_eq!(before.len(), 2, "{before:?}");
+        first.workbench.keep_unsaved_now();
+        assert_eq!(first.workbench.bench.files.recovery.failure(), None);
+        drop(first);
+        let mut second = window(&root);
+        second.dispatch(FileCommand::Left(Left::Restored));
+        second.pass(6);
+        assert_eq!(second.workbench.unsaved(), before);
+    }
+
+    #[test]
     fn closing_names_everything_that_would_be_lost_once() {
         let root = ScratchFolder::made("closing");
         let mut window = window(&root);
@@ -245,10 +283,7 @@ mod tests {
         assert_eq!(asked(&window), ["Scene"], "a draft outlives a scene");
         window.dispatch(Command::Dismiss);
         let scene = root.join("a.scene.toml");
-        window.dispatch(FileCommand::Use(
-            crate::bench::command::Purpose::SaveScene,
-            scene,
-        ));
+        window.dispatch(FileCommand::Use(Purpose::SaveScene, scene));
         window.dispatch(FileCommand::Close);
         window.dispatch(FileCommand::SaveAll);
         assert!(
@@ -293,7 +328,7 @@ mod tests {
             fs::create_dir(&left).unwrap();
             fs::copy(folder.path().join("work.json"), left.join("work.json")).unwrap();
             let parts = offered(&copy).unwrap();
-            let document = Document::from_work(&parts[0].unsaved.work).unwrap();
+            let document: Document = parts[0].unsaved.read().unwrap();
             let kept_s = -document.tuning().gain_db * 1e3;
             let oldest_lost_s = changes_s.iter().find(|&&s| s as f64 > kept_s + 0.5);
             if let Some(&lost_s) = oldest_lost_s {

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 use std::{fs, thread};
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Ui, vec2};
+use eframe::egui::epaint::{ClippedShape, Shape};
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Rect, TouchPhase, Ui, vec2,
+};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -15,6 +18,7 @@ use crate::bench::sources::SourcesView;
 use crate::bench::view::EngineView;
 use crate::kit::theme;
 use crate::shell::ask::{Ask, show as show_ask};
+use crate::shell::headless::Headless;
 use crate::shell::help::show as show_help;
 use crate::shell::question::show as show_question;
 use crate::shell::state::{After, Question};
@@ -98,11 +102,7 @@ fn a_recent_scene_is_opened_by_a_click() {
 fn the_question_on_closing_has_three_answers_and_enter_saves() {
     let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        let unsaved = Unsaved {
-            name: "Scene “silk”".to_owned(),
-            what: "1 step".to_owned(),
-            work: String::new(),
-        };
+        let unsaved = Unsaved::new("Scene “silk”".to_owned(), "1 step", &());
         let part = Part {
             owner: "Scene".to_owned(),
             unsaved,
@@ -204,4 +204,43 @@ fn a_device_that_is_back_is_connected_with_one_click_and_not_armed() {
     harness.get_by_label("The array is back as /dev/ttyACM1");
     let asked = click(&mut harness, "Connect again");
     assert_eq!(asked, [DeviceCommand::ConnectPort(path).into()]);
+}
+
+/// Where a text is drawn, if all of it is in sight.
+fn place_of(shape: &ClippedShape, text: &str) -> Option<Rect> {
+    let Shape::Text(letters) = &shape.shape else {
+        return None;
+    };
+    let place = letters.galley.rect.translate(letters.pos.to_vec2());
+    let is_it = letters.galley.text() == text && shape.clip_rect.contains_rect(place);
+    is_it.then_some(place)
+}
+
+#[test]
+fn arming_stays_in_sight_however_far_the_pane_of_the_device_is_scrolled() {
+    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    window.pass(5);
+    let places = |window: &mut Headless| {
+        let output = window.run();
+        let found = ["Arm", "Connect"]
+            .map(|text| output.shapes.iter().find_map(|shape| place_of(shape, text)));
+        output.drop_without_applying_deltas();
+        found
+    };
+    let [arm, scrolled] = places(&mut window);
+    let (arm, below) = (arm.unwrap(), scrolled.unwrap());
+    for _ in 0..10 {
+        window.events.push(Event::PointerMoved(below.center()));
+        window.events.push(Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, -200.0),
+            source: MouseWheelSource::Unknown,
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        window.pass(4);
+    }
+    let [still, away] = places(&mut window);
+    assert_eq!(still, Some(arm));
+    assert_ne!(away, Some(below), "the rest was scrolled");
 }

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use selvedge_device::{
     ArrayProfile, Bridge, BridgeEvent, BridgeState, Clear, Decoder, DeviceMessage, DeviceState,
-    Extent, Hello, Message as _, Status, StopHow, Target, Trial, certify_port,
+    DirectLine, Extent, Hello, Message as _, Status, StopHow, Target, Trial, certify,
 };
 
 use super::tools;
@@ -137,13 +137,11 @@ fn an_emulated_board_passes_the_quick_certificate_and_plays_a_stroke() {
             extent: Extent::Quick,
             nonce: 1 + 100_000 * number,
         };
-        certify_port(
-            (&board.port, ArrayProfile::USUAL_BAUD),
-            trial,
-            &AtomicBool::new(false),
-            &mut |_| {},
-        )
-        .unwrap()
+        let target = Target::Port(board.port.clone());
+        let mut line = DirectLine::open(target, &ArrayProfile::default(), None).unwrap();
+        let certificate = certify(&mut line, trial, &AtomicBool::new(false), &mut |_| {});
+        line.close();
+        certificate
     });
     let mut said = String::new();
     let passed = certificates.into_iter().find(|certificate| {

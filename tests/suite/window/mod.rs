@@ -15,6 +15,8 @@ mod overlays;
 mod picture;
 #[cfg(unix)]
 mod ports;
+#[cfg(target_os = "linux")]
+mod random_input;
 mod timeline;
 mod views;
 mod workbench;
@@ -125,7 +127,8 @@ fn ripple() -> String {
     text
 }
 
-fn window(scene: &Path) -> Harness<'static, Workbench> {
+/// The window on a scene.
+pub(crate) fn window(scene: &Path) -> Harness<'static, Workbench> {
     let scene = scene.to_owned();
     Harness::builder()
         .with_size(vec2(1400.0, 900.0))

@@ -130,6 +130,23 @@ fn latencies_keep_the_order_and_their_shape() {
 }
 
 #[test]
+fn on_a_serial_line_bytes_come_one_behind_the_other() {
+    let mut line = lane(LinkFaults {
+        baud: Some(115_200),
+        ..LinkFaults::default()
+    });
+    // A FRAME takes 111 · 10 / 115200 s, and what follows waits for it.
+    line.send(1000, &[1; 111]);
+    line.send(1200, &[2; 14]);
+    assert_eq!(line.next_due_us(), Some(1000 + 9636));
+    assert_eq!(line.take(10_636).unwrap(), [1; 111]);
+    assert_eq!(line.next_due_us(), Some(10_636 + 1216));
+    assert_eq!(line.take(11_852).unwrap(), [2; 14]);
+    line.send(20_000, &[3]);
+    assert_eq!(line.next_due_us(), Some(20_087), "free again");
+}
+
+#[test]
 fn an_adapter_waits_for_its_timer_or_for_62_bytes() {
     let mut ftdi = lane(LinkFaults {
         latency: Latency::Timer(16_000),

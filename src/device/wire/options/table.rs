@@ -1,6 +1,7 @@
 //! The table of everything that can be asked to go wrong, and how each text is read.
 
 use super::{FaultGroup, FaultKind, FaultOption, ON};
+use crate::array::ArrayProfile;
 use crate::device::{FirmwareLie, Miswiring};
 use crate::wire::faults::{Direction, Faults, Latency, LinkFaults, OneOff, OneOffKind};
 use crate::wire::parse;
@@ -58,6 +59,7 @@ impl Spoken {
         if self.way.is_some_and(|only| only != direction) {
             return LinkFaults {
                 chatter,
+                baud: self.link.baud,
                 ..LinkFaults::default()
             };
         }
@@ -112,6 +114,14 @@ fn hiccup(link: &mut LinkFaults, text: &str) -> Result<(), String> {
         (link.hiccup_rate, link.hiccup_us) = (rate, longer_us);
     }
     Ok(())
+}
+
+fn serial(text: &str) -> Result<Option<u32>, String> {
+    if text == "usb" {
+        return Ok(None);
+    }
+    let rate = ArrayProfile::read_baud(text);
+    rate.map(Some).map_err(|why| format!("{why}, or usb"))
 }
 
 fn jitter_us(text: &str) -> Result<u32, String> {
@@ -219,6 +229,9 @@ pub(super) const OPTIONS: &[FaultOption] = &[
     option!("latency", "Latency", Latency, One, "LATENCY", "none", "ftdi",
         "How long bytes take: none, cdc (1 ms frames), ftdi (16 ms timer) or mean~deviation",
         |said, text| parse::latency(text).map(|both| said.latency = both)),
+    option!("baud", "Baud", Latency, One, "BAUD", "usb", "115200",
+        "Rate of a serial line: its bytes take their time; usb: they take none",
+        |said, text| serial(text).map(|baud| said.link.baud = baud)),
     option!("hiccup", "Hiccup", Latency, One, "RATE[:TIME]", "", "1%:50ms",
         "Share of writes that take 50 ms, or TIME, longer",
         |said, text| hiccup(&mut said.link, text)),

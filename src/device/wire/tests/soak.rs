@@ -19,6 +19,7 @@ fn everything(seed: u64) -> Faults {
             mean_us: 2000,
             deviation_us: 800,
         },
+        baud: Some(1_000_000),
         hiccup_rate: 2e-4,
         hiccup_us: 50_000,
         drop_rate: 1e-5,

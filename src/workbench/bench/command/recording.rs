@@ -25,6 +25,8 @@ pub(crate) enum RecordingCommand {
     Unmark(u64),
     /// Makes these ticks of the one at hand a recording of their own.
     Excerpt(Range<u64>),
+    /// Makes these columns of what was felt last a recording.
+    Keep(Range<u64>),
     /// Sets two against each other.
     Compare(Box<[Place; 2]>),
 }

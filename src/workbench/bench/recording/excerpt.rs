@@ -1,12 +1,11 @@
 //! A part of a recording: as a recording of its own, row for row, or as a path.
 
-use std::fs::{self, File};
-use std::io::{BufRead as _, BufReader};
+use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::bench::recording::About;
-use crate::bench::recording::file::{TICKS, new_folder, push_cell};
+use crate::bench::recording::file::{Lines, TICKS, new_folder, push_cell};
 use selvedge_foundation::files::{self, FileError, Journal};
 use selvedge_render::scene::{ExplorationPath, PathCursor, PathRow, SceneError, TICKS_PER_S};
 
@@ -24,11 +23,8 @@ pub(crate) fn cut(
     about: &About,
     ticks: Range<u64>,
 ) -> Result<PathBuf, FileError> {
-    let from = folder.join(TICKS);
-    let file = File::open(&from).map_err(FileError::read(&from))?;
-    let mut lines = BufReader::new(file).lines();
-    let mut next = || lines.next().transpose().map_err(FileError::read(&from));
-    let header = next()?.unwrap_or_default();
+    let mut lines = Lines::open(folder)?;
+    let header = lines.next()?.unwrap_or_default();
     fs::create_dir_all(root).map_err(FileError::write(root))?;
     let to = new_folder(root, &about.began)?;
     about.write(&to)?;
@@ -36,7 +32,7 @@ pub(crate) fn cut(
     let mut journal = Journal::create(&to.join(TICKS), &columns)?;
     let mut text = String::new();
     let mut nth = 0;
-    while let Some(line) = next()?.filter(|_| nth < ticks.end) {
+    while let Some(line) = lines.next()?.filter(|_| nth < ticks.end) {
         if let Some(since) = u64::checked_sub(nth, ticks.start) {
             files::push_number(&mut text, since as f64 / TICKS_PER_S);
             if let Some((_, rest)) = line.split_once(',') {
@@ -101,6 +97,18 @@ mod tests {
         let path = part_of(whole.path(), 20..45).unwrap();
         assert_eq!(path.rows()[0].t_s, 0.0);
         assert_eq!(path.rows(), part.path().rows());
+    }
+
+    #[test]
+    fn a_line_without_an_end_is_refused() {
+        let root = ScratchFolder::made("endless");
+        root.write(TICKS, "t_s,".repeat(1 << 19));
+        let error = cut(&root, &root, &page("Part"), 0..1).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("ticks.csv:1: this line is too long")
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! whole is left out on reading. Which recordings there are is not known here.
 
 use std::fs::{self, File};
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::bench::recording::{Felt, Recording, missing_before};
 use selvedge_foundation::files::{self, FileError, Journal};
 use selvedge_foundation::geometry::{Point, Velocity};
-use selvedge_render::scene::{ExplorationPath, PathRow, TICKS_PER_S};
+use selvedge_render::scene::{ExplorationPath, PathRow, Pose, TICKS_PER_S};
 use selvedge_textile::tactile::Tuning;
 
 /// The page.
@@ -119,6 +119,18 @@ impl Outline {
     }
 }
 
+/// A tick as it is written.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FeltTick<'a> {
+    /// Of the engine.
+    pub(crate) tick: u64,
+    pub(crate) pose: Pose,
+    /// The device's tick at which it was played; `None` when it was only shown.
+    pub(crate) apply_tick: Option<u32>,
+    /// [A40, A320] of every contactor, µm.
+    pub(crate) amplitudes_um: &'a [[f32; 2]],
+}
+
 /// A recording that is being written.
 #[derive(Debug)]
 pub(crate) struct RecordingFile {
@@ -161,8 +173,21 @@ impl RecordingFile {
         n_written: usize,
     ) -> Result<(), FileError> {
         let new = recording.ticks().iter().enumerate().skip(n_written);
+        self.append_ticks(new.map(|(nth, tick)| FeltTick {
+            tick: tick.tick,
+            pose: tick.pose,
+            apply_tick: tick.sent.map(|sent| sent.apply_tick),
+            amplitudes_um: recording.amplitudes_um(nth),
+        }))
+    }
+
+    /// Adds ticks, and waits until they are on disk.
+    pub(crate) fn append_ticks<'a>(
+        &mut self,
+        ticks: impl Iterator<Item = FeltTick<'a>> + Clone,
+    ) -> Result<(), FileError> {
         let mut lines = String::new();
-        for (nth, tick) in new.clone() {
+        for (nth, tick) in (self.outline.n_seen..).zip(ticks.clone()) {
             let pose = tick.pose;
             let numbers = [
                 pose.position.x_mm,
@@ -177,18 +202,18 @@ impl RecordingFile {
                 push_cell(&mut lines, number);
             }
             lines.push(',');
-            if let Some(sent) = tick.sent {
-                files::push_number(&mut lines, sent.apply_tick);
+            if let Some(apply_tick) = tick.apply_tick {
+                files::push_number(&mut lines, apply_tick);
             }
-            for um in recording.amplitudes_um(nth).as_flattened() {
+            for um in tick.amplitudes_um.as_flattened() {
                 push_cell(&mut lines, um);
             }
             lines.push('\n');
         }
         self.journal.append_lines(lines.as_bytes())?;
-        for (_, tick) in new {
+        for tick in ticks {
             self.outline.add(tick.pose.position);
-            self.n_felt += u64::from(tick.sent.is_some());
+            self.n_felt += u64::from(tick.apply_tick.is_some());
         }
         Ok(())
     }
@@ -271,28 +296,59 @@ struct Row<'a> {
     amplitudes_um: &'a [f32],
 }
 
-/// Reads the rows of a recording one after the other; a piece of a last one is left out.
+/// The lines of a recording's table one after the other; a piece of a last one is left out.
+pub(super) struct Lines {
+    path: PathBuf,
+    reader: BufReader<File>,
+    n_read: usize,
+}
+
+impl Lines {
+    pub(super) fn open(folder: &Path) -> Result<Self, FileError> {
+        let path = folder.join(TICKS);
+        let file = File::open(&path).map_err(FileError::read(&path))?;
+        let reader = BufReader::new(file);
+        Ok(Self {
+            path,
+            reader,
+            n_read: 0,
+        })
+    }
+
+    /// The next line without its end; `None` after the last.
+    pub(super) fn next(&mut self) -> Result<Option<String>, FileError> {
+        let mut line = String::new();
+        let mut bounded = (&mut self.reader).take(LONGEST_LINE);
+        let n_bytes = bounded.read_line(&mut line);
+        let n_bytes = n_bytes.map_err(FileError::read(&self.path))?;
+        self.n_read += 1;
+        if line.ends_with('\n') {
+            line.pop();
+            return Ok(Some(line));
+        }
+        if n_bytes as u64 == LONGEST_LINE {
+            return Err(self.wrong("this line is too long"));
+        }
+        Ok(None)
+    }
+
+    /// What is wrong with the line that was read last.
+    fn wrong(&self, what: &str) -> FileError {
+        let mend = "delete the recording, or restore the file";
+        FileError::content(&self.path, self.n_read, what, mend)
+    }
+}
+
+/// Reads the rows of a recording one after the other.
 fn read_rows(folder: &Path, mut take: impl FnMut(Row<'_>)) -> Result<(), FileError> {
-    let path = folder.join(TICKS);
-    let file = File::open(&path).map_err(FileError::read(&path))?;
-    let mut reader = BufReader::new(file);
-    let (mut line, mut amplitudes_um, mut n_columns) = (String::new(), Vec::new(), 0);
+    let mut lines = Lines::open(folder)?;
+    let (mut amplitudes_um, mut n_columns) = (Vec::new(), 0);
     for nth in 0..=MOST_TICKS {
-        line.clear();
-        let mut bounded = std::io::Read::take(&mut reader, LONGEST_LINE);
-        bounded
-            .read_line(&mut line)
-            .map_err(FileError::read(&path))?;
-        let wrong = |what: &str| {
-            let mend = "delete the recording, or restore the file";
-            FileError::content(&path, nth + 1, what, mend)
-        };
-        let Some(cells) = line.strip_suffix('\n') else {
-            if line.len() as u64 == LONGEST_LINE {
-                return Err(wrong("this line is too long"));
-            }
+        let Some(line) = lines.next()? else {
             return Ok(());
         };
+        let cells = line.as_str();
+        let wrong = |what: &str| lines.wrong(what);
         if nth == 0 {
             n_columns = cells.split(',').count();
             if !cells.starts_with(&COLUMNS.join(",")) || n_columns % 2 == 1 {

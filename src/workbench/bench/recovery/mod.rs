@@ -17,6 +17,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
+mod unsaved;
+
+pub(crate) use unsaved::Unsaved;
+
 use crate::bench::background::{Executor, Task, finished};
 use selvedge_foundation::files::{self, FileError};
 use selvedge_foundation::quantity;
@@ -27,17 +31,6 @@ const LOCK: &str = "lock";
 const SETTLE_S: f64 = 2.0;
 /// From one write to the next, s.
 const PAUSE_S: f64 = 5.0;
-
-/// Work that would be lost.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Unsaved {
-    /// What people call it, with its file: `Scene “Sampler” (/home/me/sampler.scene.toml)`.
-    pub(crate) name: String,
-    /// What has changed: `3 steps, the last: 40 Hz gain`.
-    pub(crate) what: String,
-    /// All of it, as its owner writes it down.
-    pub(crate) work: String,
-}
 
 /// Work and whose it is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -94,6 +87,8 @@ pub(crate) struct Recovery {
     offers: Vec<Offer>,
     /// What was taken up: it goes once it is written anew.
     restored: Vec<Offer>,
+    /// Why something that was left cannot be offered.
+    unreadable: Vec<String>,
     /// Whether work stays for the next start when the window closes.
     pub(crate) keeps: bool,
 }
@@ -101,16 +96,19 @@ pub(crate) struct Recovery {
 impl Recovery {
     /// Keeps work in a folder, which need not be there yet.
     pub(crate) fn in_folder(root: PathBuf) -> Self {
-        let mut offers: Vec<Offer> = fs::read_dir(&root)
-            .into_iter()
-            .flatten()
-            .flatten()
-            .filter_map(|found| offer_in(found.path()))
-            .collect();
-        offers.sort_by(|a, b| a.work.at.cmp(&b.work.at));
+        let found = fs::read_dir(&root).into_iter().flatten().flatten();
+        let (mut offers, mut unreadable) = (Vec::new(), Vec::new());
+        for left in found.filter_map(|found| offer_in(found.path())) {
+            match left {
+                Ok(offer) => offers.push(offer),
+                Err(error) => unreadable.push(format!("Unsaved work is left, but {error}")),
+            }
+        }
+        offers.sort_by(|a: &Offer, b| a.work.at.cmp(&b.work.at));
         Self {
             root: Some(root),
             offers,
+            unreadable,
             written_s: f64::NEG_INFINITY,
             ..Self::default()
         }
@@ -171,13 +169,12 @@ impl Recovery {
         match self.own_folder() {
             Ok(Some(folder)) => {
                 self.writing = Some(executor.start("selvedge-autosave", move |_| {
-                    let written = write(&folder, parts);
-                    written.map_err(|error| error.to_string())?;
+                    write(&folder, parts)?;
                     // What was taken up is in this process's folder now.
                     restored
                         .iter()
                         .try_for_each(|offer| remove(&offer.folder))
-                        .map_err(|error| error.to_string())
+                        .map_err(told)
                 }));
             }
             Ok(None) => {}
@@ -189,8 +186,11 @@ impl Recovery {
         }
     }
 
-    /// Why the last write failed, once.
+    /// Why what was left cannot be read, or the last write failed: each once.
     pub(crate) fn failure(&mut self) -> Option<String> {
+        if let Some(line) = self.unreadable.pop() {
+            return Some(line);
+        }
         let line = finished(&mut self.writing)?.err()?;
         self.written.clear();
         Some(format!(
@@ -199,18 +199,18 @@ impl Recovery {
     }
 
     /// At the end of the run: leaves `parts` for the next start if they are to be kept.
-    pub(crate) fn end(&mut self, parts: Vec<Part>) -> Result<(), FileError> {
+    pub(crate) fn end(&mut self, parts: Vec<Part>) -> Result<(), String> {
         if self.keeps && !parts.is_empty() {
-            if let Some(folder) = self.own_folder()? {
+            if let Some(folder) = self.own_folder().map_err(told)? {
                 write(&folder, parts)?;
             }
         } else if let Some((folder, _lock)) = self.own.take() {
-            remove(&folder)?;
+            remove(&folder).map_err(told)?;
         }
         // What was taken up and not written anew stays where it was, unless it was let go.
         if !self.keeps {
             for offer in self.restored.drain(..) {
-                remove(&offer.folder)?;
+                remove(&offer.folder).map_err(told)?;
             }
         }
         Ok(())
@@ -247,19 +247,26 @@ impl Recovery {
 }
 
 /// Writes a process's work, or takes it away when there is none.
-fn write(folder: &Path, parts: Vec<Part>) -> Result<(), FileError> {
+fn write(folder: &Path, parts: Vec<Part>) -> Result<(), String> {
     let path = folder.join(WORK);
     if parts.is_empty() {
         return match fs::remove_file(&path) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
-                Err(FileError::write(&path)(error))
+                Err(told(FileError::write(&path)(error)))
             }
             _ => Ok(()),
         };
     }
     let at = quantity::rfc3339(SystemTime::now());
-    let text = files::to_json_string(&Work { at, parts }, &path)?;
-    files::write_atomic(&path, text.as_bytes())
+    let work = Work { at, parts };
+    let text = files::to_json_string(&work, &path).map_err(told)?;
+    files::write_atomic(&path, text.as_bytes()).map_err(told)?;
+    let mut parts = work.parts.iter();
+    let fault = parts.find_map(|part| part.unsaved.fault());
+    fault.map_or_else(
+        || read(&path).map(|_| ()).map_err(told),
+        |line| Err(line.to_owned()),
+    )
 }
 
 fn lock(folder: &Path) -> Option<File> {
@@ -270,19 +277,29 @@ fn lock(folder: &Path) -> Option<File> {
 }
 
 /// What a process left that lives no longer.
-fn offer_in(folder: PathBuf) -> Option<Offer> {
+fn offer_in(folder: PathBuf) -> Option<Result<Offer, FileError>> {
     let path = folder.join(WORK);
     if !path.is_file() {
         return None;
     }
     let lock = lock(&folder)?;
-    let text = files::read_text(&path).ok()?;
-    let work = files::from_json_str(&text, &path).ok()?;
-    Some(Offer {
+    Some(read(&path).map(|work| Offer {
         folder,
         _lock: lock,
         work,
-    })
+    }))
+}
+
+/// Long work is one long line.
+fn read(path: &Path) -> Result<Work, FileError> {
+    let text = String::from_utf8(files::read(path)?);
+    let text = text.map_err(|error| FileError::whole(path, error.to_string(), "remove it"))?;
+    files::from_json_str(&text, path)
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "for `map_err`")]
+fn told(error: FileError) -> String {
+    error.to_string()
 }
 
 fn remove(folder: &Path) -> Result<(), FileError> {
@@ -300,11 +317,13 @@ mod tests {
     fn part(work: &str) -> Part {
         Part {
             owner: "scene".to_owned(),
-            unsaved: Unsaved {
-                name: "Scene “Sampler”".to_owned(),
-                what: "1 step".to_owned(),
-                work: work.to_owned(),
-            },
+            unsaved: Unsaved::new(
+                "Scene “Sampler”".to_owned(),
+                "1 step",
+                &[("work", work)]
+                    .into_iter()
+                    .collect::<std::collections::BTreeMap<_, _>>(),
+            ),
         }
     }
 
@@ -385,6 +404,20 @@ mod tests {
             Some(4.5),
             "it was written just now"
         );
+    }
+
+    #[test]
+    fn work_that_cannot_be_read_is_told_once_and_stays() {
+        let root = ScratchFolder::made("broken");
+        drop(written(&root, "one"));
+        let folder = fs::read_dir(&*root).unwrap().next().unwrap().unwrap();
+        fs::write(folder.path().join(WORK), "half of it").unwrap();
+        let mut next = Recovery::in_folder(root.to_path_buf());
+        assert!(next.offer().is_none());
+        let line = next.failure().unwrap();
+        assert!(line.contains(WORK) && !line.contains('\n'), "{line}");
+        assert_eq!(next.failure(), None);
+        assert!(folder.path().join(WORK).exists());
     }
 
     #[test]

@@ -7,7 +7,6 @@
 pub(crate) mod preferences;
 #[cfg(test)]
 mod tests;
-pub(crate) mod timeline;
 
 use std::path::{Path, PathBuf};
 use std::thread::{self, JoinHandle};

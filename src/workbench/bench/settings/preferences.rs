@@ -10,8 +10,8 @@ use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
-use crate::bench::settings::timeline::TimelineStyle;
 use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::spectrum_scale::SpectrumScale;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
 use selvedge_foundation::files::{FileError, keys_to_string, known_keys_from_str};
@@ -26,6 +26,8 @@ const PIXELS_PER_MM: [f64; 2] = [1.0, 60.0];
 const WIDTH: [f32; 2] = [960.0, 16_384.0];
 /// Smallest and largest height of the window, points.
 const HEIGHT: [f32; 2] = [600.0, 16_384.0];
+/// Smallest and largest height of the line of time, points.
+pub(crate) const TIMELINE_HEIGHT: [f32; 2] = [68.0, 420.0];
 
 /// What is kept between two runs. A key that a file does not state is as at first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -153,7 +155,7 @@ impl Preferences {
             zoom: within(self.zoom, ZOOM),
             rendering: self.rendering.in_bounds(),
             scales: Scales {
-                timeline: self.scales.timeline.in_bounds(),
+                timeline_height: within(self.scales.timeline_height, TIMELINE_HEIGHT),
                 ..self.scales
             },
             pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
@@ -174,14 +176,31 @@ impl Preferences {
 }
 
 /// The scales on which things are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Scales {
     /// That of amplitudes.
     #[serde(flatten)]
     pub(crate) amplitude: AmplitudeScale,
-    /// Those of the line of time.
+    /// That of spectrograms.
     #[serde(flatten)]
-    pub(crate) timeline: TimelineStyle,
+    pub(crate) spectrum: SpectrumScale,
+    /// Height of the line of time, points.
+    #[serde(default = "first_height")]
+    pub(crate) timeline_height: f32,
+}
+
+impl Default for Scales {
+    fn default() -> Self {
+        Self {
+            amplitude: AmplitudeScale::default(),
+            spectrum: SpectrumScale::default(),
+            timeline_height: first_height(),
+        }
+    }
+}
+
+fn first_height() -> f32 {
+    132.0
 }
 
 /// Folders that the user works in.

@@ -11,8 +11,8 @@ use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::Settings;
 use crate::bench::settings::preferences::{KnownFolders, Preferences, Scales};
-use crate::bench::settings::timeline::TimelineStyle;
 use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::spectrum_scale::{Handle, SpectrumScale};
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
 use selvedge_render::array::Method;
@@ -199,12 +199,11 @@ fn every_setting_survives_writing_and_reading() {
         stops_on_focus_loss: true,
         scales: Scales {
             amplitude: AmplitudeScale::default().locked_at(200.0).with_lock(false),
-            timeline: TimelineStyle {
-                height: 200.0,
-                floor_db: -60.0,
-                top_db: 10.0,
+            spectrum: SpectrumScale {
+                levels: SpectrumScale::default().levels.moved(Handle::Top, -30.0),
                 is_linear: true,
             },
+            timeline_height: 200.0,
         },
         pixels_per_mm: Some(3.78),
         rendering: Rendering {

@@ -9,6 +9,7 @@ pub(crate) mod card;
 pub(crate) mod cells;
 pub(crate) mod fields;
 pub(crate) mod fold;
+pub(crate) mod level_bar;
 pub(crate) mod limit_mark;
 pub(crate) mod list;
 pub(crate) mod polyline;

@@ -141,21 +141,10 @@ mod tests {
         window.pass(2);
     }
 
-    fn press(window: &mut Headless, modifiers: Modifiers, key: Key) {
-        window.events.push(Event::Key {
-            key,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers,
-        });
-        window.pass(3);
-    }
-
     fn window() -> Headless {
         let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
         window.pass(2);
-        press(&mut window, Modifiers::COMMAND, Key::K);
+        window.press(Modifiers::COMMAND, Key::K);
         assert!(window.workbench.shell.cover.is_some());
         window
     }
@@ -164,7 +153,7 @@ mod tests {
     fn an_act_is_found_by_some_letters_and_done_by_enter() {
         let mut window = window();
         type_into(&mut window, "cal true");
-        press(&mut window, Modifiers::NONE, Key::Enter);
+        window.press(Modifiers::NONE, Key::Enter);
         assert!(window.workbench.shell.cover.is_none(), "it closed");
         let mut tools = window.workbench.tools.iter();
         assert!(
@@ -178,7 +167,7 @@ mod tests {
         let mut window = window();
         let n_before = window.workbench.scene().textiles.len();
         type_into(&mut window, "poplin");
-        press(&mut window, Modifiers::NONE, Key::Enter);
+        window.press(Modifiers::NONE, Key::Enter);
         window.pass(3);
         let textiles = &window.workbench.scene().textiles;
         assert_eq!(
@@ -195,14 +184,14 @@ mod tests {
     fn the_arrows_choose_and_escape_closes() {
         let mut window = window();
         type_into(&mut window, "pane");
-        press(&mut window, Modifiers::NONE, Key::ArrowDown);
-        press(&mut window, Modifiers::NONE, Key::ArrowDown);
-        press(&mut window, Modifiers::NONE, Key::ArrowUp);
+        window.press(Modifiers::NONE, Key::ArrowDown);
+        window.press(Modifiers::NONE, Key::ArrowDown);
+        window.press(Modifiers::NONE, Key::ArrowUp);
         let Some(Cover::Palette(palette)) = &window.workbench.shell.cover else {
             panic!("the palette is not shown")
         };
         assert_eq!(palette.chosen, 1);
-        press(&mut window, Modifiers::NONE, Key::Escape);
+        window.press(Modifiers::NONE, Key::Escape);
         assert!(window.workbench.shell.cover.is_none());
         window.dispatch(ShowCommand::Palette);
         window.pass(1);

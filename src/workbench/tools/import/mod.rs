@@ -23,7 +23,7 @@ pub(crate) mod work;
 
 pub(crate) use crate::tools::import::state::Import;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use eframe::egui::Ui;
 
@@ -34,10 +34,6 @@ use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
-use selvedge_foundation::files::{from_json_str, to_json_string};
-
-/// What unsaved work is called in errors.
-const WORK: &str = "unsaved import";
 
 impl Tool for Import {
     fn panes(&self) -> &'static [Pane] {
@@ -66,16 +62,13 @@ impl Tool for Import {
         }
         let files = &self.draft.described.files;
         let names: Vec<String> = files.iter().map(|file| file.source.name()).collect();
-        Some(Unsaved {
-            name: format!("Import of {}", names.join(", ")),
-            what: "what was chosen and typed, not kept as a textile yet".to_owned(),
-            work: to_json_string(&self.draft, Path::new(WORK)).unwrap_or_default(),
-        })
+        let name = format!("Import of {}", names.join(", "));
+        let what = "what was chosen and typed, not kept as a textile yet";
+        Some(Unsaved::new(name, what, &self.draft))
     }
 
-    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
-        let draft = from_json_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
-        self.take_draft(draft);
+    fn restore(&mut self, unsaved: &Unsaved, _bench: &mut Bench) -> Result<(), String> {
+        self.take_draft(unsaved.read()?);
         Ok(())
     }
 

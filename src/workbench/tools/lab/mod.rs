@@ -70,8 +70,8 @@ impl Tool for Lab {
         self.steps.as_ref()?.unsaved()
     }
 
-    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
-        self.steps = Some(Steps::from_work(work)?);
+    fn restore(&mut self, unsaved: &Unsaved, _bench: &mut Bench) -> Result<(), String> {
+        self.steps = Some(Steps::of(unsaved.read()?));
         self.has_changed();
         Ok(())
     }

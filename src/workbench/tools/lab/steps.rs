@@ -4,18 +4,13 @@
 //! called, and what it was made from, so that a beginning is taken back like any other step. What
 //! it is compared with and which part is looked at are views, and no steps.
 
-use std::path::Path;
-
 use serde::{Deserialize, Serialize};
 
 use crate::bench::history::{History, Moment, StepList};
 use crate::bench::recovery::Unsaved;
 use crate::tools::lab::fields::KeepFields;
-use selvedge_foundation::files::{KeyValue, keys_from_str, keys_to_string};
+use selvedge_foundation::files::KeyValue;
 use selvedge_textile::{Draft, Fault, Manifest, ParameterKind, Parent, Place, groups};
-
-/// What unsaved work is called in errors.
-const WORK: &str = "unsaved recipe";
 
 /// A recipe with all that belongs to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,7 +34,7 @@ enum Target {
 
 /// What is written down of a recipe that no library holds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Work {
+pub(crate) struct Work {
     recipe: Recipe,
     history: History<Recipe, Target>,
 }
@@ -91,29 +86,26 @@ impl Steps {
         if draft == self.first() || self.kept.as_ref() == Some(draft) {
             return None;
         }
-        let work = Work {
-            recipe: self.recipe.clone(),
-            history: self.history.clone(),
-        };
         let last = self.list();
-        Some(Unsaved {
-            name: format!("Recipe “{}” in the textile lab", self.recipe.fields.name),
-            what: format!(
-                "{} steps, the last: {}",
-                last.n_done,
-                last.undo().unwrap_or("none")
-            ),
-            work: keys_to_string(&work, Path::new(WORK)).unwrap_or_default(),
-        })
+        let name = format!("Recipe “{}” in the textile lab", self.recipe.fields.name);
+        let what = format!(
+            "{} steps, the last: {}",
+            last.n_done,
+            last.undo().unwrap_or("none")
+        );
+        let whole = |history| Work {
+            recipe: self.recipe.clone(),
+            history,
+        };
+        Some(Unsaved::with_steps(name, &what, &self.history, whole))
     }
 
     /// The recipe of such work.
-    pub(crate) fn from_work(work: &str) -> Result<Self, String> {
-        let work: Work = keys_from_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
-        Ok(Self {
+    pub(crate) fn of(work: Work) -> Self {
+        Self {
             history: work.history,
             ..Self::new(work.recipe)
-        })
+        }
     }
 
     /// The recipe with all that belongs to it.

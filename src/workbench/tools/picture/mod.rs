@@ -18,7 +18,7 @@ pub(crate) mod work;
 
 pub(crate) use crate::tools::picture::state::Picture;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use eframe::egui::Ui;
 
@@ -29,10 +29,6 @@ use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
-use selvedge_foundation::files::{from_json_str, to_json_string};
-
-/// What unsaved work is called in errors.
-const WORK: &str = "unsaved picture";
 
 impl Tool for Picture {
     fn panes(&self) -> &'static [Pane] {
@@ -58,16 +54,13 @@ impl Tool for Picture {
 
     fn unsaved(&self) -> Option<Unsaved> {
         let source = self.draft.source.as_ref().filter(|_| self.is_begun())?;
-        Some(Unsaved {
-            name: format!("Textile from {}", source.file().name()),
-            what: "what was chosen and typed, not kept as a textile yet".to_owned(),
-            work: to_json_string(&self.draft, Path::new(WORK)).unwrap_or_default(),
-        })
+        let name = format!("Textile from {}", source.file().name());
+        let what = "what was chosen and typed, not kept as a textile yet";
+        Some(Unsaved::new(name, what, &self.draft))
     }
 
-    fn restore(&mut self, work: &str, _bench: &mut Bench) -> Result<(), String> {
-        let draft = from_json_str(work, Path::new(WORK)).map_err(|error| error.to_string())?;
-        self.take_draft(draft);
+    fn restore(&mut self, unsaved: &Unsaved, _bench: &mut Bench) -> Result<(), String> {
+        self.take_draft(unsaved.read()?);
         Ok(())
     }
 

@@ -20,7 +20,7 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
-    Colours, HEIGHT_PX, contactor, frequencies, level_bar, on_finger, picture, sheet,
+    Colours, HEIGHT_PX, contactor, frequencies, on_finger, picture, sheet, show_levels,
     show_spectrogram_corner, waterfall,
 };
 use selvedge_chart as chart;
@@ -88,7 +88,7 @@ impl ContactSpectrum {
         } else {
             STRIP
         };
-        let axis = waterfall::frequency_axis(bench.selection.has_linear_frequencies);
+        let axis = waterfall::frequency_axis(bench.selection.spectrum.is_linear);
         let Some(layout) = Layout::of(rect, strip, axis) else {
             return;
         };
@@ -100,10 +100,9 @@ impl ContactSpectrum {
             let words = "Move over a textile: what arrives at the contactor is drawn here";
             paint_sentence(painter, layout.picture, words);
         }
+        show_levels(ui, layout.bar, bench);
         let filters = &bench.document.scene().filters;
         paint_filters(painter, &layout, filters);
-        let map = bench.settings.preferences.colour_map;
-        level_bar::show(ui, layout.bar, map, &mut bench.selection.levels);
         let pointer = response.hover_pos();
         if let Some(at) = pointer.filter(|at| layout.strip.contains(*at)) {
             response.on_hover_text_at_pointer(filter_words(&layout, at, filters));
@@ -133,10 +132,7 @@ impl Tool for ContactSpectrum {
         if columns.is_empty() {
             return Err(NOTHING_FELT);
         }
-        let (colours, is_linear) = (
-            Colours::in_force(bench),
-            bench.selection.has_linear_frequencies,
-        );
+        let (colours, is_linear) = (Colours::in_force(bench), bench.selection.spectrum.is_linear);
         let picture = Chart {
             width: 9.0,
             ..picture(&columns, is_linear, |level_db| {

@@ -15,7 +15,7 @@ use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
-    Colours, HEIGHT_PX, level_bar, on_finger, picture, sheet, show_spectrogram_corner, waterfall,
+    Colours, HEIGHT_PX, on_finger, picture, sheet, show_levels, show_spectrogram_corner, waterfall,
 };
 use selvedge_chart::{At, Chart, Extent, Row, Rule};
 use selvedge_foundation::quantity;
@@ -69,7 +69,7 @@ impl DriveSpectrum {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
         let name = "Drive spectrum of the selected contactor over time, 10 Hz to 1 kHz";
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Canvas, true, name));
-        let axis = waterfall::frequency_axis(bench.selection.has_linear_frequencies);
+        let axis = waterfall::frequency_axis(bench.selection.spectrum.is_linear);
         let Some(layout) = Layout::of(rect, 0.0, axis) else {
             return;
         };
@@ -78,8 +78,7 @@ impl DriveSpectrum {
         let painter = ui.painter();
         waterfall::paint(painter, &layout, (ring, image), on_finger(bench));
         waterfall::paint_carriers(painter, &layout);
-        let map = bench.settings.preferences.colour_map;
-        level_bar::show(ui, layout.bar, map, &mut bench.selection.levels);
+        show_levels(ui, layout.bar, bench);
         if bench.past.history.newest().is_none() {
             let words = "Move over a textile: what drives the contactor is drawn here";
             paint_sentence(painter, layout.picture, words);
@@ -111,10 +110,7 @@ impl Tool for DriveSpectrum {
         if columns.is_empty() {
             return Err(NOTHING_FELT);
         }
-        let (colours, is_linear) = (
-            Colours::in_force(bench),
-            bench.selection.has_linear_frequencies,
-        );
+        let (colours, is_linear) = (Colours::in_force(bench), bench.selection.spectrum.is_linear);
         let carrier = |band: Band| Rule {
             at: At::Y(band.carrier_hz()),
             ink: ink(band),

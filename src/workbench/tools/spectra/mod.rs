@@ -3,7 +3,6 @@
 
 pub(crate) mod contact;
 pub(crate) mod drive;
-pub(crate) mod level_bar;
 pub(crate) mod spatial;
 pub(crate) mod spatial_chart;
 #[cfg(test)]
@@ -11,22 +10,26 @@ mod tests;
 pub(crate) mod waterfall;
 pub(crate) mod wave;
 
-use eframe::egui::{Color32, RichText, Ui};
+use eframe::egui::{Align2, Color32, Rect, RichText, Ui, pos2};
 
 use crate::bench::Bench;
 use crate::bench::export::{Sheet, bar, rgb};
 use crate::bench::on_finger::OnFinger;
 use crate::bench::signals::ring::N_COLUMNS;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at, row_centre_hz};
-use crate::kit::level_range::LevelRange;
+use crate::kit::spectrum_scale::{EVENLY, LevelRange};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::axis::paint_unit;
+use crate::kit::widgets::level_bar;
 use crate::kit::widgets::text::toggle;
 use crate::tools::spectra::waterfall::ShownColumn;
 use selvedge_chart::{Axis, Chart, ColourBar, Raster};
 use selvedge_render::scene::TICKS_PER_S;
 
+/// From the bar of colours to the right end of its unit, points.
+const UNIT: f32 = 34.0;
 /// Height of a spectrogram on paper, px.
 const HEIGHT_PX: f64 = 300.0;
 
@@ -55,12 +58,19 @@ fn on_finger(bench: &Bench) -> [OnFinger; 2] {
 
 /// What stands over a spectrogram: whose it is, and how its frequencies lie.
 fn show_spectrogram_corner(ui: &mut Ui, bench: &mut Bench) {
-    let is_linear = bench.selection.has_linear_frequencies;
-    let tip = "Frequencies evenly along the axis, not by their logarithms";
-    if toggle(ui, "linear", is_linear, tip) {
-        bench.selection.has_linear_frequencies = !is_linear;
+    let is_linear = bench.selection.spectrum.is_linear;
+    if toggle(ui, "linear", is_linear, EVENLY) {
+        bench.selection.spectrum.is_linear = !is_linear;
     }
     show_contactor(ui, bench);
+}
+
+/// The bar of colours beside a spectrogram.
+fn show_levels(ui: &Ui, bar: Rect, bench: &mut Bench) {
+    let map = bench.settings.preferences.colour_map;
+    level_bar::show(ui, bar, map, &mut bench.selection.spectrum.levels);
+    let unit_at = pos2(bar.right() + UNIT, bar.top() - 6.0);
+    paint_unit(ui.painter(), unit_at, Align2::RIGHT_BOTTOM, "dB re 1 µm");
 }
 
 /// The colours of a spectrogram.
@@ -75,7 +85,7 @@ impl Colours {
     fn in_force(bench: &Bench) -> Self {
         Self {
             map: bench.settings.preferences.colour_map,
-            levels: bench.selection.levels,
+            levels: bench.selection.spectrum.levels,
         }
     }
 

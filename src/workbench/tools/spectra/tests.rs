@@ -9,7 +9,7 @@ use crate::bench::command::Commands;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
 use crate::bench::{Bench, Drive};
-use crate::kit::level_range::Handle;
+use crate::kit::spectrum_scale::Handle;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::spectra::contact::ContactSpectrum;
 use crate::tools::spectra::drive::DriveSpectrum;
@@ -198,8 +198,13 @@ fn other_colours_are_sent_anew_and_another_contactor_is_computed_anew() {
     plots.explore(0..50);
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Viridis));
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
-    let floor = plots.bench.selection.levels.moved(Handle::Floor, 10.0);
-    plots.bench.selection.levels = floor;
+    let floor = plots
+        .bench
+        .selection
+        .spectrum
+        .levels
+        .moved(Handle::Floor, 10.0);
+    plots.bench.selection.spectrum.levels = floor;
     plots.frame(SIZE, |plots, ui| plots.show_contact(ui, ColourMap::Grey));
     assert_eq!(plots.work()[..2], [50, 3], "only colours changed");
     plots.bench.selection.contactor = Some(3);

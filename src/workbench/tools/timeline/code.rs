@@ -3,6 +3,8 @@
 
 use std::array;
 
+use crate::bench::on_finger::OnFinger;
+use selvedge_foundation::numerics::to_byte;
 use selvedge_foundation::quantity;
 
 /// Nothing is known.
@@ -16,13 +18,16 @@ const STEP_DB: f64 = 0.5;
 /// The fastest that is told apart: beyond it nothing is felt, mm/s.
 const FASTEST_MM_PER_S: f64 = 4348.0;
 
+/// What the finger may get at a tick, from least to most.
+const FINGER: [OnFinger; 3] = [OnFinger::Held, OnFinger::ShownOnly, OnFinger::Felt];
+
 /// The byte of a level, dB re 1 µm: the nearest of −80, −79.5 … 46.5.
 pub(crate) fn level_code(level_db: f64) -> u8 {
     if level_db.is_nan() {
         return GAP;
     }
     let place = 2.0 + ((level_db - LEAST_DB) / STEP_DB).round();
-    byte(if place < 2.0 { 1.0 } else { place })
+    to_byte(if place < 2.0 { 1.0 } else { place })
 }
 
 /// The byte of an amplitude, µm.
@@ -42,7 +47,7 @@ pub(crate) fn level_of(code: u8) -> Option<f64> {
 /// The byte of a speed, mm/s: finer where it is slow.
 pub(crate) fn speed_code(speed_mm_per_s: f64) -> u8 {
     let share = (speed_mm_per_s / FASTEST_MM_PER_S).clamp(0.0, 1.0);
-    byte(1.0 + (254.0 * share.max(0.0).sqrt()).round())
+    to_byte(1.0 + (254.0 * share.max(0.0).sqrt()).round())
 }
 
 /// The speed that a byte stands for, mm/s; `None` for a gap.
@@ -61,14 +66,15 @@ pub(crate) fn table<T>(of: impl Fn(u8) -> T) -> [T; 256] {
     array::from_fn(|code| of(u8::try_from(code).unwrap_or(u8::MAX)))
 }
 
-fn byte(number: f64) -> u8 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to a byte"
-    )]
-    let byte = number.clamp(0.0, 255.0) as u8;
-    byte
+/// What the finger got at a tick; of several ticks the one that it got most of counts.
+pub(crate) fn finger_code(on_finger: OnFinger) -> u8 {
+    let place = FINGER.iter().position(|one| *one == on_finger);
+    place.map_or(GAP, |place| to_byte(1.0 + place as f64))
+}
+
+/// What such a code says.
+pub(crate) fn finger_of(code: u8) -> Option<OnFinger> {
+    FINGER.get(usize::from(code).checked_sub(1)?).copied()
 }
 
 #[cfg(test)]

@@ -1,22 +1,29 @@
 //! What a tick leaves in the tiles: speed, levels and limits of all contactors, or the spectrum
 //! that arrives at one.
 
+use crate::bench::on_finger::OnFinger;
 use crate::bench::recording::Recording;
 use crate::bench::signals::contact::ContactColumns;
 use crate::bench::signals::rows::{N_ROWS, Rows};
-use crate::tools::timeline::code::{GAP, SILENT, amplitude_code, level_code, mirrored, speed_code};
+use crate::tools::timeline::code::{
+    GAP, SILENT, amplitude_code, finger_code, level_code, mirrored, speed_code,
+};
 use selvedge_device::Coder;
+use selvedge_engine::ApplyTicks;
 use selvedge_render::array::{ArrayRenderer, ContactInspector};
 use selvedge_render::scene::Pose;
 use selvedge_textile::tactile::vibrating_mean_um;
 
 /// Rows before those of the contactors: from the highest to the lowest (mirrored) of speed and of
-/// the mean levels of both bands; contactors that a limit bites; ticks that are missing.
-pub(crate) const N_LINES: usize = 8;
+/// the mean levels of both bands; contactors that a limit bites; ticks that are missing; what the
+/// finger got.
+pub(crate) const N_LINES: usize = 9;
 /// The row of how many contactors a limit bites, after 1.
 pub(crate) const LIMITED: usize = 6;
 /// The row that tells that ticks are missing before this one.
 pub(crate) const MISSING: usize = 7;
+/// The row of what the finger got.
+pub(crate) const ON_FINGER: usize = 8;
 
 /// Makes the column of a tick.
 pub(crate) trait TickColumns: Send {
@@ -58,13 +65,14 @@ impl Limits {
 /// Writes the column of a tick that was felt: lines, then A40 of all contactors, then A320.
 /// Without amplitudes their rows are gaps.
 pub(crate) fn write_felt(
-    speed_mm_per_s: f64,
+    (speed_mm_per_s, on_finger): (f64, OnFinger),
     amplitudes_um: &[[f32; 2]],
     limits: &mut Limits,
     rows: &mut [u8],
 ) {
     rows.fill(0);
     let (lines, contactors) = rows.split_at_mut(N_LINES);
+    lines[ON_FINGER] = finger_code(on_finger);
     let speed = speed_code(speed_mm_per_s);
     [lines[0], lines[1]] = [speed, mirrored(speed)];
     if amplitudes_um.is_empty() {
@@ -119,6 +127,8 @@ pub(crate) struct FeltColumns {
     pub(crate) amplitudes: Amplitudes,
     pub(crate) n_contactors: usize,
     pub(crate) limits: Limits,
+    /// The device's tick of every one that was sent.
+    pub(crate) apply_ticks: ApplyTicks,
     /// Ticks before which others are missing, rising.
     pub(crate) missing: Vec<u64>,
 }
@@ -135,7 +145,10 @@ impl TickColumns for FeltColumns {
         };
         let amplitudes_um = &amplitudes_um[..amplitudes_um.len().min(self.n_contactors)];
         let speed = pose.velocity.speed_mm_per_s();
-        write_felt(speed, amplitudes_um, &mut self.limits, rows);
+        let nth = usize::try_from(tick).unwrap_or(usize::MAX);
+        let is_sent = self.apply_ticks.get(nth).is_some_and(Option::is_some);
+        let on_finger = OnFinger::sent(is_sent);
+        write_felt((speed, on_finger), amplitudes_um, &mut self.limits, rows);
         rows[MISSING] = 1 + u8::from(self.missing.binary_search(&tick).is_ok());
     }
 }
@@ -170,13 +183,19 @@ pub(crate) fn write_levels(levels_db: &Rows, rows: &mut [u8]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tools::timeline::code::finger_of;
     use selvedge_device::ArrayProfile;
 
     fn column(amplitudes_um: &[[f32; 2]]) -> Vec<u8> {
         let n = amplitudes_um.len();
         let mut limits = Limits::of(Coder::new(&ArrayProfile::default(), n), n);
         let mut rows = vec![9; n_felt_rows(2)];
-        write_felt(120.0, amplitudes_um, &mut limits, &mut rows);
+        write_felt(
+            (120.0, OnFinger::Felt),
+            amplitudes_um,
+            &mut limits,
+            &mut rows,
+        );
         rows
     }
 
@@ -186,6 +205,7 @@ mod tests {
         let bands = [[2.0, 900.0], [0.0, 4.0]].map(|band| band.map(amplitude_code));
         assert_eq!(rows[N_LINES..], bands.concat());
         assert_eq!(rows[LIMITED], 2, "one of them");
+        assert_eq!(finger_of(rows[ON_FINGER]), Some(OnFinger::Felt));
         assert_eq!(rows[5], mirrored(amplitude_code(2.0)), "the mean of 320 Hz");
     }
 
@@ -194,6 +214,7 @@ mod tests {
         let rows = column(&[[0.0; 2]; 2]);
         assert_eq!(rows[2..6], [SILENT, GAP, SILENT, GAP]);
         let unknown = column(&[]);
-        assert_eq!(unknown[2..], [GAP; N_LINES + 2]);
+        assert_eq!(unknown[2..ON_FINGER], [GAP; ON_FINGER - 2]);
+        assert_eq!(unknown[N_LINES..], [GAP; 4]);
     }
 }

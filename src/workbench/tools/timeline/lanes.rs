@@ -5,20 +5,22 @@ use std::ops::Range;
 
 use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
+use crate::bench::on_finger::OnFinger;
 use crate::bench::recording::tiles::Tiles;
-use crate::bench::settings::timeline::TimelineStyle;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at};
 use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::spectrum_scale::SpectrumScale;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{self, Palette};
 use crate::tools::timeline::axes::{self, LEVELS_DB, round_above};
-use crate::tools::timeline::code::{level_of, speed_of, table};
-use crate::tools::timeline::columns::N_LINES;
+use crate::tools::timeline::code::{finger_of, level_of, speed_of, table};
+use crate::tools::timeline::columns::{N_LINES, ON_FINGER};
 use crate::tools::timeline::picture::{
     Columns, Drawing, LineInks, Picture, even_rows, gap_colours,
 };
 use crate::tools::timeline::span::Span;
 use crate::tools::timeline::transport::TICK_MS;
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -121,16 +123,8 @@ pub(crate) struct LaneStyle {
     pub(crate) map: ColourMap,
     /// The scale of amplitudes.
     pub(crate) scale: AmplitudeScale,
-    /// What the user set.
-    pub(crate) kept: TimelineStyle,
-}
-
-impl LaneStyle {
-    /// Where a level stands on the colour bar of the spectrum, 0…1.
-    pub(crate) fn share_of(&self, level_db: f64) -> f64 {
-        let [floor, top] = self.kept.levels_db();
-        (level_db - floor) / (top - floor)
-    }
+    /// The scale of the spectrum.
+    pub(crate) spectrum: SpectrumScale,
 }
 
 /// The pictures of the lanes.
@@ -169,7 +163,28 @@ impl Pictures {
             picture.follow((ui.ctx(), "timeline"), (columns, height), &drawing);
             picture.paint(ui.painter(), rect);
         }
+        self.veil(ui.painter(), layout, palette);
         top
+    }
+
+    /// Dims what the finger did not get, as every view does.
+    fn veil(&self, painter: &Painter, layout: &Layout, palette: &Palette) {
+        let n_columns = self.felt.each().len();
+        let got = |rows: &[u8]| finger_of(rows.get(ON_FINGER).copied()?);
+        let codes: Vec<Option<OnFinger>> = self.felt.each().map(got).collect();
+        let mut x = 0;
+        for run in codes.chunk_by(|a, b| a == b) {
+            let ends = [x, x + run.len()].map(|x| layout.x_at(x as f64 / n_columns as f64));
+            x += run.len();
+            let Some(Some(on_finger)) = run.first() else {
+                continue;
+            };
+            let ink = palette.floor.gamma_multiply(1.0 - on_finger.presence());
+            for lane in layout.lanes {
+                let part = Rect::from_x_y_ranges(ends[0]..=ends[1], lane.y_range());
+                painter.rect_filled(part, 0, ink);
+            }
+        }
     }
 
     /// How often pictures were made.
@@ -195,8 +210,8 @@ fn drawing(
     let gap = gap_colours(palette);
     match lane {
         Lane::Spectrum => Drawing::Raster {
-            rows: spectrum_rows(height, style.kept.is_linear),
-            colours: colours(&|level_db| style.share_of(level_db)),
+            rows: spectrum_rows(height, style.spectrum.is_linear),
+            colours: colours(&|level_db| style.spectrum.levels.share(level_db)),
             gap,
         },
         Lane::Raster(band) => Drawing::Raster {
@@ -204,7 +219,7 @@ fn drawing(
             colours: colours(&|level_db| style.scale.share(quantity::factor_of_gain(level_db))),
             gap,
         },
-        Lane::Lines => Drawing::Lines(LineInks::of(palette, whole_mm_per_s(top_mm_per_s))),
+        Lane::Lines => Drawing::Lines(LineInks::of(palette, to_index(top_mm_per_s.round()))),
     }
 }
 
@@ -229,23 +244,7 @@ pub(crate) fn frequency_at(share: f64, is_linear: bool) -> f64 {
 }
 
 fn n_pixels(length: f32) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "pixels in a row of the screen"
-    )]
-    let n = length.round().clamp(1.0, 16_384.0) as usize;
-    n
-}
-
-fn whole_mm_per_s(speed: f64) -> u32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a round speed of at most 10⁶ mm/s"
-    )]
-    let whole = speed.round() as u32;
-    whole
+    to_index(f64::from(length.round().clamp(1.0, 16_384.0)))
 }
 
 /// Names and axes beside the lanes.
@@ -264,7 +263,11 @@ pub(crate) fn paint_axes(ui: &Ui, layout: &Layout, style: &LaneStyle, top_mm_per
         };
         match lane {
             Lane::Spectrum => {
-                let least = if style.kept.is_linear { "0" } else { "10 Hz" };
+                let least = if style.spectrum.is_linear {
+                    "0"
+                } else {
+                    "10 Hz"
+                };
                 ends("1 kHz", least, left, Align2::RIGHT_CENTER);
             }
             Lane::Raster(band) => {
@@ -289,7 +292,10 @@ pub(crate) fn paint_times(painter: &Painter, layout: &Layout, span: Span, newest
     let tick_ms = TICK_MS as f64;
     let origin = newest.unwrap_or(0.0);
     let [start_ms, end_ms] = [span.start, span.end].map(|place| (place - origin) * tick_ms);
-    let step = axes::step_ms(whole_ms(end_ms - start_ms), layout.ruler.width());
+    let step = axes::step_ms(
+        to_index((end_ms - start_ms).round()) as u64,
+        layout.ruler.width(),
+    );
     let step_ms = step as f64;
     let mut free = layout.ruler.left();
     let mut nth = (start_ms / step_ms).ceil();
@@ -302,7 +308,7 @@ pub(crate) fn paint_times(painter: &Painter, layout: &Layout, span: Span, newest
         painter.vline(x, layout.body().y_range(), hairline);
         let foot = layout.ruler.bottom() - 4.0..=layout.ruler.bottom();
         painter.vline(x, foot, Stroke::new(1.0, palette.line));
-        let words = axes::time_words(whole_ms(time_ms.abs()), step);
+        let words = axes::time_words(to_index(time_ms.abs().round()) as u64, step);
         let words = if time_ms < 0.0 {
             format!("−{words}")
         } else {
@@ -317,16 +323,6 @@ pub(crate) fn paint_times(painter: &Painter, layout: &Layout, span: Span, newest
             free = place.right() + shift + APART;
         }
     }
-}
-
-fn whole_ms(time_ms: f64) -> u64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most some days"
-    )]
-    let whole = time_ms.max(0.0).round() as u64;
-    whole
 }
 
 #[cfg(test)]

@@ -201,6 +201,7 @@ fn felt_columns(
             n_contactors,
             limits: limits(&key.limits, n_contactors),
             missing: recording.missing().to_vec(),
+            apply_ticks: Arc::clone(recording.apply_ticks()),
         });
         Ok(columns)
     })

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use crate::bench::Bench;
+use crate::bench::on_finger::OnFinger;
 use crate::bench::recording::tiles::Tiles;
 use crate::bench::signals::contact::ContactColumns;
 use crate::bench::signals::history::{CAPACITY, Entry, History};
@@ -81,7 +82,7 @@ impl LiveTiles {
         for entry in history.entries().range(history.place_of(self.next)..) {
             felt_um.clear();
             felt_um.extend(history.felt_um(entry.column).into_iter().flatten());
-            write_felt(speed_mm_per_s(entry), &felt_um, limits, &mut rows);
+            write_felt(motion(entry), &felt_um, limits, &mut rows);
             self.felt.put(entry.column, &rows);
             self.next = entry.column + 1;
         }
@@ -144,6 +145,13 @@ pub(crate) fn extent_of(history: &History) -> Span {
     Span::new((columns.start as f64).min(end - N_SHOWN), end)
 }
 
-fn speed_mm_per_s(entry: &Entry) -> f64 {
-    entry.tick_sample.pose.velocity.speed_mm_per_s()
+/// The speed of a tick, mm/s, and what the finger got.
+fn motion(entry: &Entry) -> (f64, OnFinger) {
+    let sample = &entry.tick_sample;
+    let on_finger = if sample.is_silent {
+        OnFinger::Held
+    } else {
+        OnFinger::sent(sample.apply_tick.is_some())
+    };
+    (sample.pose.velocity.speed_mm_per_s(), on_finger)
 }

@@ -17,7 +17,6 @@ pub(crate) mod live;
 pub(crate) mod marks;
 pub(crate) mod numbers;
 pub(crate) mod picture;
-pub(crate) mod scale;
 pub(crate) mod scope;
 pub(crate) mod selection;
 pub(crate) mod sight;
@@ -35,7 +34,7 @@ use crate::bench::Bench;
 use crate::bench::command::Commands;
 use crate::bench::export::button::{place_in, show as show_export};
 use crate::bench::export::{Exportable, Exported};
-use crate::bench::settings::timeline::HEIGHTS;
+use crate::bench::settings::preferences::TIMELINE_HEIGHT;
 use crate::bench::tool::{Bar, PaneContext};
 use crate::kit::pane::frame_as_past;
 use crate::kit::theme::STEP;
@@ -60,10 +59,11 @@ impl Bar for Timeline {
         let mut style = LaneStyle {
             map: kept.colour_map,
             scale: context.bench.selection.scale,
-            kept: kept.scales.timeline,
+            spectrum: context.bench.selection.spectrum,
         };
         let view = TransportView::of(context.bench);
-        show(ui, (&view, &mut style), self, context.commands);
+        let mut height = kept.scales.timeline_height;
+        show(ui, &view, (&mut style, &mut height), self, context.commands);
         if let Some(back) = &context.bench.past.look_back {
             let ago = quantity::with_unit(back.ago_s, 2, "s");
             frame_as_past(
@@ -71,7 +71,8 @@ impl Bar for Timeline {
                 &format!("Past: {ago} before the newest, in felt time"),
             );
         }
-        context.bench.settings.preferences.scales.timeline = style.kept;
+        context.bench.settings.preferences.scales.timeline_height = height;
+        context.bench.selection.spectrum = style.spectrum;
         let is_of_recording = self.sight.of() != 0;
         context.bench.exploration.selected = self.selected.clone().filter(|_| is_of_recording);
     }
@@ -87,15 +88,15 @@ impl Bar for Timeline {
 /// Shows the bar in the width that there is.
 fn show(
     ui: &mut Ui,
-    (view, style): (&TransportView<'_>, &mut LaneStyle),
+    view: &TransportView<'_>,
+    (style, height): (&mut LaneStyle, &mut f32),
     state: &mut Timeline,
     commands: &mut Commands,
 ) {
-    let most = (MOST_OF_WINDOW * ui.ctx().content_rect().height()).max(HEIGHTS[0]);
-    let height = style.kept.height.min(most);
-    let size = vec2(ui.available_width(), height);
+    let most = (MOST_OF_WINDOW * ui.ctx().content_rect().height()).max(TIMELINE_HEIGHT[0]);
+    let size = vec2(ui.available_width(), height.min(most));
     let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
-    style.kept.height = resized(ui, bar, style.kept.height, most);
+    *height = resized(ui, bar, *height, most);
     let (controls, rest) = bar.split_left_right_at_x(bar.left() + CONTROLS);
     let (middle, numbers) = rest.split_left_right_at_x(rest.right() - NUMBERS);
     ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| {
@@ -122,5 +123,6 @@ fn resized(ui: &Ui, bar: Rect, height: f32, most: f32) -> f32 {
         return height;
     }
     ui.ctx().request_repaint();
-    (height.min(most) - response.drag_delta().y).clamp(HEIGHTS[0], most.min(HEIGHTS[1]))
+    (height.min(most) - response.drag_delta().y)
+        .clamp(TIMELINE_HEIGHT[0], most.min(TIMELINE_HEIGHT[1]))
 }

@@ -15,6 +15,7 @@ use crate::tools::timeline::axes::LEVELS_DB;
 use crate::tools::timeline::code::{GAP, level_of, mirrored, speed_of};
 use crate::tools::timeline::columns::{LIMITED, MISSING};
 use crate::tools::timeline::span::Span;
+use selvedge_foundation::numerics::to_index;
 use selvedge_textile::tactile::Band;
 
 /// Pixels from a hatching line of a gap to the next.
@@ -136,12 +137,12 @@ pub(crate) struct LineInks {
     missing: Color32,
     gap: [Color32; 2],
     /// The end of the speed axis, mm/s.
-    pub(crate) top_mm_per_s: u32,
+    pub(crate) top_mm_per_s: usize,
 }
 
 impl LineInks {
     /// Those of a theme.
-    pub(crate) fn of(palette: &Palette, top_mm_per_s: u32) -> Self {
+    pub(crate) fn of(palette: &Palette, top_mm_per_s: usize) -> Self {
         Self {
             ground: palette.line.gamma_multiply(0.22),
             speed: palette.line,
@@ -208,7 +209,7 @@ fn draw_lines(
         (0..height).for_each(|y| put(y, hatched(x, y, inks.gap)));
         return;
     }
-    let top = f64::from(inks.top_mm_per_s.max(1));
+    let top = inks.top_mm_per_s.max(1) as f64;
     let speed_y = |code| speed_of(code).map(|speed| y_at(speed / top, height));
     if let Some((high, low)) = speed_y(rows[0]).zip(speed_y(mirrored(rows[1]))) {
         (high..height).for_each(|y| put(y, inks.ground));
@@ -238,13 +239,7 @@ fn draw_lines(
 /// The pixel from the top at a share of the height.
 fn y_at(share: f64, height: usize) -> usize {
     let most = height.saturating_sub(1);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and the height"
-    )]
-    let from_bottom = (share.clamp(0.0, 1.0) * most as f64).round() as usize;
-    most - from_bottom.min(most)
+    most - to_index((share.clamp(0.0, 1.0) * most as f64).round()).min(most)
 }
 
 /// Which of `n` rows each pixel shows, from top to bottom; where there are fewer pixels than rows,
@@ -306,7 +301,7 @@ mod tests {
         let (mut picture, mut columns) = (Picture::default(), Columns::default());
         let mut tiles = Tiles::new(N_LINES, 5_000);
         let lines = |top| Drawing::Lines(LineInks::of(Palette::of(ctx.theme()), top));
-        let mut show = |tiles: &Tiles, end: f64, top: u32| {
+        let mut show = |tiles: &Tiles, end: f64, top: usize| {
             columns.follow(tiles, 0, (Span::new(0.0, end), 300));
             picture.follow((&ctx, "lane"), (&columns, 20), &lines(top));
             picture.n_uploads()

@@ -1,5 +1,5 @@
-//! A part of a recording that is selected: it loops, becomes a recording of its own, or is
-//! exported.
+//! A part of a recording, or of what was felt last, that is selected: it loops, becomes a recording
+//! of its own, or is exported.
 
 use std::ops::Range;
 
@@ -66,6 +66,12 @@ fn show_buttons(
         }
         if toggle(ui, "path…", false, "Export the path of this part") {
             commands.push(FileCommand::Ask(Purpose::SaveRecording).into());
+        }
+    }
+    if scope.view.shown_take().is_none() {
+        let tip = "Make this part of what was felt last a recording";
+        if toggle(ui, "keep", false, tip) {
+            commands.push(RecordingCommand::Keep(selected.clone()).into());
         }
     }
     let tip = "Export speed and levels of this part as a table or a figure";

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use selvedge_foundation::numerics::to_index;
+
 /// The shortest part that is shown, ticks.
 const SHORTEST: f64 = 8.0;
 
@@ -89,13 +91,7 @@ impl Span {
 
 /// A whole number of ticks; 0 before the first.
 fn whole(place: f64) -> u64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a place is 0 … 10⁹ ticks; before the first it is taken for it"
-    )]
-    let ticks = place.max(0.0) as u64;
-    ticks
+    to_index(place) as u64
 }
 
 #[cfg(test)]

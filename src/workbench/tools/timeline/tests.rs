@@ -7,9 +7,9 @@ use super::*;
 use crate::bench::command::PlaySource;
 use crate::bench::command::{Command, Edit, PlayCommand};
 use crate::bench::recording::Recording;
-use crate::bench::settings::timeline::TimelineStyle;
 use crate::bench::signals::history::History;
 use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::spectrum_scale::SpectrumScale;
 use crate::kit::theme;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::shell::headless::Headless;
@@ -59,7 +59,7 @@ fn style() -> LaneStyle {
     LaneStyle {
         map: ColourMap::default(),
         scale: AmplitudeScale::default(),
-        kept: TimelineStyle::default(),
+        spectrum: SpectrumScale::default(),
     }
 }
 
@@ -93,8 +93,8 @@ impl Window {
         };
         let mut commands = Commands::new();
         let output = self.ctx.run_ui(input, |ui| {
-            let drawn = (view, &mut style());
-            show(ui, drawn, &mut self.state, &mut commands);
+            let drawn = (&mut style(), &mut 132.0);
+            show(ui, view, drawn, &mut self.state, &mut commands);
         });
         output.drop_without_applying_deltas();
         commands
@@ -340,8 +340,8 @@ fn no_width_is_too_small() {
             };
             let mut commands = Commands::new();
             let output = window.ctx.run_ui(input.clone(), |ui| {
-                let drawn = (&narrow, &mut style());
-                show(ui, drawn, &mut window.state, &mut commands);
+                let drawn = (&mut style(), &mut 132.0);
+                show(ui, &narrow, drawn, &mut window.state, &mut commands);
             });
             output.drop_without_applying_deltas();
             assert_eq!(commands, []);

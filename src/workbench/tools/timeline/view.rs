@@ -10,7 +10,9 @@ use eframe::egui::{
 
 use crate::bench::command::{Commands, PlayCommand};
 use crate::kit::pane::paint_sentence;
+use crate::kit::spectrum_scale::EVENLY;
 use crate::kit::theme::{self, Palette};
+use crate::kit::widgets::level_bar;
 use crate::kit::widgets::text::toggle;
 use crate::tools::timeline::lanes::{self, LaneStyle, Layout, name_of};
 use crate::tools::timeline::scope::{Scope, extent};
@@ -18,13 +20,15 @@ use crate::tools::timeline::span::Span;
 use crate::tools::timeline::state::{Drag, Timeline};
 use crate::tools::timeline::transport::TransportView;
 use crate::tools::timeline::words::words_at;
-use crate::tools::timeline::{marks, scale, selection};
+use crate::tools::timeline::{marks, selection};
 use selvedge_foundation::quantity;
 
 /// Points of scrolling that magnify by the factor e.
 const POINTS_PER_E: f32 = 240.0;
 /// Ticks that an arrow key moves with Shift.
 const LEAP: u64 = 40;
+/// Width of the bar of colours, points.
+const COLOUR_BAR: f32 = 8.0;
 /// Within this of the cursor a drag takes it along, points.
 const GRASP: f32 = 5.0;
 
@@ -92,8 +96,28 @@ pub(crate) fn show(
     {
         *selected = None;
     }
-    scale::show(ui, &layout, style);
+    show_scale(ui, &layout, style);
     show_choices(ui, (view, &layout), is_as_recorded, commands);
+}
+
+/// A choice beside a lane; says whether it was clicked.
+fn choice(ui: &mut Ui, lane: Rect, (word, is_on): (&str, bool), tip: &str) -> bool {
+    let place = Rect::from_min_size(name_of(lane).left_top(), vec2(40.0, 18.0));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(place));
+    toggle(&mut child, word, is_on, tip)
+}
+
+/// Beside the spectrum: the bar of its colours, and how its frequencies lie.
+fn show_scale(ui: &mut Ui, layout: &Layout, style: &mut LaneStyle) {
+    let lane = layout.lanes[0];
+    let left = lane.right() + 9.0;
+    let bar = Rect::from_x_y_ranges(left..=left + COLOUR_BAR, lane.y_range());
+    level_bar::show(ui, bar, style.map, &mut style.spectrum.levels);
+    let is_linear = &mut style.spectrum.is_linear;
+    if choice(ui, lane, ("linear", *is_linear), EVENLY) {
+        *is_linear = !*is_linear;
+        ui.ctx().request_repaint();
+    }
 }
 
 /// Beside the lanes: what a recording is drawn as; the way back to now.
@@ -103,23 +127,18 @@ fn show_choices(
     is_as_recorded: &mut bool,
     commands: &mut Commands,
 ) {
-    let mut corner = |lane: Rect, word: &str, is_on: bool, tip: &str| {
-        let place = Rect::from_min_size(name_of(lane).left_top(), vec2(40.0, 18.0));
-        let mut child = ui.new_child(UiBuilder::new().max_rect(place));
-        toggle(&mut child, word, is_on, tip)
-    };
     if let Some(take) = view.shown_take().filter(|take| take.n_contactors() > 0) {
         let tip = format!(
             "{} as it was recorded, rather than as the scene and its gains render it now",
             take.name()
         );
-        if corner(layout.lanes[1], "as felt", *is_as_recorded, &tip) {
+        if choice(ui, layout.lanes[1], ("as felt", *is_as_recorded), &tip) {
             *is_as_recorded = !*is_as_recorded;
         }
     }
     if view.past_column.is_some() {
         let tip = "Every view shows the past: click to see what is felt now";
-        if corner(layout.lanes[3], "to now", true, tip) {
+        if choice(ui, layout.lanes[3], ("to now", true), tip) {
             commands.push(PlayCommand::LookBack(None).into());
         }
     }

@@ -2,10 +2,11 @@
 
 use eframe::egui::{Pos2, Rect};
 
+use crate::bench::on_finger::OnFinger;
 use crate::bench::recording::tiles::Tiles;
 use crate::bench::signals::rows::{LEAST_HZ, row_at};
-use crate::tools::timeline::code::{GAP, level_of, speed_of};
-use crate::tools::timeline::columns::{LIMITED, MISSING, N_LINES};
+use crate::tools::timeline::code::{GAP, finger_of, level_of, speed_of};
+use crate::tools::timeline::columns::{LIMITED, MISSING, N_LINES, ON_FINGER};
 use crate::tools::timeline::lanes::{Lane, LaneStyle, frequency_at};
 use crate::tools::timeline::scope::Scope;
 use crate::tools::timeline::transport::TICK_MS;
@@ -33,12 +34,16 @@ pub(crate) fn words_at(
         rows
     };
     let share = f64::from((rect.bottom() - at.y) / rect.height()).clamp(0.0, 1.0);
+    let felt = read(scope.felt);
     let rest = match lane {
         Lane::Spectrum => spectrum_words(&read(scope.spectrum), share, style),
-        Lane::Raster(band) => raster_words(&read(scope.felt), 1.0 - share, band),
-        Lane::Lines => line_words(&read(scope.felt)),
+        Lane::Raster(band) => raster_words(&felt, 1.0 - share, band),
+        Lane::Lines => line_words(&felt),
     };
-    format!("{head}\n{rest}")
+    let on_finger = felt.get(ON_FINGER).and_then(|code| finger_of(*code));
+    let absent = on_finger.and_then(OnFinger::label);
+    let absent = absent.map_or_else(String::new, |why| format!("\nNot on the finger: {why}"));
+    format!("{head}\n{rest}{absent}")
 }
 
 fn level_words(code: u8) -> String {
@@ -53,7 +58,7 @@ fn level_words(code: u8) -> String {
 }
 
 fn spectrum_words(rows: &[u8], share: f64, style: &LaneStyle) -> String {
-    let frequency_hz = frequency_at(share, style.kept.is_linear).max(LEAST_HZ);
+    let frequency_hz = frequency_at(share, style.spectrum.is_linear).max(LEAST_HZ);
     let row = row_at(frequency_hz);
     let code = rows.get(row).copied().unwrap_or(GAP);
     format!(

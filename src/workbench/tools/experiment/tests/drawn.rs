@@ -275,10 +275,7 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
             pass(&mut drawn.window);
         } else {
             mark(&mut drawn.window, Mark::Place(1));
-            mark(
-                &mut drawn.window,
-                Mark::Grade(selvedge_experiment::Grade::Hard),
-            );
+            mark(&mut drawn.window, Mark::Grade(Grade::Hard));
             answer(&mut drawn.window);
         }
         drawn.pass(3);
@@ -311,7 +308,7 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     assert!(is_blank, "something is seen");
     drawn.keep_picture("blank");
 
-    let grade = Mark::Grade(selvedge_experiment::Grade::Easy);
+    let grade = Mark::Grade(Grade::Easy);
     mark(&mut drawn.window, Mark::Place(1));
     mark(&mut drawn.window, grade);
     answer(&mut drawn.window);

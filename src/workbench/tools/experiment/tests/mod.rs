@@ -8,7 +8,7 @@ pub(crate) mod drawn;
 use std::fs;
 use std::path::PathBuf;
 
-use eframe::egui::{Pos2, vec2};
+use eframe::egui::{Key, Modifiers, Pos2, vec2};
 
 use super::*;
 use crate::bench::command::Command;
@@ -21,9 +21,9 @@ use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::noise::NoiseView;
 use crate::tools::experiment::now::Now;
 use crate::tools::experiment::view::{Ground, Link, TrialView};
-use selvedge_experiment::Task;
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{find_sessions, path_file, samples_file};
+use selvedge_experiment::{Grade, Task};
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
 
@@ -200,6 +200,32 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
 }
 
 #[test]
+fn the_keys_that_a_trial_names_answer_it_in_the_main_window() {
+    let is_odd = |draft: &Draft| {
+        let (position, grade) = (Some(1), Some(Grade::Hard));
+        *draft == Draft::Odd { position, grade }
+    };
+    let is_real = |draft: &Draft| {
+        let is_real = Some(true);
+        matches!(draft, Draft::Judge { is_real: said, .. } if *said == is_real)
+    };
+    press_in_trial("odd-one-out", &[Key::Num2, Key::H], is_odd);
+    press_in_trial("real-or-generated", &[Key::R], is_real);
+}
+
+fn press_in_trial(design: &'static str, keys: &[Key], is_expected: impl Fn(&Draft) -> bool) {
+    let folder = Folder::new("keys");
+    let mut window = begun(&folder, design, "p01");
+    to_trial(&mut window);
+    window.pass(3);
+    for key in keys {
+        window.press(Modifiers::NONE, *key);
+    }
+    let draft = &session(&window).draft;
+    assert!(is_expected(draft), "{design}: {draft:?}");
+}
+
+#[test]
 fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     let folder = Folder::new("document");
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
@@ -337,7 +363,7 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     act(&mut window, |one, bench| one.pause(true, bench));
     assert!(session(&window).trial().is_some(), "it is finished first");
     mark(&mut window, Mark::Place(1));
-    mark(&mut window, Mark::Grade(selvedge_experiment::Grade::Easy));
+    mark(&mut window, Mark::Grade(Grade::Easy));
     answer(&mut window);
     window.pass(4);
     assert_eq!(

@@ -1,5 +1,7 @@
-//! The levels that the colours of spectrograms stand for: a floor and an upper end, chosen by two
-//! handles on the bar of colours.
+//! The one scale on which spectrograms are drawn, the line of time's too: the levels that colours
+//! stand for, chosen by two handles on the bar of colours, and how frequencies lie.
+
+use serde::{Deserialize, Serialize};
 
 use selvedge_foundation::quantity;
 
@@ -7,6 +9,57 @@ use selvedge_foundation::quantity;
 pub(crate) const LEVELS_DB: [f64; 2] = [-80.0, 80.0];
 /// From the floor to the upper end at least, dB.
 const LEAST_SPAN_DB: f64 = 10.0;
+
+/// What linear frequencies are, for tips.
+pub(crate) const EVENLY: &str = "Frequencies evenly along the axis, not by their logarithms";
+
+/// The scale of spectrograms.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(from = "SpectrumKeys", into = "SpectrumKeys")]
+pub(crate) struct SpectrumScale {
+    /// The levels that the colours stand for.
+    pub(crate) levels: LevelRange,
+    /// Whether frequencies lie evenly, not by their logarithms.
+    pub(crate) is_linear: bool,
+}
+
+/// The same as a file states it.
+#[derive(Serialize, Deserialize)]
+#[serde(default)]
+struct SpectrumKeys {
+    #[serde(rename = "spectrum_floor_db")]
+    floor_db: f64,
+    #[serde(rename = "spectrum_top_db")]
+    top_db: f64,
+    #[serde(rename = "spectrum_linear")]
+    is_linear: bool,
+}
+
+impl Default for SpectrumKeys {
+    fn default() -> Self {
+        SpectrumScale::default().into()
+    }
+}
+
+impl From<SpectrumScale> for SpectrumKeys {
+    fn from(scale: SpectrumScale) -> Self {
+        Self {
+            floor_db: scale.levels.floor_db,
+            top_db: scale.levels.top_db,
+            is_linear: scale.is_linear,
+        }
+    }
+}
+
+impl From<SpectrumKeys> for SpectrumScale {
+    fn from(keys: SpectrumKeys) -> Self {
+        let levels = LevelRange::within(keys.floor_db, keys.top_db);
+        Self {
+            levels,
+            is_linear: keys.is_linear,
+        }
+    }
+}
 
 /// What of a range of levels is moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +90,20 @@ impl Default for LevelRange {
 }
 
 impl LevelRange {
+    /// From a floor to an upper end, or the nearest range that can be chosen; the first one where
+    /// either is no number.
+    fn within(floor_db: f64, top_db: f64) -> Self {
+        if floor_db.is_nan() || top_db.is_nan() {
+            return Self::default();
+        }
+        let [least, most] = LEVELS_DB;
+        let floor_db = floor_db.clamp(least, most - LEAST_SPAN_DB);
+        Self {
+            floor_db,
+            top_db: top_db.clamp(floor_db + LEAST_SPAN_DB, most),
+        }
+    }
+
     /// Its floor and its upper end, dB re 1 µm.
     pub(crate) fn ends_db(self) -> [f64; 2] {
         [self.floor_db, self.top_db]
@@ -93,6 +160,15 @@ mod tests {
         assert_eq!(range.moved(Handle::Top, 500.0).ends_db(), [-40.0, 80.0]);
         assert_eq!(range.moved(Handle::Both, -55.0).ends_db(), [-80.0, 0.0]);
         assert_eq!(range.moved(Handle::Both, f64::NAN), range);
+    }
+
+    #[test]
+    fn what_a_file_states_is_brought_within_bounds() {
+        let ends_db = |floor, top| LevelRange::within(floor, top).ends_db();
+        assert_eq!(ends_db(-60.0, 10.0), [-60.0, 10.0]);
+        assert_eq!(ends_db(-900.0, -700.0), [-80.0, -70.0]);
+        assert_eq!(ends_db(500.0, 0.0), [70.0, 80.0]);
+        assert_eq!(ends_db(-50.0, f64::NAN), LevelRange::default().ends_db());
     }
 
     #[test]

@@ -2,20 +2,18 @@
 //! that choose between which levels colours differ.
 
 use eframe::egui::{
-    Align2, CursorIcon, Painter, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui,
-    WidgetInfo, pos2, vec2,
+    CursorIcon, Painter, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
-use crate::kit::level_range::{Handle, LEVELS_DB, LevelRange};
+use crate::kit::spectrum_scale::{Handle, LEVELS_DB, LevelRange};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
 use crate::kit::widgets::bar::colour_bar;
 
 /// How near to a handle it is taken hold of, points.
 const REACH: f32 = 7.0;
-/// From the bar to the right end of its unit, points.
-const UNIT: f32 = 34.0;
 /// Half the height of a handle, points.
 const HALF_HANDLE: f32 = 4.0;
 
@@ -108,8 +106,6 @@ fn paint(painter: &Painter, bar: Rect, map: ColourMap, range: LevelRange) {
             Shape::convex_polygon(vec![tip, corners[0], corners[1]], palette.selection, rim);
         painter.add(shape);
     }
-    let unit_at = pos2(bar.right() + UNIT, bar.top() - 6.0);
-    paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, "dB re 1 µm");
 }
 
 #[cfg(test)]
