@@ -18,12 +18,16 @@ unevenness() {
   convert "$work/part-$1.png" -colorspace gray -blur 0x1.5 \
     -format '%[fx:standard_deviation/mean]' info:
 }
-# The largest difference of two pictures, of 255: of a colour, and of greys that are blurred.
+# Pixels that differ by more than 12 of 255 in a colour, of a thousand; the largest difference of greys
+# that are blurred, of 255; and where the differing pixels lie.
 differences() {
-  compare -metric PAE "$work/part-card.png" "$work/part-software.png" null: 2>&1 |
-    sed 's/.*(\(.*\)).*/\1/' | awk '{ printf "%.1f ", 255 * $1 }' || true
+  local n
+  n=$(compare -metric AE -fuzz 4.7% "$work/part-card.png" "$work/part-software.png" null: 2>&1) || true
+  awk -v n="$n" 'BEGIN { printf "%.2f ", n / 80.5 }'
   convert "$work/part-card.png" "$work/part-software.png" -colorspace gray -blur 0x1.5 \
-    -compose difference -composite -format '%[fx:255*maxima]' info:
+    -compose difference -composite -format '%[fx:255*maxima] ' info:
+  convert "$work/part-card.png" "$work/part-software.png" -compose difference -composite \
+    -colorspace gray -threshold 3% -format '%@' info: 2> /dev/null || true
 }
 display
 start "$work/wool.scene.toml"
@@ -40,9 +44,8 @@ for drawn in card software; do
   echo "unevenness by $drawn: $uneven"
   awk -v uneven="$uneven" 'BEGIN { exit !(uneven > 0.005 && uneven < 0.03) }' || fail "the cloth is uneven by $drawn"
 done
-# Measured: 3 and 1.5. A card that reads the cloth without halved copies shows arcs: 63 and 18.
-read -r colour blurred <<< "$(differences)"
-echo "card against software: $colour of 255 at most, $blurred when blurred"
-awk -v colour="$colour" -v blurred="$blurred" 'BEGIN { exit !(colour <= 12 && blurred <= 5) }' ||
-  fail "the card draws other cloth than the software"
+# Measured: none. A card that reads the cloth without halved copies shows arcs all over it.
+read -r permille blurred where <<< "$(differences)"
+echo "card against software: $permille ‰ of the pixels differ, $blurred when blurred, $where"
+awk -v permille="$permille" 'BEGIN { exit !(permille <= 10) }' || fail "the card draws other cloth than the software"
 stop
