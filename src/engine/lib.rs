@@ -62,7 +62,7 @@ pub use input::{
 pub use meters::{DurationBucket, DurationHistogram};
 pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
-pub use recording::{RecordedSample, RecordedTick, Recording};
+pub use recording::{LinkTally, RecordedSample, RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, PointerView, RecordingView,

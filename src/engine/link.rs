@@ -4,9 +4,10 @@
 
 use std::time::{Duration, Instant};
 
+use super::recording::LinkTally;
 use super::{LinkView, TICK};
 use selvedge_device::{
-    ArrayChange, Bridge, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame, StopHow, Timings,
+    ArrayChange, Bridge, BridgeCounters, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame, StopHow, Timings,
 };
 
 /// Ticks between two looks at the timings of the link: one second.
@@ -158,6 +159,18 @@ impl Link {
         let bridge = self.bridge.as_ref()?;
         let scale = bridge.session().link_scale();
         scale.filter(|_| bridge.state().is_open())
+    }
+
+    /// What proofs of presentation need of its counters.
+    pub(super) fn tally(&self) -> LinkTally {
+        let Some(bridge) = &self.bridge else {
+            return LinkTally::default();
+        };
+        let BridgeCounters { device, codes, .. } = bridge.counters();
+        LinkTally {
+            n_missed: device.underrun.max(device.late),
+            n_limited: codes.limited[0] + codes.limited[1] + codes.guarded + device.clipped,
+        }
     }
 
     /// Frames not made because no armed device listened.

@@ -34,6 +34,19 @@ pub struct RecordedTick {
     pub pose: Pose,
     /// The frame that went to an armed device; `None` when the tick was only shown.
     pub sent: Option<SentFrame>,
+    /// The step of a sequence of vibrations that was played, from 0.
+    pub vibration: Option<u16>,
+    /// What the device had counted by then.
+    pub tally: LinkTally,
+}
+
+/// What host and device have counted on a link so far, as proofs of presentation need it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LinkTally {
+    /// Ticks at which the device was armed and had no frame.
+    pub n_missed: u64,
+    /// Values that limits of host and device changed.
+    pub n_limited: u64,
 }
 
 /// One report of the pointer or tablet during a recording, as it came.
@@ -293,6 +306,8 @@ mod tests {
             tick: 100 + n,
             pose,
             sent: None,
+            vibration: None,
+            tally: LinkTally::default(),
         }
     }
 

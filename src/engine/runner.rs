@@ -171,7 +171,8 @@ impl Runner {
         self.heed_stop();
         let sent = self.send();
         let notices = &mut self.channels.notices;
-        let ended = self.core.record(sent, &mut |notice| notices.push(notice));
+        let felt = (sent, self.link.tally());
+        let ended = self.core.record(felt, &mut |notice| notices.push(notice));
         self.retire(ended);
         let apply_tick = sent.map(|sent| sent.apply_tick);
         self.channels.sampler.look(&self.core, apply_tick);

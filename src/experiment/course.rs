@@ -117,6 +117,16 @@ impl Course {
         self.procedure.trial().map_or(Step::Finished, Step::Trial)
     }
 
+    /// What is asked in which order.
+    pub(crate) fn procedure(&self) -> &Procedure {
+        &self.procedure
+    }
+
+    /// Whether every trial was answered.
+    pub(crate) fn is_over(&self) -> bool {
+        self.procedure.trial().is_none()
+    }
+
     /// Which attempt at the trial that waits this is, from 1.
     pub fn attempt(&self) -> u32 {
         self.attempt

@@ -10,8 +10,10 @@ use super::ExperimentError;
 use super::course::{Course, Step};
 use super::design::{Design, Subject};
 use super::observer::{Observer, Participant, Stimuli};
+use super::presentation::{Presentation, Proof};
 use super::record::{Apparatus, Outcome, Record, Timing};
 use super::session::{Opening, unwritten, write_whole};
+use super::trial::Trial;
 use selvedge_foundation::progress::Progress;
 
 /// What a log names as the device.
@@ -78,13 +80,15 @@ impl Simulation<'_> {
                     let start = clock.clone();
                     clock.pass(reply.response_s);
                     let is_correct = course.answer(&reply.answer)?;
+                    let apparatus = self.apparatus(&trial);
                     records.push(Record {
                         trial,
                         attempt,
                         outcome: Outcome::Answered(reply.answer),
                         is_correct,
                         timing: start.until(&clock),
-                        apparatus: self.apparatus(),
+                        apparatus,
+                        presentation: Presentation::confirmed(Proof::Simulated),
                         note: String::new(),
                     });
                     clock.pass(BETWEEN_S);
@@ -94,11 +98,11 @@ impl Simulation<'_> {
         }
     }
 
-    fn apparatus(&self) -> Apparatus {
+    fn apparatus(&self, trial: &Trial) -> Apparatus {
         Apparatus {
             device: SIMULATED.to_owned(),
             tuning: self.stimuli.tuning(),
-            stimulus_hash: self.stimuli.hash().to_owned(),
+            stimulus_hash: self.stimuli.hashes().of_task(self.design, &trial.task),
         }
     }
 
@@ -131,7 +135,7 @@ impl Simulation<'_> {
             );
             let opening = Opening::at(Clock::of(subject).at(), &device, 0);
             let held = (self.design, subject);
-            logs.push(write_whole(folder, held, opening, &records)?);
+            logs.push(write_whole(folder, held, &opening, &records)?);
         }
         Ok(logs)
     }

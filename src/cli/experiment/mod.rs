@@ -4,9 +4,11 @@ mod analyse;
 mod designs;
 mod desk;
 mod noise;
+mod plan;
 mod replicate;
 mod run;
 mod simulate;
+mod verify;
 
 use std::path::Path;
 
@@ -22,6 +24,10 @@ pub(super) enum ExperimentCommand {
     Run(Box<run::RunArgs>),
     /// Tables, tests and figures from the logs in a folder
     Analyse(analyse::AnalyseArgs),
+    /// Whether the logs in a folder are as they were written
+    Verify(verify::VerifyArgs),
+    /// A plan to freeze before the first subject: hypotheses, tests, number, exclusions
+    Plan(plan::PlanArgs),
     /// The designs that are part of the program
     Designs(designs::DesignsArgs),
     /// A noise that covers what an array can be heard by, as a sound file
@@ -37,6 +43,8 @@ pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
     match command {
         ExperimentCommand::Run(args) => run::run(args),
         ExperimentCommand::Analyse(args) => analyse::run(args),
+        ExperimentCommand::Verify(args) => verify::run(args),
+        ExperimentCommand::Plan(args) => plan::run(args),
         ExperimentCommand::Designs(args) => designs::run(args),
         ExperimentCommand::Noise(args) => noise::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),

@@ -16,7 +16,7 @@ use super::desk::{Bench, Desk, Ended, Moment};
 use selvedge_experiment::by_hand::needs_array;
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::session::{Found, Origin, Session, log_path};
-use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particulars};
+use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particulars, Proof};
 use selvedge_foundation::files;
 use selvedge_foundation::quantity::moment_of;
 use selvedge_textile::tactile::Tuning;
@@ -99,6 +99,10 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
         out,
         bench,
         apparatus,
+        proof: match args.presented_elsewhere {
+            None => Proof::RealCloth,
+            Some(_) => Proof::Elsewhere,
+        },
         notes: args.note.iter().cloned().collect(),
     };
     let ended = desk.hold()?;
@@ -182,7 +186,7 @@ fn opened(
         session,
     };
     let log = log_path(&folder, &design, &subject(session, 0));
-    let is_begun = log.exists() && (log.with_extension("json").exists() || has_row(&log)?);
+    let is_begun = log.exists() && has_row(&log)?;
     if is_begun && !args.restart {
         return begun(args, &design, (&log, device), now);
     }

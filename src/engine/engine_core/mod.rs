@@ -10,7 +10,7 @@ use super::input::{
     Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring, playable,
 };
 use super::ready::Retired;
-use super::recording::{RecordedTick, Recorder};
+use super::recording::{LinkTally, RecordedTick, Recorder};
 use super::track::Track;
 use super::vibration::Vibration;
 use super::{
@@ -158,7 +158,11 @@ impl EngineCore {
 
     /// Adds the tick to the recording, with the frame that went to the device. The recording comes
     /// back if that was its end.
-    pub(super) fn record(&mut self, sent: Option<SentFrame>, say: Say<'_>) -> Option<Retired> {
+    pub(super) fn record(
+        &mut self,
+        (sent, tally): (Option<SentFrame>, LinkTally),
+        say: Say<'_>,
+    ) -> Option<Retired> {
         if self.is_held {
             return None;
         }
@@ -168,6 +172,8 @@ impl EngineCore {
             // While everything is off the display is rendered at rest, but it goes on moving.
             pose: self.pose,
             sent,
+            vibration: self.vibration.step(),
+            tally,
         };
         let Err(why) = recorder.push(tick, self.scene.amplitudes_um()) else {
             return None;

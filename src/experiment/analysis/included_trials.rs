@@ -7,7 +7,7 @@ use super::model::{Cell, Section, Table, cells, file_name};
 use crate::design::Design;
 use crate::record::{Outcome, Record};
 use crate::session::Found;
-use crate::{Course, Step};
+use crate::{Course, Proof, Validity};
 
 /// One experiment: a design, and the subjects whose trials count.
 #[derive(Debug)]
@@ -125,6 +125,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
         format!("{key}-sessions"),
         format!("{}: sessions", design.title),
     );
+    describe_proof(&sessions, &mut section);
     describe_rules(design, &mut section);
     let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
     let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
@@ -135,6 +136,15 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
             trials: answered(found),
         };
         table.push(held_row(&session));
+        if let Some(first) = found.breaks.first() {
+            let why = match found.breaks.len() - 1 {
+                0 => format!("not as it was written: {first}"),
+                n => format!("not as it was written: {first}; and {n} more, see verify"),
+            };
+            left_out.push(out_row(found, &session.trials, &why));
+            continue;
+        }
+        left_out_void(found, &mut left_out);
         let (n, least) = (session.trials.len(), design.rules.least_trials);
         if n < least {
             left_out.push(out_row(
@@ -157,6 +167,9 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     let least = design.rules.least_share_correct;
     subjects.retain(|subject| is_right_enough(subject, least, &mut left_out));
     subjects.retain(|subject| subject.trials().next().is_some());
+    if let Some(planned) = planned(&sessions, subjects.len()) {
+        section.table(planned);
+    }
     section.table(table);
     if left_out.rows.is_empty() {
         section.note("The rules leave nothing out.");
@@ -172,13 +185,14 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     }
 }
 
-const HELD: [(&str, &str); 9] = [
+const HELD: [(&str, &str); 10] = [
     ("subject", "subject"),
     ("session", "session"),
     ("trials", "trials answered"),
     ("planned", "of at most"),
     ("practice", "practice"),
     ("aborted", "aborted"),
+    ("void", "void"),
     ("state", "state"),
     ("device", "device"),
     ("software", "log"),
@@ -229,22 +243,121 @@ fn describe_rules(design: &Design, section: &mut Section) {
     ));
 }
 
-/// The trials of a session that were answered, without practice.
+/// The trials of a session that were answered and count as presented, without practice.
 fn answered(found: &Found) -> Vec<&Record> {
-    let counts = |record: &&Record| !record.trial.is_practice && record.answer().is_some();
+    let counts = |record: &&Record| {
+        let is_void = record.presentation.validity() == Validity::Void;
+        !record.trial.is_practice && record.answer().is_some() && !is_void
+    };
     found.records.iter().filter(counts).collect()
+}
+
+/// Presentations that did not count, reason by reason.
+fn left_out_void(found: &Found, left_out: &mut Table) {
+    let mut reasons: Vec<(&str, Vec<&Record>)> = Vec::new();
+    for record in &found.records {
+        let why = record.presentation.void.as_str();
+        if record.trial.is_practice || why.is_empty() {
+            continue;
+        }
+        match reasons.iter_mut().find(|(known, _)| *known == why) {
+            Some((_, records)) => records.push(record),
+            None => reasons.push((why, vec![record])),
+        }
+    }
+    for (why, records) in reasons {
+        let why = format!("presented again: {why}");
+        left_out.push(out_row(found, &records, &why));
+    }
+}
+
+/// What the frozen plan says, beside what was done; `None` where there is none.
+fn planned(sessions: &[&Found], n_subjects: usize) -> Option<Table> {
+    let frozen = sessions.iter().find_map(|found| found.plan.as_ref())?;
+    let plan = &frozen.plan;
+    let columns = [("what", "what"), ("planned", "planned"), ("done", "done")];
+    let mut table = Table::new("plan", "The plan, and what was done", &columns);
+    table.push(cells!["subjects", plan.subjects, n_subjects]);
+    let is_by_it = |found: &&&Found| found.plan_sha256.as_ref() == Some(&frozen.sha256);
+    let n_by_it = sessions.iter().filter(is_by_it).count();
+    let held = format!("{n_by_it} of {} sessions", sessions.len());
+    table.push(cells![
+        "held by the plan",
+        format!("SHA-256 {}…", &frozen.sha256[..12]),
+        held
+    ]);
+    let rules = sessions[0].design.rules;
+    let left_out = |trials: usize, s: f64, share: f64| {
+        format!(
+            "fewer than {trials} trials; faster than {s} s; less than {} % right",
+            100.0 * share
+        )
+    };
+    let by_plan = plan.exclusions;
+    table.push(cells![
+        "left out",
+        left_out(
+            by_plan.least_trials,
+            by_plan.least_response_s,
+            by_plan.least_share_correct
+        ),
+        left_out(
+            rules.least_trials,
+            rules.least_response_s,
+            rules.least_share_correct
+        ),
+    ]);
+    if let Some([low, high]) = plan.equivalence {
+        table.push(cells![
+            "equal between",
+            format!("{low} and {high}"),
+            "see the intervals"
+        ]);
+    }
+    for hypothesis in &plan.hypotheses {
+        let tested = format!("{}, α = {}", hypothesis.test, plan.alpha);
+        table.push(cells![&hypothesis.expected, tested, "see below"]);
+    }
+    Some(table)
+}
+
+/// What has to be known of how it was felt before any number.
+fn describe_proof(sessions: &[&Found], section: &mut Section) {
+    let with = |is_it: &dyn Fn(&Record) -> bool| {
+        let has_any = |found: &&&Found| found.records.iter().any(is_it);
+        sessions.iter().filter(has_any).count()
+    };
+    let by = |proof: Proof| with(&|record| record.presentation.proof == Some(proof));
+    let described = [
+        (by(Proof::Emulator), "on an emulator: **felt by nobody**"),
+        (by(Proof::Simulated), "by simulated observers"),
+        (
+            by(Proof::Elsewhere),
+            "presented elsewhere, as the experimenter said",
+        ),
+        (
+            with(&|record| record.presentation.validity() == Validity::Unknown),
+            "of **unknown validity**: logs of an earlier version do not say what was felt",
+        ),
+    ];
+    for (n, what) in described.into_iter().filter(|(n, _)| *n > 0) {
+        let sessions = if n == 1 { "session" } else { "sessions" };
+        section.note(format!("{n} {sessions} {what}."));
+    }
 }
 
 fn held_row(session: &Session<'_>) -> Vec<Cell> {
     let found = session.found;
     let n_practice = found.records.iter().filter(|r| r.trial.is_practice).count();
-    let aborted = |r: &&Record| r.outcome == Outcome::Aborted;
-    let n_aborted = found.records.iter().filter(aborted).count();
+    let is_void = |r: &&Record| r.presentation.validity() == Validity::Void;
+    let n_void = found.records.iter().filter(is_void).count();
+    let is_aborted = |r: &&Record| r.outcome == Outcome::Aborted && !is_void(r);
+    let n_aborted = found.records.iter().filter(is_aborted).count();
     let (planned, state) = match Course::resume(&found.design, &found.subject, &found.records) {
         Ok(course) => {
             let (n_done, n_all) = course.progress();
             let planned = n_all.saturating_sub(found.design.course.practice_trials);
-            let state = match (is_over(course), found.has_torn_row) {
+            let state = match (course.is_over(), found.has_torn_row) {
                 (true, _) => "complete".to_owned(),
                 (false, false) => format!("**incomplete** ({n_done} of {n_all} with practice)"),
                 (false, true) => "**incomplete**; its last row is torn and left out".to_owned(),
@@ -261,7 +374,7 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
         .last()
         .map_or("", |r| r.apparatus.device.as_str());
     let log = found.log.file_name().unwrap_or_default().to_string_lossy();
-    let counts = [n_practice, n_aborted];
+    let counts = [n_practice, n_aborted, n_void];
     cells![
         &found.subject.pseudonym,
         found.subject.session,
@@ -272,16 +385,6 @@ fn held_row(session: &Session<'_>) -> Vec<Cell> {
         device,
         log.into_owned(),
     ]
-}
-
-fn is_over(mut course: Course) -> bool {
-    loop {
-        match course.step() {
-            Step::Trial(_) => return false,
-            Step::Finished => return true,
-            Step::Instructions(_) | Step::Familiarisation(_) | Step::Break { .. } => course.pass(),
-        }
-    }
 }
 
 fn out_row(found: &Found, trials: &[&Record], why: &str) -> Vec<Cell> {

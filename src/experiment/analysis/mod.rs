@@ -71,7 +71,8 @@ pub fn analyse_folder(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let (found, unread) = sessions(folder)?;
+    let (mut found, unread) = sessions(folder)?;
+    session::verify_stimuli(&mut found, progress)?;
     analyse_with_unread(&found, &unread, options, progress)
 }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::ExperimentError;
 use crate::design::{Design, Source, Stimulus};
-use selvedge_foundation::files::sha256_hex;
+use crate::stimulus_hash::StimulusHashes;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_textile::Library;
@@ -44,7 +44,7 @@ pub struct Stimuli {
     tuning: Tuning,
     library_tuning: Tuning,
     reference_db: f64,
-    hash: String,
+    hashes: StimulusHashes,
 }
 
 impl Stimuli {
@@ -65,16 +65,16 @@ impl Stimuli {
             drop(library.manifest(id)?);
         }
         let mut known = BTreeMap::new();
-        let mut parts = Vec::new();
+        let mut hashes = Vec::new();
         for textile in library.load_all(&ids, progress)? {
             let levels = Levels::of(textile.surface(), &Filters::default());
-            parts.push(textile.content_hash()?);
+            hashes.push((textile.id().to_owned(), textile.content_hash()?));
             let gain_db = textile.manifest().gain_db;
             known.insert(textile.id().to_owned(), (levels, gain_db));
         }
         let of_textile = |id: &str| known.get(id).copied();
         let mut stimuli = Self::from_levels(design, library.default_tuning(), of_textile)?;
-        stimuli.hash = sha256_hex(parts.iter().map(String::as_bytes));
+        stimuli.hashes = StimulusHashes::of(hashes);
         Ok(stimuli)
     }
 
@@ -100,7 +100,7 @@ impl Stimuli {
             tuning: design.tuning.unwrap_or(library_tuning),
             library_tuning,
             reference_db: library_tuning.compression_reference_db.unwrap_or(mean_db),
-            hash: String::new(),
+            hashes: StimulusHashes::default(),
         })
     }
 
@@ -109,10 +109,9 @@ impl Stimuli {
         self.tuning
     }
 
-    /// What the stimuli were made from: the hash of their textiles' contents in the order of their
-    /// ids; empty where levels were given.
-    pub fn hash(&self) -> &str {
-        &self.hash
+    /// What the stimuli were made from; of no textile where levels were given.
+    pub(crate) fn hashes(&self) -> &StimulusHashes {
+        &self.hashes
     }
 
     /// What a stimulus goes by: its textile's id, or its own.

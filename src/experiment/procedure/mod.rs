@@ -64,6 +64,14 @@ impl Procedure {
         }
     }
 
+    /// Every trial in order, where all is known before the first answer.
+    pub(crate) fn listed(&self) -> &[Trial] {
+        match &self.0 {
+            Kind::Listed { trials, .. } => trials,
+            Kind::Adaptive(_) => &[],
+        }
+    }
+
     /// How many trials were answered, practice included.
     pub fn n_answered(&self) -> usize {
         match &self.0 {

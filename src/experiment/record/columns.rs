@@ -7,11 +7,13 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 use super::values::{
-    Called, Count, Derived, If, Steps, Stimulus, Value, derived, derived_if, flag, number, position,
+    Called, Count, Derived, If, Seconds, Steps, Stimulus, Value, derived, derived_if, flag, number,
+    position,
 };
-use super::{Outcome, Record, SCHEMA_VERSION, blank, question};
+use super::{Outcome, Record, SCHEMA_VERSION, TRIAL, blank, question};
 use crate::design::{Design, Scale};
-use crate::trial::{Adjustment, Answer, Task};
+use crate::presentation::{Presentation, Validity};
+use crate::trial::{Adjustment, Answer, Task, Trial};
 
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,6 +90,11 @@ pub(super) trait Visit {
     /// # Errors
     /// What is read is no such value.
     fn column(&mut self, column: Column, value: &mut dyn Value) -> Result<(), Self::Error>;
+
+    /// Whether the columns are those of this version or a later one.
+    fn is_since(&self, _version: u32) -> bool {
+        true
+    }
 }
 
 /// Columns: name, type, unit where there is one, and meaning, then what a record has there.
@@ -123,18 +130,25 @@ pub(super) fn visit<V: Visit>(
     let trial = &mut record.trial;
     columns! { to;
         schema_version: Version, "version of these columns" => &mut derived(&SCHEMA_VERSION);
+    }
+    if to.is_since(2) {
+        columns! { to;
+            kind: Level, "trial, or opening and closing of the log" => &mut derived(TRIAL);
+        }
+    }
+    columns! { to;
         study: Text, "id of the study" => &mut derived(&design.study);
         experiment: Text, "which experiment of the study" => &mut derived(&design.experiment);
         subject: Text, "pseudonym" => &mut derived(pseudonym);
         session: Count, "session of this subject, from 1" => &mut derived(&session);
-        block: Count, "block, from 1" => &mut Count(&mut trial.block);
-        trial: Count, "trial, from 1; practice counts by itself" => &mut Count(&mut trial.number);
-        attempt: Count, "attempt at the trial, from 1" => &mut record.attempt;
-        practice: Flag, "1 for practice, which does not count" => &mut trial.is_practice;
     }
+    placed(trial, &mut record.attempt, to)?;
     asked(design, &mut trial.task, (&mut answer, is_answered), to)?;
     chosen(&mut answer, is_answered, to)?;
     let rt_ms = record.timing.response_ms();
+    if to.is_since(2) {
+        presented(&mut record.presentation, is_answered, to)?;
+    }
     let (timing, apparatus) = (&mut record.timing, &mut record.apparatus);
     columns! { to;
         correct: Flag, "1 right, 0 wrong, empty where neither" =>
@@ -157,8 +171,60 @@ pub(super) fn visit<V: Visit>(
             &mut Derived(flag(!is_answered));
         note: Text, "the experimenter's note" => &mut record.note;
     }
+    if to.is_since(2) {
+        columns! { to;
+            path_sha256: Text, "SHA-256 of the file of how it was explored" =>
+                &mut record.presentation.path_sha256;
+            rows: Whole, "rows before an opening or a closing" => &mut derived("");
+            before_sha256: Text, "SHA-256 of the row before, first of the sidecar" =>
+                &mut derived("");
+        }
+    }
     if is_answered {
         record.outcome = Outcome::Answered(answer);
+    }
+    Ok(())
+}
+
+/// Where a trial stands in its session.
+fn placed<V: Visit>(trial: &mut Trial, attempt: &mut u32, to: &mut V) -> Result<(), V::Error> {
+    columns! { to;
+        block: Count, "block, from 1" => &mut Count(&mut trial.block);
+        trial: Count, "trial, from 1; practice counts by itself" => &mut Count(&mut trial.number);
+        attempt: Count, "attempt at the trial, from 1" => attempt;
+        practice: Flag, "1 for practice, which does not count" => &mut trial.is_practice;
+    }
+    Ok(())
+}
+
+/// What is known of the presentation.
+fn presented<V: Visit>(
+    presentation: &mut Presentation,
+    is_answered: bool,
+    to: &mut V,
+) -> Result<(), V::Error> {
+    let valid = match presentation.validity() {
+        Validity::Unknown => None,
+        validity => Some(flag(is_answered && validity == Validity::Valid)),
+    };
+    columns! { to;
+        proof: Level, "by what it is known that something was felt: array, emulator (nobody felt \
+            it), real-cloth, elsewhere or simulated" => &mut presentation.proof;
+        valid: Flag, "1 where the presentation is proved and answered, 0 where not" =>
+            &mut derived_if(valid);
+        void: Text, "why it does not count; empty where it does" => &mut presentation.void;
+        armed_share: Share, "ticks at which the device was armed, of all" =>
+            &mut presentation.armed_share;
+        frames_applied: Whole, "ticks whose frame the device applied" =>
+            &mut presentation.frames_applied;
+        frames_late: Whole, "ticks whose frame came late or not at all" =>
+            &mut presentation.frames_late;
+        limited_share: Share, "values that limits changed, of all" =>
+            &mut presentation.limited_share;
+        explored_s: Text "s", "how long each item was felt in movement, by position, the target \
+            last: a; b; …" => &mut Seconds(&mut presentation.explored_s);
+        onset_ns: Whole "ns since the session was opened", "first tick of a vibration" =>
+            &mut presentation.onset_ns;
     }
     Ok(())
 }
@@ -360,30 +426,66 @@ fn item_and_condition<V: Visit>(
     Ok(())
 }
 
-/// Keeps what columns there are.
-impl Visit for Vec<Column> {
+/// Keeps what columns a version has.
+struct Columns(u32, Vec<Column>);
+
+impl Visit for Columns {
     type Error = Infallible;
 
     fn column(&mut self, column: Column, _: &mut dyn Value) -> Result<(), Infallible> {
-        self.push(column);
+        self.1.push(column);
         Ok(())
+    }
+
+    fn is_since(&self, version: u32) -> bool {
+        self.0 >= version
     }
 }
 
-fn of_design(design: &Design) -> Vec<Column> {
-    let mut columns = Vec::new();
+fn of_design(design: &Design, version: u32) -> Vec<Column> {
+    let mut columns = Columns(version, Vec::new());
     let Ok(()) = visit(&mut blank(design), design, ("", 0), &mut columns);
-    columns
+    columns.1
 }
 
-/// The names of the columns of a design's logs in order.
-pub(crate) fn column_names(design: &Design) -> Vec<String> {
-    let columns = of_design(design).into_iter();
+/// The names of the columns of a design's logs in order, as a version has them.
+pub(crate) fn column_names(design: &Design, version: u32) -> Vec<String> {
+    let columns = of_design(design, version).into_iter();
     columns.map(|column| column.name.into_owned()).collect()
+}
+
+/// What a trial asks, in the words of its columns: `block=1; trial=2; …`, without what is answered.
+pub(crate) fn describe_trial(design: &Design, trial: &Trial) -> String {
+    let mut record = Record {
+        trial: trial.clone(),
+        outcome: Outcome::Aborted,
+        ..blank(design)
+    };
+    let mut cells = Asked(design, Vec::new());
+    let (mut answer, trial) = (question(&design.method).1, &mut record.trial);
+    let Ok(()) = placed(trial, &mut 1, &mut cells);
+    let Ok(()) = asked(design, &mut trial.task, (&mut answer, false), &mut cells);
+    cells.1.join("; ")
+}
+
+/// Keeps the cells that are not empty, with their columns.
+struct Asked<'a>(&'a Design, Vec<String>);
+
+impl Visit for Asked<'_> {
+    type Error = Infallible;
+
+    fn column(&mut self, column: Column, value: &mut dyn Value) -> Result<(), Infallible> {
+        let cell = value.cell(self.0);
+        if !cell.is_empty() {
+            self.1.push(format!("{}={cell}", column.name));
+        }
+        Ok(())
+    }
 }
 
 /// What each column of a design's logs holds, by name.
 pub(crate) fn dictionary(design: &Design) -> BTreeMap<String, String> {
     let entry = |column: &Column| (column.name.clone().into_owned(), column.description());
-    of_design(design).iter().map(entry).collect()
+    let columns = of_design(design, SCHEMA_VERSION);
+    columns.iter().map(entry).collect()
 }

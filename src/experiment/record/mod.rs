@@ -5,24 +5,30 @@
 //! their ids.
 
 mod columns;
+mod mark;
 mod read;
 mod values;
 
 use std::convert::Infallible;
 use std::time::SystemTime;
 
-pub(crate) use columns::{column_names, dictionary};
-pub(crate) use read::read_records;
+pub(crate) use columns::{column_names, describe_trial, dictionary};
+pub(crate) use mark::{Mark, MarkKind, read_marks};
+pub(crate) use read::{read_records, trials};
 
 use super::design::{Design, JudgingProtocol, Method, Subject};
+use super::presentation::Presentation;
 use super::trial::{Answer, Grade, Task, Trial};
 use columns::{Column, Visit, visit};
 use selvedge_foundation::quantity::rfc3339;
 use selvedge_textile::tactile::Tuning;
 use values::Value;
 
-/// The version of the columns; a log of a later one is refused.
-pub(super) const SCHEMA_VERSION: u32 = 1;
+/// The version of the columns; a log of a later one is refused. The first knew neither proof of
+/// presentation nor rows that are bound to each other.
+pub(crate) const SCHEMA_VERSION: u32 = 2;
+/// What rows of trials are called, which are all in the first version.
+const TRIAL: &str = "trial";
 
 /// What came of a trial.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,6 +101,8 @@ pub struct Record {
     pub timing: Timing,
     /// On what.
     pub apparatus: Apparatus,
+    /// Whether it was felt.
+    pub presentation: Presentation,
     /// What the experimenter noted.
     pub note: String,
 }
@@ -144,6 +152,7 @@ fn blank(design: &Design) -> Record {
         is_correct: None,
         timing: Timing::default(),
         apparatus: Apparatus::default(),
+        presentation: Presentation::default(),
         note: String::new(),
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::columns::{Column, Visit, column_names, columns, visit};
 use super::values::Value;
-use super::{Outcome, Record, SCHEMA_VERSION, blank};
+use super::{Outcome, Record, SCHEMA_VERSION, TRIAL, blank};
 use crate::ExperimentError;
 use crate::design::Design;
 use selvedge_foundation::files::{FileError, Table};
@@ -19,7 +19,7 @@ pub(crate) fn read_records(
     table: &Table,
     path: &Path,
 ) -> Result<Vec<Record>, ExperimentError> {
-    let names = column_names(design);
+    let names = column_names(design, SCHEMA_VERSION);
     let with_cells = |name: &'_ String| Some((name.clone(), table.text(name)?));
     let columns: Vec<(String, Vec<&str>)> = names.iter().filter_map(with_cells).collect();
     let row = |nth: usize| {
@@ -28,11 +28,19 @@ pub(crate) fn read_records(
             nth,
             place: (path, table.line_of(nth)),
             design,
+            version: SCHEMA_VERSION,
         };
         row.record()
     };
-    let records: Result<Vec<Record>, FileError> = (0..table.n_rows()).map(row).collect();
+    let records: Result<Vec<Record>, FileError> = trials(table).map(row).collect();
     Ok(records?)
+}
+
+/// The rows that are trials: all, where nothing else was known.
+pub(crate) fn trials(table: &Table) -> impl Iterator<Item = usize> {
+    let kinds = table.text("kind");
+    let is_trial = move |nth: &usize| kinds.as_ref().is_none_or(|kinds| kinds[*nth] == TRIAL);
+    (0..table.n_rows()).filter(is_trial)
 }
 
 struct Row<'a> {
@@ -40,6 +48,8 @@ struct Row<'a> {
     nth: usize,
     place: (&'a Path, usize),
     design: &'a Design,
+    /// Of its columns.
+    version: u32,
 }
 
 impl Row<'_> {
@@ -57,6 +67,7 @@ impl Row<'_> {
             let mend = format!("this program knows up to {SCHEMA_VERSION}: use a later one");
             return Err(self.wrong(what, mend));
         }
+        self.version = version;
         let design = self.design;
         for (column, found, expected) in [
             ("study", study, &design.study),
@@ -105,5 +116,9 @@ impl Visit for Row<'_> {
             let (what, mend) = wrong.unwrap_or_else(usual);
             self.wrong(format!("{name} is {what}"), mend)
         })
+    }
+
+    fn is_since(&self, version: u32) -> bool {
+        self.version >= version
     }
 }

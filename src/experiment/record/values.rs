@@ -1,6 +1,8 @@
 //! What a record holds in a column: how it stands in a cell, and what a cell is taken for.
 
 use crate::design::Design;
+use crate::named::Named as _;
+use crate::presentation::Proof;
 use crate::trial::{Adjustment, Grade};
 use selvedge_foundation::files::push_number;
 
@@ -107,16 +109,60 @@ impl Value for bool {
     }
 }
 
-impl Value for Option<u8> {
+/// What may be missing: an empty cell.
+macro_rules! optional {
+    ($($kind:ty: $text:expr),+) => {$(
+        impl Value for Option<$kind> {
+            fn cell(&self, _: &Design) -> String {
+                let text: fn(&$kind) -> String = $text;
+                self.as_ref().map_or_else(String::new, text)
+            }
+
+            fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+                *self = match cell {
+                    "" => None,
+                    cell => Some(cell.parse().ok().ok_or(None)?),
+                };
+                Ok(())
+            }
+        }
+    )+};
+}
+optional!(
+    u8: ToString::to_string,
+    u64: ToString::to_string,
+    f64: |value| number(*value)
+);
+
+impl Value for Option<Proof> {
     fn cell(&self, _: &Design) -> String {
-        self.map_or_else(String::new, |value| value.to_string())
+        self.map_or_else(String::new, |proof| proof.name().to_owned())
     }
 
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
-        *self = match cell {
-            "" => None,
-            cell => Some(cell.parse().ok().ok_or(None)?),
-        };
+        let known = Proof::named().into_iter().find(|(name, _)| *name == cell);
+        *self = known.map(|(_, proof)| proof);
+        let mend = "give array, emulator, real-cloth, elsewhere, simulated or nothing";
+        if self.is_none() && !cell.is_empty() {
+            return Err(Some((format!("{cell:?}"), mend)));
+        }
+        Ok(())
+    }
+}
+
+/// Several times, s.
+pub(super) struct Seconds<'a>(pub(super) &'a mut Vec<f64>);
+
+impl Value for Seconds<'_> {
+    fn cell(&self, _: &Design) -> String {
+        let texts = self.0.iter().map(|&value| number(value));
+        texts.collect::<Vec<String>>().join("; ")
+    }
+
+    fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
+        let texts = cell.split(';').filter(|_| !cell.is_empty());
+        let values: Option<Vec<f64>> = texts.map(|text| text.trim().parse().ok()).collect();
+        *self.0 = values.ok_or_else(|| Some((format!("{cell:?}"), "give s; s; … or nothing")))?;
         Ok(())
     }
 }

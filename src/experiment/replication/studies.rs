@@ -122,13 +122,9 @@ pub(super) fn simulate_study(
     for nth in 0..planned(&laid.design) {
         for session in 1..=n_sessions {
             let subject = simulated_subject(nth, session);
-            found.push(Found {
-                log: PathBuf::from(format!("{}.csv", subject.pseudonym)),
-                records: simulation.records(&subject)?,
-                design: laid.design.clone(),
-                has_torn_row: false,
-                subject,
-            });
+            let log = PathBuf::from(format!("{}.csv", subject.pseudonym));
+            let records = simulation.records(&subject)?;
+            found.push(Found::of_records(log, (&laid.design, subject), records));
         }
     }
     Ok(found)

@@ -38,6 +38,23 @@ pub(crate) fn make_folder(folder: &Path) -> Result<(), FileError> {
     })
 }
 
+/// Removes what a kill left of a sidecar that was being written: `NAME.json.N.part`.
+pub(super) fn remove_pieces(log: &Path) {
+    let sidecar = log.with_extension("json");
+    let begins = sidecar.file_name().map(|name| name.to_string_lossy());
+    let (Some(begins), Some(folder)) = (begins, log.parent()) else {
+        return;
+    };
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let rest = name.to_str().and_then(|name| name.strip_prefix(&*begins));
+        if rest.is_some_and(|rest| rest.starts_with('.') && rest.ends_with(".part")) {
+            // One that cannot be removed is in nobody's way.
+            drop(std::fs::remove_file(entry.path()));
+        }
+    }
+}
+
 /// The file of how a trial was explored.
 pub fn path_file(log: &Path, trial: &Trial, attempt: u32) -> PathBuf {
     let stem = log.file_stem().unwrap_or_default().to_string_lossy();

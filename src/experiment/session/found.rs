@@ -1,12 +1,14 @@
 //! Sessions in a folder, as analyses read them.
 
 use std::fs;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::Sidecar;
-use crate::ExperimentError;
+use super::verify::{Break, Evidence};
 use crate::design::{Design, Subject};
-use crate::record::{Record, column_names, read_records};
+use crate::record::{MarkKind, Record, column_names, read_marks, read_records};
+use crate::{ExperimentError, FrozenPlan};
 use selvedge_foundation::files::{self, FileError, Journal, Table};
 
 /// A session that was held.
@@ -22,6 +24,19 @@ pub struct Found {
     pub records: Vec<Record>,
     /// Whether the log ends in the middle of a row, which is left out.
     pub(crate) has_torn_row: bool,
+    /// What shows that its files are not as they were written.
+    pub breaks: Vec<Break>,
+    /// Whether every trial was answered and the log was closed; of the first version, that every
+    /// trial was answered.
+    pub(crate) is_closed: bool,
+    /// SHA-256 of the plan that it was held by, if it was by one.
+    pub(crate) plan_sha256: Option<String>,
+    /// The plan that lies beside it.
+    pub(crate) plan: Option<FrozenPlan>,
+    /// What its trials were made from, as its sidecar says.
+    pub(crate) library_sha256: Option<String>,
+    /// A path whose folder the library of its design is relative to; `None` where it is gone.
+    pub(crate) design_file: Option<PathBuf>,
 }
 
 /// A log that cannot be read.
@@ -36,7 +51,7 @@ pub struct Unread {
 /// Every session in a folder, by name, and the logs that cannot be read.
 ///
 /// What a later version wrote, or what was damaged, does not keep the others from being read.
-/// Tables without a sidecar are no sessions.
+/// Tables without a sidecar are no sessions, unless they begin as logs do.
 ///
 /// # Errors
 /// The folder cannot be read.
@@ -58,7 +73,7 @@ fn logs(folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
     })?;
     let is_log = |path: &PathBuf| {
         path.extension().is_some_and(|extension| extension == "csv")
-            && path.with_extension("json").is_file()
+            && (path.with_extension("json").is_file() || begins_as_log(path))
     };
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
     let mut logs: Vec<PathBuf> = paths.filter(is_log).collect();
@@ -66,7 +81,36 @@ fn logs(folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
     Ok(logs)
 }
 
+/// Whether a table begins as logs do, whose sidecar may have been lost.
+fn begins_as_log(path: &Path) -> bool {
+    const BEGIN: &[u8] = b"schema_version,";
+    let mut bytes = [0; BEGIN.len()];
+    let read = fs::File::open(path).and_then(|mut file| file.read_exact(&mut bytes));
+    read.is_ok() && bytes == BEGIN
+}
+
 impl Found {
+    /// A whole session whose rows are known, as it would be found.
+    pub(crate) fn of_records(
+        log: PathBuf,
+        (design, subject): (&Design, Subject),
+        records: Vec<Record>,
+    ) -> Self {
+        Self {
+            log,
+            subject,
+            design: design.clone(),
+            records,
+            has_torn_row: false,
+            breaks: Vec::new(),
+            is_closed: true,
+            plan_sha256: None,
+            plan: None,
+            library_sha256: None,
+            design_file: None,
+        }
+    }
+
     /// Whether the session is being held now, by this program or another.
     pub fn is_held(&self) -> bool {
         Journal::is_written(&self.log)
@@ -82,16 +126,35 @@ impl Found {
         let text = files::read_text(log)?;
         // A session that is being held may be in the middle of a row.
         let complete = text.rfind('\n').map_or(0, |end| end + 1);
-        let names = column_names(&design);
+        let names = column_names(&design, sidecar.schema_version());
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let table = Table::read(&text[..complete], log, &names, &[])?;
         let records = read_records(&design, &table, log)?;
+        let evidence = Evidence {
+            log,
+            text: &text,
+            sidecar: &sidecar,
+            design: &design,
+            table: &table,
+            records: &records,
+        };
+        let breaks = evidence.breaks()?;
+        let folder = log.parent().unwrap_or_else(|| Path::new(""));
+        let plan = FrozenPlan::find(folder, &design)?;
         Ok(Self {
             log: log.to_owned(),
             subject,
+            breaks,
             design,
             records,
             has_torn_row: complete < text.len(),
+            is_closed: read_marks(&table, log)?
+                .iter()
+                .any(|mark| mark.kind == MarkKind::Closing),
+            plan_sha256: sidecar.sha256_of("plan").map(str::to_owned),
+            library_sha256: sidecar.sha256_of("library").map(str::to_owned),
+            design_file: sidecar.design_file(log).ok(),
+            plan,
         })
     }
 }

@@ -2,18 +2,21 @@
 //! interrupted goes on where its log ends.
 //!
 //! ```text
-//! STUDY_EXPERIMENT_SUBJECT_1.csv      one row a trial, append-only
-//! STUDY_EXPERIMENT_SUBJECT_1.json     design, columns, every opening
+//! STUDY_EXPERIMENT_SUBJECT_1.csv      one row a trial, and one for every opening and the closing;
+//!                                     append-only, each bound to the row before it
+//! STUDY_EXPERIMENT_SUBJECT_1.json     design, schedule, columns, hashes; written once
 //! STUDY_EXPERIMENT_SUBJECT_1-paths/   how each trial was explored: path files to be replayed, and
 //!                                     what pointer or tablet reported, at its own rate
 //! ```
 //!
 //! The path of a trial is written before its row: a row that is there has all that belongs to it.
 
+mod chain;
 mod files;
 mod found;
 mod origin;
 mod sidecar;
+mod verify;
 mod whole;
 
 use std::path::Path;
@@ -24,15 +27,24 @@ pub use files::{log_path, path_file, samples_file};
 pub use found::{Found, Unread, find_sessions};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
+pub(crate) use verify::verify_stimuli;
+pub use verify::{Break, Verified, verify_folder};
 pub(crate) use whole::{unwritten, write_whole};
 
 use super::ExperimentError;
 use super::course::{Course, Step};
 use super::design::{Design, Subject, is_name};
-use super::record::{Apparatus, Outcome, Record, Timing, column_names, read_records};
+use super::plan::FrozenPlan;
+use super::presentation::{Presentation, Validity};
+use super::record::{
+    Apparatus, Mark, MarkKind, Outcome, Record, SCHEMA_VERSION, Timing, column_names, read_marks,
+    read_records, trials,
+};
 use super::trial::Answer;
+use chain::Chain;
 use selvedge_engine::RecordedSample;
-use selvedge_foundation::files::{FileError, Journal, Reopened};
+use selvedge_foundation::files::{FileError, Journal, Reopened, read_text, sha256_hex};
+use selvedge_foundation::quantity::rfc3339;
 use selvedge_render::scene::ExplorationPath;
 
 /// A session that is being held.
@@ -42,8 +54,10 @@ pub struct Session {
     subject: Subject,
     course: Course,
     journal: Journal,
-    sidecar: Sidecar,
+    chain: Chain,
+    openings: Vec<Opening>,
     n_rows: usize,
+    is_closed: bool,
 }
 
 /// What is known of a trial besides its answer.
@@ -53,6 +67,8 @@ pub struct Circumstances<'a> {
     pub timing: Timing,
     /// What presented it.
     pub apparatus: Apparatus,
+    /// Whether it was felt.
+    pub presentation: Presentation,
     /// What the experimenter noted.
     pub note: &'a str,
     /// How it was explored, if that was recorded.
@@ -66,69 +82,119 @@ impl Session {
     /// names is found again from where the design came from.
     ///
     /// # Errors
-    /// The pseudonym is no name, this session was begun before, or it cannot be written.
+    /// The pseudonym is no name, this session was begun before, the plan in the folder is for
+    /// another text of the design, or it cannot be written.
     pub fn create<'a>(
         folder: &Path,
         design: Design,
         subject: Subject,
         origin: impl Into<Origin<'a>>,
     ) -> Result<Self, ExperimentError> {
-        let origin = origin.into();
+        let mut origin = origin.into();
         check_pseudonym(&subject.pseudonym)?;
         make_folder(folder)?;
         let course = Course::begin(&design, &subject)?;
+        let plan = FrozenPlan::to_begin(folder, &design)?;
         let path = log_path(folder, &design, &subject);
-        let names = column_names(&design);
+        let names = column_names(&design, SCHEMA_VERSION);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let journal = match Journal::create(&path, &names) {
-            Err(FileError::Exists { .. }) if !path.with_extension("json").exists() => {
-                never_begun(&path, &names)?
-            }
+            Err(FileError::Exists { .. }) => never_begun(&path, &names)?,
             journal => journal?,
         };
-        let mut sidecar = Sidecar::of(&design, &subject, course.progress().1);
+        files::remove_pieces(&path);
+        let mut sidecar = Sidecar::of(&design, &subject, course.procedure());
+        origin = origin.with("plan", plan.map(|frozen| frozen.sha256));
         sidecar.come_from(&origin, &design, &path);
-        sidecar.open(Opening::at(SystemTime::now(), origin.device, 0));
-        sidecar.write(&path)?;
-        Ok(Self {
+        let chain = sidecar.write(&path)?;
+        let mut session = Self {
             design,
             subject,
             course,
             journal,
-            sidecar,
+            chain,
+            openings: Vec::new(),
             n_rows: 0,
-        })
+            is_closed: false,
+        };
+        session.open(Opening::at(SystemTime::now(), origin.device, 0))?;
+        Ok(session)
     }
 
     /// Opens a session again by its log: what was answered is answered, the next trial waits.
     ///
     /// # Errors
-    /// It cannot be read or written, another process writes it, or a row is not of its design.
+    /// It cannot be read or written, another process writes it, a row is not of its design, or an
+    /// earlier version of the program began it.
     pub fn resume(log: &Path, device: &str) -> Result<Self, ExperimentError> {
-        let mut sidecar = Sidecar::read(log)?;
+        let sidecar = Sidecar::read(log)?;
         let (design, subject) = (sidecar.design(log)?, sidecar.subject());
-        let names = column_names(&design);
+        if sidecar.schema_version() < SCHEMA_VERSION {
+            let what = "an earlier version of the program began this session";
+            let mend = "end it with that version, or begin another session";
+            return Err(FileError::whole(log, what, mend).into());
+        }
+        let names = column_names(&design, SCHEMA_VERSION);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let Reopened {
             journal,
             table,
             set_aside,
         } = Journal::reopen(log, &names)?;
+        files::remove_pieces(log);
         let records = read_records(&design, &table, log)?;
+        let marks = read_marks(&table, log)?;
         let course = Course::resume(&design, &subject, &records)?;
         let mut opening = Opening::at(SystemTime::now(), device, records.len());
-        opening.after_utc = records.last().map(|last| last.timing.response_utc.clone());
         opening.set_aside = set_aside.map(|path| path.display().to_string());
-        sidecar.open(opening);
-        sidecar.write(log)?;
-        Ok(Self {
+        let openings = marks.iter().filter(|mark| mark.kind == MarkKind::Opening);
+        let mut session = Self {
             design,
             subject,
             course,
             journal,
-            sidecar,
+            chain: Chain::of_log(log)?,
+            openings: openings.map(|mark| Opening::of(&mark.mark)).collect(),
             n_rows: records.len(),
-        })
+            is_closed: marks.iter().any(|mark| mark.kind == MarkKind::Closing),
+        };
+        if !session.is_closed {
+            session.open(opening)?;
+            session.close_if_over()?;
+        }
+        Ok(session)
+    }
+
+    fn open(&mut self, opening: Opening) -> Result<(), ExperimentError> {
+        self.append(opening.mark().cells(&self.design, &self.subject))?;
+        self.openings.push(opening);
+        Ok(())
+    }
+
+    /// Closes the log once every trial is answered.
+    fn close_if_over(&mut self) -> Result<(), ExperimentError> {
+        if self.is_closed || !self.course.is_over() {
+            return Ok(());
+        }
+        let last = self.openings.last();
+        let closing = Mark {
+            kind: MarkKind::Closing,
+            utc: rfc3339(SystemTime::now()),
+            device: last.map_or_else(String::new, |opening| opening.device.clone()),
+            note: String::new(),
+            rows: self.n_rows,
+        };
+        self.append(closing.cells(&self.design, &self.subject))?;
+        self.is_closed = true;
+        Ok(())
+    }
+
+    /// Adds a row that is bound to the one before it.
+    fn append(&mut self, cells: Vec<String>) -> Result<(), ExperimentError> {
+        let line = self.chain.bound(cells, self.journal.path())?;
+        self.journal.append_lines(&line)?;
+        self.chain.follow(line.strip_suffix(b"\n").unwrap_or(&line));
+        Ok(())
     }
 
     /// The design.
@@ -143,7 +209,7 @@ impl Session {
 
     /// What the session was opened with, this time last.
     pub fn openings(&self) -> &[Opening] {
-        self.sidecar.openings()
+        &self.openings
     }
 
     /// The file of rows.
@@ -151,7 +217,7 @@ impl Session {
         self.journal.path()
     }
 
-    /// Rows that are on disk.
+    /// Trials that are on disk, given up or not.
     pub fn n_rows(&self) -> usize {
         self.n_rows
     }
@@ -180,17 +246,27 @@ impl Session {
     /// could not be written: answer again once the disk has room.
     ///
     /// # Errors
-    /// It is no answer to the trial, or it cannot be written.
+    /// It is no answer to the trial, what it answers was not presented as it should be, or it
+    /// cannot be written.
     pub fn answer(
         &mut self,
         answer: &Answer,
         circumstances: &Circumstances<'_>,
     ) -> Result<Option<bool>, ExperimentError> {
+        let presentation = &circumstances.presentation;
+        if presentation.validity() != Validity::Valid {
+            let what = format!(
+                "what this answers does not count: {}",
+                presentation.why_void()
+            );
+            return Err(ExperimentError::value(what, "present it again"));
+        }
         let mut next = self.course.clone();
         let is_correct = next.answer(answer)?;
         let outcome = Outcome::Answered(answer.clone());
         self.write(outcome, is_correct, circumstances)?;
         self.course = next;
+        self.close_if_over()?;
         Ok(is_correct)
     }
 
@@ -214,47 +290,58 @@ impl Session {
             let mend = "go on to the trial first";
             return Err(ExperimentError::value("no trial waits", mend));
         };
-        let record = Record {
+        let mut record = Record {
             trial: trial.clone(),
             attempt: self.course.attempt(),
             outcome,
             is_correct,
             timing: circumstances.timing.clone(),
             apparatus: circumstances.apparatus.clone(),
+            presentation: circumstances.presentation.clone(),
             note: circumstances.note.to_owned(),
         };
         if let Some(path) = circumstances.path {
-            self.write_path(path, &record)?;
+            record.presentation.path_sha256 = self.write_path(path, &record)?;
         }
         if !circumstances.samples.is_empty() {
             let file = samples_file(self.log(), &record.trial, record.attempt);
             files::write_samples(circumstances.samples, &file)?;
         }
-        let cells = record.cells(&self.design, &self.subject);
-        let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
-        self.journal.append(&cells)?;
+        self.append(record.cells(&self.design, &self.subject))?;
         self.n_rows += 1;
         Ok(())
     }
 
-    fn write_path(&self, path: &ExplorationPath, record: &Record) -> Result<(), ExperimentError> {
+    /// Writes how a trial was explored; the hash of the file.
+    fn write_path(
+        &self,
+        path: &ExplorationPath,
+        record: &Record,
+    ) -> Result<String, ExperimentError> {
         let file = path_file(self.log(), &record.trial, record.attempt);
         let folder = file.parent().unwrap_or_else(|| Path::new("."));
         make_folder(folder)?;
         path.write(&file)
-            .map_err(|error| ExperimentError::value(error.to_string(), "answer again"))
+            .map_err(|error| ExperimentError::value(error.to_string(), "answer again"))?;
+        Ok(sha256_hex([read_text(&file)?.as_bytes()]))
     }
 }
 
-/// A log whose sidecar was never written, since the program ended between the two: it has no row.
+/// Begins a log again in which no trial stands, since the program ended before its sidecar or its
+/// first row was written.
 fn never_begun(path: &Path, names: &[&str]) -> Result<Journal, FileError> {
-    let reopened = Journal::reopen(path, names)?;
-    if reopened.table.n_rows() == 0 {
-        return Ok(reopened.journal);
+    let table = Journal::reopen(path, names)?.table;
+    let is_whole = path.with_extension("json").exists() && table.n_rows() > 0;
+    if is_whole || trials(&table).next().is_some() {
+        return Err(FileError::Exists {
+            path: path.to_owned(),
+        });
     }
-    Err(FileError::Exists {
+    std::fs::remove_file(path).map_err(|source| FileError::Write {
         path: path.to_owned(),
-    })
+        source,
+    })?;
+    Journal::create(path, names)
 }
 
 fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {

@@ -6,12 +6,15 @@ use std::path::{Component, Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 /// What a session is begun with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin<'a> {
     /// The device, as logs call it.
     pub device: &'a str,
     /// The design's file; `None` where it is part of the program.
     pub design_file: Option<&'a Path>,
+    /// SHA-256 of what the session is held with, by name: program, plan, library, scene, profile,
+    /// certificate.
+    pub sha256: Vec<(&'static str, String)>,
 }
 
 impl<'a> Origin<'a> {
@@ -20,7 +23,16 @@ impl<'a> Origin<'a> {
         Self {
             device,
             design_file: Some(design).filter(|file| file.is_file()),
+            sha256: Vec::new(),
         }
+    }
+
+    /// The same with the hash of something that the session is held with; none of nothing.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, sha256: impl Into<Option<String>>) -> Self {
+        let sha256 = sha256.into().filter(|sha256| !sha256.is_empty());
+        self.sha256.extend(sha256.map(|sha256| (name, sha256)));
+        self
     }
 }
 
@@ -29,6 +41,7 @@ impl<'a> From<&'a str> for Origin<'a> {
         Self {
             device,
             design_file: None,
+            sha256: Vec::new(),
         }
     }
 }

@@ -1,4 +1,5 @@
-//! The file beside a log: the design as it was, what the columns hold, when it was opened.
+//! The file beside a log, which is written once: the design as it was, what was to be asked, by which
+//! program, on what, and what the columns hold.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,11 +7,13 @@ use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
+use super::chain::Chain;
 use super::origin::{DesignFolder, Origin};
-use crate::ExperimentError;
 use crate::design::{Design, Subject};
-use crate::record::{SCHEMA_VERSION, dictionary};
+use crate::record::{Mark, MarkKind, SCHEMA_VERSION, describe_trial, dictionary};
+use crate::{ExperimentError, Procedure};
 use selvedge_foundation::files::{self, FileError};
+use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::rfc3339;
 use selvedge_textile::is_of_the_program;
 
@@ -36,24 +39,28 @@ pub struct Sidecar {
     /// Where the design names a library of the user's own.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     design_folder: Option<DesignFolder>,
+    /// The generator of all chance.
+    #[serde(default)]
+    generator: String,
+    /// What was to be asked, a line a trial; what follows from the answers is not known before.
+    #[serde(default)]
+    schedule: Vec<String>,
+    /// SHA-256 by what was hashed: program, plan, library, scene, profile, certificate.
+    #[serde(default)]
+    sha256: BTreeMap<String, String>,
     columns: BTreeMap<String, String>,
-    openings: Vec<Opening>,
 }
 
 /// One time that the session was opened.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Opening {
     /// When, UTC as RFC 3339.
     pub utc: String,
     /// The device.
     pub device: String,
-    /// Rows that were there.
+    /// Trials that were there.
     pub rows: usize,
-    /// When the last of them was answered, UTC: how long the gap was.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) after_utc: Option<String>,
     /// Where a row that was not complete was put.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
     pub set_aside: Option<String>,
 }
 
@@ -64,14 +71,39 @@ impl Opening {
             utc: rfc3339(when),
             device: device.to_owned(),
             rows,
-            after_utc: None,
             set_aside: None,
+        }
+    }
+
+    /// Its row.
+    pub(super) fn mark(&self) -> Mark {
+        let aside = self.set_aside.as_ref();
+        let note = aside.map_or_else(String::new, |path| format!("{ASIDE}{path}"));
+        Mark {
+            kind: MarkKind::Opening,
+            utc: self.utc.clone(),
+            device: self.device.clone(),
+            note,
+            rows: self.rows,
+        }
+    }
+
+    /// What such a row says.
+    pub(super) fn of(mark: &Mark) -> Self {
+        Self {
+            utc: mark.utc.clone(),
+            device: mark.device.clone(),
+            rows: mark.rows,
+            set_aside: mark.note.strip_prefix(ASIDE).map(str::to_owned),
         }
     }
 }
 
+/// What a note on a row that was cut off begins with.
+const ASIDE: &str = "a row was cut off and put into ";
+
 impl Sidecar {
-    pub(super) fn of(design: &Design, subject: &Subject, n_trials_at_most: usize) -> Self {
+    pub(crate) fn of(design: &Design, subject: &Subject, procedure: &Procedure) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
             software: selvedge_foundation::PROGRAM.to_owned(),
@@ -82,12 +114,14 @@ impl Sidecar {
             nth_subject: subject.nth,
             session: subject.session,
             seed: design.seed,
-            n_trials_at_most,
+            n_trials_at_most: procedure.n_trials(),
             design_sha256: design.hash.clone(),
             design: design.text.clone(),
             design_folder: None,
+            generator: Random::NAME.to_owned(),
+            schedule: schedule(design, procedure),
+            sha256: BTreeMap::new(),
             columns: dictionary(design),
-            openings: Vec::new(),
         }
     }
 
@@ -166,26 +200,44 @@ impl Sidecar {
         }
     }
 
-    /// Every time that the session was opened, the last one last.
-    pub fn openings(&self) -> &[Opening] {
-        &self.openings
+    /// The version of the log's columns.
+    pub(crate) fn schema_version(&self) -> u32 {
+        self.schema_version
     }
 
-    /// Keeps where a library of the user's own is found again.
+    /// What was to be asked, a line a trial; empty in the first version.
+    pub(crate) fn schedule(&self) -> &[String] {
+        &self.schedule
+    }
+
+    /// SHA-256 of what goes by this name: `library`, `plan`, …
+    pub(crate) fn sha256_of(&self, name: &str) -> Option<&str> {
+        self.sha256.get(name).map(String::as_str)
+    }
+
+    /// Keeps where a library of the user's own is found again, and what the session was begun with.
     pub(super) fn come_from(&mut self, origin: &Origin<'_>, design: &Design, log: &Path) {
         let file = origin.design_file.filter(|_| own_library(design).is_some());
         self.design_folder = file.and_then(|file| DesignFolder::of(file, log));
+        let hashes = origin.sha256.iter();
+        self.sha256 = hashes
+            .map(|(name, sha256)| ((*name).to_owned(), sha256.clone()))
+            .collect();
     }
 
-    pub(super) fn open(&mut self, opening: Opening) {
-        self.openings.push(opening);
-    }
-
-    pub(super) fn write(&self, log: &Path) -> Result<(), FileError> {
+    /// Writes it beside its log, and begins the chain of the log's rows.
+    pub(super) fn write(&self, log: &Path) -> Result<Chain, FileError> {
         let path = log.with_extension("json");
         let text = files::to_json_string(self, &path)?;
-        files::write_atomic(&path, text.as_bytes())
+        files::write_atomic(&path, text.as_bytes())?;
+        Ok(Chain::of_sidecar(text.as_bytes()))
     }
+}
+
+/// What is to be asked, a line a trial: `block=1; trial=2; …` in the words of the columns.
+pub(crate) fn schedule(design: &Design, procedure: &Procedure) -> Vec<String> {
+    let trials = procedure.listed().iter();
+    trials.map(|trial| describe_trial(design, trial)).collect()
 }
 
 /// The library that a design names, unless it is part of the program.

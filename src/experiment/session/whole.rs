@@ -8,8 +8,8 @@ use super::{Opening, Sidecar, check_pseudonym, log_path, make_folder};
 use crate::ExperimentError;
 use crate::course::Course;
 use crate::design::{Design, Subject};
-use crate::record::{Record, column_names};
-use selvedge_foundation::files::{FileError, TableWriter, write_atomic};
+use crate::record::{Mark, MarkKind, Record, SCHEMA_VERSION, column_names};
+use selvedge_foundation::files::{FileError, row_line, write_atomic};
 
 /// Writes the files of a session, as they would be had it been held trial by trial: its log.
 ///
@@ -18,28 +18,35 @@ use selvedge_foundation::files::{FileError, TableWriter, write_atomic};
 pub(crate) fn write_whole(
     folder: &Path,
     (design, subject): (&Design, &Subject),
-    opening: Opening,
+    opening: &Opening,
     records: &[Record],
 ) -> Result<PathBuf, ExperimentError> {
     let log = unwritten(folder, design, subject)?;
     make_folder(folder)?;
-    let names = column_names(design);
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let mut table = TableWriter::new(Vec::new(), &log, &names)?;
+    let sidecar = Sidecar::of(design, subject, Course::begin(design, subject)?.procedure());
+    let mut chain = sidecar.write(&log)?;
+    let names = column_names(design, SCHEMA_VERSION);
+    let mut rows = row_line(&names, &log)?;
+    let mut add = |cells: Vec<String>| -> Result<(), FileError> {
+        let line = chain.bound(cells, &log)?;
+        chain.follow(line.strip_suffix(b"\n").unwrap_or(&line));
+        rows.extend(line);
+        Ok(())
+    };
+    add(opening.mark().cells(design, subject))?;
     for record in records {
-        for cell in record.cells(design, subject) {
-            table.text(&cell.replace(['\n', '\r'], " "));
-        }
-        table.end_row()?;
+        add(record.cells(design, subject))?;
     }
-    let rows = table.finish()?;
-    let mut sidecar = Sidecar::of(
-        design,
-        subject,
-        Course::begin(design, subject)?.progress().1,
-    );
-    sidecar.open(opening);
-    sidecar.write(&log)?;
+    let closing = Mark {
+        kind: MarkKind::Closing,
+        rows: records.len(),
+        utc: records.last().map_or_else(
+            || opening.utc.clone(),
+            |last| last.timing.response_utc.clone(),
+        ),
+        ..opening.mark()
+    };
+    add(closing.cells(design, subject))?;
     write_atomic(&log, &rows)?;
     Ok(log)
 }

@@ -104,13 +104,7 @@ impl Journal {
     /// The number of cells is not that of the columns.
     pub fn append(&mut self, cells: &[&str]) -> Result<(), FileError> {
         assert_eq!(cells.len(), self.n_columns, "cells of a row");
-        let mut line = Vec::new();
-        let mut writer = TableWriter::continued(&mut line, &self.path);
-        for cell in cells {
-            writer.text(&cell.replace(['\n', '\r'], " "));
-        }
-        writer.end_row()?;
-        drop(writer);
+        let line = row_line(cells, &self.path)?;
         self.append_lines(&line)
     }
 
@@ -142,6 +136,19 @@ impl Journal {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// A row as its line, with its line break; line breaks in cells become blanks.
+///
+/// # Errors
+/// None that a text in memory could have.
+pub fn row_line<T: AsRef<str>>(cells: &[T], path: &Path) -> Result<Vec<u8>, FileError> {
+    let mut writer = TableWriter::continued(Vec::new(), path);
+    for cell in cells {
+        writer.text(&cell.as_ref().replace(['\n', '\r'], " "));
+    }
+    writer.end_row()?;
+    writer.finish()
 }
 
 fn failed(path: &Path, source: io::Error) -> FileError {

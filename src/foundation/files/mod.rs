@@ -41,7 +41,7 @@ pub use gray16::{
 };
 pub use hash::{md5_hex, sha256_hex};
 pub use inflate::{deflate, inflate};
-pub use journal::{Journal, Reopened};
+pub use journal::{Journal, Reopened, row_line};
 pub use json::{from_json_str, to_json_string};
 pub use keys::{
     KeyValue, Keys, keys_from_str, keys_to_string, known_keys_from_str, lay_over, line_of_key,

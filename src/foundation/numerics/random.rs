@@ -15,6 +15,9 @@ pub struct Random {
 }
 
 impl Random {
+    /// The generator, for records of what chance was drawn from.
+    pub const NAME: &str = "PCG XSL RR 128/64 (rand_pcg Pcg64)";
+
     /// The generator of a seed.
     pub fn new(seed: u64) -> Self {
         Self {

@@ -8,7 +8,9 @@ use std::time::SystemTime;
 use selvedge_experiment::by_hand::{form, to_present, typed_answer};
 use selvedge_experiment::design::{Familiarisation, Movement};
 use selvedge_experiment::session::{Circumstances, Session};
-use selvedge_experiment::{Answer, Apparatus, ExperimentError, Step, Timing, Trial};
+use selvedge_experiment::{
+    Answer, Apparatus, ExperimentError, Presentation, Proof, Step, Timing, Trial,
+};
 
 /// What a session needs from the world.
 pub(super) trait Bench {
@@ -64,6 +66,8 @@ pub(super) struct Desk<'a, R, W, B> {
     pub(super) out: W,
     pub(super) bench: B,
     pub(super) apparatus: Apparatus,
+    /// Who begins a trial confirms that it is presented: by this.
+    pub(super) proof: Proof,
     pub(super) notes: Vec<String>,
 }
 
@@ -297,6 +301,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
         let circumstances = Circumstances {
             timing: timing.clone(),
             apparatus: self.apparatus.clone(),
+            presentation: Presentation::confirmed(self.proof),
             note: &note,
             path: None,
             samples: &[],

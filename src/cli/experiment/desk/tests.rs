@@ -46,6 +46,7 @@ fn held(session: &mut Session, lines: &str) -> (Ended, String, Vec<f64>) {
         out: &mut out,
         bench: &mut bench,
         apparatus: Apparatus::default(),
+        proof: Proof::RealCloth,
         notes: Vec::new(),
     };
     let ended = desk.hold().unwrap();

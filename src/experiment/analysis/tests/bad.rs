@@ -27,6 +27,7 @@ fn on_disk(folder: &Scratch, n_trials: &[usize]) -> Vec<PathBuf> {
             let described = Circumstances {
                 timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 5_000_000_000]),
                 apparatus: Apparatus::default(),
+                presentation: Presentation::confirmed(Proof::Array),
                 note: "",
                 path: None,
                 samples: &[],
@@ -45,7 +46,7 @@ fn of_folder(folder: &Scratch) -> Result<Analysis, ExperimentError> {
 fn made_newer(log: &Path) {
     let sidecar = log.with_extension("json");
     let text = fs::read_to_string(&sidecar).unwrap();
-    let newer = text.replacen("\"schema_version\": 1", "\"schema_version\": 99", 1);
+    let newer = text.replacen("\"schema_version\": 2", "\"schema_version\": 99", 1);
     assert_ne!(text, newer, "{text}");
     fs::write(sidecar, newer).unwrap();
 }

@@ -12,7 +12,10 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::design::{Design, Subject};
-use crate::{Answer, Apparatus, Course, Grade, Outcome, Record, Step, Task, Timing, Trial};
+use crate::{
+    Answer, Apparatus, Course, Grade, Outcome, Presentation, Proof, Record, Step, Task, Timing,
+    Trial,
+};
 use selvedge_foundation::progress::unheard;
 
 /// Few of everything: these tests are of numbers that do not hang on it.
@@ -47,6 +50,7 @@ fn record(trial: Trial, answer: Answer, response_s: u64) -> Record {
             response_ns: start_ns + response_s * 1_000_000_000,
         },
         apparatus: Apparatus::default(),
+        presentation: Presentation::confirmed(Proof::Array),
         note: String::new(),
     }
 }
@@ -77,13 +81,11 @@ fn held(
         }
     }
     let log = format!("{}_{}_{session}.csv", design.experiment, subject.pseudonym);
-    Found {
-        log: PathBuf::from("nowhere").join(log),
-        subject,
-        design: design.clone(),
+    Found::of_records(
+        PathBuf::from("nowhere").join(log),
+        (design, subject),
         records,
-        has_torn_row: false,
-    }
+    )
 }
 
 fn table<'a>(analysis: &'a Analysis, section: &str, key: &str) -> &'a Table {

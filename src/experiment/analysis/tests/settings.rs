@@ -41,17 +41,13 @@ fn staircase_session(design: &Design, nth: usize) -> Found {
             records.push(record(trial, answer, 5));
         }
     }
-    Found {
-        log: PathBuf::from(format!("nowhere/{nth}.csv")),
-        subject: Subject {
-            pseudonym: format!("p{nth}"),
-            nth,
-            session: 1,
-        },
-        design: design.clone(),
-        records,
-        has_torn_row: false,
-    }
+    let subject = Subject {
+        pseudonym: format!("p{nth}"),
+        nth,
+        session: 1,
+    };
+    let log = PathBuf::from(format!("nowhere/{nth}.csv"));
+    Found::of_records(log, (design, subject), records)
 }
 
 fn levels_of(levels: &Levels, series: usize) -> Staircase {

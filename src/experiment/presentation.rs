@@ -1,0 +1,356 @@
+//! Proof of presentation: what of a trial reached the finger, and whether its answer may count.
+//!
+//! A [`Watch`] looks at every tick of a trial on the array. It knows no device and no clock: who
+//! presents says of each tick what became of it. Cloth on the table and devices elsewhere are
+//! confirmed by the experimenter; simulated observers feel by definition.
+
+use crate::design::Design;
+use crate::layout::{Layout, Place, vibrations};
+use crate::named::named;
+use crate::trial::Task;
+use selvedge_engine::TICKS_PER_S;
+use selvedge_foundation::geometry::Point;
+
+/// Every textile that is compared is felt for so long at least, s.
+const LEAST_EXPLORED_S: f64 = 1.0;
+/// Slower is no exploration, mm/s.
+const LEAST_SPEED_MM_PER_S: f64 = 2.0;
+/// Ticks without their frame that may be, of all; one may be always.
+const MOST_MISSED_SHARE: f64 = 0.01;
+/// Ticks in a row without their frame that may not be.
+const MISSED_IN_A_ROW: u32 = 3;
+/// Values that limits may have changed, of all; of those of a second at least.
+const MOST_LIMITED_SHARE: f64 = 0.01;
+/// From tick to tick, ns.
+const TICK_NS: u64 = 25_000_000;
+
+named! { "proof",
+    /// By what it is known that something was felt.
+    pub enum Proof {
+        /// A device acknowledged every tick.
+        Array = "array",
+        /// An emulator did: felt by nobody.
+        Emulator = "emulator",
+        /// The experimenter laid cloth and said when it was felt.
+        RealCloth = "real-cloth",
+        /// The experimenter said that something else presented it.
+        Elsewhere = "elsewhere",
+        /// An observer that is simulated.
+        Simulated = "simulated",
+    }
+}
+
+/// What is known of a presentation, as its row has it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Presentation {
+    /// By what it is known; `None` in logs that do not say.
+    pub proof: Option<Proof>,
+    /// Why it does not count; empty where it does.
+    pub void: String,
+    /// Ticks at which the device was armed, of all.
+    pub armed_share: Option<f64>,
+    /// Ticks whose frame the device applied.
+    pub frames_applied: Option<u64>,
+    /// Frames that came too late or not at all.
+    pub frames_late: Option<u64>,
+    /// Values that limits changed, of all.
+    pub limited_share: Option<f64>,
+    /// How long each item was felt in movement, s: by position, the target last.
+    pub explored_s: Vec<f64>,
+    /// First tick of what is asked about, ns since the session was opened.
+    pub onset_ns: Option<u64>,
+    /// SHA-256 of the file of how it was explored; empty where there is none.
+    pub path_sha256: String,
+}
+
+/// Whether a presentation counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Validity {
+    /// It was felt as it should be.
+    Valid,
+    /// It was not.
+    Void,
+    /// The log does not say.
+    Unknown,
+}
+
+impl Presentation {
+    /// One that is proved by something other than ticks.
+    pub fn confirmed(proof: Proof) -> Self {
+        Self {
+            proof: Some(proof),
+            ..Self::default()
+        }
+    }
+
+    /// Why it does not count, in words.
+    pub fn why_void(&self) -> &str {
+        match self.validity() {
+            Validity::Unknown => "nothing is known of its presentation",
+            Validity::Valid | Validity::Void => &self.void,
+        }
+    }
+
+    /// Whether it counts.
+    pub fn validity(&self) -> Validity {
+        match self.proof {
+            None => Validity::Unknown,
+            Some(_) if self.void.is_empty() => Validity::Valid,
+            Some(_) => Validity::Void,
+        }
+    }
+}
+
+/// A tick of a presentation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PresentedTick {
+    /// Whether its frame went to a device that was armed.
+    pub is_sent: bool,
+    /// Ticks without their frame that the device has counted so far.
+    pub n_missed: u64,
+    /// Values that limits of host and device have changed so far.
+    pub n_limited: u64,
+    /// Values of a frame.
+    pub n_values: u64,
+    /// Where the display was, mm.
+    pub position: Point,
+    /// How fast it moved, mm/s.
+    pub speed_mm_per_s: f64,
+    /// The step of the vibrations that was played.
+    pub vibration: Option<u16>,
+}
+
+/// How it stands with a presentation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Standing {
+    /// What is missing before an answer may be taken.
+    Incomplete(String),
+    /// An answer may be taken.
+    Valid,
+    /// It does not count any more, and why.
+    Void(String),
+}
+
+/// Looks at every tick of a trial on the array.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Watch {
+    proof: Proof,
+    /// What has to be explored, in the order of places.
+    places: Vec<Explored>,
+    /// Steps of vibration: how long each is, and how long it was played, ticks.
+    steps: Vec<[u32; 2]>,
+    may_limit: bool,
+    n_ticks: u64,
+    n_armed: u64,
+    n_values: u64,
+    n_values_per_s: u64,
+    /// Counters before the first tick, and now.
+    missed: Option<Counted>,
+    limited: Option<Counted>,
+    missed_in_a_row: u32,
+    /// The first tick of a vibration, from the first of all.
+    onset_tick: Option<u64>,
+    void: Option<String>,
+}
+
+/// A counter of a device that runs on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Counted {
+    before: u64,
+    now: u64,
+}
+
+impl Counted {
+    /// How far it went since the last look.
+    fn look(this: &mut Option<Self>, now: u64) -> u64 {
+        let counted = this.get_or_insert(Self { before: now, now });
+        let more = now.saturating_sub(counted.now);
+        counted.now = now;
+        more
+    }
+
+    fn n(this: Option<Self>) -> u64 {
+        this.map_or(0, |counted| counted.now.saturating_sub(counted.before))
+    }
+}
+
+/// A place and how long it was felt.
+#[derive(Debug, Clone, PartialEq)]
+struct Explored {
+    place: Place,
+    n_ticks: u32,
+    is_needed: bool,
+}
+
+impl Watch {
+    /// Of a task before its first tick, by a device or an emulator of one.
+    pub fn of(design: &Design, task: &Task, proof: Proof) -> Self {
+        let places = Layout::of(design, task).places;
+        let is_compared = places.len() > 1;
+        let explored = |place: Place| Explored {
+            place,
+            n_ticks: 0,
+            is_needed: is_compared,
+        };
+        let steps = vibrations(design, task);
+        Self {
+            proof,
+            places: if steps.is_empty() {
+                places.into_iter().map(explored).collect()
+            } else {
+                Vec::new()
+            },
+            steps: steps.iter().map(|step| [step.n_ticks, 0]).collect(),
+            may_limit: matches!(task, Task::Adjust { .. }),
+            n_ticks: 0,
+            n_armed: 0,
+            n_values: 0,
+            n_values_per_s: 0,
+            missed: None,
+            limited: None,
+            missed_in_a_row: 0,
+            onset_tick: None,
+            void: None,
+        }
+    }
+
+    /// Looks at the next tick. `lead` steps of vibration come before those of the task.
+    pub fn tick(&mut self, tick: &PresentedTick, lead: u16) {
+        self.n_ticks += 1;
+        self.n_armed += u64::from(tick.is_sent);
+        self.n_values += tick.n_values;
+        self.n_values_per_s = tick.n_values * 40;
+        let n_missed = Counted::look(&mut self.missed, tick.n_missed);
+        Counted::look(&mut self.limited, tick.n_limited);
+        self.missed_in_a_row = match n_missed {
+            0 => 0,
+            n => self.missed_in_a_row + u32::try_from(n).unwrap_or(u32::MAX),
+        };
+        self.explore(tick);
+        self.play(tick, lead);
+        if self.void.is_none() {
+            self.void = self.flaw(tick);
+        }
+    }
+
+    fn explore(&mut self, tick: &PresentedTick) {
+        if tick.speed_mm_per_s < LEAST_SPEED_MM_PER_S || !tick.is_sent {
+            return;
+        }
+        let [width_mm, height_mm] = Place::SIZE_MM;
+        // The last of several that lie upon each other is on top.
+        let felt = self.places.iter_mut().rev().find(|explored| {
+            let corner = explored.place.origin_mm;
+            let (x_mm, y_mm) = (
+                tick.position.x_mm - corner.x_mm,
+                tick.position.y_mm - corner.y_mm,
+            );
+            (0.0..=width_mm).contains(&x_mm) && (0.0..=height_mm).contains(&y_mm)
+        });
+        if let Some(explored) = felt {
+            explored.n_ticks += 1;
+        }
+    }
+
+    fn play(&mut self, tick: &PresentedTick, lead: u16) {
+        let step = tick.vibration.and_then(|step| step.checked_sub(lead));
+        let Some([_, n_played]) = step.and_then(|step| self.steps.get_mut(usize::from(step)))
+        else {
+            return;
+        };
+        *n_played += u32::from(tick.is_sent);
+        self.onset_tick.get_or_insert(self.n_ticks - 1);
+    }
+
+    fn flaw(&self, tick: &PresentedTick) -> Option<String> {
+        if !tick.is_sent {
+            return Some("the array was not armed".to_owned());
+        }
+        if self.missed_in_a_row >= MISSED_IN_A_ROW {
+            let n = self.missed_in_a_row;
+            return Some(format!("{n} ticks in a row came without their frame"));
+        }
+        None
+    }
+
+    /// Ends it for a reason that no tick shows: a stop, a fault, a device that is gone.
+    pub fn end(&mut self, why: &str) {
+        self.void.get_or_insert_with(|| why.to_owned());
+    }
+
+    /// How it stands now.
+    pub fn standing(&self) -> Standing {
+        if let Some(why) = &self.void {
+            return Standing::Void(why.clone());
+        }
+        let n_missed = Counted::n(self.missed);
+        if n_missed as f64 > (MOST_MISSED_SHARE * self.n_ticks as f64).max(1.0) {
+            return Standing::Void(format!(
+                "{n_missed} of {} ticks came without their frame",
+                self.n_ticks
+            ));
+        }
+        let most = MOST_LIMITED_SHARE * self.n_values.max(self.n_values_per_s) as f64;
+        if !self.may_limit && Counted::n(self.limited) as f64 > most {
+            let percent = 100.0 * self.limited_share();
+            return Standing::Void(format!("limits changed {percent:.1} % of the values"));
+        }
+        match self.missing() {
+            Some(what) => Standing::Incomplete(what),
+            None => Standing::Valid,
+        }
+    }
+
+    /// What was not presented yet.
+    fn missing(&self) -> Option<String> {
+        if self.n_ticks == 0 {
+            return Some("nothing was presented yet".to_owned());
+        }
+        if self
+            .steps
+            .iter()
+            .any(|[n_ticks, n_played]| n_played < n_ticks)
+        {
+            return Some("it is still being played".to_owned());
+        }
+        let is_unfelt = |one: &&Explored| one.is_needed && one.felt_s() < LEAST_EXPLORED_S;
+        let one = self.places.iter().find(is_unfelt)?;
+        Some(match one.place.number {
+            Some(number) => format!("number {number} was not felt for {LEAST_EXPLORED_S} s yet"),
+            None => format!("the one in the middle was not felt for {LEAST_EXPLORED_S} s yet"),
+        })
+    }
+
+    fn limited_share(&self) -> f64 {
+        Counted::n(self.limited) as f64 / self.n_values.max(1) as f64
+    }
+
+    /// What a row says of it. The presentation began `began_ns` after the session was opened.
+    pub fn presentation(&self, began_ns: u64) -> Presentation {
+        let void = match self.standing() {
+            Standing::Valid => String::new(),
+            Standing::Incomplete(why) | Standing::Void(why) => why,
+        };
+        let onset_ns = self
+            .onset_tick
+            .map(|tick| began_ns.saturating_add(tick * TICK_NS));
+        let n_missed = Counted::n(self.missed);
+        Presentation {
+            proof: Some(self.proof),
+            void,
+            armed_share: Some(self.n_armed as f64 / self.n_ticks.max(1) as f64),
+            frames_applied: Some(self.n_armed.saturating_sub(n_missed)),
+            frames_late: Some(n_missed),
+            limited_share: Some(self.limited_share()),
+            explored_s: self.places.iter().map(Explored::felt_s).collect(),
+            onset_ns,
+            path_sha256: String::new(),
+        }
+    }
+}
+
+impl Explored {
+    fn felt_s(&self) -> f64 {
+        f64::from(self.n_ticks) / TICKS_PER_S
+    }
+}

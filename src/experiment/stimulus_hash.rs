@@ -1,0 +1,93 @@
+//! What trials present, as hashes: the same where the same is felt, another where a textile, its
+//! gain, its place or a vibration differs.
+
+use std::collections::BTreeMap;
+
+use crate::ExperimentError;
+use crate::design::{Design, Source};
+use crate::layout::{Layout, vibrations};
+use crate::trial::Task;
+use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::progress::Progress;
+use selvedge_textile::{Library, TextileError};
+
+/// What the textiles of a design are made of.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct StimulusHashes {
+    /// Hashes of contents by id.
+    textiles: BTreeMap<String, String>,
+}
+
+impl StimulusHashes {
+    /// Of textiles by id and the hash of their content.
+    pub fn of(textiles: impl IntoIterator<Item = (String, String)>) -> Self {
+        Self {
+            textiles: textiles.into_iter().collect(),
+        }
+    }
+
+    /// Of a design's textiles in a library.
+    ///
+    /// # Errors
+    /// A textile is not in the library or cannot be read, or the work was cancelled.
+    pub(crate) fn of_library(
+        design: &Design,
+        library: &Library,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ExperimentError> {
+        let loaded = library.load_all(&textiles_of(design), progress)?;
+        let hashed = loaded.iter().map(|textile| -> Result<_, TextileError> {
+            Ok((textile.id().to_owned(), textile.content_hash()?))
+        });
+        let textiles: Result<BTreeMap<String, String>, TextileError> = hashed.collect();
+        Ok(Self {
+            textiles: textiles?,
+        })
+    }
+
+    /// Of all of them together; empty where there is none.
+    pub fn all(&self) -> String {
+        match self.textiles.len() {
+            0 => String::new(),
+            _ => sha256_hex(self.textiles.values().map(String::as_bytes)),
+        }
+    }
+
+    /// Of what a trial presents and where.
+    pub fn of_task(&self, design: &Design, task: &Task) -> String {
+        let mut parts = Vec::new();
+        for place in Layout::of(design, task).places {
+            let Some(stimulus) = design.stimuli.get(place.stimulus) else {
+                continue;
+            };
+            let what = match &stimulus.source {
+                Source::Textile { id, gain_db } => {
+                    let content = self.textiles.get(id).map_or(id.as_str(), String::as_str);
+                    format!("{content} {gain_db}")
+                }
+                Source::RealCloth(cloth) => format!("cloth {cloth}"),
+                Source::Vibration { .. } => String::new(),
+            };
+            parts.push(format!("{:?} {what}\n", place.number));
+        }
+        for step in vibrations(design, task) {
+            parts.push(format!("{:?} {}\n", step.amplitude_um, step.n_ticks));
+        }
+        sha256_hex(parts.iter().map(String::as_bytes))
+    }
+}
+
+/// The ids of a design's textiles, each once, in order.
+fn textiles_of(design: &Design) -> Vec<String> {
+    let ids = design
+        .stimuli
+        .iter()
+        .filter_map(|stimulus| match &stimulus.source {
+            Source::Textile { id, .. } => Some(id.clone()),
+            _ => None,
+        });
+    let mut ids: Vec<String> = ids.collect();
+    ids.sort();
+    ids.dedup();
+    ids
+}
