@@ -1,6 +1,8 @@
 //! Adjustment: what parameters were left at, by stimulus and by where they began; gains matched to
 //! real cloth, and the compression that follows from them (Philpott & Summers 2012, § 3.1).
 
+use std::collections::BTreeMap;
+
 use super::draw::{Bar, bars, scatter};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
@@ -68,7 +70,7 @@ pub(super) fn sections(
     Ok(sections)
 }
 
-const STIMULI: [(&str, &str); 14] = [
+const STIMULI: [(&str, &str); 16] = [
     ("item", "stimulus"),
     ("n", "settings"),
     ("mean", "mean"),
@@ -83,6 +85,8 @@ const STIMULI: [(&str, &str); 14] = [
     ("geometric_mean", "geometric mean"),
     ("log_sd", "sd of logarithms"),
     ("subjects", "subjects"),
+    ("ci_low", "95 % CI of the mean over subjects from"),
+    ("ci_high", "to"),
 ];
 
 fn parameter_section(
@@ -107,13 +111,15 @@ fn parameter_section(
     let middle = 0.5 * (parameter.from + parameter.to);
     for (item, name) in names.iter().enumerate() {
         let own: Vec<&Setting<'_>> = all.iter().filter(|s| s.item == item).collect();
-        table.push(stimulus_row(name, &own, middle));
-        let values: Vec<f64> = own.iter().map(|s| s.value).collect();
-        let summary = Summary::of(&values).ok();
-        shown.extend(summary.map(|s| Bar::about(name, "", s.mean, s.sd)));
+        let means = means_of_subjects(&own);
+        table.push(stimulus_row(name, (&own, &means), middle));
+        shown.extend(Bar::mean(name, "", &means));
     }
     section.table(table);
-    let title = format!("{}: {key}, mean ± sd", experiment.design.title);
+    let title = format!(
+        "{}: {key}, mean over subjects (95 % interval)",
+        experiment.design.title
+    );
     section.figure(bars("bars", &title, key, (&shown, None), &[]));
     let crossed = by_subject(all, &names);
     let rows = complete_rows(&crossed);
@@ -130,7 +136,16 @@ fn parameter_section(
     section
 }
 
-fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
+/// The mean setting of every subject.
+fn means_of_subjects(own: &[&Setting<'_>]) -> Vec<f64> {
+    let mut of: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for setting in own {
+        of.entry(setting.subject).or_default().push(setting.value);
+    }
+    of.values().filter_map(|values| mean(values).ok()).collect()
+}
+
+fn stimulus_row(name: &str, (own, means): (&[&Setting<'_>], &[f64]), middle: f64) -> Vec<Cell> {
     let part = |is_low: bool| -> Vec<f64> {
         let from = own.iter().filter(|s| (s.start < middle) == is_low);
         from.map(|s| s.value).collect()
@@ -150,9 +165,6 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
         .map_err(Clone::clone)
         .and_then(|a| a.difference.clone());
     let estimate = difference.clone().and_then(|d| d.estimate).map(|e| e.value);
-    let mut subjects: Vec<&str> = own.iter().map(|s| s.subject).collect();
-    subjects.sort_unstable();
-    subjects.dedup();
     cells![
         name,
         own.len(),
@@ -162,7 +174,8 @@ fn stimulus_row(name: &str, own: &[&Setting<'_>], middle: f64) -> Vec<Cell> {
         difference.map(|d| d.p),
         log.as_ref().map(|a| a.centre),
         log.as_ref().map(|a| a.all.sd),
-        subjects.len(),
+        means.len(),
+        Summary::of(means).and_then(|summary| summary.interval(0.95)),
     ]
 }
 

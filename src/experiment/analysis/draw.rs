@@ -5,7 +5,7 @@ use selvedge_chart::{
     At, Axis, Chart, ColourBar, Extent, Figure, Ink, Row, Rule, Scale, Series, Style, Tone,
     Upright, Words,
 };
-use selvedge_statistics::Summary;
+use selvedge_statistics::{Summary, mean};
 
 /// Height of a figure's frame, px.
 const HEIGHT_PX: f64 = 360.0;
@@ -30,15 +30,11 @@ impl Bar {
         }
     }
 
-    /// A mean, and what is spread about it by so much.
-    pub(super) fn about(name: &str, group: &str, mean: f64, spread: f64) -> Self {
-        Self::of(name, group, mean, Some([mean - spread, mean + spread]))
-    }
-
-    /// A mean over subjects with its standard error; none of fewer than two.
+    /// A mean over subjects, with its 95 % interval by Student's t where they are two or more.
     pub(super) fn mean(name: &str, group: &str, values: &[f64]) -> Option<Self> {
-        let summary = Summary::of(values).ok()?;
-        Some(Self::about(name, group, summary.mean, summary.se))
+        let interval = Summary::of(values).and_then(|summary| summary.interval(0.95));
+        let ends = interval.ok().map(|ends| [ends.low, ends.high]);
+        Some(Self::of(name, group, mean(values).ok()?, ends))
     }
 
     /// A share, %, with Wilson's interval.

@@ -41,7 +41,7 @@ pub(super) fn section(experiment: &Experiment<'_>) -> Section {
     let all = differences(&conditions, |condition| of(None, Some(condition)));
     section.table(tests("differences", "Conditions, subject by subject", &all));
     let title = experiment.titled("called real by material");
-    let label = "called real, % (± SE)";
+    let label = "called real, % (95 % interval)";
     section.figure(bars(
         "materials",
         &title,

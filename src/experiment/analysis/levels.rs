@@ -1,51 +1,65 @@
-//! Thresholds and just noticeable differences: the mean of the last reversals and a fit to all
-//! trials, track by track and subject by subject.
+//! Thresholds and just noticeable differences: one model of subjects and group, fitted to all
+//! trials.
 
 use super::draw::{Bar, bars, scatter};
-use super::included_trials::{Experiment, Subject};
+use super::included_trials::Experiment;
+use super::levels_series::{answered, quest_plus_section, staircases_section};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
-use super::tables::{summaries, tests};
-use crate::design::{Levels, StaircaseTrack, Track};
-use crate::{Record, Task};
+use super::tables::{SUMMARY, summary_cells};
+use crate::design::{Levels, Track};
 use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::quantity::fixed;
-use selvedge_statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
-use selvedge_statistics::psychometric::{Block, Fit, Model, blocks};
-use selvedge_statistics::{Computed, Summary, Undefined, mean, one_sample_t};
+use selvedge_statistics::Computed;
+use selvedge_statistics::psychometric::{
+    Block, Estimate, Evidence, Fit, Goodness, Model, Population, blocks,
+};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
-
-/// A trial: which series, the number that the function is of, whether it was right.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Answered {
-    track: usize,
-    level_db: f64,
-    is_right: bool,
-}
-
-fn answered(record: &Record) -> Option<Answered> {
-    let Task::Interval {
-        track, level_db, ..
-    } = record.trial.task
-    else {
-        return None;
-    };
-    Some(Answered {
-        track,
-        level_db,
-        is_right: record.is_correct?,
-    })
-}
+/// Simulated sets of answers that a subject's deviance is compared with.
+const MOST_SETS: usize = 399;
+/// A fit is poor where its deviance is as rare.
+const ALPHA: f64 = 0.05;
 
 impl Levels {
-    fn quantity(&self) -> &'static str {
+    /// Its share right halfway from guessing to certainty, lapses apart, %.
+    fn percent_right(&self) -> f64 {
+        50.0 * (1.0 + 1.0 / self.intervals as f64)
+    }
+
+    fn quantity(&self) -> String {
+        let percent = readable_percent(self.percent_right());
         match self.reference_db {
-            None => "threshold, dB re 1 µm",
-            Some(_) => "just noticeable difference, dB",
+            None => format!("threshold ({percent} right), dB re 1 µm"),
+            Some(_) => format!("just noticeable difference ({percent} right), dB"),
         }
     }
+
+    /// What is expected of the function: a threshold's width is 12 dB, within a factor of 1.65 two
+    /// times in three. Where d′ is proportional to the difference, a function of its logarithm is
+    /// 3.25 wide; exponents of 0.8 to 1.2 are two in three.
+    fn model(&self) -> Model {
+        let m = u32::try_from(self.intervals).unwrap_or(2);
+        let width = self.reference_db.map_or([12.0, 0.5], |_| [3.25, 0.1]);
+        Model::alternatives(self.family(), m, width)
+    }
+
+    /// The standard deviation of thresholds in dB, of one on the function's scale.
+    fn spread_db(&self, median_db: f64, spread: f64) -> f64 {
+        let variance = spread * spread;
+        match self.reference_db {
+            None => spread,
+            Some(_) => median_db * (0.5 * variance).exp() * variance.exp_m1().sqrt(),
+        }
+    }
+}
+
+/// A share, %, with the decimals that it needs.
+pub(super) fn readable_percent(percent: f64) -> String {
+    let decimals = usize::from((percent - percent.round()).abs() > 0.05);
+    format!("{} %", fixed(percent, decimals))
 }
 
 pub(super) fn sections(
@@ -54,10 +68,14 @@ pub(super) fn sections(
     options: &Options,
 ) -> Vec<Section> {
     let mut section = experiment.section("thresholds", "psychometric functions");
+    let found = Found::of(experiment, levels, options);
+    section.notes.extend(found.poor_fit());
     section.note(format!(
-        "{} at {} Hz, {} intervals, chance 1/{}. The function is {} of {}; all trials of a subject \
-         are fitted with lapses of 0 to 6 %. Its threshold is where half of what guesses \
-         and lapses leave is right. Intervals are central ones of the posterior.",
+        "{} at {} Hz, {} intervals, chance 1/{}: halfway from guessing to what lapses leave. The \
+         function is {} of {}. One model holds subjects and group: thresholds, widths and lapses \
+         of subjects are drawn from a population. A subject's own threshold is the median of its \
+         posterior wherever others' lie; the pooled one takes it as one of the population. \
+         Intervals are central ones of the posterior. The deviance's p is by {} simulations.",
         levels.quantity(),
         levels.band.carrier_hz(),
         levels.intervals,
@@ -68,77 +86,183 @@ pub(super) fn sections(
         } else {
             "the level in dB"
         },
+        options.n_permutations.min(MOST_SETS),
     ));
-    let (table, thresholds, fits) = fitted(experiment, levels);
-    section.table(table);
-    section.over_subjects(&[(levels.quantity(), thresholds.clone())], options);
-    if levels.reference_db.is_some() {
-        let t = Summary::of(&thresholds).and_then(|s| one_sample_t(&s, 0.0));
-        section.table(tests(
-            "tests",
-            "Over subjects",
-            &[("difference against 0 dB", t)],
+    section.table(found.group(levels));
+    section.table(found.fits(levels));
+    section
+        .figures
+        .extend(curves(experiment, levels, &found.fits));
+    if !found.fits.is_empty() {
+        let bar = |(name, fit): &(&str, Fit)| {
+            let ends = [fit.own.low, fit.own.high];
+            Bar::of(name, "", fit.curve.threshold, Some(ends))
+        };
+        let shown: Vec<Bar> = found.fits.iter().map(bar).collect();
+        let title = experiment.titled("thresholds by subject, 95 % intervals");
+        section.figure(bars(
+            "bars",
+            &title,
+            &levels.quantity(),
+            (&shown, None),
+            &[],
         ));
     }
-    section.figures.extend(curves(experiment, levels, &fits));
     let mut all = vec![section];
-    if let Track::Staircase(track) = &levels.track {
-        all.push(reversals(experiment, levels, track));
+    match &levels.track {
+        Track::Staircase(track) => all.push(staircases_section(experiment, levels, track)),
+        Track::QuestPlus(track) => all.push(quest_plus_section(experiment, levels, track)),
+        Track::Constant { .. } => {}
     }
     all
 }
 
-const FITS: [(&str, &str); 12] = [
+/// What the answers of all subjects say.
+struct Found<'a> {
+    /// Subjects in order: trials, levels, and what their answers say or why nothing.
+    rows: Vec<(&'a str, [u32; 2], Computed<usize>)>,
+    fits: Vec<(&'a str, Fit)>,
+    goodness: Vec<Goodness>,
+    population: Computed<Population>,
+}
+
+impl<'a> Found<'a> {
+    fn of(experiment: &Experiment<'a>, levels: &Levels, options: &Options) -> Self {
+        let model = levels.model();
+        let (mut rows, mut names, mut evidence) = (Vec::new(), Vec::new(), Vec::new());
+        for subject in &experiment.subjects {
+            let trials = subject.trials().filter_map(answered);
+            let of_levels = blocks(trials.map(|t| (levels.stimulus(t.level_db), t.is_right)));
+            let n_trials = of_levels.iter().map(|b| b.n).sum();
+            let n_levels = u32::try_from(of_levels.len()).unwrap_or(u32::MAX);
+            let found = model.evidence(&of_levels).map(|one| {
+                names.push(subject.name);
+                evidence.push(one);
+                names.len() - 1
+            });
+            rows.push((subject.name, [n_trials, n_levels], found));
+        }
+        let mut population = Population::of(&evidence, options.seed);
+        let fits = match &mut population {
+            Ok(population) => std::mem::take(&mut population.subjects),
+            Err(_alone) => evidence.iter().map(Fit::alone).collect(),
+        };
+        let goodness = goodness(&evidence, &fits, options);
+        Self {
+            rows,
+            fits: names.into_iter().zip(fits).collect(),
+            goodness,
+            population,
+        }
+    }
+
+    /// The note that stands first where answers do not follow the function.
+    fn poor_fit(&self) -> Option<String> {
+        let together = Goodness::together(&self.goodness);
+        let p = together.p();
+        let n_poor = self.goodness.iter().filter(|one| one.p() < ALPHA).count();
+        (!self.goodness.is_empty() && p < ALPHA).then(|| {
+            format!(
+                "**The answers do not follow the function:** their deviance of {} over all \
+                 subjects has p = {}, and {n_poor} of {} subjects have one below 0.05. Thresholds \
+                 are to be read with care.",
+                fixed(together.deviance, 1),
+                fixed(p, 4),
+                self.goodness.len()
+            )
+        })
+    }
+
+    /// The estimate of the population first.
+    fn group(&self, levels: &Levels) -> Table {
+        let columns: Vec<_> = [("what", "of what")].into_iter().chain(SUMMARY).collect();
+        let mut table = Table::new("group", "Of the group", &columns);
+        let own: Vec<f64> = self
+            .fits
+            .iter()
+            .map(|(_, fit)| fit.curve.threshold)
+            .collect();
+        let n = self.fits.len();
+        let what = format!("{}, median of the population", levels.quantity());
+        let found = self.population.as_ref();
+        let of = |one: &Estimate, sd: Cell| cells![one.value, sd, one.se, Ok(one.interval)];
+        let threshold = found.map(|found| {
+            let median_db = found.threshold.value;
+            let sd_db = levels.spread_db(median_db, found.spread.value);
+            of(&found.threshold, sd_db.into())
+        });
+        table.push(cells![what, n, or_undefined(threshold, 5)]);
+        let what = format!("{}, mean of subjects' own", levels.quantity());
+        table.push(cells![what, summary_cells(&own)]);
+        let no_sd = || Cell::none("spread among subjects is not estimated by itself");
+        let width = found.map(|found| of(&found.width, no_sd()));
+        let width_unit = if levels.reference_db.is_some() {
+            "ln dB"
+        } else {
+            "dB"
+        };
+        let what = format!("width from 5 to 95 %, {width_unit}, median of the population");
+        table.push(cells![what, n, or_undefined(width, 5)]);
+        let lapse = found.map(|found| of(&found.lapse, no_sd()));
+        table.push(cells![
+            "lapse rate, mean of the population",
+            n,
+            or_undefined(lapse, 5)
+        ]);
+        table
+    }
+
+    fn fits(&self, levels: &Levels) -> Table {
+        let title = format!("{}, by subject", levels.quantity());
+        let mut table = Table::new("fits", &title, &FITS);
+        for (name, counts, found) in &self.rows {
+            let cells = |at: &usize| fit_cells(&self.fits[*at].1, &self.goodness[*at]);
+            let found = or_undefined(found.as_ref().map(cells), FITS.len() - 3);
+            table.push(cells![*name, *counts, found]);
+        }
+        table
+    }
+}
+
+/// How well each function fits, on several threads.
+fn goodness(evidence: &[Evidence], fits: &[Fit], options: &Options) -> Vec<Goodness> {
+    let n_sets = options.n_permutations.min(MOST_SETS);
+    let mut all: Vec<Option<Goodness>> = vec![None; fits.len()];
+    let each = |(): &mut (), at: usize, one: &mut [Option<Goodness>]| {
+        let seed = Random::new(options.seed)
+            .branch(&format!("subject {at}"))
+            .seed();
+        one[0] = Some(Goodness::of(&evidence[at], &fits[at], (n_sets, seed)));
+    };
+    in_pieces(&mut all, 1, n_threads(), || (), each);
+    all.into_iter().flatten().collect()
+}
+
+const FITS: [(&str, &str); 14] = [
     ("subject", "subject"),
     ("trials", "trials"),
     ("levels", "levels"),
-    ("threshold_db", "threshold"),
+    ("threshold_db", "own"),
     ("ci_low_db", "95 % CI from"),
     ("ci_high_db", "to"),
-    ("at_75_percent_db", "75 % right at"),
+    ("pooled_db", "pooled"),
+    ("pooled_low_db", "95 % CI from"),
+    ("pooled_high_db", "to"),
     ("width", "width, 5 to 95 %"),
     ("lapse", "lapses"),
     ("deviance", "deviance"),
-    ("df", "levels less 2"),
+    ("p_deviance", "its p"),
     ("remarks", "remarks"),
 ];
 
-type Fits<'a> = Vec<(&'a str, Fit)>;
-
-fn fitted<'a>(experiment: &Experiment<'a>, levels: &Levels) -> (Table, Vec<f64>, Fits<'a>) {
-    let title = format!("{}, fits of all trials", levels.quantity());
-    let mut table = Table::new("fits", &title, &FITS);
-    let (mut thresholds, mut fits) = (Vec::new(), Vec::new());
-    let m = u32::try_from(levels.intervals).unwrap_or(2);
-    let model = Model::alternatives(levels.family(), m);
-    for subject in &experiment.subjects {
-        let trials = subject.trials().filter_map(answered);
-        let of_levels = blocks(trials.map(|t| (levels.stimulus(t.level_db), t.is_right)));
-        let n: u32 = of_levels.iter().map(|b| b.n).sum();
-        let n_levels = of_levels.len();
-        let fit = model.fit(&of_levels);
-        let found = fit.as_ref().map(|fit| fit_cells(fit, n_levels));
-        table.push(cells![
-            subject.name,
-            n,
-            n_levels,
-            or_undefined(found, FITS.len() - 3)
-        ]);
-        if let Ok(fit) = fit {
-            thresholds.push(fit.curve.threshold);
-            fits.push((subject.name, fit));
-        }
-    }
-    (table, thresholds, fits)
-}
-
-fn fit_cells(fit: &Fit, n_levels: usize) -> Vec<Cell> {
+fn fit_cells(fit: &Fit, goodness: &Goodness) -> Vec<Cell> {
     cells![
         fit.curve.threshold,
-        fit.posterior().interval(|curve| Ok(curve.threshold), 0.95),
-        fit.curve.stimulus_at(0.75),
-        [fit.curve.width, fit.curve.lapse, fit.deviance],
-        n_levels.saturating_sub(2),
+        Ok(fit.own),
+        fit.pooled.0,
+        Ok(fit.pooled.1),
+        [fit.curve.width, fit.curve.lapse],
+        [goodness.deviance, goodness.p()],
         fit.notes.join("; "),
     ]
 }
@@ -185,126 +309,4 @@ fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) ->
         axes,
         all,
     ))
-}
-
-/// A series run again on the answers of its log.
-pub(super) fn run_again(
-    levels: &Levels,
-    track: &StaircaseTrack,
-    nth: usize,
-    trials: &[Answered],
-) -> Computed<Staircase> {
-    let start_db = track.starts_db.get(nth).copied();
-    let none = || Undefined::because("a series that the design does not have");
-    let stop = Stop::Trials(u32::MAX);
-    let mut staircase =
-        Staircase::new(track.plan(start_db.ok_or_else(none)?, levels.range_db, stop))?;
-    for trial in trials {
-        staircase.answer(trial.level_db, trial.is_right)?;
-    }
-    Ok(staircase)
-}
-
-const REVERSALS: [(&str, &str); 9] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("track", "series"),
-    ("trials", "trials"),
-    ("reversals", "reversals"),
-    ("averaged", "averaged"),
-    ("threshold_db", "mean of the last"),
-    ("sd_db", "sd"),
-    ("remarks", "remarks"),
-];
-
-fn reversals(experiment: &Experiment<'_>, levels: &Levels, track: &StaircaseTrack) -> Section {
-    let mut section = experiment.section("staircases", "staircases");
-    let target = track.rule().target(track.up_over_down, 1.0);
-    section.note(format!(
-        "{} up, {} down; the mean of the last {} reversals at the last step size aims at {} right.",
-        track.up,
-        track.down,
-        track.reversals_averaged,
-        target.map_or_else(
-            |why| why.reason,
-            |share| format!("{} %", fixed(100.0 * share, 1))
-        )
-    ));
-    let mut table = Table::new("reversals", "Means of the last reversals", &REVERSALS);
-    let (mut shown, mut means) = (Vec::new(), Vec::new());
-    let mut series = Vec::new();
-    for subject in &experiment.subjects {
-        let own = of_subject(subject, (levels, track), (&mut table, &mut series));
-        let mean = mean(&own);
-        if let Ok(mean) = mean {
-            means.push(mean);
-            let ends = Summary::of(&own).ok().map(|s| [mean - s.sd, mean + s.sd]);
-            shown.push(Bar::of(subject.name, "", mean, ends));
-        }
-    }
-    section.table(table);
-    let what = format!("{}, mean of reversals", levels.quantity());
-    let title = "Over subjects, series averaged";
-    section.table(summaries("group", title, &[(what, means)]));
-    if !series.is_empty() {
-        let title = experiment.titled("levels from trial to trial");
-        let axes = [
-            Axis::linear("trial of the series"),
-            Axis::linear("level, dB re 1 µm"),
-        ];
-        section.figure(scatter("tracks", &title, axes, series));
-    }
-    if !shown.is_empty() {
-        let title = experiment.titled("means of reversals");
-        section.figure(bars("bars", &title, levels.quantity(), (&shown, None), &[]));
-    }
-    section
-}
-
-/// Rows of a subject's series; their thresholds.
-fn of_subject(
-    subject: &Subject<'_>,
-    (levels, track): (&Levels, &StaircaseTrack),
-    (table, series): (&mut Table, &mut Vec<Series>),
-) -> Vec<f64> {
-    let mut thresholds = Vec::new();
-    for session in &subject.sessions {
-        let all: Vec<Answered> = session.trials.iter().filter_map(|r| answered(r)).collect();
-        let number = session.found.subject.session;
-        for nth in 0..track.starts_db.len() {
-            let own: Vec<Answered> = all.iter().filter(|t| t.track == nth).copied().collect();
-            let staircase = run_again(levels, track, nth, &own);
-            let found = staircase
-                .map(|staircase| reversal_cells(&staircase, track, levels, &mut thresholds));
-            let found = or_undefined(found, REVERSALS.len() - 4);
-            table.push(cells![subject.name, number, nth + 1, own.len(), found]);
-            let name = format!("{}, session {number}, series {}", subject.name, nth + 1);
-            let at = own
-                .iter()
-                .zip(1_u32..)
-                .map(|(t, i)| [f64::from(i), t.level_db]);
-            series.push(Series::of(name, Style::LineAndDots, at));
-        }
-    }
-    thresholds
-}
-
-fn reversal_cells(
-    staircase: &Staircase,
-    track: &StaircaseTrack,
-    levels: &Levels,
-    thresholds: &mut Vec<f64>,
-) -> Vec<Cell> {
-    let found: Computed<ReversalMean> = staircase.reversal_mean(track.reversals_averaged);
-    let found = found.map(|mean| {
-        let threshold = levels.stimulus(mean.threshold);
-        thresholds.push(threshold);
-        cells![mean.n_reversals, threshold, mean.sd]
-    });
-    let warnings = staircase.warnings().join("; ");
-    cells![
-        staircase.reversals().len(),
-        or_undefined(found, 3),
-        warnings
-    ]
 }

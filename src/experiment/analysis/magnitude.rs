@@ -137,7 +137,7 @@ fn draw(experiment: &Experiment<'_>, found: &[(&str, Stevens)], section: &mut Se
             let interval = own.interval.as_ref().ok().map(|i| [i.low, i.high]);
             shown.push(Bar::of(name, condition, own.exponent, interval));
         }
-        shown.extend(Bar::mean("mean ± SE", condition, &exponents(law)));
+        shown.extend(Bar::mean("mean", condition, &exponents(law)));
     }
     if all.is_empty() {
         return;

@@ -22,6 +22,7 @@ mod judgement_confidence;
 mod judgement_pairs;
 mod judgement_power;
 mod levels;
+mod levels_series;
 mod magnitude;
 mod map;
 mod map_speeds;

@@ -9,7 +9,7 @@ use super::model::{Cell, Section, Table, cells, known, percent_interval, percent
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
 use super::properties::Measures;
-use super::tables::{matrix, tests};
+use super::tables::{SUMMARY, matrix, summary_cells, tests};
 use super::{odd_one_out_craven, odd_one_out_variants};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Correction, triangle};
@@ -17,7 +17,7 @@ use selvedge_statistics::mds::{Loss, Ties};
 use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use selvedge_statistics::variance::friedman;
 use selvedge_statistics::{
-    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, mean, one_sample_t,
+    Computed, Outcome, Sides, Summary, Undefined, exact_binomial, one_sample_t,
     wilcoxon_signed_rank,
 };
 
@@ -144,7 +144,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     ];
     let title = "Against chance, and session against session";
     section.table(tests("tests", title, &found));
-    shown.extend(Bar::mean("mean ± SE", "", &percents));
+    shown.extend(Bar::mean("mean", "", &percents));
     let title = experiment.titled("right answers");
     let shown = (shown.as_slice(), Some([0.0, 100.0]));
     let label = "right, % (95 % interval)";
@@ -211,35 +211,22 @@ fn graded(experiment: &Experiment<'_>, is_correct: bool, grade: Grade) -> (usize
 /// Easy, normal and hard, of right and of wrong answers.
 fn grades(experiment: &Experiment<'_>) -> Section {
     let mut section = experiment.section("grades", "easy, normal, hard");
-    section.note(
-        "Shares of a subject's right (or wrong) answers with each grade; mean ± SE over subjects.",
-    );
-    let columns = [
+    section.note("Shares of a subject's right (or wrong) answers with each grade.");
+    let own = [
         ("answers", "answers"),
         ("grade", "grade"),
         ("count", "count"),
-        ("subjects", "n"),
-        ("mean_percent", "mean share, %"),
-        ("se_percent", "SE"),
     ];
-    let mut table = Table::new("grades", "Grades of right and wrong answers", &columns);
+    let columns: Vec<_> = own.into_iter().chain(SUMMARY).collect();
+    let title = "Grades of right and wrong answers: shares over subjects, %";
+    let mut table = Table::new("grades", title, &columns);
     let mut shown = Vec::new();
     for (name, is_correct) in [("right", true), ("wrong", false)] {
         for grade in Grade::ALL {
             let (count, shares) = graded(experiment, is_correct, grade);
             let described = grade.name();
-            let se = Summary::of(&shares).map(|s| s.se);
-            let mean = mean(&shares);
-            table.push(cells![name, described, count, shares.len(), &mean, &se]);
-            if let Ok(mean) = mean {
-                let interval = se.ok().map(|se| [mean - se, mean + se]);
-                shown.push(Bar::of(
-                    described,
-                    &format!("{name} answers"),
-                    mean,
-                    interval,
-                ));
-            }
+            table.push(cells![name, described, count, summary_cells(&shares)]);
+            shown.extend(Bar::mean(described, &format!("{name} answers"), &shares));
         }
     }
     section.table(table);
@@ -248,7 +235,7 @@ fn grades(experiment: &Experiment<'_>) -> Section {
     section.figure(bars(
         "bars",
         &title,
-        "share of answers, % (± SE)",
+        "share of answers, % (95 % interval)",
         shown,
         &[],
     ));

@@ -115,7 +115,7 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
     section.over_subjects(&means, options);
     let found = against_chance(all, [&percents, &d_primes, &ranks]);
     section.table(tests("tests", "Against chance", &found));
-    shown.extend(Bar::mean("mean ± SE", "", &percents));
+    shown.extend(Bar::mean("mean", "", &percents));
     let title = experiment.titled("targets identified");
     let label = "targets identified, % (95 % interval)";
     let shown = (shown.as_slice(), Some([0.0, 100.0]));

@@ -11,7 +11,7 @@ use crate::design::{Rating, Scale};
 use crate::{Answer, Task};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
-use selvedge_statistics::{Computed, Outcome, Summary, mean, pearson, spearman};
+use selvedge_statistics::{Computed, Outcome, mean, pearson, spearman};
 
 /// A subject's mean rating of every stimulus on one scale; `None` where it was not rated.
 type Subjects = Vec<Vec<Option<f64>>>;
@@ -68,7 +68,7 @@ pub(super) fn sections(
         for (item, name) in names.iter().enumerate() {
             let values: Vec<f64> = all.iter().filter_map(|s| s[item]).collect();
             table.push(cells![&scale.key, name, summary_cells(&values)]);
-            shown.extend(bar(name, &values));
+            shown.extend(Bar::mean(name, "", &values));
         }
         section.figure(picture(experiment, scale, &shown));
         let key = file_name(&scale.key, '-');
@@ -99,20 +99,9 @@ pub(super) fn sections(
 
 fn picture(experiment: &Experiment<'_>, scale: &Scale, shown: &[Bar]) -> Drawn {
     let title = format!("{}: {}", experiment.design.title, scale.key);
-    let label = format!("{} to {} (± SE)", scale.low, scale.high);
+    let label = format!("{} to {} (95 % interval)", scale.low, scale.high);
     let key = format!("scale-{}", file_name(&scale.key, '-'));
     bars(&key, &title, &label, (shown, Some(scale.bounds())), &[])
-}
-
-fn bar(name: &str, values: &[f64]) -> Option<Bar> {
-    let mean = mean(values).ok()?;
-    let summary = Summary::of(values).ok();
-    Some(Bar::of(
-        name,
-        "",
-        mean,
-        summary.map(|s| [s.mean - s.se, s.mean + s.se]),
-    ))
 }
 
 fn crossed(experiment: &Experiment<'_>, names: &[String], all: &Subjects) -> Computed<Crossed> {

@@ -173,7 +173,11 @@ fn staircases(
     Interleaved::new(made?, random.branch("tracks").seed())
 }
 
-fn quest_plus(levels: &Levels, track: &QuestPlusTrack) -> Computed<QuestPlus> {
+/// The series of a session that goes by QUEST+, before its first answer.
+///
+/// # Errors
+/// The design's numbers make no series.
+pub(crate) fn quest_plus(levels: &Levels, track: &QuestPlusTrack) -> Computed<QuestPlus> {
     let [low, high] = levels.range_db.map(|db| levels.stimulus(db));
     #[expect(
         clippy::cast_possible_truncation,

@@ -8,6 +8,7 @@ mod adaptive;
 mod listed;
 
 use adaptive::Adaptive;
+pub(super) use adaptive::quest_plus;
 
 use super::ExperimentError;
 use super::design::{Design, Method, Subject};

@@ -85,25 +85,6 @@ impl Psychometric {
         let place = self.family.place(self.threshold) + self.width * widths;
         Ok(self.family.stimulus(place))
     }
-
-    /// dp/dx at the threshold.
-    pub fn slope(&self) -> f64 {
-        let per_place = (1.0 - self.guess - self.lapse) * self.family.rise() / self.width;
-        match self.family {
-            Family::Weibull => per_place / self.threshold,
-            _ => per_place,
-        }
-    }
-
-    /// Half the distance from 25 % to 75 % of F: the just noticeable difference where answers say
-    /// which of two was stronger.
-    ///
-    /// # Errors
-    /// None for a checked function.
-    pub fn jnd(&self) -> Computed {
-        let [low, high] = [0.25, 0.75].map(|share| self.stimulus_at_shape(share));
-        Ok(0.5 * (high? - low?))
-    }
 }
 
 /// F and 1 − F with guesses and lapses.
@@ -138,23 +119,7 @@ mod tests {
                 (curve.stimulus_at_shape(0.5)? - 4.0).abs() < 1e-13,
                 "{family:?}"
             );
-            let h = 1e-5;
-            let rise = (curve.at(4.0 + h) - curve.at(4.0 - h)) / (2.0 * h);
-            assert!((rise / curve.slope() - 1.0).abs() < 1e-7, "{family:?}");
         }
-        Ok(())
-    }
-
-    #[test]
-    fn a_cumulative_gaussian_has_the_jnd_of_its_quartiles() -> Computed<()> {
-        // Width 2·1.645 σ; quartiles ±0.6745 σ.
-        let jnd = Psychometric {
-            width: 3.289_707_253_902_944_6,
-            guess: 0.0,
-            ..curve(Family::Normal)
-        }
-        .jnd()?;
-        assert!((jnd - 0.674_489_750_196_081_7).abs() < 1e-12, "{jnd}");
         Ok(())
     }
 

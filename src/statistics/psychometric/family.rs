@@ -1,6 +1,6 @@
 //! The shapes of psychometric functions: how the share of answers rises with the stimulus.
 
-use crate::distribution::{normal_density, normal_lower, normal_quantile, normal_upper};
+use crate::distribution::{normal_lower, normal_quantile, normal_upper};
 use crate::{Computed, undefined};
 
 /// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
@@ -93,15 +93,6 @@ impl Family {
             }
         })
     }
-
-    /// dF/dz at the threshold.
-    pub(super) fn rise(self) -> f64 {
-        match self {
-            Self::Logistic => 0.5 * LOGIT,
-            Self::Normal => 2.0 * PROBIT * normal_density(0.0),
-            Self::Weibull | Self::Gumbel => 0.5 * std::f64::consts::LN_2 * (GUMBEL[0] + GUMBEL[1]),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -134,15 +125,6 @@ mod tests {
             );
         }
         Ok(())
-    }
-
-    #[test]
-    fn the_slope_is_the_derivative() {
-        for family in Family::ALL {
-            let h = 1e-5;
-            let rise = (family.shares(h)[0] - family.shares(-h)[0]) / (2.0 * h);
-            assert!((rise - family.rise()).abs() < 1e-8, "{family:?}");
-        }
     }
 
     #[test]

@@ -2,38 +2,39 @@
 //! thresholds to the exponents of magnitude.
 //!
 //! ```text
-//! (stimulus, answer)… ─▶ blocks ─▶ Model::fit ─▶ Fit ─▶ delta      interval by curvature
-//!                                                  ├──▶ posterior  interval by Bayes' rule
-//!                                                  └──▶ resample   interval and fit by simulation
+//! (stimulus, answer)… ─▶ blocks ─▶ Model::evidence ─┬▶ Model::fit      of a subject alone
+//!   likelihood over a grid of functions             ├▶ Population::of  of all, and of each in it
+//!                                                   └▶ Goodness::of    deviance, by simulation
 //! ```
 //!
 //! # Invariants
 //! - every stimulus is in the caller's unit; only Weibull takes its logarithm, and says so
-//! - the fitted function is the mode of the posterior, and the priors stand in the fit
-//! - data that say nothing of a threshold are refused; an estimate at the edge of its prior is said
+//! - what is expected before any answer is stated in [`Model`] and `population`, and never taken
+//!   from the stimuli: they are chosen by the answers
+//! - data that say nothing of a threshold are refused; one that is not bracketed is said
 
 mod adjustment;
 mod answers;
-mod comparison;
 mod curve;
-mod delta;
+mod evidence;
 mod family;
 mod fit;
-mod posterior;
-mod prior;
-mod resample;
+mod goodness;
+mod guess;
+mod model;
+mod population;
 pub mod stevens;
-mod target;
 #[cfg(test)]
 mod tests;
 
 pub use adjustment::{Adjustments, Settings, Starts};
 pub use answers::{Block, blocks};
-pub use comparison::{Comparison, Measured};
 pub use curve::Psychometric;
 pub(super) use curve::scaled;
+pub use evidence::Evidence;
 pub use family::Family;
-pub use fit::{Fit, Model};
-pub use posterior::Posterior;
-pub use prior::Guess;
-pub use resample::Resamples;
+pub use fit::Fit;
+pub use goodness::Goodness;
+pub use guess::Guess;
+pub use model::Model;
+pub use population::{Estimate, Population};

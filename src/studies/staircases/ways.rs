@@ -226,7 +226,8 @@ fn continued(
 }
 
 fn fitted(procedure: &impl Procedure) -> Computed<(f64, Option<f64>)> {
-    let fit = Model::alternatives(Family::Gumbel, 3).fit(&procedure.blocks())?;
+    let fit =
+        Model::alternatives(Family::Gumbel, 3, [ASSUMED_WIDTH_DB, 0.5]).fit(&procedure.blocks())?;
     Ok((fit.curve.threshold, None))
 }
 

@@ -3,6 +3,7 @@
 mod bad;
 mod choices;
 mod files;
+mod inference;
 mod pairs;
 mod ranking;
 mod settings;

@@ -54,7 +54,7 @@ fn levels_of(levels: &Levels, series: usize) -> Staircase {
     let Track::Staircase(track) = &levels.track else {
         panic!("no staircase");
     };
-    levels::run_again(levels, track, series, &[]).unwrap()
+    levels_series::run_again(levels, track, series, &[]).unwrap()
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn staircases_and_fits_find_the_level_from_which_answers_are_right() {
             "{fits:?}"
         );
         assert!(
-            (value(means, 2 * nth, "threshold_db") - edge).abs() < 1.0,
+            (value(means, 2 * nth, "mean_db") - edge).abs() < 1.0,
             "{means:?}"
         );
     }

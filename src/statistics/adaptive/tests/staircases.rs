@@ -261,10 +261,7 @@ fn a_fit_of_all_trials_comes_as_near_as_the_reversals() -> Computed<()> {
         let mut staircase = Staircase::new(endless(rule, [1.0, 1.0], 120))?;
         answers(&mut staircase, &curve, &mut random)?;
         by_reversals += (staircase.reversal_mean(20)?.threshold - wanted).powi(2) / 60.0;
-        let model = Model {
-            max_lapse: 0.0,
-            ..Model::alternatives(Family::Logistic, 4)
-        };
+        let model = Model::alternatives(Family::Logistic, 4, [curve.width, 0.5]);
         let fit = model.fit(&staircase.blocks())?;
         by_fit += (fit.curve.stimulus_at(0.5_f64.cbrt())? - wanted).powi(2) / 60.0;
     }

@@ -1,0 +1,328 @@
+//! A hundred simulated observers of known parameters: what the analysis finds of them, and how
+//! often their own intervals hold what they are.
+
+use super::*;
+use crate::observer::{Jnd, Observer, Stimuli, tests::stimuli};
+use crate::simulate::{Simulation, simulated_subject};
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_statistics::detection::{Answers, Correction, forced_choice, triangle, yes_no};
+use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
+
+/// Observers of a study.
+const N: usize = 100;
+/// The difference that they just notice, dB, at all levels.
+const JND_DB: f64 = 2.4;
+/// How many differences more than nothing are two of three right among three intervals: their d′,
+/// 1.1159, times the noise of a look, 1/(√2 Φ⁻¹(¾)).
+const TWO_THIRDS: f64 = 1.115_898_341_233_256 * 1.048_358_082_507_530_5;
+const SEED: u64 = 1;
+
+/// The sessions of observers from one number to another.
+fn sessions(design: &Design, observer: &Observer, numbers: std::ops::Range<usize>) -> Vec<Found> {
+    held_with(&stimuli(design), design, observer, numbers)
+}
+
+/// Stimuli far above threshold, where a level is felt as it is turned; those of no material of the
+/// design are 6 dB stronger.
+fn loud(design: &Design) -> Stimuli {
+    let of_textile = |id: &str| {
+        let is_material = design
+            .stimuli
+            .iter()
+            .any(|stimulus| stimulus.material == id);
+        let more_db = if is_material { 0.0 } else { 6.0 };
+        let mean_um = [36.0, 26.0].map(|db| factor_of_gain(db + more_db));
+        let levels = Levels {
+            mean_um,
+            cv: [0.0; 2],
+            anisotropy_db: [0.0; 2],
+            direction_mean_um: [mean_um; 4],
+        };
+        Some((levels, 0.0))
+    };
+    Stimuli::from_levels(design, Tuning::default(), of_textile).unwrap()
+}
+
+fn held_with(
+    stimuli: &Stimuli,
+    design: &Design,
+    observer: &Observer,
+    numbers: std::ops::Range<usize>,
+) -> Vec<Found> {
+    let simulation = Simulation {
+        design,
+        stimuli,
+        observer,
+        seed: SEED,
+    };
+    let of_subject = |nth| {
+        let subject = simulated_subject(nth, 1);
+        Found {
+            log: PathBuf::from(format!("nowhere/{}.csv", subject.pseudonym)),
+            records: simulation.records(&subject).unwrap(),
+            subject,
+            design: design.clone(),
+            has_torn_row: false,
+        }
+    };
+    numbers.map(of_subject).collect()
+}
+
+fn name_in(table: &Table, row: usize) -> &str {
+    match table.cell(row, "subject") {
+        Some(Cell::Text(name)) => name,
+        other => panic!("{row}: {other:?}"),
+    }
+}
+
+/// How many rows hold the truth of their subject.
+fn held(table: &Table, ends: [&str; 2], truth: impl Fn(&str) -> f64) -> usize {
+    let holds = |row: &usize| {
+        let [low, high] = ends.map(|end| value(table, *row, end));
+        (low..=high).contains(&truth(name_in(table, *row)))
+    };
+    (0..table.rows.len()).filter(holds).count()
+}
+
+/// What is drawn once for a subject.
+fn of_person(subject: &str, what: &str) -> f64 {
+    let person = Random::new(SEED).branch("observers").branch(subject);
+    person.branch(what).normal()
+}
+
+#[test]
+fn thresholds_of_a_hundred_observers_are_found_and_held() {
+    let mut n_held = [0, 0];
+    let cases = [
+        ("jnd-40", None, 0.0),
+        ("jnd-40", None, 0.2),
+        ("jnd-320", None, 0.2),
+        ("threshold-40", Some(Band::Low), 0.2),
+        ("threshold-320", Some(Band::High), 0.2),
+    ];
+    let n_cases = cases.len();
+    for (name, band, jnd_spread) in cases {
+        let observer = Observer {
+            jnd: Jnd::Fixed([JND_DB; 2]),
+            jnd_spread,
+            lapse: 0.1 * jnd_spread,
+            ..Observer::default()
+        };
+        let truth_db = |noise: f64| match band {
+            None => JND_DB * noise,
+            Some(band) => detection_threshold_db(band, 24) + (TWO_THIRDS * noise - 1.0) * JND_DB,
+        };
+        let design = Design::shipped(name).unwrap();
+        let analysis = analysed(&sessions(&design, &observer, 0..N));
+        let key = format!("{name}-thresholds");
+        let (group, fits) = (
+            table(&analysis, &key, "group"),
+            table(&analysis, &key, "fits"),
+        );
+        let at = value(group, 0, "mean");
+        let bias = match band {
+            None => at / truth_db(1.0) - 1.0,
+            Some(_) => 10.0_f64.powf((at - truth_db(1.0)) / 20.0) - 1.0,
+        };
+        let own = |subject: &str| truth_db((jnd_spread * of_person(subject, "noise")).exp());
+        let held = [
+            ["ci_low_db", "ci_high_db"],
+            ["pooled_low_db", "pooled_high_db"],
+        ]
+        .map(|ends| held(fits, ends, own));
+        println!(
+            "{name}, noise differs by {jnd_spread}: {at:.3} ({:.3} to {:.3}) of {:.3} dB, \
+             {:+.1} %; held by {} own and {} pooled intervals of {}",
+            value(group, 0, "ci_low"),
+            value(group, 0, "ci_high"),
+            truth_db(1.0),
+            100.0 * bias,
+            held[0],
+            held[1],
+            fits.rows.len()
+        );
+        assert!(bias.abs() <= 0.05, "{name}: {bias}");
+        assert!(held.iter().all(|n| *n >= 90), "{name}: {held:?}");
+        n_held = [n_held[0] + held[0], n_held[1] + held[1]];
+    }
+    let shares = n_held.map(|n| n as f64 / (n_cases * N) as f64);
+    assert!(
+        shares.iter().all(|share| (0.9..=0.99).contains(share)),
+        "{shares:?}"
+    );
+}
+
+/// What a mean over subjects is to be, and the ends of subjects' own intervals of it.
+struct Known<'a> {
+    /// Section, and row in its table `group`.
+    group: (&'a str, usize),
+    /// The table of subjects in the same section, and the ends of their intervals.
+    subjects: (&'a str, [&'a str; 2]),
+    /// Of everybody, and of a subject.
+    truth: (f64, &'a dyn Fn(&str) -> f64),
+}
+
+impl Known<'_> {
+    /// Refuses a mean that is more than 5 % off, and intervals that hold too few or too many.
+    fn check(&self, analysis: &Analysis) {
+        let ((section, row), (of_subjects, ends)) = (self.group, self.subjects);
+        let group = table(analysis, section, "group");
+        let at = value(group, row, "mean");
+        let bias = at / self.truth.0 - 1.0;
+        let mut subjects = table(analysis, section, of_subjects).clone();
+        let what = group.rows[row][0].clone();
+        if let Cell::Text(what) = &what {
+            // Of one condition alone, and without the group.
+            subjects.rows.retain(|cells| match &cells[..2] {
+                [Cell::Text(condition), Cell::Text(name)] => {
+                    name != "group" && what.contains(condition.as_str())
+                }
+                _ => true,
+            });
+        }
+        let n_held = held(&subjects, ends, self.truth.1);
+        let n = subjects.rows.len();
+        println!(
+            "{section}, {what:?}: {at:.4} of {:.4}, {:+.1} %; held by {n_held} intervals of {n}",
+            self.truth.0,
+            100.0 * bias
+        );
+        assert!(bias.abs() <= 0.05, "{section}, {what:?}: {bias}");
+        let share = n_held as f64 / n as f64;
+        assert!((0.9..=1.0).contains(&share), "{section}, {what:?}: {share}");
+    }
+}
+
+/// Right answers and answers that are either, of observers that nobody else sees.
+fn long_run(design: &Design, observer: &Observer) -> [u64; 2] {
+    let found = sessions(design, observer, N..N + 1000);
+    let records = found.iter().flat_map(|found| &found.records);
+    let verdicts = records.filter(|r| !r.trial.is_practice);
+    verdicts
+        .filter_map(|r| r.is_correct)
+        .fold([0, 0], |[right, n], is_right| {
+            [right + u64::from(is_right), n + 1]
+        })
+}
+
+#[test]
+fn shares_right_of_a_hundred_observers_are_found_and_held() {
+    let observer = Observer {
+        jnd: Jnd::Fixed([3.0 * JND_DB; 2]),
+        ..Observer::default()
+    };
+    for (name, section) in [
+        ("odd-one-out", "accuracy"),
+        ("ranking-virtual-target", "identification"),
+        ("ranking-real-target", "identification"),
+    ] {
+        let design = Design::shipped(name).unwrap();
+        let analysis = analysed(&sessions(&design, &observer, 0..N));
+        let [right, n] = long_run(&design, &observer);
+        let percent = 100.0 * right as f64 / n as f64;
+        let key = format!("{name}-{section}");
+        let known = Known {
+            group: (&key, 0),
+            subjects: ("subjects", ["ci_low_percent", "ci_high_percent"]),
+            truth: (percent, &|_| percent),
+        };
+        known.check(&analysis);
+        let correction = Correction::LogLinear;
+        let choice = match name {
+            "odd-one-out" => triangle(right, n, correction),
+            _ => forced_choice(right, n, 4, correction),
+        };
+        let d_prime = choice.unwrap().d_prime;
+        let known = Known {
+            group: (&key, 1),
+            subjects: ("subjects", ["d_prime_ci_low", "d_prime_ci_high"]),
+            truth: (d_prime, &|_| d_prime),
+        };
+        known.check(&analysis);
+    }
+}
+
+#[test]
+fn sensitivity_of_a_hundred_observers_is_found_and_held() {
+    let observer = Observer {
+        jnd: Jnd::Fixed([JND_DB; 2]),
+        ..Observer::default()
+    };
+    let design = Design::shipped("real-or-generated").unwrap();
+    let stimuli = loud(&design);
+    let analysis = analysed(&held_with(&stimuli, &design, &observer, 0..N));
+    let mut answers = Answers {
+        hits: 0,
+        n_signal: 0,
+        false_alarms: 0,
+        n_noise: 0,
+    };
+    let found = held_with(&stimuli, &design, &observer, N..N + 1000);
+    for record in found.iter().flat_map(|found| &found.records) {
+        let (Task::Judge { .. }, Some(Answer::Judged { is_real, .. })) =
+            (&record.trial.task, record.answer())
+        else {
+            continue;
+        };
+        // Said to be real and right, or wrong and real.
+        if record.is_correct == Some(*is_real) {
+            answers.n_signal += 1;
+            answers.hits += u64::from(*is_real);
+        } else {
+            answers.n_noise += 1;
+            answers.false_alarms += u64::from(*is_real);
+        }
+    }
+    let d_prime = yes_no(answers, Correction::LogLinear).unwrap().d_prime;
+    let known = Known {
+        group: ("single-judgements-sensitivity", 1),
+        subjects: ("subjects", ["d_prime_ci_low", "d_prime_ci_high"]),
+        truth: (d_prime, &|_| d_prime),
+    };
+    known.check(&analysis);
+}
+
+#[test]
+fn exponents_of_a_hundred_observers_are_found_and_held() {
+    let design = Design::shipped("magnitude").unwrap();
+    let analysis = analysed(&sessions(&design, &Observer::default(), 0..N));
+    // As the model of perception has them, and as subjects differ.
+    for (row, exponent) in [(0, 0.95), (1, 0.58)] {
+        let known = Known {
+            group: ("magnitude-exponents", row),
+            subjects: ("exponents", ["ci_low", "ci_high"]),
+            truth: (exponent, &|subject| {
+                exponent * (0.1 * of_person(subject, "exponent")).exp()
+            }),
+        };
+        known.check(&analysis);
+    }
+}
+
+#[test]
+fn a_hundred_observers_set_gains_to_what_the_cloth_has() {
+    let design = Design::shipped("adjustment-two-gains").unwrap();
+    let observer = Observer::default();
+    let analysis = analysed(&held_with(&loud(&design), &design, &observer, 0..N));
+    for band in ["40", "320"] {
+        let key = format!("adjustment-two-gains-gain-{band}-db");
+        let stimuli = table(&analysis, &key, "stimuli");
+        let mut n_held = 0;
+        for row in 0..stimuli.rows.len() {
+            let bias = 10.0_f64.powf(value(stimuli, row, "mean") / 20.0) - 1.0;
+            println!(
+                "gain at {band} Hz, {:?}: {:+.1} % of 0 dB, {:.3} to {:.3} dB",
+                stimuli.rows[row][0],
+                100.0 * bias,
+                value(stimuli, row, "ci_low"),
+                value(stimuli, row, "ci_high"),
+            );
+            assert!(bias.abs() <= 0.05, "{key} {row}: {bias}");
+            n_held += usize::from(
+                value(stimuli, row, "ci_low") <= 0.0 && value(stimuli, row, "ci_high") >= 0.0,
+            );
+        }
+        assert!(n_held + 1 >= stimuli.rows.len(), "{key}: {n_held}");
+    }
+}
