@@ -5,6 +5,7 @@ use selvedge_foundation::numerics::Random;
 
 use crate::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
 use crate::detection::{Answers, Correction, forced_choice, share_of_d_prime, yes_no};
+use crate::procrustes::protest;
 use crate::psychometric::stevens::{Estimate, stevens};
 use crate::psychometric::{Block, Family, Guess, Model, Psychometric};
 use crate::variance::{
@@ -12,8 +13,9 @@ use crate::variance::{
     repeated_two_way, welch,
 };
 use crate::{
-    Computed, Outcome, Resampling, Summary, bootstrap, fisher_z, mean, normal_lower, one_sample_t,
-    paired_t, pearson, pearson_r, sign_flip, two_sample_t, wilcoxon_signed_rank, wilson,
+    Computed, Outcome, Resampling, Sides, Summary, bootstrap, exact_binomial, fisher_z, mean,
+    normal_lower, one_sample_t, paired_t, pearson, pearson_r, sign_flip, two_sample_t,
+    wilcoxon_signed_rank, wilson,
 };
 
 const LEVEL: f64 = 0.95;
@@ -127,7 +129,16 @@ fn tests_find_no_more_than_their_level_where_nothing_is() {
             let differences: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
             rejects(wilcoxon_signed_rank(&differences, 0.0))
         }),
-        ("sign flips", 1000, |random| {
+        ("binomial, 80 trials", 2000, |random| {
+            // 27 hits or more have a probability of 0.0499.
+            let hits = u64::from(successes(random, 80, 0.25));
+            rejects(exact_binomial(hits, 80, 0.25, Sides::Greater))
+        }),
+        ("PROTEST", 2000, |random| {
+            let [a, b] = [(); 2].map(|()| clouds(random));
+            Ok(protest(&a, &b, 39, random)? <= ALPHA)
+        }),
+        ("sign flips", 2000, |random| {
             rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))
         }),
         ("correlation, Pearson", 2000, |random| {
@@ -141,9 +152,7 @@ fn tests_find_no_more_than_their_level_where_nothing_is() {
 #[test]
 fn analyses_of_variance_find_no_more_than_their_level_where_nothing_is() {
     let trials: &[Trial] = &[
-        ("one way", 2000, |random| {
-            Ok(one_way("group", &groups(random))?.p? < ALPHA)
-        }),
+        ("one way", 2000, |random| rejects(one_way(&groups(random)))),
         ("Welch", 2000, |random| rejects(welch(&groups(random)))),
         ("Kruskal–Wallis", 2000, |random| {
             rejects(kruskal_wallis(&groups(random)))
@@ -262,6 +271,13 @@ fn correlated(random: &mut Random) -> [[f64; N]; 2] {
 fn groups(random: &mut Random) -> Vec<Vec<f64>> {
     (0..4)
         .map(|_| normals::<N>(random, 10.0, 2.0).to_vec())
+        .collect()
+}
+
+/// Seven points of a plane.
+fn clouds(random: &mut Random) -> Vec<Vec<f64>> {
+    (0..7)
+        .map(|_| normals::<2>(random, 0.0, 1.0).to_vec())
         .collect()
 }
 

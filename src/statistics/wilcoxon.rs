@@ -109,7 +109,8 @@ struct SignedRanks {
 impl SignedRanks {
     fn of(differences: &[f64], ranks: Ranks) -> Self {
         let both = differences.iter().zip(&ranks.ranks);
-        let positive = both.filter(|(d, _)| **d > 0.0).map(|(_, r)| r).sum();
+        // A sum of nothing is −0.
+        let positive = both.filter(|(d, _)| **d > 0.0).map(|(_, r)| r).sum::<f64>() + 0.0;
         Self { ranks, positive }
     }
 

@@ -9,7 +9,7 @@ use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::properties::Measures;
 use super::tables::tests;
-use super::variance::{complete_rows, effects};
+use super::variance::{complete_rows, effects, every_two};
 use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
 use crate::{Answer, Task};
 use selvedge_chart::{Axis, Series, Style};
@@ -125,6 +125,7 @@ fn parameter_section(
     let rows = complete_rows(&crossed);
     let variance = crossed.and_then(|table| repeated_one_way(&table));
     section.table(effects("anova", "Stimuli, within subjects", &variance));
+    section.table(every_two("pairs", &names, &rows));
     let hysteresis = start_effect(experiment, all, middle)
         .and_then(|d| Summary::of(&d))
         .and_then(|s| one_sample_t(&s, 0.0));

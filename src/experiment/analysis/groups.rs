@@ -1,53 +1,101 @@
 //! Experiments of one folder beside each other: a real against a virtual target, say.
 
+use std::collections::BTreeMap;
+
 use super::answers::{Rankings, rankings};
 use super::included_trials::{Experiment, Subject};
-use super::model::Section;
+use super::model::{Section, Table, cells};
 use super::tables::{summaries, tests};
 use crate::design::Method;
+use selvedge_statistics::variance::{holm, kruskal_wallis, one_way, welch};
 use selvedge_statistics::{
     Computed, Outcome, Summary, TwoSamples, Undefined, paired_t, two_sample_t,
 };
 
+/// What Welch's t of two samples is called.
+const WELCH: &str = "Welch t, two samples";
+
 /// A score of every subject, %.
 type Scores = Vec<(String, f64)>;
 
-/// Every two experiments of one method whose answers are right or wrong.
+/// The experiments of every method whose answers are right or wrong: every two of them, and all
+/// where there are three or more.
 pub(super) fn compared(experiments: &[Experiment<'_>]) -> Option<Section> {
-    let scored: Vec<(&Experiment<'_>, Scores)> = experiments
-        .iter()
-        .filter_map(|experiment| Some((experiment, scores(experiment)?)))
-        .collect();
+    let mut by_method: BTreeMap<&str, Vec<(&str, Scores)>> = BTreeMap::new();
+    for experiment in experiments {
+        if let Some(scores) = scores(experiment) {
+            let of_method = by_method
+                .entry(experiment.design.method.name())
+                .or_default();
+            of_method.push((&experiment.key, scores));
+        }
+    }
+    by_method.retain(|_, all| all.len() > 1);
+    if by_method.is_empty() {
+        return None;
+    }
     let mut section = Section::new("comparison", "Experiments compared");
     section.note(
         "Scores are shares of right answers by subject. Welch's t is the one to believe where \
-         spreads differ; the paired test is of subjects who took part in both.",
+         spreads differ; the paired test is of subjects who took part in both. Where there are \
+         three experiments or more, p by Holm is Welch's, adjusted for all that are compared.",
     );
-    let mut all: Vec<(String, Computed<Outcome>)> = Vec::new();
-    let mut entered: Vec<usize> = Vec::new();
-    for i in 0..scored.len() {
-        for j in i + 1..scored.len() {
-            let ((a, first), (b, second)) = (&scored[i], &scored[j]);
-            if a.design.method.name() != b.design.method.name() {
-                continue;
-            }
-            entered.extend([i, j]);
-            let what = format!("{}, less {}, %", a.key, b.key);
-            all.extend(two(&what, first, second));
+    let all = || by_method.values().flatten();
+    let means: Vec<(String, Vec<f64>)> = all()
+        .map(|(key, scores)| (format!("{key}, %"), values(scores)))
+        .collect();
+    section.table(summaries("means", "Right answers", &means));
+    let found: Vec<Tested> = by_method
+        .iter()
+        .flat_map(|(name, all)| method(name, all))
+        .collect();
+    section.table(tests("tests", "Differences", &found));
+    if by_method.values().any(|all| all.len() > 2) {
+        section.table(adjusted(&found));
+    }
+    Some(section)
+}
+
+/// What was tested, and what came of it.
+type Tested = (String, Computed<Outcome>);
+
+/// The tests of one method's experiments.
+fn method(name: &str, all: &[(&str, Scores)]) -> Vec<Tested> {
+    let mut found = Vec::new();
+    if all.len() > 2 {
+        let groups: Vec<Vec<f64>> = all.iter().map(|(_, scores)| values(scores)).collect();
+        let what = format!("all of {name}, %");
+        found.push((what.clone(), one_way(&groups)));
+        found.push((what.clone(), welch(&groups)));
+        found.push((what, kruskal_wallis(&groups)));
+    }
+    for (i, (a, first)) in all.iter().enumerate() {
+        for (b, second) in &all[i + 1..] {
+            found.extend(two(&format!("{a}, less {b}, %"), first, second));
         }
     }
-    entered.sort_unstable();
-    entered.dedup();
-    let means: Vec<(String, Vec<f64>)> = entered
-        .into_iter()
-        .map(|at| (format!("{}, %", scored[at].0.key), values(&scored[at].1)))
-        .collect();
-    if all.is_empty() {
-        return None;
+    found
+}
+
+/// Welch's p values, adjusted for each other.
+fn adjusted(found: &[Tested]) -> Table {
+    let columns = [
+        ("what", "of what"),
+        ("p", "p (Welch)"),
+        ("p_holm", "p by Holm"),
+    ];
+    let mut table = Table::new("holm", "Differences, adjusted for each other", &columns);
+    let outcomes = found
+        .iter()
+        .filter_map(|(what, found)| Some((what, found.as_ref().ok()?)));
+    let (names, p): (Vec<&String>, Vec<f64>) = outcomes
+        .filter(|(_, outcome)| outcome.test == WELCH)
+        .map(|(what, outcome)| (what, outcome.p))
+        .unzip();
+    for ((what, p), p_holm) in names.iter().zip(&p).zip(holm(&p)) {
+        table.push(cells![*what, *p, p_holm]);
     }
-    section.table(summaries("means", "Right answers", &means));
-    section.table(tests("tests", "Differences", &all));
-    Some(section)
+    table
 }
 
 fn values(scores: &Scores) -> Vec<f64> {

@@ -120,11 +120,16 @@ impl Table {
         self
     }
 
-    /// Adds a row; cells that are missing are undefined.
+    /// Adds a row; cells that are missing are undefined, and no probability is 0.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         let missing = || Cell::Undefined("no value".to_owned());
         row.resize_with(self.columns.len(), missing);
+        for (cell, column) in row.iter_mut().zip(&self.columns) {
+            if column.is_probability() && cell.number().is_some_and(|p| p <= 0.0) {
+                *cell = Cell::none(LEAST_PROBABILITY);
+            }
+        }
         self.rows.push(row);
     }
 
@@ -136,7 +141,15 @@ impl Table {
     }
 }
 
+/// What stands for a probability that is smaller than anybody can tell.
+pub(super) const LEAST_PROBABILITY: &str = "< 1e-12";
+
 impl Column {
+    /// Whether its numbers are p values.
+    pub(super) fn is_probability(&self) -> bool {
+        self.name == "p" || self.name.starts_with("p_") || self.name.ends_with("_p")
+    }
+
     fn new(name: &str, heading: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -263,7 +276,8 @@ pub(crate) fn known(value: Option<f64>, why_none: &str) -> Cell {
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
         if value.is_finite() {
-            Self::Number(value)
+            // Never −0.
+            Self::Number(value + 0.0)
         } else {
             Self::Undefined("not finite".to_owned())
         }

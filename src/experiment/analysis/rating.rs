@@ -6,7 +6,7 @@ use super::model::{Drawn, Section, Table, cells, file_name};
 use super::options::Options;
 use super::properties::Measures;
 use super::tables::{SUMMARY, summary_cells, tests};
-use super::variance::{complete_rows, effects};
+use super::variance::{complete_rows, effects, every_two};
 use crate::design::{Rating, Scale};
 use crate::{Answer, Task};
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -74,10 +74,12 @@ pub(super) fn sections(
         let key = file_name(&scale.key, '-');
         let crossed = crossed(experiment, &names, &all);
         let rows = complete_rows(&crossed);
+        let pairs = every_two(&format!("pairs-{key}"), &names, &rows);
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
         let variance = crossed.and_then(|table| repeated_one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);
         section.table(effects(&format!("anova-{key}"), &title, &variance));
+        section.table(pairs);
         by_scale.push((scale.key.clone(), means(&all, names.len())));
     }
     section.tables.insert(0, table);

@@ -19,10 +19,11 @@ impl Section {
 }
 
 /// Columns of [`tests`].
-const TESTS: [(&str, &str); 17] = [
+const TESTS: [(&str, &str); 20] = [
     ("what", "of what"),
     ("test", "test"),
     ("n", "n"),
+    ("n_second", "n of the second"),
     ("statistic", "statistic"),
     ("value", "value"),
     ("df", "df"),
@@ -31,6 +32,8 @@ const TESTS: [(&str, &str); 17] = [
     ("sides", "sides"),
     ("effect", "effect size"),
     ("effect_value", "value"),
+    ("effect_low", "95 % CI from"),
+    ("effect_high", "to"),
     ("estimate", "estimate"),
     ("estimate_value", "value"),
     ("ci_low", "CI from"),
@@ -54,7 +57,13 @@ pub(super) fn tests<S: AsRef<str>>(
 }
 
 fn cells_of(outcome: &Outcome) -> Vec<Cell> {
-    let n: Vec<String> = outcome.n.iter().map(ToString::to_string).collect();
+    let n = match *outcome.n {
+        [first, second] => cells![first, second],
+        ref groups => cells![
+            groups.iter().sum::<usize>(),
+            Cell::none("not of two groups")
+        ],
+    };
     let df = match outcome.df {
         Freedom::None => [(); 2].map(|()| Cell::none("the test has none")),
         Freedom::One(df) => [df.into(), Cell::none("the test has one number alone")],
@@ -69,19 +78,26 @@ fn cells_of(outcome: &Outcome) -> Vec<Cell> {
         let cells = |named: &Named| cells![named.symbol, named.value];
         or_undefined(value.as_ref().map(cells), 2)
     };
+    let effect = outcome.effect_interval();
+    let mut remarks: Vec<&str> = outcome.notes.iter().map(String::as_str).collect();
+    remarks.extend(effect.as_ref().ok().map(|(_, how)| *how));
     cells![
         outcome.test,
-        n.join(" + "),
+        n,
         outcome.statistic.symbol,
         outcome.statistic.value,
         df,
         outcome.p,
         sides,
         named(&outcome.effect),
+        effect
+            .as_ref()
+            .map(|(interval, _)| *interval)
+            .map_err(Clone::clone),
         named(&outcome.estimate),
         &outcome.interval,
         outcome.interval.as_ref().map(|interval| interval.level),
-        outcome.notes.join("; "),
+        remarks.join("; "),
     ]
 }
 

@@ -1,10 +1,10 @@
 //! Tables of analyses of variance.
 
-use super::model::{Cell, Table, cells};
-use selvedge_statistics::Computed;
-use selvedge_statistics::variance::{Crossed, Effect, Repeated};
+use super::model::{Cell, Table, cells, or_undefined};
+use selvedge_statistics::variance::{Comparison, Crossed, Effect, Repeated, every_pair};
+use selvedge_statistics::{Computed, Named};
 
-const EFFECTS: [(&str, &str); 17] = [
+const EFFECTS: [(&str, &str); 19] = [
     ("effect", "effect"),
     ("n", "n"),
     ("ss", "SS"),
@@ -14,6 +14,8 @@ const EFFECTS: [(&str, &str); 17] = [
     ("f", "F"),
     ("p", "p"),
     ("partial_eta_squared", "partial η²"),
+    ("partial_eta_squared_low", "95 % CI (noncentral F) from"),
+    ("partial_eta_squared_high", "to"),
     ("generalised_eta_squared", "generalised η²"),
     ("mauchly_w", "Mauchly's W"),
     ("mauchly_p", "its p"),
@@ -71,11 +73,64 @@ fn row(effect: &Effect, n: usize) -> Vec<Cell> {
         Err(why) => format!("not computable: {}", why.reason),
     };
     let sums = [effect.ss, effect.df, effect.ss_error, effect.df_error];
-    let tested = [
-        &effect.f,
-        &effect.p,
-        &effect.partial_eta_squared,
+    let tested = [&effect.f, &effect.p, &effect.partial_eta_squared];
+    cells![
+        &effect.name,
+        n,
+        sums,
+        tested,
+        effect.partial_eta_squared_interval(),
         &effect.generalised_eta_squared,
+        sphericity,
+        remark
+    ]
+}
+
+/// Every two stimuli, subject by subject, their p values adjusted for each other by Holm.
+pub(super) fn every_two(key: &str, names: &[String], rows: &Computed<Vec<Vec<f64>>>) -> Table {
+    let columns = [
+        ("first", "first"),
+        ("second", "second"),
+        ("n", "n"),
+        ("difference", "mean difference"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
+        ("p", "p (paired t)"),
+        ("p_holm", "p by Holm"),
+        ("d_z", "d_z"),
+        ("d_z_low", "95 % CI (noncentral t) from"),
+        ("d_z_high", "to"),
     ];
-    cells![&effect.name, n, sums, tested, sphericity, remark]
+    let title = "Every two stimuli, subject by subject";
+    let mut table = Table::new(key, title, &columns);
+    let column = |rows: &Vec<Vec<f64>>, at: usize| rows.iter().map(|row| row[at]).collect();
+    let found = rows.as_ref().map_err(Clone::clone).and_then(|rows| {
+        let all: Vec<Vec<f64>> = (0..names.len()).map(|at| column(rows, at)).collect();
+        every_pair(&all)
+    });
+    match found {
+        Ok(all) => all.iter().for_each(|one| table.push(pair(one, names))),
+        Err(why) => {
+            let blank = vec![Cell::none(&why.reason); columns.len() - 2];
+            table.push(cells!["all", "all", blank]);
+        }
+    }
+    table
+}
+
+fn pair(one: &Comparison, names: &[String]) -> Vec<Cell> {
+    let [first, second] = one.conditions.map(|at| &names[at]);
+    let found = one.outcome.as_ref().map(|outcome| {
+        let value = |named: &Computed<Named>| named.clone().map(|named| named.value);
+        cells![
+            outcome.n.iter().sum::<usize>(),
+            value(&outcome.estimate),
+            &outcome.interval,
+            outcome.p,
+            &one.p_holm,
+            value(&outcome.effect),
+            outcome.effect_interval().map(|(interval, _)| interval),
+        ]
+    });
+    cells![first, second, or_undefined(found, 9)]
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::ser::SerializeMap as _;
 use serde::{Serialize, Serializer};
 
-use super::model::{Analysis, Cell, Column, Drawn, Table};
+use super::model::{Analysis, Cell, Column, Drawn, LEAST_PROBABILITY, Table};
 use crate::ExperimentError;
 use crate::session::make_folder;
 use selvedge_foundation::files::{TableWriter, encode_png_rgba, to_json_string, write_atomic};
@@ -88,8 +88,12 @@ fn table_text(table: &Table, stem: &str, page: &mut Vec<String>) {
     let mut reasons: Vec<&str> = Vec::new();
     for cells in &table.rows {
         let mut described = Vec::with_capacity(n_columns);
-        for cell in cells {
+        for (cell, column) in cells.iter().zip(&table.columns) {
             described.push(match cell {
+                Cell::Number(p) if column.is_probability() && *p < 1e-12 => {
+                    LEAST_PROBABILITY.to_owned()
+                }
+                Cell::Undefined(reason) if reason == LEAST_PROBABILITY => reason.clone(),
                 Cell::Number(value) => readable(*value),
                 Cell::Text(text) => plain(text),
                 Cell::Undefined(reason) => {

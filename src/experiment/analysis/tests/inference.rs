@@ -58,13 +58,9 @@ fn held_with(
     };
     let of_subject = |nth| {
         let subject = simulated_subject(nth, 1);
-        Found {
-            log: PathBuf::from(format!("nowhere/{}.csv", subject.pseudonym)),
-            records: simulation.records(&subject).unwrap(),
-            subject,
-            design: design.clone(),
-            has_torn_row: false,
-        }
+        let log = PathBuf::from(format!("nowhere/{}.csv", subject.pseudonym));
+        let records = simulation.records(&subject).unwrap();
+        Found::of_records(log, (design, subject), records)
     };
     numbers.map(of_subject).collect()
 }
