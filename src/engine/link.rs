@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 use super::recording::LinkTally;
 use super::{LinkView, TICK};
 use selvedge_device::{
-    ArrayChange, Bridge, BridgeCounters, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame, StopHow, Timings,
+    ArrayChange, Bridge, BridgeCounters, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame,
+    StopHow, Timings,
 };
 
 /// Ticks between two looks at the timings of the link: one second.

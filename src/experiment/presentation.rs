@@ -31,6 +31,8 @@ named! { "proof",
         Array = "array",
         /// An emulator did: felt by nobody.
         Emulator = "emulator",
+        /// The screen alone showed it, in a pilot: felt by nobody.
+        Screen = "screen",
         /// The experimenter laid cloth and said when it was felt.
         RealCloth = "real-cloth",
         /// The experimenter said that something else presented it.

@@ -130,6 +130,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
     let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
     let mut subjects: Vec<Subject<'_>> = Vec::new();
+    let are_all_pilots = sessions.iter().all(|found| is_pilot(found));
     for &found in &sessions {
         let session = Session {
             found,
@@ -145,6 +146,10 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
             continue;
         }
         left_out_void(found, &mut left_out);
+        if is_pilot(found) && !are_all_pilots {
+            left_out.push(out_row(found, &session.trials, "a pilot: felt by nobody"));
+            continue;
+        }
         let (n, least) = (session.trials.len(), design.rules.least_trials);
         if n < least {
             left_out.push(out_row(
@@ -252,6 +257,12 @@ fn answered(found: &Found) -> Vec<&Record> {
     found.records.iter().filter(counts).collect()
 }
 
+/// Whether what was asked was tried on the screen.
+fn is_pilot(found: &Found) -> bool {
+    let mut records = found.records.iter();
+    records.any(|record| record.presentation.proof == Some(Proof::Screen))
+}
+
 /// Presentations that did not count, reason by reason.
 fn left_out_void(found: &Found, left_out: &mut Table) {
     let mut reasons: Vec<(&str, Vec<&Record>)> = Vec::new();
@@ -330,6 +341,10 @@ fn describe_proof(sessions: &[&Found], section: &mut Section) {
     let by = |proof: Proof| with(&|record| record.presentation.proof == Some(proof));
     let described = [
         (by(Proof::Emulator), "on an emulator: **felt by nobody**"),
+        (
+            by(Proof::Screen),
+            "a pilot on the screen: **felt by nobody**",
+        ),
         (by(Proof::Simulated), "by simulated observers"),
         (
             by(Proof::Elsewhere),

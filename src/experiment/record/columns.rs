@@ -208,8 +208,8 @@ fn presented<V: Visit>(
         validity => Some(flag(is_answered && validity == Validity::Valid)),
     };
     columns! { to;
-        proof: Level, "by what it is known that something was felt: array, emulator (nobody felt \
-            it), real-cloth, elsewhere or simulated" => &mut presentation.proof;
+        proof: Level, "by what it is known that something was felt: array, emulator or screen \
+            (nobody felt it), real-cloth, elsewhere or simulated" => &mut presentation.proof;
         valid: Flag, "1 where the presentation is proved and answered, 0 where not" =>
             &mut derived_if(valid);
         void: Text, "why it does not count; empty where it does" => &mut presentation.void;

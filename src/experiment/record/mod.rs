@@ -64,6 +64,11 @@ impl Timing {
         }
     }
 
+    /// The beginning, ns since the session was opened.
+    pub fn start_ns(&self) -> u64 {
+        self.start_ns
+    }
+
     /// From the beginning to the answer, ms.
     pub fn response_ms(&self) -> f64 {
         #[expect(

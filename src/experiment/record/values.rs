@@ -142,7 +142,7 @@ impl Value for Option<Proof> {
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
         let known = Proof::named().into_iter().find(|(name, _)| *name == cell);
         *self = known.map(|(_, proof)| proof);
-        let mend = "give array, emulator, real-cloth, elsewhere, simulated or nothing";
+        let mend = "give array, emulator, screen, real-cloth, elsewhere, simulated or nothing";
         if self.is_none() && !cell.is_empty() {
             return Err(Some((format!("{cell:?}"), mend)));
         }

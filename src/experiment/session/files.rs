@@ -1,11 +1,13 @@
 //! The files of a session: where each is, and what pointer or tablet reported during a trial.
 
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use crate::Trial;
 use crate::design::{Design, Subject};
 use selvedge_engine::RecordedSample;
-use selvedge_foundation::files::{FileError, push_number, write_atomic};
+use selvedge_foundation::files::{FileError, Journal, push_number, write_atomic};
+use selvedge_foundation::quantity::rfc3339;
 
 /// Columns: s after the path's first row, and the place, mm.
 const HEADER: &str = "t_s,x_mm,y_mm\n";
@@ -36,6 +38,37 @@ pub(crate) fn make_folder(folder: &Path) -> Result<(), FileError> {
         path: folder.to_owned(),
         source,
     })
+}
+
+/// The table of sessions that were begun by mistake.
+const UNDONE: &str = "undone-sessions.csv";
+/// Its columns.
+const UNDONE_COLUMNS: [&str; 4] = ["utc", "experiment", "subject", "session"];
+
+/// Notes that a session was begun and that this was taken back.
+pub(super) fn note_undone(
+    log: &Path,
+    (design, subject): (&Design, &Subject),
+) -> Result<(), FileError> {
+    let path = log.with_file_name(UNDONE);
+    let mut journal = match Journal::create(&path, &UNDONE_COLUMNS) {
+        Err(FileError::Exists { .. }) => Journal::reopen(&path, &UNDONE_COLUMNS)?.journal,
+        journal => journal?,
+    };
+    journal.append(&[
+        &rfc3339(SystemTime::now()),
+        &design.experiment,
+        &subject.pseudonym,
+        &subject.session.to_string(),
+    ])
+}
+
+/// Removes a log and its sidecar.
+pub(super) fn remove(log: &Path) -> Result<(), FileError> {
+    for file in [log.to_owned(), log.with_extension("json")] {
+        std::fs::remove_file(&file).map_err(|source| FileError::Write { path: file, source })?;
+    }
+    Ok(())
 }
 
 /// Removes what a kill left of a sidecar that was being written: `NAME.json.N.part`.

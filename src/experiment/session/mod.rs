@@ -58,6 +58,7 @@ pub struct Session {
     openings: Vec<Opening>,
     n_rows: usize,
     is_closed: bool,
+    is_pilot: bool,
 }
 
 /// What is known of a trial besides its answer.
@@ -116,6 +117,7 @@ impl Session {
             openings: Vec::new(),
             n_rows: 0,
             is_closed: false,
+            is_pilot: origin.is_pilot,
         };
         session.open(Opening::at(SystemTime::now(), origin.device, 0))?;
         Ok(session)
@@ -157,6 +159,7 @@ impl Session {
             openings: openings.map(|mark| Opening::of(&mark.mark)).collect(),
             n_rows: records.len(),
             is_closed: marks.iter().any(|mark| mark.kind == MarkKind::Closing),
+            is_pilot: sidecar.is_pilot(),
         };
         if !session.is_closed {
             session.open(opening)?;
@@ -205,6 +208,28 @@ impl Session {
     /// Who takes part.
     pub fn subject(&self) -> &Subject {
         &self.subject
+    }
+
+    /// Whether nobody is to feel anything.
+    pub fn is_pilot(&self) -> bool {
+        self.is_pilot
+    }
+
+    /// Takes back that it was begun, as long as it has no trial: nothing of it stays but a line in
+    /// the folder's table of such.
+    ///
+    /// # Errors
+    /// A trial is there, or its files cannot be removed.
+    pub fn undo(self) -> Result<(), ExperimentError> {
+        if self.n_rows > 0 {
+            let mend = "end it instead; its rows stay";
+            return Err(ExperimentError::value("a trial is on disk already", mend));
+        }
+        let log = self.journal.path().to_owned();
+        let (design, subject) = (self.design, self.subject);
+        files::note_undone(&log, (&design, &subject))?;
+        drop(self.journal);
+        Ok(files::remove(&log)?)
     }
 
     /// What the session was opened with, this time last.

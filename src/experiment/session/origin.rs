@@ -12,6 +12,8 @@ pub struct Origin<'a> {
     pub device: &'a str,
     /// The design's file; `None` where it is part of the program.
     pub design_file: Option<&'a Path>,
+    /// Whether nobody is to feel anything: what is asked is tried on the screen.
+    pub is_pilot: bool,
     /// SHA-256 of what the session is held with, by name: program, plan, library, scene, profile,
     /// certificate.
     pub sha256: Vec<(&'static str, String)>,
@@ -23,8 +25,16 @@ impl<'a> Origin<'a> {
         Self {
             device,
             design_file: Some(design).filter(|file| file.is_file()),
+            is_pilot: false,
             sha256: Vec::new(),
         }
+    }
+
+    /// The same of a pilot.
+    #[must_use]
+    pub fn piloting(mut self, is_pilot: bool) -> Self {
+        self.is_pilot = is_pilot;
+        self
     }
 
     /// The same with the hash of something that the session is held with; none of nothing.
@@ -41,6 +51,7 @@ impl<'a> From<&'a str> for Origin<'a> {
         Self {
             device,
             design_file: None,
+            is_pilot: false,
             sha256: Vec::new(),
         }
     }

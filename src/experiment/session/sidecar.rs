@@ -39,6 +39,9 @@ pub struct Sidecar {
     /// Where the design names a library of the user's own.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     design_folder: Option<DesignFolder>,
+    /// Whether nobody was to feel anything.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    is_pilot: bool,
     /// The generator of all chance.
     #[serde(default)]
     generator: String,
@@ -118,6 +121,7 @@ impl Sidecar {
             design_sha256: design.hash.clone(),
             design: design.text.clone(),
             design_folder: None,
+            is_pilot: false,
             generator: Random::NAME.to_owned(),
             schedule: schedule(design, procedure),
             sha256: BTreeMap::new(),
@@ -200,6 +204,11 @@ impl Sidecar {
         }
     }
 
+    /// Whether nobody was to feel anything.
+    pub(super) fn is_pilot(&self) -> bool {
+        self.is_pilot
+    }
+
     /// The version of the log's columns.
     pub(crate) fn schema_version(&self) -> u32 {
         self.schema_version
@@ -219,6 +228,7 @@ impl Sidecar {
     pub(super) fn come_from(&mut self, origin: &Origin<'_>, design: &Design, log: &Path) {
         let file = origin.design_file.filter(|_| own_library(design).is_some());
         self.design_folder = file.and_then(|file| DesignFolder::of(file, log));
+        self.is_pilot = origin.is_pilot;
         let hashes = origin.sha256.iter();
         self.sha256 = hashes
             .map(|(name, sha256)| ((*name).to_owned(), sha256.clone()))

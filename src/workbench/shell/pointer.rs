@@ -46,6 +46,12 @@ impl PointerTap {
         self.moved_to(stamp, point);
     }
 
+    /// Where a place of the workspace is on the screen, points.
+    #[cfg(test)]
+    pub(crate) fn screen(&self, place: selvedge_foundation::geometry::Point) -> Option<Pos2> {
+        self.ground.map(|ground| ground.view.screen(place))
+    }
+
     /// Takes in a movement to a place on the screen, points.
     pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
         let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else {

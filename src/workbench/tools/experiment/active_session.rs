@@ -8,11 +8,12 @@ use crate::bench::background::{Executor, Task, finished};
 use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::now::{Began, Now, Pause};
-use selvedge_engine::{RecordedSample, Recording, VibrationStep};
+use crate::tools::experiment::presenting::Presented;
+use selvedge_engine::{RecordedSample, VibrationStep};
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
-use selvedge_experiment::{Answer, Apparatus, Outcome, Task as Asked, Timing, Trial};
+use selvedge_experiment::{Answer, Apparatus, Outcome, Presentation, Task as Asked, Timing, Trial};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_textile::tactile::Tuning;
@@ -35,7 +36,8 @@ struct Pending {
 #[derive(Debug)]
 struct Written {
     session: Session,
-    outcome: Result<(), String>,
+    /// What became of the trial, or why its row is not there.
+    row: Result<(Outcome, Presentation), String>,
 }
 
 /// The session that is active.
@@ -71,25 +73,14 @@ pub(crate) struct ActiveSession {
     pub failure: Option<String>,
     /// The step of a sequence of vibrations that is played.
     pub vibration: Option<u16>,
-    /// How long the last trial took, s.
-    pub(crate) last_response_s: Option<f64>,
     /// When the session was opened.
     opened: Instant,
-    /// When the present step began.
+    /// When the present step began; of a trial, its presentation.
     pub began: Began,
-    /// The engine's recording of this trial.
-    recording: TrialRecording,
-}
-
-/// How it stands with the recording of a trial.
-#[derive(Debug)]
-enum TrialRecording {
-    /// There is none.
-    Nothing,
-    /// The engine records.
-    Running(Recording),
-    /// It came to its end.
-    Ended(Recording),
+    /// What is known of the presentation of the trial that waits.
+    pub(crate) presented: Presented,
+    /// Whether nobody is to feel anything.
+    pub(crate) is_pilot: bool,
 }
 
 impl ActiveSession {
@@ -104,6 +95,7 @@ impl ActiveSession {
             design: session.design().clone(),
             subject: session.subject().clone(),
             log: session.log().to_owned(),
+            is_pilot: session.is_pilot(),
             session: Some(session),
             writing: None,
             pending: None,
@@ -117,10 +109,9 @@ impl ActiveSession {
             pause: Pause::default(),
             failure: None,
             vibration: None,
-            last_response_s: None,
             opened: began.at,
             began,
-            recording: TrialRecording::Nothing,
+            presented: Presented::default(),
         };
         for stimulus in &active.design.stimuli {
             if let Source::Textile { id, .. } = &stimulus.source {
@@ -140,6 +131,7 @@ impl ActiveSession {
         self.now = Now::of(&session.step());
         self.began = began;
         self.vibration = None;
+        self.await_presentation();
         (self.layout, self.draft) = match &self.now {
             _ if self.pause == Pause::On => (Layout::empty(), Draft::Nothing),
             Now::Trial(trial) => (
@@ -171,7 +163,7 @@ impl ActiveSession {
     /// Whether something can be felt now.
     pub(crate) fn is_felt(&self) -> bool {
         let is_practised = matches!(self.now, Now::Familiarisation(_)) && self.pause != Pause::On;
-        (self.is_open() && self.trial().is_some()) || is_practised
+        (self.is_open() && self.trial().is_some() && !self.is_waiting()) || is_practised
     }
 
     /// Whether an answer is taken now: none is on its way.
@@ -227,12 +219,19 @@ impl ActiveSession {
 
     /// Takes a part of an answer. The tuning that follows, if it changes.
     pub(crate) fn mark(&mut self, mark: &Mark, at: Instant) -> Option<Tuning> {
-        if !self.is_open() || self.trial().is_none() {
+        if !self.is_open() || self.trial().is_none() || self.is_waiting() {
             return None;
         }
         let at_ms = at.saturating_duration_since(self.began.at).as_secs_f64() * 1e3;
         self.draft.take(mark, at_ms);
         matches!(mark, Mark::Turn(..) | Mark::Set(..)).then(|| self.tuning())
+    }
+
+    /// Takes back what was answered of this trial so far.
+    pub(crate) fn forget_draft(&mut self) {
+        if let Now::Trial(trial) = &self.now {
+            self.draft = Draft::of(&self.design, trial);
+        }
     }
 
     /// The tuning in force now.
@@ -244,6 +243,23 @@ impl ActiveSession {
             }
             _ => tuning,
         }
+    }
+
+    /// Which attempt at the trial that waits this is, from 1.
+    #[cfg(test)]
+    pub(crate) fn attempt(&self) -> u32 {
+        self.session.as_ref().map_or(0, Session::attempt)
+    }
+
+    /// Takes back that the session was begun.
+    ///
+    /// # Errors
+    /// A trial is on disk, or its files cannot be removed.
+    pub(crate) fn undo(&mut self) -> Result<(), String> {
+        let session = self.session.take();
+        session.map_or(Ok(()), |session| {
+            session.undo().map_err(|error| error.to_string())
+        })
     }
 
     /// What is played at the beginning of this trial: silence first.
@@ -277,7 +293,8 @@ impl ActiveSession {
 
     /// Ends the trial that waits: its row is on its way. Whether anything was ended.
     pub(crate) fn end_trial(&mut self, answer: Option<Answer>, at: Instant) -> bool {
-        if !self.is_open() || self.trial().is_none() {
+        let is_begun = self.trial().is_some() && !self.is_waiting();
+        if !self.is_open() || !is_begun || !self.may_take(answer.as_ref()) {
             return false;
         }
         let since_opening = |at: Instant| {
@@ -288,7 +305,7 @@ impl ActiveSession {
             [self.began.utc, SystemTime::now()],
             [self.began.at, at].map(since_opening),
         );
-        self.last_response_s = Some(timing.response_ms() * 1e-3);
+        self.presented.last_response_s = Some(timing.response_ms() * 1e-3);
         self.pending = Some(Pending {
             outcome: answer.map_or(Outcome::Aborted, Outcome::Answered),
             timing,
@@ -300,32 +317,6 @@ impl ActiveSession {
         true
     }
 
-    /// The engine began to record the exploration of this trial.
-    pub(crate) fn records(&mut self, recording: Recording) {
-        self.recording = TrialRecording::Running(recording);
-    }
-
-    /// Whether the engine still records.
-    pub(crate) fn is_recording(&self) -> bool {
-        matches!(self.recording, TrialRecording::Running(_))
-    }
-
-    /// Takes what the engine has recorded. Once a frame.
-    pub(crate) fn collect_recording(&mut self) {
-        let recording = std::mem::replace(&mut self.recording, TrialRecording::Nothing);
-        self.recording = match recording {
-            TrialRecording::Running(mut recording) => {
-                recording.collect();
-                if recording.has_ended() {
-                    TrialRecording::Ended(recording)
-                } else {
-                    TrialRecording::Running(recording)
-                }
-            }
-            other => other,
-        };
-    }
-
     /// Begins to write what waits, once its recording is there. Whether it begins now.
     pub(crate) fn write(&mut self, executor: &Executor, has_engine: bool) -> bool {
         let is_due = self.pending.is_some() && self.writing.is_none() && self.failure.is_none();
@@ -333,36 +324,42 @@ impl ActiveSession {
         if !(is_due && is_complete) {
             return false;
         }
-        let (Some(pending), Some(mut session)) = (&mut self.pending, self.session.take()) else {
-            return false;
-        };
-        if let TrialRecording::Ended(recording) = &self.recording {
+        if let Some(recording) = self.take_recording()
+            && let Some(pending) = &mut self.pending
+        {
             // Where nobody moved there is no path.
             pending.path = recording.to_path().ok();
             recording.samples().clone_into(&mut pending.samples);
-            self.recording = TrialRecording::Nothing;
         }
-        let pending = pending.clone();
+        let (Some(pending), Some(mut session)) = (self.pending.clone(), self.session.take()) else {
+            return false;
+        };
+        let (outcome, presentation) = self.judge(pending.outcome, pending.timing.start_ns());
         let apparatus = Apparatus {
             device: self.device.clone(),
             tuning: pending.tuning,
-            stimulus_hash: self.materials.hash.clone(),
+            stimulus_hash: self.trial().map_or_else(String::new, |trial| {
+                self.materials.hashes.of_task(&self.design, &trial.task)
+            }),
         };
         let work = move |_: &mut Progress<'_>| {
             let circumstances = Circumstances {
                 timing: pending.timing,
                 apparatus,
+                presentation: presentation.clone(),
                 note: &pending.note,
                 path: pending.path.as_ref(),
                 samples: &pending.samples,
             };
-            let outcome = match &pending.outcome {
+            let written = match &outcome {
                 Outcome::Answered(answer) => session.answer(answer, &circumstances).map(|_| ()),
                 Outcome::Aborted => session.abort(&circumstances),
             };
             Ok(Written {
                 session,
-                outcome: outcome.map_err(|error| error.to_string()),
+                row: written
+                    .map(|()| (outcome, presentation))
+                    .map_err(|error| error.to_string()),
             })
         };
         self.writing = Some(executor.start("selvedge-session", work));
@@ -377,12 +374,15 @@ impl ActiveSession {
         let Some(outcome) = finished(&mut self.writing) else {
             return Ok(false);
         };
-        let Written { session, outcome } = outcome?;
+        let Written { session, row } = outcome?;
         self.session = Some(session);
-        match outcome {
-            Ok(()) => {
+        match row {
+            Ok((outcome, presentation)) => {
                 self.pending = None;
                 self.note.clear();
+                if self.tell(&outcome, &presentation) {
+                    self.pause = Pause::Wanted;
+                }
                 self.rest_or_look(began);
                 Ok(true)
             }

@@ -9,7 +9,7 @@ use crate::bench::session::title_of;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
 use selvedge_experiment::session::{Found, find_sessions, log_path};
-use selvedge_experiment::{Course, Participant, Participants};
+use selvedge_experiment::{Course, Participant, Participants, Plan};
 
 /// The file of the masking noise in the folder of sessions.
 pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
@@ -179,9 +179,33 @@ impl Form {
         }
         Some(SessionPlan {
             design: self.design.as_deref().ok()?.clone(),
-            participant: self.who.participant().ok()?,
+            participant: Some(self.who.participant().ok()?),
             session: self.session_number()?,
             folder: self.folder(),
+        })
+    }
+
+    /// Why no pilot can begin yet, if so.
+    pub(crate) fn pilot_refusal(&self) -> Option<String> {
+        match &self.design {
+            Err(line) => Some(line.clone()),
+            Ok(_) if self.folder.trim().is_empty() => {
+                Some("Say in which folder the pilot is kept".to_owned())
+            }
+            Ok(_) => None,
+        }
+    }
+
+    /// A pilot of the design: its logs lie in a folder of their own.
+    pub(crate) fn pilot_plan(&self) -> Option<SessionPlan> {
+        if self.pilot_refusal().is_some() {
+            return None;
+        }
+        Some(SessionPlan {
+            design: self.design.as_deref().ok()?.clone(),
+            participant: None,
+            session: 1,
+            folder: self.folder().join("pilots"),
         })
     }
 
@@ -237,8 +261,8 @@ impl Form {
 pub(crate) struct SessionPlan {
     /// By which design.
     pub design: Design,
-    /// Who takes part.
-    pub participant: Participant,
+    /// Who takes part; nobody in a pilot.
+    pub participant: Option<Participant>,
     /// Which session of the participant, from 1.
     pub session: u32,
     /// Where sessions lie.
@@ -246,6 +270,35 @@ pub(crate) struct SessionPlan {
 }
 
 impl SessionPlan {
+    /// Who takes part, before they are enrolled.
+    fn subject(&self) -> Subject {
+        let participant = self.participant.as_ref();
+        Subject {
+            pseudonym: participant
+                .map_or("pilot", Participant::pseudonym)
+                .to_owned(),
+            nth: 0,
+            session: self.session,
+        }
+    }
+
+    /// What will be written, a line each.
+    pub(crate) fn describe(&self, device: &str) -> Vec<String> {
+        let Self { design, folder, .. } = self;
+        let log = log_path(folder, design, &self.subject());
+        let plan = Plan::path(folder, design);
+        let held = if plan.exists() {
+            format!("by the plan {}", plan.display())
+        } else {
+            "by no plan".to_owned()
+        };
+        vec![
+            format!("log {}", log.display()),
+            format!("design SHA-256 {}…, {held}", &design.hash[..12]),
+            format!("device {device}"),
+        ]
+    }
+
     /// Enrols the participant in the study's table, as the command line does, and numbers the
     /// session.
     ///
@@ -254,10 +307,12 @@ impl SessionPlan {
     /// cannot be read or written.
     pub(crate) fn enrolled(&self) -> Result<Subject, String> {
         let Self { design, folder, .. } = self;
-        let mut subject = Subject {
-            pseudonym: self.participant.pseudonym().to_owned(),
-            nth: 0,
-            session: self.session,
+        let mut subject = self.subject();
+        let Some(participant) = &self.participant else {
+            while log_path(folder, design, &subject).exists() {
+                subject.session += 1;
+            }
+            return Ok(subject);
         };
         if log_path(folder, design, &subject).exists() {
             let mend = "resume it below, or number another session";
@@ -268,7 +323,7 @@ impl SessionPlan {
             let folder = folder.display();
             format!("cannot make the folder {folder}: {error}; choose another")
         })?;
-        let enrolled = Participants::enrol(folder, &self.participant, SystemTime::now());
+        let enrolled = Participants::enrol(folder, participant, SystemTime::now());
         subject.nth = enrolled.map_err(|error| error.to_string())?;
         Ok(subject)
     }
@@ -342,7 +397,8 @@ mod tests {
         assert!(form.refusal().unwrap().contains("from 1"));
         form.session = "2".to_owned();
         let plan = form.plan().unwrap();
-        assert_eq!((plan.participant.pseudonym(), plan.session), ("p07", 2));
+        let who = plan.participant.as_ref().map(Participant::pseudonym);
+        assert_eq!((who, plan.session), (Some("p07"), 2));
         form.who.age = "thirty".to_owned();
         assert!(form.refusal().unwrap().contains("whole years"));
         form.who.age = "300".to_owned();

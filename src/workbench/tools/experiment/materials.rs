@@ -9,6 +9,7 @@ use crate::bench::library_view::LibraryView;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
 use selvedge_engine::PreparedScene;
+use selvedge_experiment::StimulusHashes;
 use selvedge_experiment::design::{Design, Source};
 use selvedge_experiment::layout::Layout;
 use selvedge_foundation::files::sha256_hex;
@@ -27,7 +28,7 @@ pub(crate) struct Materials {
     display: Display,
     tuning: Tuning,
     /// What the textiles were made from.
-    pub hash: String,
+    pub(crate) hashes: StimulusHashes,
     /// Their pictures.
     pub(crate) library_view: LibraryView,
 }
@@ -50,16 +51,22 @@ impl Materials {
         let mut cache = TableCache::default();
         let accuracy = rendering.accuracy();
         PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
-        let hash = hash_of(&loaded)?;
+        let hashes = hashes_of(&loaded)?;
         Ok(Self {
             tuning: tuning(design, &loaded),
             loaded,
             cache,
             rendering,
             display,
-            hash,
+            hashes,
             library_view,
         })
+    }
+
+    /// SHA-256 of what is felt through: display, gains and compression, how it is rendered.
+    pub(crate) fn scene_sha256(&self) -> String {
+        let through = format!("{:?} {:?} {:?}", self.display, self.tuning, self.rendering);
+        sha256_hex([through.as_bytes()])
     }
 
     /// Gains and compression of the session. What compression leaves alone is the same in every
@@ -126,13 +133,10 @@ fn tuning(design: &Design, loaded: &LoadedScene) -> Tuning {
     tuning
 }
 
-fn hash_of(loaded: &LoadedScene) -> Result<String, AppError> {
-    let mut parts = Vec::new();
+fn hashes_of(loaded: &LoadedScene) -> Result<StimulusHashes, AppError> {
+    let mut textiles = Vec::new();
     for textile in loaded.textiles() {
-        parts.push(textile.content_hash()?);
+        textiles.push((textile.id().to_owned(), textile.content_hash()?));
     }
-    if parts.is_empty() {
-        return Ok(String::new());
-    }
-    Ok(sha256_hex(parts.iter().map(String::as_bytes)))
+    Ok(StimulusHashes::of(textiles))
 }

@@ -21,6 +21,7 @@ pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;
 pub(crate) mod participant;
+pub(crate) mod presenting;
 pub(crate) mod run_session;
 pub(crate) mod sessions;
 pub(crate) mod state;

@@ -13,10 +13,12 @@ use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::Mark;
 use crate::tools::experiment::now::{Began, Now, Pause};
+use crate::tools::experiment::presenting::{ArrayNow, Due};
 use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Begun, Experiment};
 use selvedge_engine::{Command, InputSource};
 use selvedge_experiment::Answer;
+use selvedge_experiment::layout::Layout;
 
 /// How often a time that is shown in seconds is drawn anew.
 const SECOND: std::time::Duration = std::time::Duration::from_secs(1);
@@ -62,6 +64,10 @@ impl Experiment {
         }
         let trial = session.trial();
         if trial.is_some_and(|trial| session.draft.is_handed_in_at_once(&trial.task)) {
+            if session.missing().is_some() {
+                // Who chooses before all was played chooses again.
+                session.forget_draft();
+            }
             self.hand_in(bench);
         }
     }
@@ -124,6 +130,22 @@ impl Experiment {
         }
     }
 
+    /// Takes back that the session was begun, as long as it has no trial.
+    pub(crate) fn undo_beginning(&mut self, bench: &mut Bench) {
+        let can_undo = |one: &mut Box<ActiveSession>| one.is_open();
+        let Some(mut session) = self.session.take_if(can_undo) else {
+            return;
+        };
+        if session.is_recording() {
+            bench.send(Command::StopRecording);
+        }
+        if let Err(line) = session.undo() {
+            self.form.failure = Some(line);
+        }
+        drop(session);
+        self.leave_session(bench);
+    }
+
     /// Ends the session. What is answered is on disk; the user's scene is felt again.
     pub(crate) fn end(&mut self, bench: &mut Bench) {
         let can_end = |one: &mut Box<ActiveSession>| one.is_open() || one.failure.is_some();
@@ -167,32 +189,55 @@ impl Experiment {
         self.present(bench);
     }
 
-    /// Lets what happens now be felt.
+    /// Lets what happens now be felt: of a trial that has not begun, nothing.
     fn present(&mut self, bench: &mut Bench) {
         let Some(session) = &mut self.session else {
             return;
         };
         let tuning = session.tuning();
-        let prepared = session
-            .materials
-            .prepare(&session.design, &session.layout, tuning);
+        let nothing = Layout::empty();
+        let layout = if session.is_waiting() {
+            &nothing
+        } else {
+            &session.layout
+        };
+        let prepared = session.materials.prepare(&session.design, layout, tuning);
         match prepared {
             Ok(prepared) => {
-                let is_trial = session.trial().is_some();
                 bench.send(Command::UpdateScene(Box::new(prepared)));
-                bench.send(Command::Vibrate(session.vibrations()));
-                match is_trial.then(|| bench.engine.record()) {
-                    Some(Ok(recording)) => session.records(recording),
-                    Some(Err(error)) => bench.notices.give(error.to_string()),
-                    None => {}
-                }
+                let is_played = session.trial().is_some() && !session.is_waiting();
+                let steps = is_played.then(|| session.vibrations());
+                bench.send(Command::Vibrate(steps.unwrap_or_default()));
             }
             Err(error) => bench.notices.give(error.to_string()),
         }
         bench.ctx.request_repaint();
     }
 
+    /// Begins a presentation once what it needs is there, and voids one that counts no more.
+    fn follow_presentation(&mut self, bench: &mut Bench) {
+        let array = ArrayNow::of(bench);
+        let Some(session) = &mut self.session else {
+            return;
+        };
+        match session.due(array) {
+            Due::Nothing => {}
+            Due::Begin => match bench.engine.record() {
+                Ok(recording) => {
+                    session.begin_presentation(began(bench), (array, recording));
+                    self.present(bench);
+                }
+                Err(error) => {
+                    session.presented.trouble = Some(error.to_string());
+                    session.pause = Pause::On;
+                }
+            },
+            Due::Void => self.end_trial(None, bench),
+        }
+    }
+
     fn leave_session(&mut self, bench: &mut Bench) {
+        self.asked = None;
         bench.session.active = None;
         bench.send(Command::Vibrate(Vec::new()));
         let n_contactors = bench.n_contactors();
@@ -231,6 +276,7 @@ impl Experiment {
             Some(Err(line)) => self.form.failure = Some(line),
             None => {}
         }
+        self.follow_presentation(bench);
         self.write_row(bench);
         self.poll_row(bench);
         self.keep_time(bench);

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use crate::bench::Bench;
 use crate::bench::pane::Pane;
-use crate::tools::experiment::form::list;
+use crate::tools::experiment::form::{SessionPlan, list};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::state::{Begun, Experiment};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{Origin, Session, Sidecar};
+use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::Progress;
 
 impl Experiment {
@@ -31,15 +32,32 @@ impl Experiment {
 
     /// Begins the session that the form describes.
     pub(crate) fn begin_session(&mut self, bench: &Bench) {
-        let form = &self.form;
-        let (Some(plan), path) = (form.plan(), form.chosen.path().to_owned()) else {
+        self.begin_on(self.form.plan(), false, bench);
+    }
+
+    /// Begins a pilot: what is asked is tried on the screen, and nobody feels it.
+    pub(crate) fn begin_pilot(&mut self, bench: &Bench) {
+        self.begin_on(self.form.pilot_plan(), true, bench);
+    }
+
+    /// Begins what is planned, on the screen alone where it is a pilot.
+    pub(super) fn begin_on(&mut self, plan: Option<SessionPlan>, is_pilot: bool, bench: &Bench) {
+        let (Some(plan), path) = (plan, self.form.chosen.path().to_owned()) else {
             return;
         };
+        self.asked = None;
         let device = device_name(bench);
         let (design, beside) = (plan.design.clone(), path.clone());
-        let open = move || {
+        let profile = bench.engine.profile().to_toml();
+        let open = move |materials: &Materials| {
             let subject = plan.enrolled()?;
-            let origin = Origin::file(&device, &beside);
+            let profile = profile.map_err(|error| error.to_string())?;
+            let origin = Origin::file(&device, &beside)
+                .piloting(is_pilot)
+                .with("program", program_sha256())
+                .with("library", materials.hashes.all())
+                .with("scene", materials.scene_sha256())
+                .with("profile", sha256_hex([profile.as_bytes()]));
             let session = Session::create(&plan.folder, plan.design, subject, origin);
             session.map_err(|error| error.to_string())
         };
@@ -56,7 +74,8 @@ impl Experiment {
             let file = sidecar.design_file(&from);
             Ok((design, file.map_err(|error| error.to_string())?))
         };
-        let open = move || Session::resume(&log, &device).map_err(|error| error.to_string());
+        let open =
+            move |_: &Materials| Session::resume(&log, &device).map_err(|error| error.to_string());
         self.start_session(bench, read, open);
     }
 
@@ -65,7 +84,7 @@ impl Experiment {
         &mut self,
         bench: &Bench,
         read: impl FnOnce() -> Result<(Design, PathBuf), String> + Send + 'static,
-        open: impl FnOnce() -> Result<Session, String> + Send + 'static,
+        open: impl FnOnce(&Materials) -> Result<Session, String> + Send + 'static,
     ) {
         if self.session.is_some() || self.beginning.is_some() {
             return;
@@ -87,12 +106,18 @@ impl Experiment {
             let materials = Materials::gather(&design, &path, how);
             let materials = materials.map_err(|error| error.to_string())?;
             progress.step(0.9, "log").map_err(|stop| stop.to_string())?;
-            let session = open()?;
+            let session = open(&materials)?;
             Ok(Begun { session, materials })
         };
         self.beginning = Some(bench.executor.start("selvedge-session", work));
         bench.ctx.request_repaint();
     }
+}
+
+/// SHA-256 of the program that runs; `None` where its file cannot be read.
+fn program_sha256() -> Option<String> {
+    let program = std::env::current_exe().ok()?;
+    Some(sha256_hex([&std::fs::read(program).ok()?[..]]))
 }
 
 /// The device, as logs call it.

@@ -30,6 +30,17 @@ pub(crate) struct Experiment {
     pub(super) window: ParticipantsWindow,
     /// Whether the participant sees nothing while a trial waits.
     pub(super) is_blank: bool,
+    /// What the experimenter is asked before it is done.
+    pub(super) asked: Option<Asked>,
+}
+
+/// What is done once the experimenter says so again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// The session begins.
+    Begin,
+    /// It ends.
+    End,
 }
 
 /// A session that is ready to become active.

@@ -10,6 +10,7 @@ use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::Draft;
 use crate::tools::experiment::guide;
 use crate::tools::experiment::now::{Now, Pause};
+use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::design::{Design, Method, Source};
 use selvedge_experiment::layout::{Layout, on_the_table};
@@ -87,6 +88,8 @@ pub(crate) struct TrialView<'a> {
     pub draft: &'a Draft,
     /// Whether an answer is taken now.
     pub is_open: bool,
+    /// What has to be presented before an answer is taken; `None` where nothing is missing.
+    pub(crate) missing: Option<String>,
     /// The intervals, and which of them is played.
     pub intervals: Option<(usize, Option<usize>)>,
     /// Whether the vibration may be played again.
@@ -94,6 +97,12 @@ pub(crate) struct TrialView<'a> {
 }
 
 impl TrialView<'_> {
+    /// What keeps the answer from being handed in; `None` where nothing does.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        let unanswered = self.draft.answer().err().map(str::to_owned);
+        self.missing.clone().or(unanswered)
+    }
+
     /// Whether choosing is all: the answer is handed in with it.
     pub(crate) fn ends_at_once(&self) -> bool {
         let is_choice = matches!(self.draft, Draft::Choose { sure, .. } if sure.n_grades == 0);
@@ -151,6 +160,12 @@ pub(crate) struct SessionView {
     pub(crate) is_writing: bool,
     /// Why the last row could not be written.
     pub failure: Option<String>,
+    /// What the trial waits for before it begins.
+    pub(crate) waits_for: Option<&'static str>,
+    /// Whether that is the cloth on the table.
+    pub(crate) awaits_cloth: bool,
+    /// Why the last presentation did not count.
+    pub(crate) trouble: Option<String>,
 }
 
 /// The device as the experimenter sees it.
@@ -238,11 +253,17 @@ impl ActiveSession {
                     left_s: self.left_s(now_s),
                 }
             }
+            Now::Trial(_) if self.is_waiting() => words(
+                "One moment, please",
+                "The next one is being prepared.",
+                None,
+            ),
             Now::Trial(trial) => ParticipantView::Trial(TrialView {
                 ground: self.ground(Some(trial), finger),
                 question: question(&self.design, trial),
                 draft: &self.draft,
                 is_open: self.is_open(),
+                missing: self.missing(),
                 intervals: self.intervals(),
                 may_play: self.may_play_again(),
             }),
@@ -278,7 +299,7 @@ impl ActiveSession {
     }
 
     /// The session as the experimenter sees it.
-    pub(crate) fn view(&self, link: Link, now_s: f64) -> SessionView {
+    pub(crate) fn view(&self, (link, array): (Link, ArrayNow), now_s: f64) -> SessionView {
         let course = match &self.now {
             _ if self.pause == Pause::On => Course::Paused,
             Now::Instructions(_) => Course::Instructions,
@@ -300,13 +321,16 @@ impl ActiveSession {
             progress: self.progress,
             lasted_s: self.lasted_s(now_s),
             left_s: self.left_s(now_s),
-            last_response_s: self.last_response_s,
+            last_response_s: self.presented.last_response_s,
             answered: self.draft.describe(),
             table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
             link,
             pause: self.pause,
             is_writing: self.is_writing(),
             failure: self.failure.clone(),
+            waits_for: self.waits_for(array),
+            awaits_cloth: self.awaits_cloth(),
+            trouble: self.presented.trouble.clone(),
         }
     }
 }

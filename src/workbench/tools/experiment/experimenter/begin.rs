@@ -10,7 +10,8 @@ use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::fields::{Need, Tone, choose, note, row_of, text};
 use crate::kit::widgets::text::{button, choice, section};
 use crate::tools::experiment::form::{Chosen, Form, Row};
-use crate::tools::experiment::state::Experiment;
+use crate::tools::experiment::sessions::device_name;
+use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
 use selvedge_experiment::{HANDS, SEXES};
@@ -41,11 +42,7 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
         ui.add(bar);
         note(ui, "The textiles are being prepared", Tone::Quiet);
     } else {
-        let tip = "Prepare every textile of the design, then open the log";
-        if button(ui, "Begin the session", tip, refusal.as_deref()) {
-            experiment.begin_session(context.bench);
-            ui.ctx().request_repaint();
-        }
+        show_begin(ui, experiment, context.bench);
     }
     if let Some(line) = &experiment.form.failure {
         note(ui, line, Tone::Wrong);
@@ -53,6 +50,44 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
         note(ui, &line, Tone::Quiet);
     }
     show_found(ui, experiment, context.bench);
+}
+
+/// The buttons that begin: a session once it was asked for twice, a pilot at once.
+fn show_begin(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+    let refusal = experiment.form.refusal();
+    let plan = experiment.form.plan();
+    if let (Some(Asked::Begin), Some(plan)) = (experiment.asked, plan) {
+        note(ui, "This will be written:", Tone::Quiet);
+        for line in plan.describe(&device_name(bench)) {
+            note(ui, &line, Tone::Quiet);
+        }
+        ui.horizontal_wrapped(|ui| {
+            if button(
+                ui,
+                "Begin now",
+                "Open the log, and show the first page",
+                None,
+            ) {
+                experiment.begin_session(bench);
+            }
+            if button(ui, "Not yet", "Nothing is written", None) {
+                experiment.asked = None;
+            }
+        });
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        let tip = "Show what will be written, then begin";
+        if button(ui, "Begin the session…", tip, refusal.as_deref()) {
+            experiment.asked = Some(Asked::Begin);
+        }
+        let tip = "Try what is asked on the screen alone: nobody feels it, and its log lies in the \
+                   folder pilots";
+        let refusal = experiment.form.pilot_refusal();
+        if button(ui, "Pilot", tip, refusal.as_deref()) {
+            experiment.begin_pilot(bench);
+        }
+    });
 }
 
 /// A field with its name.

@@ -11,14 +11,19 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, text};
 use crate::kit::widgets::text::{button, mark, quiet_pair, section};
 use crate::tools::experiment::now::Pause;
-use crate::tools::experiment::state::Experiment;
+use crate::tools::experiment::presenting::ArrayNow;
+use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::view::{Course, Link, SessionView};
 use selvedge_foundation::quantity;
 
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
-    let (link, now_s) = (Link::of(context.bench), ui.input(|input| input.time));
+    let bench = &context.bench;
+    let (device, now_s) = (
+        (Link::of(bench), ArrayNow::of(bench)),
+        ui.input(|input| input.time),
+    );
     let session = experiment.session.as_ref();
-    let Some(view) = session.map(|session| session.view(link, now_s)) else {
+    let Some(view) = session.map(|session| session.view(device, now_s)) else {
         return;
     };
     let palette = Palette::in_ui(ui);
@@ -32,6 +37,7 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     if let Some(line) = &view.failure {
         show_failure(ui, line, experiment, context.bench);
     }
+    show_presentation(ui, &view, experiment);
     show_table(ui, &view);
     show_step(ui, &view, experiment, context.bench);
     if let Some(session) = &mut experiment.session {
@@ -98,6 +104,29 @@ fn show_failure(ui: &mut Ui, line: &str, experiment: &mut Experiment, bench: &Be
     }
 }
 
+/// What the trial waits for, and why the last presentation did not count.
+fn show_presentation(ui: &mut Ui, view: &SessionView, experiment: &mut Experiment) {
+    if let Some(line) = &view.trouble {
+        note(ui, line, Tone::Wrong);
+    }
+    let Some(waits_for) = view.waits_for else {
+        return;
+    };
+    note(
+        ui,
+        &format!("The trial has not begun: {waits_for}"),
+        Tone::Wrong,
+    );
+    let tip = "The trial begins, and its time with it";
+    if view.awaits_cloth
+        && button(ui, "The cloth lies there", tip, None)
+        && let Some(session) = &mut experiment.session
+    {
+        session.lay();
+        ui.ctx().request_repaint();
+    }
+}
+
 fn show_table(ui: &mut Ui, view: &SessionView) {
     if view.table.is_empty() {
         return;
@@ -138,7 +167,8 @@ fn show_step(ui: &mut Ui, view: &SessionView, experiment: &mut Experiment, bench
             ui.ctx().request_repaint();
         }
         let tip = "Give this trial up: a row says so, and it comes again";
-        let abort = writing.or_else(|| (!is_trial).then_some("No trial is under way"));
+        let is_under_way = is_trial && view.waits_for.is_none();
+        let abort = writing.or_else(|| (!is_under_way).then_some("No trial is under way"));
         if button(ui, "Abort the trial", tip, abort) {
             experiment.end_trial(None, bench);
             ui.ctx().request_repaint();
@@ -190,9 +220,32 @@ fn show_end(ui: &mut Ui, view: &SessionView, experiment: &mut Experiment, bench:
     note(ui, &view.log, Tone::Quiet);
     let is_stuck = view.failure.is_some();
     let waits = (view.is_writing && !is_stuck).then_some("The row is being written");
-    let tip = "What is answered is on disk; the session can be resumed";
-    if button(ui, "End the session", tip, waits) {
-        experiment.end(bench);
-        ui.ctx().request_repaint();
+    let (done, all) = view.progress;
+    if experiment.asked == Some(Asked::End) {
+        let what = if done >= all {
+            format!("All {all} trials are on disk: the log is closed.")
+        } else {
+            format!("{done} of {all} trials are on disk; the log stays open and can be resumed.")
+        };
+        note(ui, &what, Tone::Quiet);
+        ui.horizontal_wrapped(|ui| {
+            if button(ui, "Go on with it", "The session goes on", None) {
+                experiment.asked = None;
+            }
+            if button(ui, "End it now", "The user's scene is felt again", waits) {
+                experiment.end(bench);
+            }
+        });
+        return;
     }
+    ui.horizontal_wrapped(|ui| {
+        let tip = "Say how far it is, then end it; what is answered is on disk";
+        if button(ui, "End the session…", tip, waits) {
+            experiment.asked = Some(Asked::End);
+        }
+        let tip = "It was begun by mistake: its files go, and a line in undone-sessions.csv stays";
+        if done == 0 && button(ui, "Take the beginning back", tip, waits) {
+            experiment.undo_beginning(bench);
+        }
+    });
 }

@@ -197,7 +197,7 @@ fn show_done(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     if trial.may_play && big::button(ui, ("Again", "Again"), 112.0, false).clicked() {
         acts.push(Act::Play);
     }
-    let missing = trial.draft.answer().err();
+    let missing = trial.refusal();
     let words = if trial.is_open { "Done" } else { "…" };
     let done = ui.add_enabled_ui(missing.is_none(), |ui| {
         big::button(ui, (words, words), 136.0, false)
@@ -224,7 +224,7 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Ac
         if response.changed() {
             acts.push(Act::Mark(Mark::Type(typed)));
         }
-        if is_entered && trial.draft.answer().is_ok() {
+        if is_entered && trial.refusal().is_none() {
             acts.push(Act::Answer);
         }
         let is_free = ui.memory(|memory| memory.focused().is_none());

@@ -44,7 +44,7 @@ pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     for mark in marks(trial.draft, is_pressed) {
         acts.push(Act::Mark(mark));
     }
-    if is_pressed(Key::Enter) && trial.draft.answer().is_ok() {
+    if is_pressed(Key::Enter) && trial.refusal().is_none() {
         acts.push(Act::Answer);
     }
     if is_pressed(Key::Space) && trial.may_play {
@@ -178,6 +178,7 @@ mod tests {
             question: String::new(),
             draft: &draft,
             is_open: true,
+            missing: None,
             intervals: None,
             may_play: false,
         };

@@ -20,6 +20,7 @@ fn trial(draft: &Draft) -> TrialView<'_> {
         question: "rank all four, 1 for the one most like the target".to_owned(),
         draft,
         is_open: true,
+        missing: None,
         intervals: None,
         may_play: false,
     }

@@ -93,6 +93,16 @@ impl Drawn {
     }
 }
 
+impl Frames for Drawn {
+    fn window(&mut self) -> &mut Headless {
+        &mut self.window
+    }
+
+    fn frames(&mut self, n: u32) {
+        self.pass(n);
+    }
+}
+
 /// Letters may lie elsewhere among the letters' texture, which rounds their edges otherwise.
 const ROUNDING: u8 = 8;
 
@@ -144,8 +154,8 @@ fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone
     // The experimenter's view, on the right, names the participant.
     let right = SIZE[0] - 340;
     let bounds = differing(&first, &second, right);
-    let low = view.screen(selvedge_foundation::geometry::Point::new(10.0, 10.0));
-    let high = view.screen(selvedge_foundation::geometry::Point::new(330.0, 330.0));
+    let low = view.screen(Point::new(10.0, 10.0));
+    let high = view.screen(Point::new(330.0, 330.0));
     let near = |at: usize, edge: f32| (at as f32 - edge).abs() < 3.0;
     assert!(
         near(bounds[0], low.x) && near(bounds[2], high.x),
@@ -274,6 +284,7 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
             }
             pass(&mut drawn.window);
         } else {
+            feel(&mut drawn);
             mark(&mut drawn.window, Mark::Place(1));
             mark(&mut drawn.window, Mark::Grade(Grade::Hard));
             answer(&mut drawn.window);
@@ -308,6 +319,7 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     assert!(is_blank, "something is seen");
     drawn.keep_picture("blank");
 
+    feel(&mut drawn);
     let grade = Mark::Grade(Grade::Easy);
     mark(&mut drawn.window, Mark::Place(1));
     mark(&mut drawn.window, grade);

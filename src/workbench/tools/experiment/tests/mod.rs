@@ -14,16 +14,18 @@ use super::*;
 use crate::bench::command::Command;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::command::edit::Edit;
-use crate::bench::view::EngineView;
+use crate::bench::view::{BridgePhase, EngineView};
 use crate::shell::headless::Headless;
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::noise::NoiseView;
-use crate::tools::experiment::now::Now;
+use crate::tools::experiment::now::{Now, Pause};
+use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::view::{Ground, Link, TrialView};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{find_sessions, path_file, samples_file};
-use selvedge_experiment::{Grade, Task};
+use selvedge_experiment::{Grade, Proof, Task, Validity};
+use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
 
@@ -41,6 +43,33 @@ fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
     assert_eq!(tool.form.failure, None);
     assert!(tool.session.is_some());
     window
+}
+
+/// Runs frames until something is so, for as long as a busy machine may take.
+fn wait(window: &mut Headless, what: &str, is_so: impl Fn(&Headless) -> bool) {
+    for _ in 0..2000 {
+        window.pass(1);
+        if is_so(window) {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    panic!("{what} did not come");
+}
+
+/// Connects the emulator and arms it, until it is at full strength.
+fn arm(window: &mut Headless) {
+    if window.workbench.bench.live.bridge.is_none() {
+        window.dispatch(DeviceCommand::ConnectEmulator);
+    }
+    wait(window, "a device", |window| {
+        let bridge = window.workbench.bench.live.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Ready)
+    });
+    window.dispatch(DeviceCommand::Arm);
+    wait(window, "full strength", |window| {
+        ArrayNow::of(&window.workbench.bench).why_not.is_none()
+    });
 }
 
 const FOUR: &str = "textiles = [\"silk-crepe\", \"wool-twill\", \"jute-plain\", \"wool-rib\"]";
@@ -76,8 +105,12 @@ fn act(window: &mut Headless, act: impl FnOnce(&mut Experiment, &mut Bench)) {
     act(workbench.tools.get_mut().unwrap(), &mut workbench.bench);
 }
 
+/// Begins a session that nobody feels, on the screen alone.
 fn begin(window: &mut Headless) {
-    act(window, |one, bench| one.begin_session(bench));
+    act(window, |one, bench| {
+        let plan = one.form.plan();
+        one.begin_on(plan, true, bench);
+    });
 }
 
 fn pass(window: &mut Headless) {
@@ -105,7 +138,58 @@ fn to_trial(window: &mut Headless) {
         pass(window);
         window.pass(2);
     }
-    assert!(session(window).trial().is_some());
+    lay(window);
+}
+
+/// Lays the cloth, where there is any, so that the trial begins.
+fn lay(window: &mut Headless) {
+    experiment_mut(window).session.as_mut().unwrap().lay();
+    window.pass(3);
+    let session = session(window);
+    assert!(session.trial().is_some() && !session.is_waiting());
+}
+
+/// Whose frames are run.
+trait Frames {
+    fn window(&mut self) -> &mut Headless;
+    fn frames(&mut self, n: u32);
+}
+
+impl Frames for Headless {
+    fn window(&mut self) -> &mut Headless {
+        self
+    }
+
+    fn frames(&mut self, n: u32) {
+        self.pass(n);
+    }
+}
+
+/// Does what has to be done before an answer is taken: every textile is felt, every vibration
+/// played.
+fn feel(on: &mut impl Frames) {
+    for place in session(on.window()).layout.places.clone() {
+        for n in 0..44 {
+            let [dx_mm, dy_mm] = [10.0 + 2.0 * f64::from(n % 40), 20.0 + f64::from(n % 40)];
+            let corner = place.origin_mm;
+            let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
+            let workbench = &on.window().workbench;
+            let stamp = workbench.bench.stamp();
+            let mut tap = workbench.shell.tap.lock().unwrap();
+            if let Some(at) = tap.screen(to) {
+                tap.moved_to(stamp, at);
+            }
+            drop(tap);
+            on.frames(1);
+        }
+    }
+    for _ in 0..120 {
+        if session(on.window()).missing().is_none() {
+            return;
+        }
+        on.frames(1);
+    }
+    panic!("{:?}", session(on.window()).missing());
 }
 
 /// Moves the finger to and fro for so many ticks.
@@ -125,6 +209,7 @@ fn explore(window: &mut Headless, n_ticks: u16) {
 }
 
 fn rank(window: &mut Headless, order: [usize; 4]) {
+    feel(window);
     for position in order {
         mark(window, Mark::Place(position));
     }
@@ -197,6 +282,132 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     to_trial(&mut window);
     assert_eq!(session(&window).progress, (1, 8));
     assert_ne!(session(&window).trial(), Some(&trial), "the next one");
+}
+
+/// A window with an armed emulator and a session on it that counts.
+fn begun_on_array(folder: &Folder) -> Headless {
+    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    window.pass(2);
+    let form = &mut experiment_mut(&mut window).form;
+    form.choose(small(folder, "odd-one-out"));
+    form.folder = folder.0.display().to_string();
+    form.who.pseudonym = "p01".to_owned();
+    act(&mut window, |one, bench| one.begin_session(bench));
+    window.pass(3);
+    for _ in 0..4 {
+        pass(&mut window);
+        window.pass(2);
+    }
+    window
+}
+
+#[test]
+fn an_answer_waits_until_everything_was_felt() {
+    let folder = Folder::new("unfelt");
+    let mut window = begun(&folder, "odd-one-out", "p01");
+    to_trial(&mut window);
+    let say = |window: &mut Headless| {
+        mark(window, Mark::Place(1));
+        mark(window, Mark::Grade(Grade::Easy));
+        answer(window);
+        window.pass(4);
+    };
+    say(&mut window);
+    assert_eq!(session(&window).progress.0, 0);
+    window.pass(25);
+    assert!(session(&window).missing().unwrap().contains("number 1"));
+    feel(&mut window);
+    say(&mut window);
+    assert_eq!(session(&window).progress.0, 1);
+    let found = find_sessions(&folder.0).unwrap().0;
+    let presentation = &found[0].records[0].presentation;
+    assert_eq!(
+        (presentation.validity(), presentation.proof),
+        (Validity::Valid, Some(Proof::Screen))
+    );
+    let felt_s = &presentation.explored_s;
+    assert!(
+        felt_s.len() == 3 && felt_s.iter().all(|s| *s >= 1.0),
+        "{felt_s:?}"
+    );
+    assert_eq!(found[0].breaks, []);
+}
+
+#[test]
+fn a_trial_waits_for_an_armed_array_and_is_voided_with_it_and_three_times_stop() {
+    let folder = Folder::new("void");
+    let mut window = begun_on_array(&folder);
+    let waiting = session(&window);
+    assert!(waiting.trial().is_some() && waiting.is_waiting());
+    let trial = waiting.trial().unwrap().clone();
+    let seen = experiment(&window).participant(&EngineView::default(), 0.0);
+    assert!(
+        matches!(seen, ParticipantView::Words { left_s: None, .. }),
+        "{seen:?}"
+    );
+    mark(&mut window, Mark::Place(1));
+    let untouched = Draft::Odd {
+        position: None,
+        grade: None,
+    };
+    assert_eq!(
+        session(&window).draft,
+        untouched,
+        "nothing is answered before it begins"
+    );
+    for nth in 1..=3 {
+        arm(&mut window);
+        // A busy machine may void one that nobody disarms.
+        wait(&mut window, "a presentation", |window| {
+            !session(window).is_waiting() || session(window).attempt() > nth
+        });
+        window.dispatch(DeviceCommand::Disarm);
+        wait(&mut window, "its void", |window| {
+            session(window).is_waiting() || session(window).pause == Pause::On
+        });
+        let voided = session(&window);
+        assert!(voided.progress.0 == 0 && voided.attempt() > nth);
+        let trouble = voided.presented.trouble.clone().unwrap();
+        assert!(trouble.contains("does not count"), "{trouble}");
+        if voided.pause == Pause::On {
+            break;
+        }
+    }
+    assert_eq!(session(&window).pause, Pause::On);
+    let trouble = session(&window).presented.trouble.clone().unwrap();
+    assert!(trouble.contains("times"), "{trouble}");
+    let found = find_sessions(&folder.0).unwrap().0;
+    let rows = &found[0].records;
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        assert_eq!((&row.trial, row.answer()), (&trial, None));
+        let presentation = &row.presentation;
+        assert_eq!(presentation.validity(), Validity::Void, "{presentation:?}");
+        assert_eq!(presentation.proof, Some(Proof::Emulator));
+    }
+    assert_eq!(found[0].breaks, []);
+    arm(&mut window);
+    act(&mut window, |one, bench| one.pause(false, bench));
+    wait(&mut window, "the fourth", |window| {
+        !session(window).is_waiting()
+    });
+}
+
+#[test]
+fn a_beginning_is_taken_back_without_a_trace_but_a_line() {
+    let folder = Folder::new("undone");
+    let mut window = begun_on_array(&folder);
+    let log = log_of(&window);
+    assert!(log.exists());
+    act(&mut window, Experiment::undo_beginning);
+    window.pass(3);
+    assert!(experiment(&window).session.is_none());
+    assert!(!log.exists() && !log.with_extension("json").exists());
+    let undone = fs::read_to_string(folder.0.join("undone-sessions.csv")).unwrap();
+    assert!(
+        undone.lines().nth(1).unwrap().ends_with(",p01,1"),
+        "{undone}"
+    );
 }
 
 #[test]
@@ -305,8 +516,9 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
         let Task::Rank { target, .. } = session(&window).trial().unwrap().task else {
             panic!("a ranking")
         };
-        let link = Link::of(&window.workbench.bench);
-        let described = format!("{:?}", session(&window).view(link, 0.0));
+        let bench = &window.workbench.bench;
+        let device = (Link::of(bench), ArrayNow::of(bench));
+        let described = format!("{:?}", session(&window).view(device, 0.0));
         let view = experiment(&window).participant(&EngineView::default(), 0.0);
         let words = format!("{view:?}");
         for stimulus in &design.stimuli {
@@ -362,6 +574,8 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     assert_eq!(session(&window).note, "", "it is in the row");
     act(&mut window, |one, bench| one.pause(true, bench));
     assert!(session(&window).trial().is_some(), "it is finished first");
+    window.pass(2);
+    feel(&mut window);
     mark(&mut window, Mark::Place(1));
     mark(&mut window, Mark::Grade(Grade::Easy));
     answer(&mut window);
@@ -404,6 +618,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     let turned = session(&window).tuning().gain_db;
     assert!((turned - start).abs() > 0.5, "{start} {turned}");
     assert!((felt_db(&mut window) - turned).abs() < 1e-9);
+    feel(&mut window);
     answer(&mut window);
     window.pass(4);
     let found = find_sessions(&folder.0).unwrap().0;
@@ -433,6 +648,7 @@ fn a_vibration_is_played_at_the_beginning_of_its_trial_and_again_when_asked() {
     act(&mut window, |one, bench| one.play_again(bench));
     window.pass(35);
     assert!(loudest(&window) > 0.1);
+    feel(&mut window);
     mark(&mut window, Mark::Type("12.5".to_owned()));
     answer(&mut window);
     window.pass(4);

@@ -1,0 +1,331 @@
+//! What a trial needs before it begins, what became of its ticks, and whether an answer may be taken.
+//!
+//! A presentation that stops counting is voided: its row says why, and the trial is presented again.
+
+use crate::bench::Bench;
+use crate::bench::view::BridgePhase;
+use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::now::{Began, Now};
+use selvedge_engine::{RecordedTick, Recording};
+use selvedge_experiment::layout::on_the_table;
+use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};
+
+/// Steps of vibration before those of the task: the silence it begins with.
+const LEAD_STEPS: u16 = 1;
+/// Presentations of one trial that may be voided before the experimenter is asked.
+const MOST_VOID: u32 = 3;
+
+/// How far a trial's presentation is.
+#[derive(Debug)]
+pub(crate) enum Presenting {
+    /// There is no trial.
+    Nothing,
+    /// It has not begun.
+    Waiting {
+        /// The experimenter said that the cloth lies there.
+        is_laid: bool,
+    },
+    /// The array presents it.
+    Watched(Watch),
+    /// Cloth on the table alone.
+    Confirmed,
+}
+
+/// How it stands with the recording of a trial.
+#[derive(Debug)]
+pub(crate) enum TrialRecording {
+    /// There is none.
+    Nothing,
+    /// The engine records; so many of its ticks were looked at.
+    Running(Recording, usize),
+    /// It came to its end.
+    Ended(Recording),
+}
+
+/// What is known of the presentation of the trial that waits.
+#[derive(Debug)]
+pub(crate) struct Presented {
+    /// How far it is.
+    pub(crate) presenting: Presenting,
+    /// The engine's recording of it.
+    pub(crate) recording: TrialRecording,
+    /// How often this trial was voided.
+    pub(crate) n_void: u32,
+    /// Why the last presentation did not count, and what follows.
+    pub(crate) trouble: Option<String>,
+    /// How long the last trial took, s.
+    pub(crate) last_response_s: Option<f64>,
+}
+
+impl Default for Presented {
+    fn default() -> Self {
+        Self {
+            presenting: Presenting::Nothing,
+            recording: TrialRecording::Nothing,
+            n_void: 0,
+            trouble: None,
+            last_response_s: None,
+        }
+    }
+}
+
+/// The array as presentations need to know it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ArrayNow {
+    /// By what a presentation on it is proved.
+    proof: Proof,
+    /// Why it presents nothing now; `None` where it does.
+    pub(crate) why_not: Option<&'static str>,
+}
+
+impl ArrayNow {
+    pub(crate) fn of(bench: &Bench) -> Self {
+        let live = &bench.live;
+        let bridge = live.bridge.as_ref();
+        let why_not = match bridge {
+            _ if live.is_stopped => Some("everything was switched off"),
+            None => Some("no array is connected"),
+            Some(bridge) if bridge.phase != BridgePhase::Armed => Some("the array is not armed"),
+            Some(bridge) if bridge.gain.is_none_or(|gain| gain < 1.0) => {
+                Some("the array is not at full strength yet")
+            }
+            Some(_) => None,
+        };
+        Self {
+            proof: if bench.device.faults.is_some() {
+                Proof::Emulator
+            } else {
+                Proof::Array
+            },
+            why_not,
+        }
+    }
+}
+
+/// What is to be done about a presentation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Due {
+    /// Nothing.
+    Nothing,
+    /// It begins.
+    Begin,
+    /// It does not count any more.
+    Void,
+}
+
+impl ActiveSession {
+    /// The trial that waits is to be presented, once what it needs is there.
+    pub(crate) fn await_presentation(&mut self) {
+        let is_trial = self.trial().is_some();
+        self.presented.recording = TrialRecording::Nothing;
+        self.presented.presenting = if is_trial {
+            Presenting::Waiting { is_laid: false }
+        } else {
+            Presenting::Nothing
+        };
+    }
+
+    /// The experimenter says that the cloth lies where it belongs.
+    pub(crate) fn lay(&mut self) {
+        if let Presenting::Waiting { is_laid } = &mut self.presented.presenting {
+            *is_laid = true;
+        }
+    }
+
+    /// Whether the trial has not begun.
+    pub(crate) fn is_waiting(&self) -> bool {
+        matches!(self.presented.presenting, Presenting::Waiting { .. })
+    }
+
+    /// Whether the experimenter has to say that the cloth lies there.
+    pub(crate) fn awaits_cloth(&self) -> bool {
+        let is_laid = match self.presented.presenting {
+            Presenting::Waiting { is_laid } => is_laid,
+            _ => true,
+        };
+        !is_laid
+            && self
+                .trial()
+                .is_some_and(|trial| !on_the_table(&self.design, &trial.task).is_empty())
+    }
+
+    /// Whether the array presents something in this design.
+    fn needs_array(&self) -> bool {
+        selvedge_experiment::by_hand::needs_array(&self.design)
+    }
+
+    /// What the trial waits for, in words.
+    pub(crate) fn waits_for(&self, array: ArrayNow) -> Option<&'static str> {
+        if !self.is_waiting() {
+            return None;
+        }
+        if self.awaits_cloth() {
+            return Some("Lay the cloth, then say so: the trial begins");
+        }
+        let is_needed = self.needs_array() && !self.is_pilot;
+        is_needed.then_some(array.why_not).flatten()
+    }
+
+    /// What is to be done about the presentation now.
+    pub(crate) fn due(&mut self, array: ArrayNow) -> Due {
+        if self.trial().is_none() || self.is_writing() {
+            return Due::Nothing;
+        }
+        if self.is_waiting() {
+            let is_ready = self.waits_for(array).is_none();
+            return if is_ready { Due::Begin } else { Due::Nothing };
+        }
+        let Presenting::Watched(watch) = &mut self.presented.presenting else {
+            return Due::Nothing;
+        };
+        if let Some(why) = array.why_not.filter(|_| !self.is_pilot) {
+            watch.end(why);
+        }
+        match watch.standing() {
+            Standing::Void(_) => Due::Void,
+            Standing::Valid | Standing::Incomplete(_) => Due::Nothing,
+        }
+    }
+
+    /// The presentation begins now; the engine records it.
+    pub(crate) fn begin_presentation(
+        &mut self,
+        began: Began,
+        (array, recording): (ArrayNow, Recording),
+    ) {
+        let Now::Trial(trial) = &self.now else {
+            return;
+        };
+        self.presented.presenting = if self.needs_array() {
+            let proof = if self.is_pilot {
+                Proof::Screen
+            } else {
+                array.proof
+            };
+            Presenting::Watched(Watch::of(&self.design, &trial.task, proof))
+        } else {
+            Presenting::Confirmed
+        };
+        self.presented.recording = TrialRecording::Running(recording, 0);
+        self.began = began;
+    }
+
+    /// What is missing before an answer may be taken; `None` where nothing is.
+    pub(crate) fn missing(&self) -> Option<String> {
+        match &self.presented.presenting {
+            Presenting::Nothing | Presenting::Waiting { .. } => Some(String::new()),
+            Presenting::Confirmed => None,
+            Presenting::Watched(watch) => match watch.standing() {
+                Standing::Valid => None,
+                Standing::Incomplete(what) | Standing::Void(what) => Some(what),
+            },
+        }
+    }
+
+    /// Whether the engine still records.
+    pub(crate) fn is_recording(&self) -> bool {
+        matches!(self.presented.recording, TrialRecording::Running(..))
+    }
+
+    /// Takes what the engine has recorded, and looks at it. Once a frame.
+    pub(crate) fn collect_recording(&mut self) {
+        let recording = std::mem::replace(&mut self.presented.recording, TrialRecording::Nothing);
+        self.presented.recording = match recording {
+            TrialRecording::Running(mut recording, n_seen) => {
+                recording.collect();
+                let n_ticks = recording.ticks().len();
+                let n_values = 2 * recording.n_contactors() as u64;
+                if let Presenting::Watched(watch) = &mut self.presented.presenting {
+                    for tick in &recording.ticks()[n_seen..] {
+                        let is_felt = tick.sent.is_some() || self.is_pilot;
+                        watch.tick(&presented(tick, (is_felt, n_values)), LEAD_STEPS);
+                    }
+                }
+                if recording.has_ended() {
+                    TrialRecording::Ended(recording)
+                } else {
+                    TrialRecording::Running(recording, n_ticks)
+                }
+            }
+            other => other,
+        };
+    }
+
+    /// The recording of the trial that ended, if there is one: it is looked at no more.
+    pub(crate) fn take_recording(&mut self) -> Option<Recording> {
+        match std::mem::replace(&mut self.presented.recording, TrialRecording::Nothing) {
+            TrialRecording::Ended(recording) => Some(recording),
+            other => {
+                self.presented.recording = other;
+                None
+            }
+        }
+    }
+
+    /// What its row says of the presentation, which began `began_ns` after the opening, and what
+    /// becomes of an answer: one to what does not count is none.
+    pub(crate) fn judge(&mut self, outcome: Outcome, began_ns: u64) -> (Outcome, Presentation) {
+        let mut presentation = match &self.presented.presenting {
+            Presenting::Watched(watch) => watch.presentation(began_ns),
+            Presenting::Confirmed => Presentation::confirmed(Proof::RealCloth),
+            Presenting::Nothing | Presenting::Waiting { .. } => Presentation::default(),
+        };
+        let is_void = match &self.presented.presenting {
+            Presenting::Watched(watch) => matches!(watch.standing(), Standing::Void(_)),
+            _ => false,
+        };
+        let is_answer = matches!(outcome, Outcome::Answered(_));
+        if !is_void && !is_answer {
+            // Given up before it was complete: nobody's fault.
+            presentation.void.clear();
+        }
+        if presentation.void.is_empty() {
+            return (outcome, presentation);
+        }
+        self.presented.n_void += 1;
+        (Outcome::Aborted, presentation)
+    }
+
+    /// After a row: what the experimenter is told of the last presentation. Whether it has to be
+    /// stopped for.
+    pub(crate) fn tell(&mut self, outcome: &Outcome, presentation: &Presentation) -> bool {
+        if matches!(outcome, Outcome::Answered(_)) {
+            self.presented.n_void = 0;
+        }
+        let n_void = self.presented.n_void;
+        let is_too_often = !presentation.void.is_empty() && n_void >= MOST_VOID;
+        self.presented.trouble = (!presentation.void.is_empty()).then(|| {
+            let follows = if is_too_often {
+                format!("{n_void} times: mend that, then end the pause")
+            } else {
+                "it is presented again".to_owned()
+            };
+            format!(
+                "The last presentation does not count: {}; {follows}",
+                presentation.void
+            )
+        });
+        if is_too_often {
+            self.presented.n_void = 0;
+        }
+        is_too_often
+    }
+
+    /// Whether an answer that is complete may be taken.
+    pub(crate) fn may_take(&self, answer: Option<&Answer>) -> bool {
+        answer.is_none() || self.missing().is_none()
+    }
+}
+
+/// A tick as proofs look at it; that of a pilot counts as felt.
+fn presented(tick: &RecordedTick, (is_felt, n_values): (bool, u64)) -> PresentedTick {
+    PresentedTick {
+        is_sent: is_felt,
+        n_missed: tick.tally.n_missed,
+        n_limited: tick.tally.n_limited,
+        n_values,
+        position: tick.pose.position,
+        speed_mm_per_s: tick.pose.velocity.speed_mm_per_s(),
+        vibration: tick.vibration,
+    }
+}
