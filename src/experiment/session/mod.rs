@@ -384,3 +384,5 @@ fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {
 mod crash_tests;
 #[cfg(test)]
 pub(super) mod tests;
+#[cfg(test)]
+mod verify_tests;
