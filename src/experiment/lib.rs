@@ -18,6 +18,7 @@
 )]
 
 pub mod analysis;
+mod bids;
 pub mod by_hand;
 mod course;
 pub mod design;
@@ -38,6 +39,7 @@ mod simulate;
 mod stimulus_hash;
 mod trial;
 
+pub use bids::write_bids;
 pub use course::{Course, Step};
 pub use error::ExperimentError;
 pub use noise::{Colour, MOST_NOISE_MINUTES, MaskingNoise};

@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Circumstances, Session, path_file};
-use selvedge_experiment::{Answer, Apparatus, Grade, Step, Timing};
+use selvedge_experiment::{Answer, Apparatus, Grade, Presentation, Proof, Step, Timing};
 use selvedge_render::scene::ExplorationPath;
 
 use crate::program::{Lab, Outcome, PATH, Rows};
@@ -99,10 +99,10 @@ fn held(lab: &Lab, args: &[&str], lines: &str) -> Outcome {
 
 /// The cells of a log without times.
 fn timeless(log: &Path) -> Vec<(String, Vec<String>)> {
-    let rows = Rows::read(log);
+    let rows = Rows::trials(log);
     let header = rows.header();
     let columns = header.split(',');
-    let is_time = |name: &&str| name.starts_with("t_") || *name == "rt_ms";
+    let is_time = |name: &&str| name.starts_with("t_") || ["rt_ms", "before_sha256"].contains(name);
     let cells = |name: &str| rows.text(name).into_iter().map(str::to_owned).collect();
     columns
         .filter(|name| !is_time(name))
@@ -163,7 +163,7 @@ fn a_session_that_ran_out_of_lines_fails_and_one_that_was_quit_does_not() {
     let more = [&RUN[..], &["--resume", "--note", "late"]].concat();
     let outcome = held(&lab, &more, "\n1 easy\nquit\n");
     assert_eq!(outcome.code, 0, "{outcome:?}");
-    let log = Rows::read(&lab.path(LOG));
+    let log = Rows::trials(&lab.path(LOG));
     assert_eq!(log.text("note"), ["", "", "late"]);
     assert_eq!(log.text("device"), ["cloth on the table"; 3]);
 }
@@ -183,7 +183,7 @@ fn two_programs_cannot_hold_one_session() {
     desk.types(&answers(1..N_TRIALS));
     desk.hears("finished");
     assert_eq!(desk.ends().code, 0);
-    assert_eq!(Rows::read(&lab.path(LOG)).len(), N_TRIALS);
+    assert_eq!(Rows::trials(&lab.path(LOG)).len(), N_TRIALS);
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn something_else_may_present_what_an_array_would() {
     ];
     let outcome = held(&lab, &args, "\n\n2 hard\nquit\n");
     assert_eq!(outcome.code, 0, "{outcome:?}");
-    let log = Rows::read(&lab.path("here/similar-fabrics_odd-one-out_p01_1.csv"));
+    let log = Rows::trials(&lab.path("here/similar-fabrics_odd-one-out_p01_1.csv"));
     assert_eq!(log.text("device"), ["rig 2"]);
     assert_eq!(log.text("practice"), ["1"]);
 }
@@ -350,7 +350,7 @@ fn on_a_full_disk_nothing_is_lost_and_the_session_goes_on_elsewhen() {
     let lab = lab();
     let mut desk = on_a_small_disk(&lab);
     assert_eq!(
-        Rows::read(&lab.path(LOG)).len(),
+        Rows::trials(&lab.path(LOG)).len(),
         2,
         "no piece of a row stays"
     );
@@ -389,7 +389,7 @@ fn once_the_disk_has_room_the_same_answer_is_written() {
     desk.hears("trial 4");
     desk.types("quit\n");
     assert_eq!(desk.ends().code, 0);
-    let log = Rows::read(&lab.path(LOG));
+    let log = Rows::trials(&lab.path(LOG));
     assert_eq!(log.text("response"), ["1", "2", "3"]);
     assert_eq!(log.text("grade"), ["easy", "normal", "hard"]);
     assert_eq!(log.text("note")[2].len(), 50_000);
@@ -409,6 +409,7 @@ fn how_a_trial_was_explored_is_replayed_by_render() {
     let circumstances = Circumstances {
         timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 500_000_000]),
         apparatus: Apparatus::default(),
+        presentation: Presentation::confirmed(Proof::RealCloth),
         note: "",
         path: Some(&explored),
         samples: &[],

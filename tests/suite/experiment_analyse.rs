@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Circumstances, Session};
-use selvedge_experiment::{Answer, Apparatus, Grade, Step, Task, Timing};
+use selvedge_experiment::{Answer, Apparatus, Grade, Presentation, Proof, Step, Task, Timing};
 
 use crate::program::{Lab, Outcome};
 
@@ -38,6 +38,7 @@ fn on_disk(lab: &Lab, nth: usize, n_trials: usize, is_right: fn(usize) -> bool) 
         let circumstances = Circumstances {
             timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 5_000_000_000]),
             apparatus: Apparatus::default(),
+            presentation: Presentation::confirmed(Proof::RealCloth),
             note: "",
             path: None,
             samples: &[],
@@ -76,7 +77,7 @@ fn a_log_of_a_later_version_is_left_out_with_a_line_and_the_rest_is_analysed() {
     let later = on_disk(&lab, 1, 10, |number| number % 2 > 0);
     let sidecar = later.with_extension("json");
     let text = fs::read_to_string(&sidecar).unwrap();
-    let newer = text.replacen("\"schema_version\": 1", "\"schema_version\": 2", 1);
+    let newer = text.replacen("\"schema_version\": 2", "\"schema_version\": 3", 1);
     assert_ne!(text, newer, "the version is there");
     fs::write(&sidecar, newer).unwrap();
     let outcome = lab.run(&ANALYSE);
@@ -87,7 +88,7 @@ fn a_log_of_a_later_version_is_left_out_with_a_line_and_the_rest_is_analysed() {
         "{described}"
     );
     assert!(
-        described.contains("version 2") && described.contains("use a later one"),
+        described.contains("version 3") && described.contains("use a later one"),
         "{described}"
     );
     let index = lab.read("found/index.md");
@@ -99,11 +100,11 @@ fn a_log_of_a_later_version_is_left_out_with_a_line_and_the_rest_is_analysed() {
     let text = fs::read_to_string(&first).unwrap();
     fs::write(
         first,
-        text.replacen("\"schema_version\": 1", "\"schema_version\": 2", 1),
+        text.replacen("\"schema_version\": 2", "\"schema_version\": 3", 1),
     )
     .unwrap();
     let described = lab.refuse(&["experiment", "analyse", "logs", "--out", "again"]);
-    assert!(described.contains("version 2"), "{described}");
+    assert!(described.contains("version 3"), "{described}");
     assert!(!lab.path("again").exists(), "nothing was found");
 }
 

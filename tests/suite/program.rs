@@ -172,6 +172,14 @@ impl Rows {
         Self::parse(&fs::read_to_string(path).unwrap())
     }
 
+    /// The trials of a log of an experiment, without what opens and closes it.
+    pub(crate) fn trials(log: &Path) -> Self {
+        let mut all = Self::read(log);
+        let kind = all.header.iter().position(|name| name == "kind").unwrap();
+        all.rows.retain(|row| row[kind] == "trial");
+        all
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }

@@ -7,8 +7,8 @@ use clap::Args;
 use super::super::terminal::{self, with_meter};
 use super::super::{CliError, output};
 
-use selvedge_experiment::ExperimentError;
-use selvedge_experiment::analysis::{Analysis, Cell, Options, UNREAD, analyse_folder};
+use selvedge_experiment::analysis::{self, Analysis, Cell, Options, UNREAD, analyse_folder};
+use selvedge_experiment::{ExperimentError, Participants, write_bids};
 
 /// Logs, and how they are analysed.
 #[derive(Debug, Args)]
@@ -31,6 +31,10 @@ pub(crate) struct AnalyseArgs {
     /// Sets of random ranks to compare the stress of maps with; 0 for none
     #[arg(long, value_name = "N", default_value_t = 40)]
     random_data: u16,
+    /// New folder for the trials as a data set after BIDS, with scripts in R and Python that make
+    /// its main table once more
+    #[arg(long, value_name = "DIR")]
+    bids: Option<PathBuf>,
 }
 
 /// Analyses the logs, and writes what was found.
@@ -62,6 +66,10 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
         terminal::notice(&format!("{log} is left out: {why}"));
     }
     analysis.write(&args.out)?;
+    if let Some(out) = &args.bids {
+        let (found, _) = analysis::sessions(&args.logs)?;
+        write_bids(&found, &Participants::read(&args.logs)?, out)?;
+    }
     output::print(&summary(&analysis, args))
 }
 

@@ -483,6 +483,28 @@ impl Visit for Asked<'_> {
     }
 }
 
+/// A column of a design's logs, as other formats describe it.
+pub(crate) struct ColumnDescription {
+    pub(crate) name: String,
+    /// Empty where there is none.
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: String,
+    /// Whether its cells are some of a few words.
+    pub(crate) has_levels: bool,
+}
+
+/// The columns of a design's logs in order.
+pub(crate) fn described_columns(design: &Design) -> Vec<ColumnDescription> {
+    let described = |column: Column| ColumnDescription {
+        has_levels: matches!(column.kind, Kind::Level | Kind::Stimulus | Kind::Flag),
+        name: column.name.into_owned(),
+        unit: column.unit,
+        meaning: column.meaning.into_owned(),
+    };
+    let columns = of_design(design, SCHEMA_VERSION).into_iter();
+    columns.map(described).collect()
+}
+
 /// What each column of a design's logs holds, by name.
 pub(crate) fn dictionary(design: &Design) -> BTreeMap<String, String> {
     let entry = |column: &Column| (column.name.clone().into_owned(), column.description());

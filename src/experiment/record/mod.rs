@@ -12,7 +12,9 @@ mod values;
 use std::convert::Infallible;
 use std::time::SystemTime;
 
-pub(crate) use columns::{column_names, describe_trial, dictionary};
+pub(crate) use columns::{
+    ColumnDescription, column_names, describe_trial, described_columns, dictionary,
+};
 pub(crate) use mark::{Mark, MarkKind, read_marks};
 pub(crate) use read::{read_records, trials};
 

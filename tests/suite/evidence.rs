@@ -1,0 +1,196 @@
+//! Whether logs are as they were written, the plan that they were held by, and the same trials as a
+//! data set that others read.
+
+use std::fs;
+use std::process::Command;
+
+use crate::program::{Lab, Outcome};
+
+const DESIGNS: [&str; 4] = ["odd-one-out", "magnitude", "rating", "gain-matching"];
+
+fn simulated(lab: &Lab, design: &str) {
+    let simulate = [
+        "experiment",
+        "simulate",
+        design,
+        "--observers",
+        "3",
+        "--out",
+        "logs",
+    ];
+    let outcome = lab.run(&simulate);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+}
+
+fn verified(lab: &Lab) -> Outcome {
+    lab.run(&["experiment", "verify", "logs"])
+}
+
+/// The log of the second observer.
+fn second_log(lab: &Lab) -> std::path::PathBuf {
+    let entries = fs::read_dir(lab.path("logs")).unwrap();
+    let mut logs: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    logs.retain(|path| path.extension().is_some_and(|ending| ending == "csv"));
+    logs.sort();
+    logs[1].clone()
+}
+
+#[test]
+fn logs_are_whole_until_a_row_is_cut_out_and_then_left_out_with_its_reason() {
+    let lab = Lab::named("verify");
+    simulated(&lab, "odd-one-out");
+    let whole = verified(&lab);
+    assert_eq!((whole.code, whole.out.as_str()), (0, "3 logs, 0 broken\n"));
+    let log = second_log(&lab);
+    let text = fs::read_to_string(&log).unwrap();
+    let kept = text.lines().enumerate().filter(|(nth, _)| *nth != 5);
+    fs::write(
+        &log,
+        kept.map(|(_, line)| format!("{line}\n"))
+            .collect::<String>(),
+    )
+    .unwrap();
+    let broken = verified(&lab);
+    assert_eq!(broken.code, 1);
+    assert!(
+        broken.out.contains(":6: this row is not bound"),
+        "{}",
+        broken.out
+    );
+    assert!(broken.out.ends_with("3 logs, 1 broken\n"), "{}", broken.out);
+    assert_eq!(broken.err.lines().count(), 1, "{}", broken.err);
+    let analyse = [
+        "experiment",
+        "analyse",
+        "logs",
+        "--out",
+        "found",
+        "--maps",
+        "0",
+    ];
+    let analysed = lab.run(&[&analyse[..], &["--random-data", "0"]].concat());
+    assert_eq!(analysed.code, 0, "{}", analysed.err);
+    let page = fs::read_to_string(lab.path("found/index.md")).unwrap();
+    assert!(
+        page.contains("| o02 | 1 |") && page.contains("not as it was written"),
+        "{page}"
+    );
+    fs::remove_file(log.with_extension("json")).unwrap();
+    let lost = verified(&lab);
+    assert_eq!(lost.code, 1);
+    assert!(lost.out.contains("is missing; restore it"), "{}", lost.out);
+    let nowhere = lab.run(&["experiment", "verify", "nowhere"]);
+    assert_eq!((nowhere.code, nowhere.out.as_str()), (2, ""));
+}
+
+#[test]
+fn a_plan_is_frozen_once_and_stands_beside_what_was_done() {
+    let lab = Lab::named("plan");
+    let plan = [
+        "experiment",
+        "plan",
+        "odd-one-out",
+        "--subjects",
+        "3",
+        "--alpha",
+        "0.01",
+    ];
+    let written = lab.run(&plan);
+    assert_eq!(written.code, 0, "{}", written.err);
+    let name = written.out.split(':').next().unwrap().to_owned();
+    let again = lab.run(&plan);
+    assert_eq!(again.code, 2, "a plan is not overwritten");
+    let wrong = lab.run(&["experiment", "plan", "rating", "--alpha", "7"]);
+    assert!(
+        wrong.err.contains("alpha is 7; give a number"),
+        "{}",
+        wrong.err
+    );
+    fs::create_dir_all(lab.path("logs")).unwrap();
+    fs::rename(lab.path(&name), lab.path("logs").join(&name)).unwrap();
+    simulated(&lab, "odd-one-out");
+    let analyse = [
+        "experiment",
+        "analyse",
+        "logs",
+        "--out",
+        "found",
+        "--maps",
+        "0",
+    ];
+    assert_eq!(
+        lab.run(&[&analyse[..], &["--random-data", "0"]].concat())
+            .code,
+        0
+    );
+    let page = fs::read_to_string(lab.path("found/index.md")).unwrap();
+    for line in ["| subjects | 3 | 3 |", "0 of 3 sessions", "α = 0.01"] {
+        assert!(page.contains(line), "{line}: {page}");
+    }
+}
+
+#[test]
+fn a_data_set_for_others_makes_its_main_table_once_more() {
+    for design in DESIGNS {
+        let lab = Lab::named("bids");
+        simulated(&lab, design);
+        let analyse = [
+            "experiment",
+            "analyse",
+            "logs",
+            "--out",
+            "found",
+            "--maps",
+            "0",
+        ];
+        let choices = [
+            "--random-data",
+            "0",
+            "--permutations",
+            "99",
+            "--bids",
+            "set",
+        ];
+        let analysed = lab.run(&[&analyse[..], &choices].concat());
+        assert_eq!(analysed.code, 0, "{}", analysed.err);
+        let set = lab.path("set");
+        for file in [
+            "dataset_description.json",
+            "participants.tsv",
+            "participants.json",
+            "README",
+        ] {
+            assert!(set.join(file).is_file(), "{file}");
+        }
+        let beh = set.join("sub-o01/ses-1/beh");
+        let names: Vec<String> = fs::read_dir(&beh)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        assert_eq!(names.len(), 2, "{names:?}");
+        let table = fs::read_to_string(set.join("code/main-table.tsv")).unwrap();
+        assert!(table.lines().count() > 3, "{table}");
+        let taken = lab.run(&[&analyse[..], &choices].concat());
+        assert!(taken.err.contains("name a new folder"), "{}", taken.err);
+        let script = set.join("code/main_table.py");
+        let Ok(made) = Command::new("python3").arg(&script).output() else {
+            println!("no python3: its script is not tried");
+            continue;
+        };
+        let said = String::from_utf8_lossy(&made.stderr);
+        assert!(
+            made.status.success() && said.contains("apart by"),
+            "{design}: {said}"
+        );
+        let (first, last) = table.trim_end().rsplit_once('\n').unwrap();
+        let mut cells: Vec<&str> = last.split('\t').collect();
+        cells[5] = "12345";
+        let edited = format!("{first}\n{}\n", cells.join("\t"));
+        fs::write(set.join("code/main-table.tsv"), edited).unwrap();
+        let differs = Command::new("python3").arg(&script).output().unwrap();
+        assert!(
+            !differs.status.success(),
+            "{design}: another table is noticed"
+        );
+    }
+}
