@@ -145,6 +145,9 @@ fn reason(error: &csv::Error) -> String {
     }
 }
 
+/// No more columns are told of a header.
+const MOST_TOLD: usize = 24;
+
 fn check_header(
     header: &[String],
     path: &Path,
@@ -153,12 +156,14 @@ fn check_header(
 ) -> Result<(), FileError> {
     let expected = || {
         let optional = optional.iter().map(|name| format!("[{name}]"));
-        required
-            .iter()
-            .map(|&name| name.to_owned())
-            .chain(optional)
-            .collect::<Vec<_>>()
-            .join(",")
+        let required = required.iter().map(|&name| name.to_owned());
+        let all: Vec<String> = required.chain(optional).collect();
+        match all.get(..MOST_TOLD) {
+            Some(first) if all.len() > MOST_TOLD => {
+                format!("{},… ({} columns)", first.join(","), all.len())
+            }
+            _ => all.join(","),
+        }
     };
     let mend = || format!("the header is {}", expected());
     for (index, name) in header.iter().enumerate() {

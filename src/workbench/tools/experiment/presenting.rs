@@ -87,7 +87,7 @@ impl ArrayNow {
             None => Some("no array is connected"),
             Some(bridge) if bridge.phase != BridgePhase::Armed => Some("the array is not armed"),
             Some(bridge) if bridge.gain.is_none_or(|gain| gain < 1.0) => {
-                Some("the array is not at full strength yet")
+                Some("the array is not armed at full strength")
             }
             Some(_) => None,
         };

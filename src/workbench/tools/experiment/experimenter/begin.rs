@@ -24,6 +24,9 @@ const WIDE: f32 = f32::INFINITY;
 const NAME: f32 = 84.0;
 
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
+    if experiment.asked == Some(Asked::Begin) && experiment.beginning.is_none() {
+        return show_asked(ui, experiment, context.bench);
+    }
     let form = &mut experiment.form;
     section(ui, "New session");
     row_of(ui, NAME, ("design", ""), |ui, _| {
@@ -52,30 +55,39 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     show_found(ui, experiment, context.bench);
 }
 
-/// The buttons that begin: a session once it was asked for twice, a pilot at once.
+/// What will be written, before it is.
+fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+    let Some(plan) = experiment.form.plan() else {
+        experiment.asked = None;
+        return;
+    };
+    section(ui, "Begin this session?");
+    for line in plan.describe(&device_name(bench)) {
+        note(ui, &line, Tone::Quiet);
+    }
+    if bench.device.faults.is_some() {
+        let words = "The device is an emulator: its rows will say that nobody felt anything.";
+        note(ui, words, Tone::Wrong);
+    }
+    ui.add_space(STEP);
+    ui.horizontal_wrapped(|ui| {
+        if button(
+            ui,
+            "Begin now",
+            "Open the log, and show the first page",
+            None,
+        ) {
+            experiment.begin_session(bench);
+        }
+        if button(ui, "Not yet", "Nothing is written", None) {
+            experiment.asked = None;
+        }
+    });
+}
+
+/// The buttons that begin: a session, once it was said what will be written, and a pilot.
 fn show_begin(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
     let refusal = experiment.form.refusal();
-    let plan = experiment.form.plan();
-    if let (Some(Asked::Begin), Some(plan)) = (experiment.asked, plan) {
-        note(ui, "This will be written:", Tone::Quiet);
-        for line in plan.describe(&device_name(bench)) {
-            note(ui, &line, Tone::Quiet);
-        }
-        ui.horizontal_wrapped(|ui| {
-            if button(
-                ui,
-                "Begin now",
-                "Open the log, and show the first page",
-                None,
-            ) {
-                experiment.begin_session(bench);
-            }
-            if button(ui, "Not yet", "Nothing is written", None) {
-                experiment.asked = None;
-            }
-        });
-        return;
-    }
     ui.horizontal_wrapped(|ui| {
         let tip = "Show what will be written, then begin";
         if button(ui, "Begin the session…", tip, refusal.as_deref()) {
