@@ -9,6 +9,15 @@ use selvedge_statistics::properties::Ellipse;
 
 /// Corners of an ellipse.
 const N_CORNERS: u32 = 48;
+/// What points and their ellipses are drawn with, in turn.
+const INKS: [Ink; 4] = [Ink::Violet, Ink::Rose, Ink::Black, Ink::Grey];
+/// A map's frame, about.
+const WIDTH_PX: f64 = 780.0;
+const HEIGHT_PX: f64 = 520.0;
+/// Half the height of a label, half the width of a letter, and what a dot keeps free around it.
+const LABEL_PX: f64 = 7.0;
+const LETTER_PX: f64 = 3.1;
+const DOT_PX: f64 = 6.0;
 
 /// A map of named points with ellipses around them and directions in which measures rise.
 pub(super) struct MapDrawing<'a> {
@@ -30,31 +39,25 @@ impl MapDrawing<'_> {
             ]
         };
         let places: Vec<[f64; 2]> = self.points.iter().map(|p| at(p)).collect();
-        let mut series: Vec<Series> = self.ellipses.iter().map(outline).collect();
-        let mut words = Vec::new();
+        let inks = || INKS.into_iter().cycle();
+        let outlines = self.ellipses.iter().zip(inks());
+        let mut series: Vec<Series> = outlines.map(|(one, ink)| outline(one, ink)).collect();
         for (name, direction) in self.directions {
             series.push(Series {
                 weight: Weight::Bold,
                 ..Series::of(name, Style::Line, [[0.0; 2], *direction])
             });
         }
-        series.push(Series {
-            points: places.clone(),
-            ink: Ink::Black,
+        series.extend(places.iter().zip(inks()).map(|(place, ink)| Series {
+            points: vec![*place],
+            ink,
             ..Series::default()
-        });
-        for (name, place) in self.names.iter().zip(&places) {
-            words.push(Words {
-                at: *place,
-                text: name.clone(),
-                tone: Tone::Aside,
-            });
-        }
+        }));
         let corners = series.iter().flat_map(|s| s.points.iter().flatten());
         let reach = 1.12 * corners.fold(0.5_f64, |most, x| most.max(x.abs()));
         // Both axes to one scale: a frame is about 1.6 times as wide as it is high.
-        let height_px = 520.0;
-        let wide = reach * 780.0 / height_px;
+        let wide = reach * WIDTH_PX / HEIGHT_PX;
+        let words = labels(self.names, &places, HEIGHT_PX / (2.0 * reach));
         let axis = |label: &str, reach: f64| Axis {
             label: label.to_owned(),
             range: Some([-reach, reach]),
@@ -67,7 +70,7 @@ impl MapDrawing<'_> {
             words,
             ..Chart::default()
         };
-        let mut figure = figure(title, vec![panel], height_px, None);
+        let mut figure = figure(title, vec![panel], HEIGHT_PX, None);
         figure.notes = notes;
         Drawn {
             key: key.to_owned(),
@@ -104,7 +107,48 @@ impl MapDrawing<'_> {
     }
 }
 
-fn outline(ellipse: &Ellipse) -> Series {
+/// Names beside their points: each where it covers the fewest dots and names before it.
+fn labels(names: &[String], places: &[[f64; 2]], px_per_unit: f64) -> Vec<Words> {
+    let dots: Vec<[f64; 4]> = places
+        .iter()
+        .map(|[x, y]| [x * px_per_unit, y * px_per_unit, DOT_PX, DOT_PX])
+        .collect();
+    let mut taken = dots.clone();
+    let mut words = Vec::with_capacity(names.len());
+    for (name, [x, y, ..]) in names.iter().zip(dots) {
+        let half = LETTER_PX * name.chars().count() as f64;
+        let (aside, above) = (half + DOT_PX + 2.0, LABEL_PX + DOT_PX);
+        let ways = [
+            [aside, 0.0],
+            [-aside, 0.0],
+            [0.0, above],
+            [0.0, -above],
+            [aside, above],
+            [-aside, above],
+            [aside, -above],
+            [-aside, -above],
+        ];
+        let boxes = ways.map(|[right, up]| [x + right, y + up, half, LABEL_PX]);
+        let n_covered = |label: &[f64; 4]| taken.iter().filter(|one| touch(label, one)).count();
+        let Some(label) = boxes.into_iter().min_by_key(n_covered) else {
+            continue;
+        };
+        taken.push(label);
+        words.push(Words {
+            at: [label[0] / px_per_unit, label[1] / px_per_unit],
+            text: name.clone(),
+            tone: Tone::Dark,
+        });
+    }
+    words
+}
+
+/// Whether two boxes, their middles and halves of their sides, share anything.
+fn touch(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    (a[0] - b[0]).abs() < a[2] + b[2] && (a[1] - b[1]).abs() < a[3] + b[3]
+}
+
+fn outline(ellipse: &Ellipse, ink: Ink) -> Series {
     let (sin, cos) = ellipse.angle_rad.sin_cos();
     let corner = |nth: u32| {
         let turn = f64::from(nth) / f64::from(N_CORNERS) * std::f64::consts::TAU;
@@ -118,7 +162,7 @@ fn outline(ellipse: &Ellipse) -> Series {
         ]
     };
     Series {
-        ink: Ink::Grey,
+        ink,
         weight: Weight::Thin,
         ..Series::of("", Style::Line, (0..=N_CORNERS).map(corner))
     }
@@ -206,4 +250,41 @@ fn shade(share: f64) -> [u8; 3] {
     )]
     let mix = |i: usize| (light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0)).round() as u8;
     [0, 1, 2].map(mix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_lies_on_a_dot_or_on_another_name() {
+        let places = [
+            [0.0, 0.0],
+            [0.12, 0.0],
+            [0.0, 0.05],
+            [-0.4, 0.1],
+            [0.5, -0.3],
+        ];
+        let names: Vec<String> = (0..5).map(|at| format!("textile-{at}")).collect();
+        let found = labels(&names, &places, 400.0);
+        let boxes: Vec<[f64; 4]> = found
+            .iter()
+            .map(|one| {
+                [
+                    one.at[0] * 400.0,
+                    one.at[1] * 400.0,
+                    9.0 * LETTER_PX,
+                    LABEL_PX,
+                ]
+            })
+            .collect();
+        for (i, label) in boxes.iter().enumerate() {
+            let dots = places.map(|[x, y]| [x * 400.0, y * 400.0, 3.0, 3.0]);
+            assert!(!dots.iter().any(|dot| touch(label, dot)), "{i} on a dot");
+            assert!(
+                !boxes[i + 1..].iter().any(|other| touch(label, other)),
+                "{i} on a name"
+            );
+        }
+    }
 }

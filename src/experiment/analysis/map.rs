@@ -71,19 +71,31 @@ impl Mapping<'_> {
         let mds = self.mds(options);
         let maps = mds.maps(&data, 1..=5, progress)?;
         section.note(format!(
-            "Non-metric multidimensional scaling; {} made small, {} ties; stress-1 and S-stress of \
-             the same points beside each other. {} pairs, {} missing.",
+            "Non-metric multidimensional scaling; {} made small, {} ties. {} pairs, {} missing.",
             loss_heading(self.loss),
             self.ties.name(),
             data.pairs().len(),
             data.n_missing()
         ));
-        self.stress(&maps, (&mds, &data, options), &mut section, progress)?;
+        let chance = self.stress(&maps, (&mds, &data, options), &mut section, progress)?;
         section.table(coordinates(&self.names, &maps));
         if let Some(plane) = maps.iter().find(|map| map.dims == 2) {
-            section.figure(shepard(plane));
+            let is_worth = self.is_below_chance(plane, &chance);
+            if is_worth {
+                section.figure(shepard(plane));
+            } else {
+                section.note(
+                    "**The plane is not drawn**: random ranks lie in one as well, more than one \
+                     time in twenty. Its coordinates stand in the table.",
+                );
+            }
             let ellipses = self.ellipses(plane, (&mds, options), &mut section, progress)?;
-            self.turned((plane, &ellipses), options, &mut section, progress)?;
+            self.turned(
+                (plane, &ellipses, is_worth),
+                options,
+                &mut section,
+                progress,
+            )?;
         }
         for map in &maps {
             let warnings = map.warnings.iter();
@@ -100,7 +112,7 @@ impl Mapping<'_> {
         (mds, data, options): (&Mds, &Dissimilarities, &Options),
         section: &mut Section,
         progress: &mut Progress<'_>,
-    ) -> Result<(), Cancelled> {
+    ) -> Result<Vec<Null>, Cancelled> {
         let n_sets = options.n_random_data;
         let random_data = &options.random_data;
         let chance = random_data.of(maps, (mds, data), n_sets, progress)?;
@@ -139,7 +151,14 @@ impl Mapping<'_> {
         let stress = Axis::linear("stress").within([0.0, 1.3 * most]);
         let title = format!("{}: stress by dimensions", self.title);
         section.figure(scatter("elbow", &title, [dims, stress], all));
-        Ok(())
+        Ok(chance)
+    }
+
+    /// Whether a map's loss lies below the 5 % point of random ranks; nobody knows where they were
+    /// not asked for.
+    fn is_below_chance(&self, map: &Map, chance: &[Null]) -> bool {
+        let own = chance.iter().find(|null| null.dims == map.dims);
+        own.is_none_or(|null| map.loss(self.loss) < null.five_percent())
     }
 
     fn ellipses(

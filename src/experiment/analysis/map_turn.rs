@@ -39,13 +39,13 @@ const TURNS: [(&str, &str); 14] = [
 ];
 
 impl Mapping<'_> {
-    /// The plane map as it is and turned to A40 and A320.
+    /// The plane map as it is and turned to A40 and A320, drawn where it is worth it.
     ///
     /// # Errors
     /// It was cancelled.
     pub(super) fn turned(
         &self,
-        (plane, ellipses): (&Map, &[Ellipse]),
+        (plane, ellipses, is_drawn): (&Map, &[Ellipse], bool),
         options: &Options,
         section: &mut Section,
         progress: &mut Progress<'_>,
@@ -84,6 +84,9 @@ impl Mapping<'_> {
             )
         });
         section.tables.extend(self.own_speeds(best.as_ref()));
+        if !is_drawn {
+            return Ok(());
+        }
         let directions = self.directions(points);
         let drawing = MapDrawing {
             names: &self.names,
@@ -93,11 +96,10 @@ impl Mapping<'_> {
             directions: &directions,
         };
         let note = format!(
-            "{} {}, {} ties; stress-1 {}. A bar is as long as the multiple correlation.",
+            "{} {}, {} ties. A bar is as long as the multiple correlation.",
             loss_heading(self.loss),
             fixed(plane.loss(self.loss), 4),
-            self.ties.name(),
-            fixed(plane.stress1, 4)
+            self.ties.name()
         );
         section.figure(drawing.drawn("map", &format!("{}, in the plane", self.title), vec![note]));
         Ok(())
