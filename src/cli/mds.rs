@@ -9,7 +9,7 @@ use super::mds_json::{Chance, Document};
 use super::terminal::with_meter;
 use super::usage::one_of;
 use super::{CliError, output};
-use selvedge_foundation::files::{self, NamedMatrix};
+use selvedge_foundation::files::{self, SquareTable};
 use selvedge_foundation::numerics;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
@@ -26,7 +26,7 @@ const STARTS_OF_CHANCE: usize = 100;
 /// A table of dissimilarities, and how it is mapped.
 #[derive(Debug, Args)]
 pub(super) struct MdsArgs {
-    /// Square CSV table: header row and first column of the same names; an empty cell is missing
+    /// Square table or a triangle of it, with or without names; an empty cell is missing
     dissimilarities: PathBuf,
     /// Numbers of dimensions: 2, or 1-5
     #[arg(long, value_name = "K-K", value_parser = dimensions, default_value = "1-5")]
@@ -96,17 +96,36 @@ impl MdsArgs {
             ..Mds::default()
         }
     }
+
+    /// How much there is to do for the maps, and for those of chance.
+    fn work(&self, data: &Dissimilarities) -> [f64; 2] {
+        let over_dims = |mds: &Mds| -> f64 { self.dims.clone().map(|k| mds.work(data, k)).sum() };
+        let n_sets = f64::from(self.random_data) + f64::from(self.permutations);
+        [over_dims(&self.mds()), n_sets * over_dims(&self.mds_of_chance())]
+    }
+
+    fn mds_of_chance(&self) -> Mds {
+        Mds {
+            n_starts_on_a_line: STARTS_OF_CHANCE,
+            ..self.mds()
+        }
+    }
 }
 
 /// Makes the maps, and writes them.
 pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
     let path = &args.dissimilarities;
-    let table = NamedMatrix::read(&files::read_text(path)?, path)?;
+    let table = SquareTable::read(&files::read_text(path)?, path)?;
     let data = checked(&table, path, args.average)?;
     let mds = args.mds();
     let (maps, chance) = with_meter("mds", |progress| -> Result<_, CliError> {
-        let maps = mds.maps(&data, args.dims.clone(), progress)?;
-        Ok((maps, chance(args, &data, progress)?))
+        let [own, other] = args.work(&data);
+        let from = own / (own + other);
+        let maps = progress.within([0.0, from], |progress| {
+            mds.maps(&data, args.dims.clone(), progress)
+        })?;
+        let chance = progress.within([from, 1.0], |progress| chance(args, &data, progress))?;
+        Ok((maps, chance))
     })??;
     let elbow = elbow(&maps, mds.loss, &chance);
     let out = args.json.as_deref();
@@ -121,29 +140,14 @@ pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
 }
 
 /// The table as dissimilarities.
-fn checked(table: &NamedMatrix, path: &Path, average: bool) -> Result<Dissimilarities, CliError> {
+fn checked(table: &SquareTable, path: &Path, average: bool) -> Result<Dissimilarities, CliError> {
     let wrong = |what: String| CliError::Input(format!("{}: {what}", path.display()));
-    let (n_rows, n) = (table.rows.len(), table.columns.len());
-    if n_rows != n {
-        let what = format!(
-            "{n_rows} rows and {n} columns; a table of dissimilarities is square, with the same \
-             names down and across"
-        );
-        return Err(wrong(what));
-    }
-    let differing = table.rows.iter().zip(&table.columns).find(|(r, c)| r != c);
-    if let Some((row, column)) = differing {
-        let what = format!(
-            "a row is called {row} where the column is called {column}; give rows and columns the \
-             same names in the same order"
-        );
-        return Err(wrong(what));
-    }
+    let (names, n) = (&table.names, table.names.len());
     let mut values = table.values.clone();
     let largest = values.iter().flatten().copied().fold(0.0, f64::max);
     for i in 0..n {
         for j in i + 1..n {
-            let (a, b) = (&table.rows[i], &table.columns[j]);
+            let (a, b) = (&names[i], &names[j]);
             let (Some(one), Some(other)) = (values[i * n + j], values[j * n + i]) else {
                 continue;
             };
@@ -162,11 +166,11 @@ fn checked(table: &NamedMatrix, path: &Path, average: bool) -> Result<Dissimilar
         .iter()
         .position(|value| value.is_some_and(|x| x < 0.0));
     if let Some(at) = negative {
-        let (a, b) = (&table.rows[at / n], &table.columns[at % n]);
+        let (a, b) = (&names[at / n], &names[at % n]);
         let what = format!("{a} to {b} is negative; a dissimilarity is 0 or more");
         return Err(wrong(what));
     }
-    Dissimilarities::new(table.rows.clone(), &values)
+    Dissimilarities::new(names.clone(), &values)
         .map_err(|undefined| wrong(format!("{}; add what is missing", undefined.reason)))
 }
 
@@ -176,17 +180,19 @@ fn chance(
     data: &Dissimilarities,
     progress: &mut Progress<'_>,
 ) -> Result<Chance, CliError> {
-    let mds = Mds {
-        n_starts_on_a_line: STARTS_OF_CHANCE,
-        ..args.mds()
-    };
-    let mut all = Chance::default();
+    let mds = args.mds_of_chance();
+    let (mut all, mut done) = (Chance::default(), 0.0);
+    let [_, total] = args.work(data);
     for (kind, n) in [
         (NullKind::RandomRanks, args.random_data),
         (NullKind::Permuted, args.permutations),
     ] {
         for k in args.dims.clone().filter(|_| n > 0) {
-            let null = Null::of(&mds, data, kind, (k, usize::from(n)), progress)?;
+            let share = f64::from(n) * mds.work(data, k) / total;
+            let null = progress.within([done, done + share], |progress| {
+                Null::of(&mds, data, kind, (k, usize::from(n)), progress)
+            })?;
+            done += share;
             match kind {
                 NullKind::RandomRanks => all.random_data.push(null),
                 NullKind::Permuted => all.permutations.push(null),

@@ -47,7 +47,7 @@ pub struct Table {
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Column {
-    /// Its name in files: letters, digits and `_`, its unit at the end.
+    /// Its name in files: letters, digits and `_`, its unit at the end; an item's own.
     pub name: String,
     /// What people read above it.
     pub heading: String,
@@ -113,10 +113,10 @@ impl Table {
         }
     }
 
-    /// Further columns, for items that only the data know.
+    /// Further columns, for items that only the data know, as these are called.
     pub(super) fn with_columns<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Self {
-        let column = |name: &str| Column::new(&file_name(name, '_'), name);
-        self.columns.extend(names.into_iter().map(column));
+        let columns = names.into_iter().map(|name| Column::new(name, name));
+        self.columns.extend(columns);
         self
     }
 

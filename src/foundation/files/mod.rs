@@ -47,7 +47,7 @@ pub use keys::{
     KeyValue, Keys, keys_from_str, keys_to_string, known_keys_from_str, lay_over, line_of_key,
     set_value, take_text, value_at,
 };
-pub use matrix::NamedMatrix;
+pub use matrix::SquareTable;
 pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
 pub use picture::{
     Rgb8Image, Rgb16Image, decode_picture, decode_png, encode_png, encode_png_rgba,

@@ -29,7 +29,7 @@ pub use search::Descent;
 use std::ops::RangeInclusive;
 
 use fit::Problem;
-use search::{Plan, search};
+use search::{Plan, search, work};
 use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// The most dimensions of a map.
@@ -88,17 +88,27 @@ impl Mds {
     ) -> Result<Vec<Map>, Cancelled> {
         let problem = Problem::new(data, self.ties);
         let mut maps: Vec<Map> = Vec::new();
-        for k in dims.filter(|k| (1..=MOST_DIMENSIONS).contains(k)) {
+        let dims: Vec<usize> = dims.filter(|k| (1..=MOST_DIMENSIONS).contains(k)).collect();
+        let total: f64 = dims.iter().map(|k| self.work(data, *k)).sum();
+        let mut done = 0.0;
+        for k in dims {
             let lower = maps.last().map(|map| map.points.concat());
-            let found = search(
-                &problem,
-                &Plan { k, mds: *self },
-                lower.as_deref(),
-                progress,
-            )?;
+            let plan = Plan { k, mds: *self };
+            let share = self.work(data, k) / total;
+            let found = progress.within([done, done + share], |progress| {
+                search(&problem, &plan, lower.as_deref(), progress)
+            })?;
+            done += share;
             maps.push(Map::of(&problem, self.loss, k, &found));
         }
         Ok(maps)
+    }
+
+    /// How much a map in so many dimensions takes, in starts of as many objects on a line: what
+    /// progress is told by.
+    pub fn work(&self, data: &Dissimilarities, k: usize) -> f64 {
+        let [starts, exchanged] = work(self, data.n_objects(), k);
+        starts + exchanged
     }
 
     /// Starts that are followed in so many dimensions.

@@ -120,9 +120,11 @@ pub(super) fn search(
     let batch = (100_000 / (problem.pairs.len() * plan.k)).clamp(8, 500);
     let n_all = runs.len();
     let doing = format!("{} dimensions", plan.k);
+    let [starts, exchanged] = work(&plan.mds, problem.n, plan.k);
+    let followed = starts / (starts + exchanged);
     for (n_done, some) in runs.chunks_mut(batch).enumerate() {
         let first = n_done * batch;
-        progress.step(first as f64 / n_all as f64, &doing)?;
+        progress.step(followed * first as f64 / n_all as f64, &doing)?;
         let prepare = || Fit::new(problem, plan.k);
         in_pieces(some, 1, plan.mds.n_threads, prepare, |fit, number, run| {
             fit.reset();
@@ -133,14 +135,16 @@ pub(super) fn search(
     }
     let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
-    let followed: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
+    let losses: Vec<f64> = runs.iter().map(|run| run.f.max(0.0).sqrt()).collect();
     runs.truncate(if plan.k == 1 {
         (10 * plan.mds.n_exchanged).max(N_POLISHED)
     } else {
         N_POLISHED
     });
     if plan.mds.descent == Descent::Polish {
-        runs = finished(problem, plan, runs);
+        runs = progress.within([followed, 1.0], |progress| {
+            finished(problem, plan, runs, progress)
+        })?;
     }
     let best = runs.swap_remove(0);
     let loss = best.f.max(0.0).sqrt();
@@ -149,62 +153,130 @@ pub(super) fn search(
         x: best.x,
         loss,
         n_starts: n_all,
-        n_reached: followed.iter().filter(is_there).count(),
+        n_reached: losses.iter().filter(is_there).count(),
     })
 }
 
+/// How much following all starts takes, and how much exchanging objects on a line, in starts of as
+/// many objects on a line. Where exchange ends nobody knows before; three rounds are usual.
+pub(super) fn work(mds: &Mds, n: usize, k: usize) -> [f64; 2] {
+    let starts = (mds.starts_in(k).max(1) * k) as f64;
+    let is_exchanged = k == 1 && mds.n_exchanged > 0 && mds.descent == Descent::Polish;
+    let glances = 3.0 * 1.5 * (n * n) as f64;
+    let per_glance = 0.1;
+    let exchanged = if is_exchanged {
+        mds.n_exchanged as f64 * glances * per_glance
+    } else {
+        0.0
+    };
+    [starts, exchanged]
+}
+
 /// The best runs followed to the very end, the best first.
-fn finished(problem: &Problem, plan: &Plan, mut runs: Vec<Run>) -> Vec<Run> {
+fn finished(
+    problem: &Problem,
+    plan: &Plan,
+    mut runs: Vec<Run>,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Run>, Cancelled> {
     if plan.k == 1 {
         runs.dedup_by(|a, b| (a.f - b.f).abs() <= 1e-7 * b.f);
         runs.truncate(plan.mds.n_exchanged.max(1));
     }
-    let prepare = || Fit::new(problem, plan.k);
-    in_pieces(&mut runs, 1, plan.mds.n_threads, prepare, |fit, _, run| {
-        fit.reset();
-        let run = &mut run[0];
-        if plan.k == 1 && plan.mds.n_exchanged > 0 {
-            run.f = exchange(fit, plan, &mut run.x, run.f);
-        }
+    let is_exchanged = plan.k == 1 && plan.mds.n_exchanged > 0;
+    let mut exchanges: Vec<Exchange<'_>> = runs
+        .into_iter()
+        .map(|run| Exchange::of(Fit::new(problem, plan.k), run))
+        .collect();
+    while is_exchanged && exchanges.iter().any(|one| !one.is_over) {
+        let shares = exchanges.iter().map(Exchange::share_done);
+        let share = shares.sum::<f64>() / exchanges.len() as f64;
+        progress.step(share, "1 dimension, objects exchanged")?;
+        let go_on = |(): &mut (), _: usize, one: &mut [Exchange<'_>]| one[0].go_on(plan);
+        in_pieces(&mut exchanges, 1, plan.mds.n_threads, || (), go_on);
+    }
+    let polish = |(): &mut (), _: usize, one: &mut [Exchange<'_>]| {
+        let Exchange { fit, run, .. } = &mut one[0];
         run.f = descend(fit, plan.mds.loss, &mut run.x, POLISHED);
-    });
+    };
+    in_pieces(&mut exchanges, 1, plan.mds.n_threads, || (), polish);
+    let mut runs: Vec<Run> = exchanges.into_iter().map(|one| one.run).collect();
     runs.sort_by(|a, b| a.f.total_cmp(&b.f));
-    runs
+    Ok(runs)
 }
 
-/// Improves a map on a line until no exchange of two objects and no move of one helps.
-fn exchange(fit: &mut Fit<'_>, plan: &Plan, x: &mut [f64], f: f64) -> f64 {
-    let n = x.len();
-    let mut best = f;
-    let mut tried = x.to_vec();
-    loop {
-        let before = best;
-        for from in 0..n {
-            for to in 0..n {
-                for is_swap in [true, false] {
-                    // Moving to the next place is an exchange, and so is every swap backwards.
-                    let is_new = if is_swap {
-                        from < to
-                    } else {
-                        from.abs_diff(to) > 1
-                    };
-                    if !is_new {
-                        continue;
-                    }
-                    rearranged(x, from, to, is_swap, &mut tried);
-                    if majorise(fit, &mut tried, GLANCE) > WORTH * best {
-                        continue;
-                    }
-                    let next = downhill(fit, plan, &mut tried);
-                    if next < best * (1.0 - 1e-9) - 1e-15 {
-                        best = next;
-                        x.copy_from_slice(&tried);
-                    }
+/// A map on a line that is improved until no exchange of two objects and no move of one helps.
+struct Exchange<'a> {
+    fit: Fit<'a>,
+    run: Run,
+    tried: Vec<f64>,
+    /// The rank whose object comes next, and the loss when the round began.
+    from: usize,
+    before: f64,
+    n_rounds: usize,
+    is_over: bool,
+}
+
+impl<'a> Exchange<'a> {
+    fn of(fit: Fit<'a>, run: Run) -> Self {
+        Self {
+            fit,
+            tried: run.x.clone(),
+            from: 0,
+            before: run.f,
+            n_rounds: 0,
+            is_over: false,
+            run,
+        }
+    }
+
+    /// How far it is, if a round that helped is followed by one more that does not.
+    fn share_done(&self) -> f64 {
+        if self.is_over {
+            return 1.0;
+        }
+        let rounds = self.n_rounds as f64 + self.from as f64 / self.run.x.len() as f64;
+        let is_helped = self.run.f < self.before || self.n_rounds == 0;
+        let all = self.n_rounds as f64 + if is_helped { 2.0 } else { 1.0 };
+        (rounds / all).min(1.0)
+    }
+
+    /// Exchanges and moves the object at one rank.
+    fn go_on(&mut self, plan: &Plan) {
+        if self.is_over {
+            return;
+        }
+        let (n, from) = (self.run.x.len(), self.from);
+        for to in 0..n {
+            for is_swap in [true, false] {
+                // Moving to the next place is an exchange, and so is every swap backwards.
+                let is_new = if is_swap {
+                    from < to
+                } else {
+                    from.abs_diff(to) > 1
+                };
+                if is_new {
+                    self.try_one(plan, (from, to), is_swap);
                 }
             }
         }
-        if best >= before {
-            return best;
+        self.from += 1;
+        if self.from == n {
+            self.is_over = self.run.f >= self.before;
+            (self.from, self.before) = (0, self.run.f);
+            self.n_rounds += 1;
+        }
+    }
+
+    fn try_one(&mut self, plan: &Plan, (from, to): (usize, usize), is_swap: bool) {
+        rearranged(&self.run.x, from, to, is_swap, &mut self.tried);
+        if majorise(&mut self.fit, &mut self.tried, GLANCE) > WORTH * self.run.f {
+            return;
+        }
+        let next = downhill(&mut self.fit, plan, &mut self.tried);
+        if next < self.run.f * (1.0 - 1e-9) - 1e-15 {
+            self.run.f = next;
+            self.run.x.copy_from_slice(&self.tried);
         }
     }
 }
