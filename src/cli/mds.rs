@@ -101,7 +101,10 @@ impl MdsArgs {
     fn work(&self, data: &Dissimilarities) -> [f64; 2] {
         let over_dims = |mds: &Mds| -> f64 { self.dims.clone().map(|k| mds.work(data, k)).sum() };
         let n_sets = f64::from(self.random_data) + f64::from(self.permutations);
-        [over_dims(&self.mds()), n_sets * over_dims(&self.mds_of_chance())]
+        [
+            over_dims(&self.mds()),
+            n_sets * over_dims(&self.mds_of_chance()),
+        ]
     }
 
     fn mds_of_chance(&self) -> Mds {

@@ -84,7 +84,10 @@ fn tables_that_are_no_dissimilarities_are_refused_in_one_line() {
     for (table, said) in [
         (",a,b\na,,1\n", "1 rows and 2 columns"),
         (",a\na,\n", "at least three objects"),
-        ("0,1,2\n1,0\n2,3,0\n", "d.csv:2: 2 cells where there are 3 objects"),
+        (
+            "0,1,2\n1,0\n2,3,0\n",
+            "d.csv:2: 2 cells where there are 3 objects",
+        ),
         (
             ",a,b,c\na,,1,2\nx,1,,3\nc,2,3,\n",
             "a row is called x where the column is called b",
@@ -106,10 +109,7 @@ fn tables_that_are_no_dissimilarities_are_refused_in_one_line() {
             ",a,b,c,d\na,,1,,\nb,1,,,\nc,,,,2\nd,,,2,\n",
             "no chain of pairs joins a and c",
         ),
-        (
-            ",a,b\na,1\n",
-            "1 rows and 2 columns",
-        ),
+        (",a,b\na,1\n", "1 rows and 2 columns"),
         ("", "d.csv: this file is empty; "),
     ] {
         let (_, outcome) = mds(table, &[]);

@@ -108,7 +108,11 @@ fn number(cell: &str) -> Result<Option<f64>, ()> {
     if cell.is_empty() || cell == "NA" {
         return Ok(None);
     }
-    cell.parse().ok().filter(|x: &f64| x.is_finite()).map(Some).ok_or(())
+    cell.parse()
+        .ok()
+        .filter(|x: &f64| x.is_finite())
+        .map(Some)
+        .ok_or(())
 }
 
 fn is_text(cell: &str) -> bool {
@@ -146,7 +150,9 @@ impl Parts {
     /// Leaves out the last columns while they hold no number and are named after no row.
     fn drop_remarks(&mut self) {
         let Some(rows) = &self.rows else { return };
-        let Some(columns) = &mut self.columns else { return };
+        let Some(columns) = &mut self.columns else {
+            return;
+        };
         while columns.len() > rows.len() {
             let last = columns.len() - 1;
             let is_number = |line: &Line| {
@@ -165,9 +171,8 @@ impl Parts {
 
     /// What the objects are called, and whether the first row is that of the second object.
     fn names(&self, path: &Path) -> Result<(Vec<String>, bool), FileError> {
-        let wrong = |line: usize, what: String, mend: &str| {
-            Err(FileError::content(path, line, what, mend))
-        };
+        let wrong =
+            |line: usize, what: String, mend: &str| Err(FileError::content(path, line, what, mend));
         let n_rows = self.lines.len();
         let (names, below) = match (&self.columns, &self.rows) {
             (Some(columns), Some(rows)) if columns == rows => (rows.clone(), false),
@@ -196,7 +201,11 @@ impl Parts {
         let n = names.len();
         for (at, name) in names.iter().enumerate() {
             if name.is_empty() {
-                return wrong(1, format!("name {} is empty", at + 1), "name every row and column");
+                return wrong(
+                    1,
+                    format!("name {} is empty", at + 1),
+                    "name every row and column",
+                );
             }
             if names[..at].contains(name) {
                 return wrong(1, format!("{name} stands twice"), "give every name once");
@@ -207,7 +216,10 @@ impl Parts {
             return wrong(1, what, "give a square, or a triangle of it");
         }
         let is_triangle = self.is_triangle(below);
-        let other = self.lines.iter().find(|line| !is_triangle && line.cells.len() != n);
+        let other = self
+            .lines
+            .iter()
+            .find(|line| !is_triangle && line.cells.len() != n);
         if let Some(line) = other {
             let at = line.number;
             let n_cells = line.cells.len();
@@ -219,17 +231,21 @@ impl Parts {
 
     /// Whether no row goes beyond the diagonal.
     fn is_triangle(&self, below: bool) -> bool {
-        let lines = self.lines.iter().enumerate();
+        let mut lines = self.lines.iter().enumerate();
         let is_below = |(at, line): (usize, &Line)| {
             let told = line.cells.iter().rposition(|cell| !cell.is_empty());
             told.is_none_or(|last| last <= at + usize::from(below))
         };
-        lines.map(is_below).fold(true, |all, one| all && one)
+        lines.all(is_below)
     }
 
     /// Numbers from 1: of a triangle without its diagonal one more than there are rows.
     fn numbered(&self) -> (Vec<String>, bool) {
-        let mut lasts = self.lines.iter().enumerate().map(|(at, line)| line.cells.get(at));
+        let mut lasts = self
+            .lines
+            .iter()
+            .enumerate()
+            .map(|(at, line)| line.cells.get(at));
         let is_diagonal = |cell: Option<&String>| {
             cell.is_none_or(|cell| number(cell).is_ok_and(|x| x.is_none_or(|x| x.abs() <= 0.0)))
         };
@@ -241,7 +257,9 @@ impl Parts {
 
 /// Whether columns are the objects but the last, and rows those but the first.
 fn is_shifted(columns: &[String], rows: &[String]) -> bool {
-    let [first, rest @ ..] = columns else { return false };
+    let [first, rest @ ..] = columns else {
+        return false;
+    };
     let is_square = rest.len() + 1 == rows.len() && rest == &rows[..rest.len()];
     is_square && !rows.contains(first)
 }
@@ -252,11 +270,15 @@ fn is_header(first: &Line, lines: &[Line]) -> bool {
     if first.cells.iter().skip(1).any(|cell| is_text(cell)) {
         return true;
     }
-    let column = || lines.iter().map(|line| line.cells.first().map_or("", String::as_str));
+    let column = || {
+        lines
+            .iter()
+            .map(|line| line.cells.first().map_or("", String::as_str))
+    };
     let is_same = column().eq(first.cells.iter().map(String::as_str));
-    let has_diagonal = lines.get(1).is_some_and(|second| {
-        second.cells.get(1).is_some_and(|cell| !cell.is_empty())
-    });
+    let has_diagonal = lines
+        .get(1)
+        .is_some_and(|second| second.cells.get(1).is_some_and(|cell| !cell.is_empty()));
     first.cells.first().is_some_and(String::is_empty) && is_same && has_diagonal
 }
 
@@ -272,29 +294,65 @@ mod tests {
     fn pairs(table: &SquareTable) -> Vec<f64> {
         let n = table.names.len();
         let both = |i: usize, j: usize| table.values[i * n + j].or(table.values[j * n + i]);
-        (0..n).flat_map(|i| (0..i).filter_map(move |j| both(i, j))).collect()
+        (0..n)
+            .flat_map(|i| (0..i).filter_map(move |j| both(i, j)))
+            .collect()
     }
 
     #[test]
     fn what_r_python_and_this_program_write_is_read() {
         let named = ["Aa", "b", "c"];
         for (kind, text, names) in [
-            ("both names", "\u{feff}# d\n,Aa,b,c\nAa,,1,2\nb,1,,3\nc,2,3,\n", named),
-            ("R, write.csv", "\"\",\"Aa\",\"b\",\"c\"\n\"Aa\",0,1,2\n\"b\",1,0,3\n\"c\",2,3,0\n", named),
-            ("R, write.table", "\"Aa\" \"b\" \"c\"\n\"Aa\" 0 1 2\n\"b\" 1 0 3\n\"c\" 2 3 0\n", named),
+            (
+                "both names",
+                "\u{feff}# d\n,Aa,b,c\nAa,,1,2\nb,1,,3\nc,2,3,\n",
+                named,
+            ),
+            (
+                "R, write.csv",
+                "\"\",\"Aa\",\"b\",\"c\"\n\"Aa\",0,1,2\n\"b\",1,0,3\n\"c\",2,3,0\n",
+                named,
+            ),
+            (
+                "R, write.table",
+                "\"Aa\" \"b\" \"c\"\n\"Aa\" 0 1 2\n\"b\" 1 0 3\n\"c\" 2 3 0\n",
+                named,
+            ),
             ("R, a printed dist", "  Aa b\nb 1   \nc 2  3\n", named),
             ("columns alone", "Aa;b;c\n0;1;2\n1;0;3\n2;3;0\n", named),
-            ("rows alone", "Aa\t0\t1\t2\nb\t1\t0\t3\nc\t2\t3\tNA\n", named),
+            (
+                "rows alone",
+                "Aa\t0\t1\t2\nb\t1\t0\t3\nc\t2\t3\tNA\n",
+                named,
+            ),
             ("rows of a triangle", "Aa\nb,1\nc,2,3\n", named),
-            ("this program", "item,Aa,b,c,not_computable\nAa,,1,2,Aa: itself\nb,1,,3,\nc,2,3,,x\n", named),
-            ("numpy", "0.0 1.0 2.0\n1.0 0.0 3.0\n2.0 3.0 0.0\n", ["1", "2", "3"]),
+            (
+                "this program",
+                "item,Aa,b,c,not_computable\nAa,,1,2,Aa: itself\nb,1,,3,\nc,2,3,,x\n",
+                named,
+            ),
+            (
+                "numpy",
+                "0.0 1.0 2.0\n1.0 0.0 3.0\n2.0 3.0 0.0\n",
+                ["1", "2", "3"],
+            ),
             ("empty diagonal", ",1,2\n1,,3\n2,3,\n", ["1", "2", "3"]),
-            ("pandas", ",7,8,9\n7,0,1,2\n8,1,0,3\n9,2,3,0\n", ["7", "8", "9"]),
+            (
+                "pandas",
+                ",7,8,9\n7,0,1,2\n8,1,0,3\n9,2,3,0\n",
+                ["7", "8", "9"],
+            ),
             ("triangle", "0\n1,0\n2,3,0\n", ["1", "2", "3"]),
             ("triangle without diagonal", "1\n2,3\n", ["1", "2", "3"]),
-            ("triangle of a square", "0,,\n1,0,\n2,3,0\n", ["1", "2", "3"]),
+            (
+                "triangle of a square",
+                "0,,\n1,0,\n2,3,0\n",
+                ["1", "2", "3"],
+            ),
         ] {
-            let found = read(text).map_err(|said| format!("{kind}: {said}")).unwrap();
+            let found = read(text)
+                .map_err(|said| format!("{kind}: {said}"))
+                .unwrap();
             assert_eq!(found.names, names, "{kind}");
             assert_eq!(pairs(&found), [1.0, 2.0, 3.0], "{kind}");
         }
@@ -304,11 +362,20 @@ mod tests {
     fn what_is_no_square_of_numbers_is_named() {
         for (text, said) in [
             (",a,b\nr,1,2\n", "1 rows and 2 columns"),
-            (",a,b,c\na,,1,2\nx,1,,3\nc,2,3,\n", "a row is called x where the column is called b"),
-            (",a,b,c\na,,1,NaN\nb,1,,3\nc,2,3,\n", "d.csv:2: a, c is \"NaN\""),
+            (
+                ",a,b,c\na,,1,2\nx,1,,3\nc,2,3,\n",
+                "a row is called x where the column is called b",
+            ),
+            (
+                ",a,b,c\na,,1,NaN\nb,1,,3\nc,2,3,\n",
+                "d.csv:2: a, c is \"NaN\"",
+            ),
             (",a,a\na,1,2\na,2,1\n", "a stands twice"),
             (",a,\na,,1\n,1,\n", "name 2 is empty"),
-            ("0,1,2\n1,0\n2,3,0\n", "d.csv:2: 2 cells where there are 3 objects"),
+            (
+                "0,1,2\n1,0\n2,3,0\n",
+                "d.csv:2: 2 cells where there are 3 objects",
+            ),
         ] {
             let found = read(text).unwrap_err();
             assert!(found.contains(said), "{text}: {found}");
@@ -316,6 +383,9 @@ mod tests {
         let long = "1\n".repeat(2000);
         assert!(read(&long).unwrap_err().contains("more than 1000"), "rows");
         let wide = "1,".repeat(2000);
-        assert!(read(&wide).unwrap_err().contains("more than 1000"), "columns");
+        assert!(
+            read(&wide).unwrap_err().contains("more than 1000"),
+            "columns"
+        );
     }
 }

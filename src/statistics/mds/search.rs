@@ -163,7 +163,7 @@ pub(super) fn work(mds: &Mds, n: usize, k: usize) -> [f64; 2] {
     let starts = (mds.starts_in(k).max(1) * k) as f64;
     let is_exchanged = k == 1 && mds.n_exchanged > 0 && mds.descent == Descent::Polish;
     let glances = 3.0 * 1.5 * (n * n) as f64;
-    let per_glance = 0.1;
+    let per_glance = 0.2;
     let exchanged = if is_exchanged {
         mds.n_exchanged as f64 * glances * per_glance
     } else {
