@@ -109,7 +109,7 @@ fn tables_that_are_no_dissimilarities_are_refused_in_one_line() {
             ",a,b,c,d\na,,1,,\nb,1,,,\nc,,,,2\nd,,,2,\n",
             "no chain of pairs joins a and c",
         ),
-        (",a,b\na,1\n", "1 rows and 2 columns"),
+        (",a,b\na,1\n", "at least three objects"),
         ("", "d.csv: this file is empty; "),
     ] {
         let (_, outcome) = mds(table, &[]);
