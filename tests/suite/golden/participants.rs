@@ -51,9 +51,9 @@ fn chosen(lab: &Lab, design: &str) -> Stage {
     stage
 }
 
-/// Begins the session.
+/// Begins a pilot, which needs no array.
 fn begin(stage: &mut Stage) {
-    stage.click(Role::Button, "Begin the session");
+    stage.click(Role::Button, "Pilot");
     stage.without_timeline();
 }
 
@@ -65,6 +65,9 @@ fn to_trial(stage: &mut Stage) {
             break;
         }
         stage.click(Role::Button, "Go on");
+    }
+    if stage.harness.query_by_label("The cloth lies there").is_some() {
+        stage.click(Role::Button, "The cloth lies there");
     }
     stage.front("Participant", PARTICIPANT);
 }
