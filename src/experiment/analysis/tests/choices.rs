@@ -15,7 +15,7 @@ fn triads_that_are_always_easy_are_all_at_the_ceiling_and_give_no_map() {
     let analysis = analysed(&found);
     let distances = table(&analysis, "odd-one-out-distances", "distances");
     assert_eq!(
-        value(distances, 0, "polyamide_rib"),
+        value(distances, 0, "polyamide-rib"),
         12.0,
         "four subjects, three sessions"
     );
