@@ -318,11 +318,7 @@ fn write_participants(
     pseudonyms.dedup();
     let row = |pseudonym: &&str| {
         let mut cells = vec![format!("sub-{}", label(pseudonym))];
-        let known = participants
-            .rows()
-            .iter()
-            .find(|row| row.pseudonym() == *pseudonym);
-        match known {
+        match participants.find(pseudonym) {
             Some(known) => cells.extend(known.particulars().iter().cloned()),
             None => cells.resize(names.len(), String::new()),
         }

@@ -193,6 +193,11 @@ impl Participants {
         self.rows.iter().position(|row| row.pseudonym == pseudonym)
     }
 
+    /// The participant with this pseudonym.
+    pub(crate) fn find(&self, pseudonym: &str) -> Option<&Participant> {
+        self.rows.iter().find(|row| row.pseudonym == pseudonym)
+    }
+
     /// All of them.
     pub fn rows(&self) -> &[Participant] {
         &self.rows

@@ -14,6 +14,7 @@ mod adjustment;
 mod answers;
 mod draw;
 mod draw_map;
+mod first_page;
 mod groups;
 mod included_trials;
 mod judgement;
@@ -56,6 +57,7 @@ pub use random_data::RandomData;
 use super::ExperimentError;
 use super::design::Method;
 use super::session::{self, Found, Unread};
+use first_page::first_page;
 use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
 
@@ -139,14 +141,17 @@ pub(crate) fn analyse(
     let experiments = included_trials::experiments(found);
     let mut sections = Vec::new();
     for experiment in &experiments {
-        sections.push(experiment.sessions_section());
         if experiment.subjects.is_empty() {
+            sections.push(experiment.sessions_section());
             let mut empty = Section::new(experiment.key("empty"), experiment.design.title.clone());
             empty.note("No trial is left to analyse.");
             sections.push(empty);
             continue;
         }
-        sections.extend(sections_of(experiment, options, progress)?);
+        let mut found = sections_of(experiment, options, progress)?;
+        sections.push(first_page(experiment, &mut found));
+        sections.push(experiment.sessions_section());
+        sections.extend(found);
     }
     sections.extend(groups::compared(&experiments));
     let titles: Vec<&str> = experiments

@@ -8,7 +8,7 @@ use super::Sidecar;
 use super::verify::{Break, Evidence};
 use crate::design::{Design, Subject};
 use crate::record::{MarkKind, Record, column_names, read_marks, read_records};
-use crate::{ExperimentError, FrozenPlan};
+use crate::{ExperimentError, FrozenPlan, Participant, Participants};
 use selvedge_foundation::files::{self, FileError, Journal, Table};
 
 /// A session that was held.
@@ -31,6 +31,8 @@ pub struct Found {
     pub(crate) is_closed: bool,
     /// SHA-256 of the plan that it was held by, if it was by one.
     pub(crate) plan_sha256: Option<String>,
+    /// What was told of who took part.
+    pub(crate) participant: Option<Participant>,
     /// The plan that lies beside it.
     pub(crate) plan: Option<FrozenPlan>,
     /// What its trials were made from, as its sidecar says.
@@ -57,9 +59,14 @@ pub struct Unread {
 /// The folder cannot be read.
 pub fn find_sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
     let (mut found, mut unread) = (Vec::new(), Vec::new());
+    // A table that is damaged keeps no session from being read.
+    let participants = Participants::read(folder).unwrap_or_default();
     for log in logs(folder)? {
         match Found::read(&log) {
-            Ok(session) => found.push(session),
+            Ok(session) => found.push(Found {
+                participant: participants.find(&session.subject.pseudonym).cloned(),
+                ..session
+            }),
             Err(error) => unread.push(Unread { log, error }),
         }
     }
@@ -108,6 +115,7 @@ impl Found {
             plan: None,
             library_sha256: None,
             design_file: None,
+            participant: None,
         }
     }
 
@@ -154,6 +162,7 @@ impl Found {
             plan_sha256: sidecar.sha256_of("plan").map(str::to_owned),
             library_sha256: sidecar.sha256_of("library").map(str::to_owned),
             design_file: sidecar.design_file(log).ok(),
+            participant: None,
             plan,
         })
     }

@@ -66,7 +66,11 @@ fn to_trial(stage: &mut Stage) {
         }
         stage.click(Role::Button, "Go on");
     }
-    if stage.harness.query_by_label("The cloth lies there").is_some() {
+    if stage
+        .harness
+        .query_by_label("The cloth lies there")
+        .is_some()
+    {
         stage.click(Role::Button, "The cloth lies there");
     }
     stage.front("Participant", PARTICIPANT);
