@@ -82,7 +82,7 @@ fn chance_stands_beside_the_map_when_it_is_asked_for() {
 fn tables_that_are_no_dissimilarities_are_refused_in_one_line() {
     let asymmetric = TABLE.replace("b,1,", "b,1.5,");
     for (table, said) in [
-        (",a,b\na,,1\n", "at least three objects, and this has 1"),
+        (",a,b\na,,1\n", "1 rows and 2 columns"),
         (",a\na,\n", "at least three objects"),
         (
             "0,1,2\n1,0\n2,3,0\n",
