@@ -3,7 +3,7 @@
 //!
 //! Pure: a function of the design and the trial. Labels are numbers of places, never of stimuli.
 
-use super::design::{Design, Source, Standard, TunedParameter};
+use super::design::{Design, Form, Shown, Source, Standard, Tunable};
 use super::trial::Task;
 use selvedge_engine::{TICKS_PER_S, VibrationStep};
 use selvedge_foundation::geometry::Point;
@@ -27,7 +27,7 @@ const ALONE_MS: u32 = 1000;
 pub struct Layout {
     /// Width and height of the workspace, mm.
     pub size_mm: [f64; 2],
-    /// The stimuli, the target last.
+    /// The stimuli, what they are compared with last.
     pub places: Vec<Place>,
 }
 
@@ -38,30 +38,39 @@ pub struct Place {
     pub stimulus: usize,
     /// Its lower left corner, mm.
     pub origin_mm: Point,
-    /// Its position from 1; `None` for a target and for one that lies alone.
+    /// Its position from 1; `None` for a reference and for one that lies alone.
     pub number: Option<usize>,
+    /// The number of it that is adapted.
+    pub(crate) adapted: Option<f64>,
 }
 
 impl Layout {
-    /// Where the stimuli of a task lie. Four lie at the corners, a virtual target in the middle of
-    /// them; others side by side.
+    /// Where the stimuli of a task lie: up to three side by side, four at the corners, more in
+    /// rows. A virtual reference lies in the middle of four, else behind the others.
     pub fn of(design: &Design, task: &Task) -> Self {
-        match task {
-            Task::Rank {
-                target,
-                alternatives,
-            } => {
-                let is_virtual = design.method.standard() == Some(Standard::Virtual);
-                four(alternatives, is_virtual.then_some(*target))
-            }
-            Task::OddOne { items, .. } => in_a_row(items),
-            Task::JudgePair { items, .. } => in_a_row(items),
-            Task::Adjust { item, .. }
-            | Task::Judge { item, .. }
-            | Task::Estimate { item }
-            | Task::Rate { item } => in_a_row(&[*item]),
-            Task::Interval { .. } => Self::empty(),
+        let composition = &design.composition;
+        if composition.presentation.shown == Shown::Intervals {
+            return Self::empty();
         }
+        let is_real = composition.presentation.reference == Standard::RealCloth;
+        let reference = task.reference.filter(|_| !is_real);
+        let mut layout = match (task.items.len(), reference) {
+            (4, reference) => four(&task.items, reference),
+            (_, None) => in_rows(&task.items),
+            (_, Some(reference)) => beside(&task.items, reference),
+        };
+        if let (Some(adapted), Some(adaptation)) = (task.adapted, &composition.adaptation) {
+            let places = layout.places.iter_mut().enumerate();
+            for (at, place) in places.filter(|_| composition.presentation.n > 1) {
+                let is_adapted = Some(at) == task.right;
+                place.adapted = if is_adapted {
+                    Some(adapted.value)
+                } else {
+                    adaptation.reference
+                };
+            }
+        }
+        layout
     }
 
     /// A workspace in which nothing lies.
@@ -69,7 +78,7 @@ impl Layout {
         let places = Vec::new();
         Self {
             places,
-            ..in_a_row(&[0])
+            ..in_rows(&[0])
         }
     }
 
@@ -78,23 +87,33 @@ impl Layout {
         let side_mm = SIDE_MM + 2.0 * MARGIN_MM;
         Self {
             size_mm: [side_mm; 2],
-            ..in_a_row(&[stimulus])
+            ..in_rows(&[stimulus])
         }
     }
 
-    /// The scene of what lies here: textiles alone, each in its full size.
-    pub fn scene(&self, design: &Design, display: &Display, tuning: Tuning) -> Scene {
+    /// The scene of what lies here: textiles alone, each in its full size. `level_db` is the level
+    /// of a textile of the library, which an adapted compression goes by.
+    pub fn scene(
+        &self,
+        design: &Design,
+        (display, tuning): (&Display, Tuning),
+        level_db: impl Fn(&str) -> Option<f64>,
+    ) -> Scene {
         let placed = self.places.iter().filter_map(|place| {
             let stimulus = design.stimuli.get(place.stimulus)?;
             let Source::Textile { id, gain_db } = &stimulus.source else {
                 return None;
             };
+            let adapted = place.adapted.zip(design.composition.adaptation.as_ref());
+            let adapted_db = adapted.map_or(0.0, |(value, adaptation)| {
+                adapted_gain_db((adaptation.parameter, value), &tuning, level_db(id))
+            });
             Some(PlacedTextile {
                 id: id.clone(),
                 origin_mm: place.origin_mm,
                 size_mm: [SIDE_MM; 2],
                 rotation_deg: 0.0,
-                gain_db: *gain_db,
+                gain_db: *gain_db + adapted_db,
                 label: place.number.map_or_else(String::new, |n| n.to_string()),
             })
         });
@@ -115,65 +134,99 @@ impl Place {
     pub const SIZE_MM: [f64; 2] = [SIDE_MM; 2];
 }
 
-/// Positions 1 and 2 above, 3 and 4 below; a target in the middle takes as much room as a gap.
-fn four(alternatives: &[usize], target: Option<usize>) -> Layout {
-    let gap_mm = if target.is_some() {
+/// What a place's own value of a parameter adds to its gain, dB: the tuning is that of the whole
+/// workspace.
+fn adapted_gain_db(
+    (parameter, value): (Tunable, f64),
+    tuning: &Tuning,
+    level_db: Option<f64>,
+) -> f64 {
+    match (parameter, tuning.compression_reference_db) {
+        (Tunable::Gain, _) => value,
+        (Tunable::Compression, Some(reference_db)) => {
+            let mut own = *tuning;
+            parameter.set(&mut own, value);
+            let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
+            gain_db(&own) - gain_db(tuning)
+        }
+        _ => 0.0,
+    }
+}
+
+/// Positions 1 and 2 above, 3 and 4 below; a reference in the middle takes as much room as a gap.
+fn four(items: &[usize], reference: Option<usize>) -> Layout {
+    let gap_mm = if reference.is_some() {
         SIDE_MM + 2.0 * MARGIN_MM
     } else {
         GAP_MM
     };
-    let far_mm = MARGIN_MM + SIDE_MM + gap_mm;
-    let corners = [
-        [MARGIN_MM, far_mm],
-        [far_mm, far_mm],
-        [MARGIN_MM; 2],
-        [far_mm, MARGIN_MM],
-    ];
-    let mut places: Vec<Place> = (alternatives.iter().zip(corners).enumerate())
-        .map(|(at, (stimulus, [x_mm, y_mm]))| Place {
-            stimulus: *stimulus,
-            origin_mm: Point::new(x_mm, y_mm),
-            number: Some(at + 1),
-        })
-        .collect();
-    let side_mm = far_mm + SIDE_MM + MARGIN_MM;
-    let middle_mm = 0.5 * (side_mm - SIDE_MM);
-    places.extend(target.map(|stimulus| Place {
+    let mut layout = grid(items, 2, gap_mm);
+    let middle_mm = 0.5 * (layout.size_mm[0] - SIDE_MM);
+    layout.places.extend(reference.map(|stimulus| Place {
         stimulus,
         origin_mm: Point::new(middle_mm, middle_mm),
         number: None,
+        adapted: None,
     }));
-    Layout {
-        size_mm: [side_mm; 2],
-        places,
-    }
+    layout
 }
 
-fn in_a_row(items: &[usize]) -> Layout {
-    let mut x_mm = MARGIN_MM;
-    let mut places = Vec::with_capacity(items.len());
-    for (at, stimulus) in items.iter().enumerate() {
-        places.push(Place {
-            stimulus: *stimulus,
-            origin_mm: Point::new(x_mm, MARGIN_MM),
-            number: (items.len() > 1).then_some(at + 1),
-        });
-        x_mm += SIDE_MM + GAP_MM;
+fn in_rows(items: &[usize]) -> Layout {
+    let n_columns = match items.len() {
+        0..4 => items.len(),
+        n => (1..n).find(|columns| columns * columns >= n).unwrap_or(n),
+    };
+    let mut layout = grid(items, n_columns, GAP_MM);
+    if let [alone] = layout.places.as_mut_slice() {
+        alone.number = None;
     }
+    layout
+}
+
+/// The others in a row, and the reference behind them.
+fn beside(items: &[usize], reference: usize) -> Layout {
+    let all: Vec<usize> = items.iter().copied().chain([reference]).collect();
+    let mut layout = grid(&all, all.len(), GAP_MM);
+    if let Some(last) = layout.places.last_mut() {
+        last.number = None;
+    }
+    if let [alone, _] = layout.places.as_mut_slice() {
+        alone.number = None;
+    }
+    layout
+}
+
+/// Row by row from above, each from the left.
+fn grid(items: &[usize], n_columns: usize, gap_mm: f64) -> Layout {
+    let n_rows = items.len().div_ceil(n_columns.max(1));
+    let pitch_mm = SIDE_MM + gap_mm;
+    let across_mm = |n: usize| 2.0 * MARGIN_MM + n as f64 * pitch_mm - gap_mm;
+    let place = |(at, stimulus): (usize, &usize)| {
+        let (row, column) = (at / n_columns, at % n_columns);
+        let x_mm = MARGIN_MM + column as f64 * pitch_mm;
+        let y_mm = MARGIN_MM + (n_rows - 1 - row) as f64 * pitch_mm;
+        Place {
+            stimulus: *stimulus,
+            origin_mm: Point::new(x_mm, y_mm),
+            number: Some(at + 1),
+            adapted: None,
+        }
+    };
     Layout {
-        size_mm: [x_mm - GAP_MM + MARGIN_MM, SIDE_MM + 2.0 * MARGIN_MM],
-        places,
+        size_mm: [across_mm(n_columns), across_mm(n_rows)],
+        places: items.iter().enumerate().map(place).collect(),
     }
 }
 
 /// What the experimenter lays on the table for a task: the position, `None` for what is compared
 /// with, and the cloth.
 pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)> {
-    let compared = match task {
-        Task::Rank { target: item, .. } | Task::Adjust { item, .. } => Some(*item),
-        _ => None,
-    };
-    let is_real = design.method.standard() == Some(Standard::RealCloth);
+    let composition = &design.composition;
+    let is_adjusted = matches!(composition.response.form, Form::Adjustment(_));
+    let compared = task
+        .reference
+        .or_else(|| task.item().filter(|_| is_adjusted));
+    let is_real = composition.presentation.reference == Standard::RealCloth;
     let standard = compared.filter(|_| is_real).map(|item| {
         let found = design.stimuli.get(item);
         found.map_or_else(String::new, |stimulus| stimulus.material.clone())
@@ -189,53 +242,66 @@ pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)
     cloths
 }
 
-/// A tuning with the parameters of an adjustment at these values.
-pub fn tuned(mut tuning: Tuning, parameters: &[TunedParameter], values: &[f64]) -> Tuning {
-    for (parameter, value) in parameters.iter().zip(values) {
+/// The tuning of a trial: what is felt alone has the adapted value, and an adjustment the values
+/// that its parameters are turned to.
+pub fn tuned(design: &Design, task: &Task, mut tuning: Tuning, values: &[f64]) -> Tuning {
+    let composition = &design.composition;
+    for (parameter, value) in composition.parameters().iter().zip(values) {
         parameter.what.set(&mut tuning, *value);
+    }
+    let alone = task.adapted.filter(|_| composition.presentation.n == 1);
+    if let (Some(adapted), Some(adaptation)) = (alone, &composition.adaptation) {
+        adaptation.parameter.set(&mut tuning, adapted.value);
     }
     tuning
 }
 
 /// What is played in a trial of vibrations, a pause between each two: step 2n is interval n. Empty
-/// where cloth is felt.
+/// where cloth is felt. What everything is compared with comes first.
 pub fn vibrations(design: &Design, task: &Task) -> Vec<VibrationStep> {
-    let step = |band: Band, level_db: Option<f64>, ms: u32| {
-        let mut amplitude_um = [0.0; 2];
-        if let Some(level_db) = level_db {
-            amplitude_um[band.index()] = amplitude_of(level_db);
+    let presentation = &design.composition.presentation;
+    let ms = match presentation.shown {
+        Shown::Intervals => presentation.interval_ms,
+        _ => ALONE_MS,
+    };
+    let played: Vec<(Band, Option<f64>)> = match (&design.composition.adaptation, task.adapted) {
+        (Some(adaptation), Some(adapted)) if adaptation.is_vibration() => {
+            let level_db = |interval: usize| {
+                let is_adapted = presentation.n == 1 || Some(interval) == task.right;
+                is_adapted.then_some(adapted.value).or(adaptation.reference)
+            };
+            let intervals = 0..presentation.n;
+            intervals
+                .map(|at| (adaptation.band, level_db(at)))
+                .collect()
         }
-        VibrationStep {
-            amplitude_um,
-            n_ticks: ticks(ms),
+        _ => {
+            let felt = task.reference.iter().chain(&task.items);
+            let vibration = |item: &usize| match design.stimuli.get(*item)?.source {
+                Source::Vibration { band, level_db } => Some((band, Some(level_db))),
+                _ => None,
+            };
+            felt.filter_map(vibration).collect()
         }
     };
     let mut steps = Vec::new();
-    match task {
-        Task::Interval {
-            level_db, signal, ..
-        } => {
-            let Some(levels) = design.method.levels() else {
-                return steps;
-            };
-            for interval in 0..levels.intervals {
-                if interval > 0 {
-                    steps.push(step(levels.band, None, PAUSE_MS));
-                }
-                let is_signal = interval == *signal;
-                let level_db = is_signal.then_some(*level_db).or(levels.reference_db);
-                steps.push(step(levels.band, level_db, levels.interval_ms));
-            }
+    for (band, level_db) in played {
+        if !steps.is_empty() {
+            steps.push(step([None; 2], PAUSE_MS));
         }
-        Task::Estimate { item } | Task::Rate { item } | Task::Judge { item, .. } => {
-            let found = design.stimuli.get(*item).map(|stimulus| &stimulus.source);
-            if let Some(Source::Vibration { band, level_db }) = found {
-                steps.push(step(*band, Some(*level_db), ALONE_MS));
-            }
-        }
-        _ => {}
+        let mut levels_db = [presentation.masker_db; 2];
+        levels_db[band.index()] = level_db;
+        steps.push(step(levels_db, ms));
     }
     steps
+}
+
+/// Levels of both bands, dB re 1 µm; `None` is silence.
+fn step(levels_db: [Option<f64>; 2], ms: u32) -> VibrationStep {
+    VibrationStep {
+        amplitude_um: levels_db.map(|level_db| level_db.map_or(0.0, amplitude_of)),
+        n_ticks: ticks(ms),
+    }
 }
 
 /// A level as a peak amplitude, µm.

@@ -52,4 +52,4 @@ pub use schedule::ScheduleError;
 pub use simulate::Simulation;
 pub(crate) use simulate::simulated_subject;
 pub use stimulus_hash::StimulusHashes;
-pub use trial::{Adjustment, Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task, Trial};
+pub use trial::{Adapted, Adjustment, Answer, AnswerError, AnswerValue, Grade, Task, Trial};

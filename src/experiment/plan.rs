@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::ExperimentError;
-use crate::design::{Design, Method};
+use crate::design::{Design, Kind};
 use selvedge_foundation::files::{self, FileError, sha256_hex};
 
 /// A plan.
@@ -69,7 +69,7 @@ pub struct FrozenPlan {
 impl Plan {
     /// What a design and its method suggest, to be edited before it is frozen.
     pub fn suggested(design: &Design) -> Self {
-        let (expected, test) = suggested(&design.method);
+        let (expected, test) = suggested(design.composition.kind());
         Self {
             study: design.study.clone(),
             experiment: design.experiment.clone(),
@@ -164,36 +164,52 @@ impl FrozenPlan {
     }
 }
 
-/// What a method usually asks, and the test that its analysis makes of it.
-fn suggested(method: &Method) -> (&'static str, &'static str) {
-    match method {
-        Method::Ranking(_) => (
+/// What a composition usually asks, and the test that its analysis makes of it.
+fn suggested(kind: Kind) -> (&'static str, &'static str) {
+    match kind {
+        Kind::Ranking => (
             "the target is ranked first more often than by chance",
             "one-sample t of the shares against 25 %, two-sided",
         ),
-        Method::OddOneOut(_) => (
+        Kind::OddOneOut => (
             "the odd one is found more often than by chance",
             "one-sample t of the shares against a third, two-sided",
         ),
-        Method::Adjustment(_) => (
+        Kind::Adjustment => (
             "what is adjusted differs from textile to textile",
             "analysis of variance with repeated measures, Greenhouse–Geisser",
         ),
-        Method::Judgement(_) => (
+        Kind::Judgement => (
             "real and generated ones are not called real equally often",
             "analysis of variance with repeated measures of signal × material",
         ),
-        Method::Levels(_) => (
+        Kind::Levels => (
             "none: a threshold is estimated",
             "interval of the group's threshold, 95 %",
         ),
-        Method::Magnitude { .. } => (
+        Kind::Magnitude => (
             "strength grows with amplitude by a power",
             "interval of the group's exponent, 95 %",
         ),
-        Method::Rating(_) => (
+        Kind::Rating => (
             "places differ from stimulus to stimulus",
             "analysis of variance with repeated measures, Greenhouse–Geisser",
+        ),
+        Kind::Equality => (
+            "none: a point of equality is estimated",
+            "interval of the group's point of equality, 95 %",
+        ),
+        Kind::Choice => (
+            "answers are right more often than by chance",
+            "one-sample t of the shares against chance, two-sided",
+        ),
+        Kind::Preference | Kind::Orders => (
+            "some stimuli are put before others",
+            "Bradley and Terry's model against equal values",
+        ),
+        Kind::Dissimilarity | Kind::Sorting => (
+            "subjects agree on what is alike",
+            "Kendall's W over the pairs",
         ),
     }
 }

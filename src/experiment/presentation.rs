@@ -203,7 +203,7 @@ impl Watch {
                 Vec::new()
             },
             steps: steps.iter().map(|step| [step.n_ticks, 0]).collect(),
-            may_limit: matches!(task, Task::Adjust { .. }),
+            may_limit: !design.composition.parameters().is_empty(),
             n_ticks: 0,
             n_armed: 0,
             n_values: 0,

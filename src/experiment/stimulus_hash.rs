@@ -69,7 +69,13 @@ impl StimulusHashes {
                 Source::Vibration { .. } => String::new(),
             };
             parts.push(format!("{:?} {what}\n", place.number));
+            // Gain or compression of this place alone.
+            parts.extend(place.adapted.map(|value| format!("{value}\n")));
         }
+        let alone = task
+            .adapted
+            .filter(|_| design.composition.presentation.n == 1);
+        parts.extend(alone.map(|adapted| format!("{}\n", adapted.value)));
         for step in vibrations(design, task) {
             parts.push(format!("{:?} {}\n", step.amplitude_um, step.n_ticks));
         }

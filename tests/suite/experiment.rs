@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Circumstances, Session, path_file};
-use selvedge_experiment::{Answer, Apparatus, Grade, Presentation, Proof, Step, Timing};
+use selvedge_experiment::{Answer, Apparatus, Presentation, Proof, Step, Timing};
 use selvedge_render::scene::ExplorationPath;
 
 use crate::program::{Lab, Outcome, PATH, Rows};
@@ -418,10 +418,7 @@ fn how_a_trial_was_explored_is_replayed_by_render() {
         panic!("a trial waits");
     };
     let file = path_file(session.log(), trial, 1);
-    let answer = Answer::Odd {
-        position: 0,
-        grade: Grade::Easy,
-    };
+    let answer = Answer::chosen(0, Some(1));
     session.answer(&answer, &circumstances).unwrap();
     let file = file.to_str().unwrap();
     let replayed = lab.print(&["render", "a.scene.toml", "--path", file]);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Circumstances, Session};
-use selvedge_experiment::{Answer, Apparatus, Grade, Presentation, Proof, Step, Task, Timing};
+use selvedge_experiment::{Answer, Apparatus, Presentation, Proof, Step, Timing};
 
 use crate::program::{Lab, Outcome};
 
@@ -27,14 +27,9 @@ fn on_disk(lab: &Lab, nth: usize, n_trials: usize, is_right: fn(usize) -> bool) 
         let Step::Trial(trial) = session.step() else {
             panic!("a trial waits");
         };
-        let Task::OddOne { odd, .. } = trial.task else {
-            panic!("no triad");
-        };
+        let odd = trial.task.right.unwrap();
         let position = if is_right(number) { odd } else { (odd + 1) % 3 };
-        let answer = Answer::Odd {
-            position,
-            grade: Grade::ALL[number % 3],
-        };
+        let answer = Answer::chosen(position, [Some(1), Some(2), Some(3)][number % 3]);
         let circumstances = Circumstances {
             timing: Timing::between([std::time::UNIX_EPOCH; 2], [0, 5_000_000_000]),
             apparatus: Apparatus::default(),

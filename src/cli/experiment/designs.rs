@@ -29,7 +29,7 @@ pub(super) fn run(args: &DesignsArgs) -> Result<(), CliError> {
 fn table() -> String {
     let line = |name: &str| {
         let design = Design::shipped(name)?;
-        let (medium, method) = (design.medium.name(), design.method.name());
+        let (medium, method) = (design.medium.name(), design.composition.kind().name());
         Some(format!(
             "{name:<24}{medium:<8}{method:<14}{}\n",
             design.title

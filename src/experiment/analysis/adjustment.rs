@@ -10,8 +10,8 @@ use super::options::Options;
 use super::properties::Measures;
 use super::tables::tests;
 use super::variance::{complete_rows, effects, every_two};
-use crate::design::{Adjusting, Standard, Tunable, TunedParameter};
-use crate::{Answer, Task};
+use crate::AnswerValue;
+use crate::design::{Standard, Tunable, TunedParameter};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::LineFit;
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -34,13 +34,14 @@ fn settings<'a>(experiment: &Experiment<'a>, nth: usize) -> Vec<Setting<'a>> {
     let mut all = Vec::new();
     for subject in &experiment.subjects {
         for record in subject.trials() {
-            if let (Task::Adjust { item, starts }, Some(Answer::Adjusted { values, .. })) =
-                (&record.trial.task, record.answer())
-                && let (Some(start), Some(value)) = (starts.get(nth), values.get(nth))
+            let task = &record.trial.task;
+            if let Some(AnswerValue::Adjusted { values, .. }) = record.value()
+                && let (Some(item), Some(start)) = (task.item(), task.starts.get(nth))
+                && let Some(value) = values.get(nth)
             {
                 all.push(Setting {
                     subject: subject.name,
-                    item: *item,
+                    item,
                     start: *start,
                     value: *value,
                 });
@@ -52,16 +53,21 @@ fn settings<'a>(experiment: &Experiment<'a>, nth: usize) -> Vec<Setting<'a>> {
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
-    adjusting: &Adjusting,
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Section>, Cancelled> {
     let mut sections = Vec::new();
-    for (nth, parameter) in adjusting.parameters.iter().enumerate() {
+    let reference = experiment.design.composition.presentation.reference;
+    for (nth, parameter) in experiment
+        .design
+        .composition
+        .parameters()
+        .iter()
+        .enumerate()
+    {
         let all = settings(experiment, nth);
         sections.push(parameter_section(experiment, parameter, &all));
-        let is_matching =
-            parameter.what == Tunable::Gain && adjusting.standard == Standard::RealCloth;
+        let is_matching = parameter.what == Tunable::Gain && reference == Standard::RealCloth;
         if is_matching {
             let measures = Measures::of(experiment, options, progress)?;
             sections.push(compression(experiment, &all, &measures));

@@ -1,8 +1,8 @@
 //! Answers as they were given: rankings, odd ones of triads, what was called real.
 
 use super::included_trials::{Experiment, Subject};
-use crate::{Answer, Record, Task};
-use selvedge_statistics::ranking::{RankTrial, TriadAnswer};
+use crate::{AnswerValue, Record, Task};
+use selvedge_statistics::ranking::{Grade, RankTrial, TriadAnswer};
 
 /// The share of guesses that rank the target first, %.
 pub(super) const CHANCE_PERCENT: f64 = 25.0;
@@ -46,34 +46,25 @@ pub(super) fn rankings<'a>(experiment: &Experiment<'a>) -> Vec<Rankings<'a>> {
 
 /// A ranking as it was given; `None` of another task or without an answer.
 pub(crate) fn rank_trial(record: &Record) -> Option<RankTrial> {
-    let (
-        Task::Rank {
-            target,
-            alternatives,
-        },
-        Some(Answer::Ranks(ranks)),
-    ) = (&record.trial.task, record.answer())
-    else {
+    let Some(AnswerValue::Ranks(ranks)) = record.value() else {
         return None;
     };
     Some(RankTrial {
-        target: *target,
-        alternatives: alternatives.to_vec(),
+        target: record.trial.task.reference?,
+        alternatives: record.trial.task.items.clone(),
         ranks: ranks.iter().map(|rank| usize::from(*rank)).collect(),
     })
 }
 
 /// The answer to a triad.
 pub(crate) fn triad_answer(record: &Record) -> Option<TriadAnswer> {
-    let (Task::OddOne { items, odd }, Some(Answer::Odd { grade, .. })) =
-        (&record.trial.task, record.answer())
-    else {
-        return None;
-    };
+    let Task { items, right, .. } = &record.trial.task;
+    let odd = (*right)?;
+    let grade = usize::from(record.answer()?.confidence?).checked_sub(1)?;
     Some(TriadAnswer {
-        pair: [items[*odd], items[(*odd + 1) % items.len()]],
+        pair: [*items.get(odd)?, *items.get((odd + 1) % items.len())?],
         is_correct: record.is_correct?,
-        grade: *grade,
+        grade: *Grade::ALL.get(grade)?,
     })
 }
 
@@ -99,36 +90,17 @@ pub(crate) struct Judgement {
 
 /// The judgements of a trial; none of another task or without an answer.
 pub(crate) fn judgements(record: &Record) -> Vec<Judgement> {
-    match (&record.trial.task, record.answer()) {
-        (
-            Task::Judge { item, is_real },
-            Some(Answer::Judged {
-                is_real: called,
-                confidence,
-            }),
-        ) => {
-            vec![Judgement {
-                item: *item,
-                is_real: *is_real,
-                called_real: *called,
-                confidence: *confidence,
-            }]
-        }
-        (
-            Task::JudgePair { items, real },
-            Some(Answer::Chosen {
-                position,
-                confidence,
-            }),
-        ) => {
-            let of = |at: usize| Judgement {
-                item: items[at],
-                is_real: at == *real,
-                called_real: at == *position,
-                confidence: *confidence,
-            };
-            vec![of(0), of(1)]
-        }
-        _ => Vec::new(),
-    }
+    let Task { items, right, .. } = &record.trial.task;
+    let (Some(right), Some(AnswerValue::Chosen(chosen))) = (right, record.value()) else {
+        return Vec::new();
+    };
+    let confidence = record.answer().and_then(|answer| answer.confidence);
+    // Of one alone the first word is the one that calls it real.
+    let of = |(at, item): (usize, &usize)| Judgement {
+        item: *item,
+        is_real: at == *right,
+        called_real: at == *chosen,
+        confidence,
+    };
+    items.iter().enumerate().map(of).collect()
 }

@@ -6,7 +6,7 @@ use super::answers::{Rankings, rankings};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Section, Table, cells};
 use super::tables::{summaries, tests};
-use crate::design::Method;
+use crate::design::Kind;
 use selvedge_statistics::variance::{holm, kruskal_wallis, one_way, welch};
 use selvedge_statistics::{
     Computed, Outcome, Summary, TwoSamples, Undefined, paired_t, two_sample_t,
@@ -25,7 +25,7 @@ pub(super) fn compared(experiments: &[Experiment<'_>]) -> Option<Section> {
     for experiment in experiments {
         if let Some(scores) = scores(experiment) {
             let of_method = by_method
-                .entry(experiment.design.method.name())
+                .entry(experiment.design.composition.kind().name())
                 .or_default();
             of_method.push((&experiment.key, scores));
         }
@@ -128,13 +128,13 @@ fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Out
 }
 
 fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
-    let is_scored = match &experiment.design.method {
-        Method::Ranking(_) => {
+    let is_scored = match experiment.design.composition.kind() {
+        Kind::Ranking => {
             let all = rankings(experiment);
             let of = |r: &Rankings<'_>| (r.subject.to_owned(), r.percent());
             return Some(all.iter().map(of).collect());
         }
-        Method::OddOneOut(_) | Method::Judgement(_) => true,
+        Kind::OddOneOut | Kind::Judgement | Kind::Choice => true,
         _ => false,
     };
     let of = |subject: &Subject<'_>| {

@@ -215,7 +215,7 @@ fn describe_rules(design: &Design, section: &mut Section) {
         "Study `{}`, experiment `{}`, method {}, seed {}, design SHA-256 {}.",
         design.study,
         design.experiment,
-        design.method.name(),
+        design.composition.kind().name(),
         design.seed,
         design.hash
     ));
@@ -252,7 +252,8 @@ fn describe_rules(design: &Design, section: &mut Section) {
 fn answered(found: &Found) -> Vec<&Record> {
     let counts = |record: &&Record| {
         let is_void = record.presentation.validity() == Validity::Void;
-        !record.trial.is_practice && record.answer().is_some() && !is_void
+        let is_asked = !record.trial.is_practice && !record.trial.task.is_catch;
+        is_asked && record.answer().is_some() && !is_void
     };
     found.records.iter().filter(counts).collect()
 }

@@ -7,22 +7,21 @@ use super::model::{Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::tables::tests;
 use super::{judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
-use crate::design::{Judging, JudgingProtocol};
+use crate::design::Sets;
 use selvedge_statistics::detection::{Answers, Correction, forced_choice, yes_no};
 use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
-pub(super) fn sections(
-    experiment: &Experiment<'_>,
-    judging: &Judging,
-    options: &Options,
-) -> Vec<Section> {
-    let mut all = vec![sensitivity(experiment, judging, options)];
-    if judging.confidence_grades > 1 && judging.protocol == JudgingProtocol::Single {
-        all.push(judgement_confidence::section(experiment, judging));
+pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
+    let composition = &experiment.design.composition;
+    let is_pair = composition.order.sets == Sets::Opposed;
+    let mut all = vec![sensitivity(experiment, is_pair, options)];
+    let n_grades = composition.response.confidence.n_grades();
+    if n_grades > 1 && !is_pair {
+        all.push(judgement_confidence::section(experiment, n_grades));
     }
     all.push(judgement_power::section(experiment, &percents(experiment)));
     all.push(judgement_cells::section(experiment));
-    if judging.protocol == JudgingProtocol::Pair {
+    if is_pair {
         all.push(judgement_pairs::section(experiment, options));
     }
     all
@@ -43,22 +42,18 @@ fn percents(experiment: &Experiment<'_>) -> Vec<f64> {
         .collect()
 }
 
-fn sensitivity(experiment: &Experiment<'_>, judging: &Judging, options: &Options) -> Section {
+fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) -> Section {
     let mut section = experiment.section("sensitivity", "sensitivity and bias");
-    let (table, d_primes) = match judging.protocol {
-        JudgingProtocol::Single => {
-            section.note(
-                "A hit is a real one called real, a false alarm a generated one called real. Rates \
-                 enter z with the log-linear correction, (count + ½)/(n + 1); counts are as they \
-                 were. c > 0: rather not called real.",
-            );
-            yes_no_table(experiment)
-        }
-        JudgingProtocol::Pair => {
-            section
-                .note("The real one of two was to be found: d′ of two alternatives without bias.");
-            pair_table(experiment)
-        }
+    let (table, d_primes) = if is_pair {
+        section.note("The real one of two was to be found: d′ of two alternatives without bias.");
+        pair_table(experiment)
+    } else {
+        section.note(
+            "A hit is a real one called real, a false alarm a generated one called real. Rates \
+             enter z with the log-linear correction, (count + ½)/(n + 1); counts are as they \
+             were. c > 0: rather not called real.",
+        );
+        yes_no_table(experiment)
     };
     section.table(table);
     let percents = percents(experiment);

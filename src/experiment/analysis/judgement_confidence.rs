@@ -5,7 +5,6 @@ use super::draw::scatter;
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::tables::tests;
-use crate::design::Judging;
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::detection::{Roc, roc};
 use selvedge_statistics::{Computed, Summary, one_sample_t};
@@ -34,7 +33,7 @@ fn ratings(answers: impl Iterator<Item = Judgement>, grades: u8) -> [Vec<u64>; 2
 }
 
 /// Areas under the curves of subjects, and the curve of all together.
-pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section {
+pub(super) fn section(experiment: &Experiment<'_>, grades: u8) -> Section {
     let mut section = experiment.section("confidence", "confidence");
     section.note(
         "Ratings run from surely generated to surely real. The area under the curve is the \
@@ -52,7 +51,6 @@ pub(super) fn section(experiment: &Experiment<'_>, judging: &Judging) -> Section
         ("d_a", "d_a"),
     ];
     let mut table = Table::new("areas", "Areas under the curve", &columns);
-    let grades = judging.confidence_grades;
     let mut areas = Vec::new();
     for subject in &experiment.subjects {
         let [real, others] = ratings(subject.trials().flat_map(judgements), grades);

@@ -6,16 +6,15 @@ use super::judgement_cells::levels;
 use super::model::Section;
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
-use crate::{Answer, Record, Task};
+use crate::{AnswerValue, Record};
 use selvedge_statistics::Computed;
 use selvedge_statistics::ranking::Preferences;
 
 /// The stimulus that was taken for real, and the other.
 fn chosen(record: &Record) -> Option<[usize; 2]> {
-    match (&record.trial.task, record.answer()) {
-        (Task::JudgePair { items, .. }, Some(Answer::Chosen { position, .. })) => {
-            Some([*items.get(*position)?, *items.get(1 - *position)?])
-        }
+    match (record.trial.task.items.as_slice(), record.value()) {
+        (&[first, second], Some(AnswerValue::Chosen(0))) => Some([first, second]),
+        (&[first, second], Some(AnswerValue::Chosen(_))) => Some([second, first]),
         _ => None,
     }
 }

@@ -7,14 +7,14 @@ use super::levels_series::{answered, quest_plus_section, staircases_section};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::tables::{SUMMARY, summary_cells};
-use crate::design::{Levels, Track};
+use crate::design::{Adaptation, Seeks, Track};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::quantity::fixed;
-use selvedge_statistics::Computed;
 use selvedge_statistics::psychometric::{
-    Block, Estimate, Evidence, Fit, Goodness, Model, Population, blocks,
+    Block, Estimate, Evidence, Family, Fit, Goodness, Guess, Model, Population, blocks,
 };
+use selvedge_statistics::{Computed, Interval};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
@@ -23,17 +23,29 @@ const MOST_SETS: usize = 399;
 /// A fit is poor where its deviance is as rare.
 const ALPHA: f64 = 0.05;
 
-impl Levels {
+impl Adaptation {
     /// Its share right halfway from guessing to certainty, lapses apart, %.
     fn percent_right(&self) -> f64 {
-        50.0 * (1.0 + 1.0 / self.intervals as f64)
+        50.0 * (1.0 + 1.0 / self.alternatives as f64)
+    }
+
+    /// The unit after a comma; nothing where there is none.
+    fn unit(&self) -> String {
+        let is_difference = self.reference.is_some() && self.seeks == Seeks::Difference;
+        match (is_difference, self.parameter.unit()) {
+            (_, "") => String::new(),
+            (true, _) => ", dB".to_owned(),
+            (false, unit) => format!(", {unit}"),
+        }
     }
 
     fn quantity(&self) -> String {
         let percent = readable_percent(self.percent_right());
-        match self.reference_db {
-            None => format!("threshold ({percent} right), dB re 1 µm"),
-            Some(_) => format!("just noticeable difference ({percent} right), dB"),
+        let unit = self.unit();
+        match (self.seeks, self.reference) {
+            (Seeks::Equality, _) => format!("point of equality{unit}"),
+            (_, None) => format!("threshold ({percent} right){unit}"),
+            (_, Some(_)) => format!("just noticeable difference ({percent} right){unit}"),
         }
     }
 
@@ -41,17 +53,25 @@ impl Levels {
     /// times in three. Where d′ is proportional to the difference, a function of its logarithm is
     /// 3.25 wide; exponents of 0.8 to 1.2 are two in three.
     fn model(&self) -> Model {
-        let m = u32::try_from(self.intervals).unwrap_or(2);
-        let width = self.reference_db.map_or([12.0, 0.5], |_| [3.25, 0.1]);
+        if self.seeks == Seeks::Equality {
+            return Model {
+                family: self.family(),
+                guess: Guess::EqualToLapse,
+                usual_width: 0.5 * (self.range[1] - self.range[0]),
+                ln_width_sd: 1.0,
+            };
+        }
+        let m = u32::try_from(self.alternatives).unwrap_or(2);
+        let width = self.reference.map_or([12.0, 0.5], |_| [3.25, 0.1]);
         Model::alternatives(self.family(), m, width)
     }
 
     /// The standard deviation of thresholds in dB, of one on the function's scale.
     fn spread_db(&self, median_db: f64, spread: f64) -> f64 {
         let variance = spread * spread;
-        match self.reference_db {
-            None => spread,
-            Some(_) => median_db * (0.5 * variance).exp() * variance.exp_m1().sqrt(),
+        match self.family() {
+            Family::Gumbel | Family::Normal | Family::Logistic => spread,
+            Family::Weibull => median_db * (0.5 * variance).exp() * variance.exp_m1().sqrt(),
         }
     }
 }
@@ -64,30 +84,13 @@ pub(super) fn readable_percent(percent: f64) -> String {
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
-    levels: &Levels,
+    levels: &Adaptation,
     options: &Options,
 ) -> Vec<Section> {
     let mut section = experiment.section("thresholds", "psychometric functions");
     let found = Found::of(experiment, levels, options);
     section.notes.extend(found.poor_fit());
-    section.note(format!(
-        "{} at {} Hz, {} intervals, chance 1/{}: halfway from guessing to what lapses leave. The \
-         function is {} of {}. One model holds subjects and group: thresholds, widths and lapses \
-         of subjects are drawn from a population. A subject's own threshold is the median of its \
-         posterior wherever others' lie; the pooled one takes it as one of the population. \
-         Intervals are central ones of the posterior. The deviance's p is by {} simulations.",
-        levels.quantity(),
-        levels.band.carrier_hz(),
-        levels.intervals,
-        levels.intervals,
-        levels.family().name(),
-        if levels.reference_db.is_some() {
-            "the difference in dB"
-        } else {
-            "the level in dB"
-        },
-        options.n_permutations.min(MOST_SETS),
-    ));
+    section.note(described(levels, options));
     section.table(found.group(levels));
     section.table(found.fits(levels));
     section
@@ -117,6 +120,49 @@ pub(super) fn sections(
     all
 }
 
+/// What was fitted, and how.
+fn described(levels: &Adaptation, options: &Options) -> String {
+    let of = if levels.is_vibration() {
+        format!("{} at {} Hz", levels.quantity(), levels.band.carrier_hz())
+    } else {
+        format!("{} of {}", levels.quantity(), levels.parameter.name())
+    };
+    let level = match (levels.seeks, levels.alternatives) {
+        (Seeks::Equality, _) => "where it is called more as often as less".to_owned(),
+        (_, n) => {
+            format!("{n} intervals, chance 1/{n}: halfway from guessing to what lapses leave")
+        }
+    };
+    let x = match (levels.seeks, levels.reference) {
+        (_, None) => "the value",
+        (_, Some(_)) => "the difference from the reference",
+    };
+    format!(
+        "{of}, {level}. The function is {} of {x}. One model holds subjects and group: thresholds, \
+         widths and lapses of subjects are drawn from a population. A subject's own threshold is \
+         the median of its posterior wherever others' lie; the pooled one takes it as one of the \
+         population. Intervals are central ones of the posterior. The deviance's p is by {} \
+         simulations.",
+        levels.family().name(),
+        options.n_permutations.min(MOST_SETS),
+    )
+}
+
+/// The difference from 50 to 75 % of a cumulative Gaussian, of its width.
+fn just_noticeable(width: &Estimate) -> Estimate {
+    // z(75 %) over twice z(95 %).
+    let share = 0.674_489_750_196_081_7 / (2.0 * 1.644_853_626_951_472_2);
+    Estimate {
+        value: share * width.value,
+        se: share * width.se,
+        interval: Interval {
+            low: share * width.interval.low,
+            high: share * width.interval.high,
+            ..width.interval
+        },
+    }
+}
+
 /// What the answers of all subjects say.
 struct Found<'a> {
     /// Subjects in order: trials, levels, and what their answers say or why nothing.
@@ -127,12 +173,14 @@ struct Found<'a> {
 }
 
 impl<'a> Found<'a> {
-    fn of(experiment: &Experiment<'a>, levels: &Levels, options: &Options) -> Self {
+    fn of(experiment: &Experiment<'a>, levels: &Adaptation, options: &Options) -> Self {
         let model = levels.model();
         let (mut rows, mut names, mut evidence) = (Vec::new(), Vec::new(), Vec::new());
         for subject in &experiment.subjects {
-            let trials = subject.trials().filter_map(answered);
-            let of_levels = blocks(trials.map(|t| (levels.stimulus(t.level_db), t.is_right)));
+            let trials = subject
+                .trials()
+                .filter_map(|record| answered(experiment.design, record));
+            let of_levels = blocks(trials.map(|t| (levels.stimulus(t.value), t.is_right)));
             let n_trials = of_levels.iter().map(|b| b.n).sum();
             let n_levels = u32::try_from(of_levels.len()).unwrap_or(u32::MAX);
             let found = model.evidence(&of_levels).map(|one| {
@@ -174,7 +222,7 @@ impl<'a> Found<'a> {
     }
 
     /// The estimate of the population first.
-    fn group(&self, levels: &Levels) -> Table {
+    fn group(&self, levels: &Adaptation) -> Table {
         let columns: Vec<_> = [("what", "of what")].into_iter().chain(SUMMARY).collect();
         let mut table = Table::new("group", "Of the group", &columns);
         let own: Vec<f64> = self
@@ -196,13 +244,18 @@ impl<'a> Found<'a> {
         table.push(cells![what, summary_cells(&own)]);
         let no_sd = || Cell::none("spread among subjects is not estimated by itself");
         let width = found.map(|found| of(&found.width, no_sd()));
-        let width_unit = if levels.reference_db.is_some() {
-            "ln dB"
-        } else {
-            "dB"
-        };
-        let what = format!("width from 5 to 95 %, {width_unit}, median of the population");
+        let is_of_logarithms = levels.family() == Family::Weibull;
+        let width_unit = if is_of_logarithms { ", ln" } else { "" };
+        let what = format!(
+            "width from 5 to 95 %{width_unit}{}, median of the population",
+            levels.unit()
+        );
         table.push(cells![what, n, or_undefined(width, 5)]);
+        if levels.seeks == Seeks::Equality {
+            let jnd = found.map(|found| of(&just_noticeable(&found.width), no_sd()));
+            let what = "just noticeable difference, from 50 to 75 %";
+            table.push(cells![what, n, or_undefined(jnd, 5)]);
+        }
         let lapse = found.map(|found| of(&found.lapse, no_sd()));
         table.push(cells![
             "lapse rate, mean of the population",
@@ -212,7 +265,7 @@ impl<'a> Found<'a> {
         table
     }
 
-    fn fits(&self, levels: &Levels) -> Table {
+    fn fits(&self, levels: &Adaptation) -> Table {
         let title = format!("{}, by subject", levels.quantity());
         let mut table = Table::new("fits", &title, &FITS);
         for (name, counts, found) in &self.rows {
@@ -267,7 +320,7 @@ fn fit_cells(fit: &Fit, goodness: &Goodness) -> Vec<Cell> {
     ]
 }
 
-fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) -> Option<Drawn> {
+fn curves(experiment: &Experiment<'_>, levels: &Adaptation, fits: &[(&str, Fit)]) -> Option<Drawn> {
     let x = fits
         .iter()
         .flat_map(|(_, fit)| fit.blocks.iter().map(|b| b.x));
@@ -295,7 +348,7 @@ fn curves(experiment: &Experiment<'_>, levels: &Levels, fits: &[(&str, Fit)]) ->
             fit.blocks.iter().map(share),
         ));
     }
-    let x = match levels.reference_db {
+    let x = match levels.reference {
         Some(_) => "difference, dB",
         None => "level, dB re 1 µm",
     };

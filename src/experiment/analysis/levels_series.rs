@@ -7,49 +7,44 @@ use super::levels::readable_percent;
 use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::tables::summaries;
 use crate::Record;
-use crate::Task;
-use crate::design::{Levels, QuestPlusTrack, StaircaseTrack};
+use crate::design::{Adaptation, Design, QuestPlusTrack, StaircaseTrack};
 use crate::procedure::quest_plus;
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_statistics::adaptive::{Procedure as _, ReversalMean, Staircase, Stop};
 use selvedge_statistics::{Computed, Undefined, mean};
 
-/// A trial: which series, the number that the function is of, whether it was right.
+/// A trial: which series, the number that the function is of, whether more was said of it: where
+/// answers are right or wrong, whether it was right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Answered {
     track: usize,
-    pub(super) level_db: f64,
+    pub(super) value: f64,
     pub(super) is_right: bool,
 }
 
-pub(super) fn answered(record: &Record) -> Option<Answered> {
-    let Task::Interval {
-        track, level_db, ..
-    } = record.trial.task
-    else {
-        return None;
-    };
+pub(super) fn answered(design: &Design, record: &Record) -> Option<Answered> {
+    let task = &record.trial.task;
+    let adapted = task.adapted?;
     Some(Answered {
-        track,
-        level_db,
-        is_right: record.is_correct?,
+        track: adapted.track,
+        value: adapted.value,
+        is_right: design.composition.says_more(task, record.answer()?),
     })
 }
 
 /// A series run again on the answers of its log.
 pub(super) fn run_again(
-    levels: &Levels,
+    levels: &Adaptation,
     track: &StaircaseTrack,
     nth: usize,
     trials: &[Answered],
 ) -> Computed<Staircase> {
-    let start_db = track.starts_db.get(nth).copied();
+    let start = track.starts.get(nth).copied();
     let none = || Undefined::because("a series that the design does not have");
     let stop = Stop::Trials(u32::MAX);
-    let mut staircase =
-        Staircase::new(track.plan(start_db.ok_or_else(none)?, levels.range_db, stop))?;
+    let mut staircase = Staircase::new(track.plan(start.ok_or_else(none)?, levels.range, stop))?;
     for trial in trials {
-        staircase.answer(trial.level_db, trial.is_right)?;
+        staircase.answer(trial.value, trial.is_right)?;
     }
     Ok(staircase)
 }
@@ -68,7 +63,7 @@ const REVERSALS: [(&str, &str); 9] = [
 
 pub(super) fn staircases_section(
     experiment: &Experiment<'_>,
-    levels: &Levels,
+    levels: &Adaptation,
     track: &StaircaseTrack,
 ) -> Section {
     let mut section = experiment.section("staircases", "staircases");
@@ -80,7 +75,7 @@ pub(super) fn staircases_section(
          right, which is another level than the threshold of the psychometric functions.",
         track.up, track.down, track.reversals_averaged,
     ));
-    let what = match levels.reference_db {
+    let what = match levels.reference {
         None => format!("level of {percent} right, dB re 1 µm"),
         Some(_) => format!("difference of {percent} right, dB"),
     };
@@ -108,14 +103,16 @@ pub(super) fn staircases_section(
 /// Rows of a subject's series; the means of their reversals.
 fn of_subject(
     subject: &Subject<'_>,
-    (levels, track): (&Levels, &StaircaseTrack),
+    (levels, track): (&Adaptation, &StaircaseTrack),
     (table, series): (&mut Table, &mut Vec<Series>),
 ) -> Vec<f64> {
     let mut means = Vec::new();
     for session in &subject.sessions {
-        let all: Vec<Answered> = session.trials.iter().filter_map(|r| answered(r)).collect();
+        let design = &session.found.design;
+        let all = session.trials.iter();
+        let all: Vec<Answered> = all.filter_map(|r| answered(design, r)).collect();
         let number = session.found.subject.session;
-        for nth in 0..track.starts_db.len() {
+        for nth in 0..track.starts.len() {
             let own: Vec<Answered> = all.iter().filter(|t| t.track == nth).copied().collect();
             let staircase = run_again(levels, track, nth, &own);
             let found =
@@ -126,7 +123,7 @@ fn of_subject(
             let at = own
                 .iter()
                 .zip(1_u32..)
-                .map(|(t, i)| [f64::from(i), t.level_db]);
+                .map(|(t, i)| [f64::from(i), t.value]);
             series.push(Series::of(name, Style::LineAndDots, at));
         }
     }
@@ -136,7 +133,7 @@ fn of_subject(
 fn reversal_cells(
     staircase: &Staircase,
     track: &StaircaseTrack,
-    levels: &Levels,
+    levels: &Adaptation,
     means: &mut Vec<f64>,
 ) -> Vec<Cell> {
     let found: Computed<ReversalMean> = staircase.reversal_mean(track.reversals_averaged);
@@ -166,7 +163,7 @@ const POSTERIOR: [(&str, &str); 7] = [
 /// The posterior of every session after every trial, from its answers.
 pub(super) fn quest_plus_section(
     experiment: &Experiment<'_>,
-    levels: &Levels,
+    levels: &Adaptation,
     track: &QuestPlusTrack,
 ) -> Section {
     let mut section = experiment.section("quest-plus", "QUEST+ from trial to trial");
@@ -187,16 +184,16 @@ pub(super) fn quest_plus_section(
             for (nth, trial) in session
                 .trials
                 .iter()
-                .filter_map(|r| answered(r))
+                .filter_map(|r| answered(experiment.design, r))
                 .enumerate()
             {
                 let summary = quest.as_mut().map_err(|why| why.clone()).and_then(|quest| {
-                    quest.answer(levels.stimulus(trial.level_db), trial.is_right)?;
+                    quest.answer(levels.stimulus(trial.value), trial.is_right)?;
                     Ok(quest.summary().threshold)
                 });
                 means.extend(summary.as_ref().map(|found| [nth as f64 + 1.0, found.mean]));
                 let found = or_undefined(summary.map(|found| cells![found.mean, found.sd]), 2);
-                let said = cells![nth + 1, trial.level_db, trial.is_right];
+                let said = cells![nth + 1, trial.value, trial.is_right];
                 table.push(cells![subject.name, number, said, found]);
             }
             series.push(Series::of(name, Style::Line, means));

@@ -4,8 +4,8 @@ use super::draw::{Bar, bars, scatter};
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, cells};
 use super::tables::{summaries, tests};
+use crate::AnswerValue;
 use crate::design::Source;
-use crate::{Answer, Task};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::paired_t;
@@ -16,12 +16,12 @@ fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
     let mut all = Vec::new();
     for subject in &experiment.subjects {
         for record in subject.trials() {
-            let (Task::Estimate { item }, Some(Answer::Magnitude(value))) =
-                (&record.trial.task, record.answer())
+            let (Some(item), Some(AnswerValue::Number(value))) =
+                (record.trial.task.item(), record.value())
             else {
                 continue;
             };
-            let stimulus = &experiment.design.stimuli[*item];
+            let stimulus = &experiment.design.stimuli[item];
             if let Source::Vibration { level_db, .. } = stimulus.source
                 && stimulus.condition == condition
             {

@@ -12,6 +12,8 @@
 
 mod adjustment;
 mod answers;
+mod choices;
+mod dissimilarities;
 mod draw;
 mod draw_map;
 mod first_page;
@@ -33,6 +35,7 @@ mod odd_one_out;
 mod odd_one_out_craven;
 mod odd_one_out_variants;
 mod options;
+mod orders;
 mod own_speeds;
 mod pairs;
 mod properties;
@@ -51,11 +54,12 @@ pub(super) use answers::{judgements, rank_trial, triad_answer};
 pub(super) use draw::scatter;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};
+pub(super) use odd_one_out::grade_weights;
 pub use options::Options;
 pub use random_data::RandomData;
 
 use super::ExperimentError;
-use super::design::Method;
+use super::design::Kind;
 use super::session::{self, Found, Unread};
 use first_page::first_page;
 use included_trials::Experiment;
@@ -169,18 +173,23 @@ fn sections_of(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Section>, selvedge_foundation::progress::Cancelled> {
-    match &experiment.design.method {
-        Method::Ranking(ranking) => ranking::sections(experiment, *ranking, options, progress),
-        Method::OddOneOut(choosing) => {
-            odd_one_out::sections(experiment, choosing.weights, options, progress)
+    let composition = &experiment.design.composition;
+    match (composition.kind(), &composition.adaptation) {
+        (Kind::Ranking, _) => ranking::sections(experiment, options, progress),
+        (Kind::OddOneOut, _) => odd_one_out::sections(experiment, options, progress),
+        (Kind::Adjustment, _) => adjustment::sections(experiment, options, progress),
+        (Kind::Judgement, _) => Ok(judgement::sections(experiment, options)),
+        (Kind::Levels | Kind::Equality, Some(adapted)) => {
+            Ok(levels::sections(experiment, adapted, options))
         }
-        Method::Adjustment(adjusting) => {
-            adjustment::sections(experiment, adjusting, options, progress)
+        (Kind::Magnitude, _) => Ok(magnitude::sections(experiment)),
+        (Kind::Rating, _) => rating::sections(experiment, options, progress),
+        (Kind::Choice, _) => Ok(choices::sections(experiment, options)),
+        (Kind::Orders | Kind::Preference, _) => Ok(orders::sections(experiment, options)),
+        (Kind::Dissimilarity | Kind::Sorting, _) => {
+            dissimilarities::sections(experiment, options, progress)
         }
-        Method::Judgement(judging) => Ok(judgement::sections(experiment, judging, options)),
-        Method::Levels(levels) => Ok(levels::sections(experiment, levels, options)),
-        Method::Magnitude { .. } => Ok(magnitude::sections(experiment)),
-        Method::Rating(rating) => rating::sections(experiment, rating, options, progress),
+        (Kind::Levels | Kind::Equality, None) => Ok(Vec::new()),
     }
 }
 

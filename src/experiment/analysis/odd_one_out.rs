@@ -11,6 +11,7 @@ use super::options::Options;
 use super::properties::Measures;
 use super::tables::{SUMMARY, matrix, summary_cells, tests};
 use super::{odd_one_out_craven, odd_one_out_variants};
+use crate::design::{Composition, Confidence};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Correction, triangle};
 use selvedge_statistics::mds::{Loss, Ties};
@@ -26,14 +27,14 @@ const CHANCE_PERCENT: f64 = 100.0 / 3.0;
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
-    own_weights: [f64; 3],
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Section>, Cancelled> {
     let names = experiment.ids();
+    let own_weights = grade_weights(&experiment.design.composition);
     let all: Vec<TriadAnswer> = experiment.subjects.iter().flat_map(triads).collect();
     let mut sections = vec![accuracy(experiment, options), grades(experiment)];
-    let found = match OddOneOut::of(names.len(), &all, own_weights.into()) {
+    let found = match OddOneOut::of(names.len(), &all, own_weights) {
         Ok(found) => found,
         Err(why) => {
             sections[0].note(format!("No distances: {}.", why.reason));
@@ -47,7 +48,7 @@ pub(super) fn sections(
     ));
     let measures = Measures::of(experiment, options, progress)?;
     let of_subject = |subject: &Subject<'_>| {
-        let own = OddOneOut::of(names.len(), &triads(subject), own_weights.into()).ok()?;
+        let own = OddOneOut::of(names.len(), &triads(subject), own_weights).ok()?;
         Some(own.mean_weights())
     };
     let subjects: Vec<Vec<Option<f64>>> =
@@ -81,6 +82,17 @@ pub(super) fn sections(
         progress,
     )?);
     Ok(sections)
+}
+
+/// What a right answer is worth by its grade.
+pub(crate) fn grade_weights(composition: &Composition) -> GradeWeights {
+    match &composition.response.confidence {
+        Confidence::Words(words) => {
+            let weight = |at: usize| words.get(at).map_or(1.0, |(_, weight)| *weight);
+            [0, 1, 2].map(weight).into()
+        }
+        _ => [1.0; 3].into(),
+    }
 }
 
 const SHARES: [(&str, &str); 11] = [

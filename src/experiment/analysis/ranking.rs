@@ -11,7 +11,7 @@ use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
 use super::tables::tests;
 use super::{ranking_confusions, ranking_scale};
-use crate::design::{Ranking, Standard};
+use crate::design::Standard;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::detection::{Choice, Correction, forced_choice};
 use selvedge_statistics::mds::{Loss, Ties};
@@ -25,7 +25,6 @@ const CHANCE_RANK: f64 = 2.5;
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
-    how: Ranking,
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Section>, Cancelled> {
@@ -40,7 +39,7 @@ pub(super) fn sections(
             return Ok(sections);
         }
     };
-    sections.push(ranking_confusions::section(experiment, &ranks, &names, how));
+    sections.push(ranking_confusions::section(experiment, &ranks, &names));
     sections.push(ranking_scale::section(experiment, &all, progress)?);
     sections.push(pairs_section(experiment, &all, options));
     let measures = Measures::of(experiment, options, progress)?;
@@ -60,7 +59,7 @@ pub(super) fn sections(
     };
     let mut map = mapping.section(options, progress)?;
     map.note("S-stress and secondary ties are what ALSCAL makes small by default.");
-    if how.target == Standard::RealCloth {
+    if experiment.design.composition.presentation.reference == Standard::RealCloth {
         map.note(
             "**The target is real, the alternatives are virtual**: their ranks are not symmetric, \
              and a map of the symmetric part leaves the difference out. See the asymmetry.",

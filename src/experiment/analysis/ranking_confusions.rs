@@ -6,19 +6,14 @@ use super::draw_map::heat;
 use super::included_trials::Experiment;
 use super::model::{Cell, Drawn, Section, Table, cells, known, percent_interval, percent_of};
 use super::tables::matrix;
-use crate::design::{Ranking, Standard};
+use crate::design::Standard;
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::ranking::MeanRanks;
 
 /// Matrices of targets and alternatives, all subjects together.
-pub(super) fn section(
-    experiment: &Experiment<'_>,
-    ranks: &MeanRanks,
-    names: &[String],
-    how: Ranking,
-) -> Section {
+pub(super) fn section(experiment: &Experiment<'_>, ranks: &MeanRanks, names: &[String]) -> Section {
     let mut section = experiment.section("confusions", "what was taken for what");
-    let kind = match how.target {
+    let kind = match experiment.design.composition.presentation.reference {
         Standard::RealCloth => "real cloth",
         Standard::Virtual | Standard::None => "virtual",
     };

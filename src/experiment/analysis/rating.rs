@@ -7,8 +7,8 @@ use super::options::Options;
 use super::properties::Measures;
 use super::tables::{SUMMARY, summary_cells, tests};
 use super::variance::{complete_rows, effects, every_two};
-use crate::design::{Rating, Scale};
-use crate::{Answer, Task};
+use crate::AnswerValue;
+use crate::design::Scale;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
 use selvedge_statistics::{Computed, Outcome, mean, pearson, spearman};
@@ -21,12 +21,12 @@ fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
     let of = |subject: &Subject<'_>| {
         let mut sums = vec![[0.0; 2]; n];
         for record in subject.trials() {
-            if let (Task::Rate { item }, Some(Answer::Ratings(values))) =
-                (&record.trial.task, record.answer())
+            if let (Some(item), Some(AnswerValue::Ratings(values))) =
+                (record.trial.task.item(), record.value())
                 && let Some(value) = values.get(scale)
             {
-                sums[*item][0] += value;
-                sums[*item][1] += 1.0;
+                sums[item][0] += value;
+                sums[item][1] += 1.0;
             }
         }
         let mean = |[sum, n]: [f64; 2]| (n > 0.0).then(|| sum / n);
@@ -46,7 +46,6 @@ fn means(subjects: &Subjects, n_items: usize) -> Vec<Option<f64>> {
 
 pub(super) fn sections(
     experiment: &Experiment<'_>,
-    rating: &Rating,
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Section>, Cancelled> {
@@ -62,7 +61,7 @@ pub(super) fn sections(
     let mut table = Table::new("means", "Ratings by scale and stimulus", &columns);
     let mut by_scale: Vec<(String, Vec<Option<f64>>)> = Vec::new();
     let mut found: Vec<(String, Computed<Outcome>)> = Vec::new();
-    for (nth, scale) in rating.scales.iter().enumerate() {
+    for (nth, scale) in experiment.design.composition.scales().iter().enumerate() {
         let all = ratings(experiment, nth);
         let mut shown = Vec::new();
         for (item, name) in names.iter().enumerate() {

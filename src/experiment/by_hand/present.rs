@@ -1,7 +1,7 @@
 //! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
 //! tell it from what lies where.
 
-use crate::design::{Design, Medium, Method, Source, Standard, Stimulus};
+use crate::design::{Design, Form, Medium, Sets, Source, Standard, Stimulus};
 use crate::trial::Task;
 use selvedge_foundation::quantity::with_unit;
 
@@ -26,76 +26,98 @@ impl Placed {
 /// Whether only a tactile array presents what the design asks about.
 pub fn needs_array(design: &Design) -> bool {
     let is_virtual = |stimulus: &Stimulus| !matches!(stimulus.source, Source::RealCloth(_));
+    let composition = &design.composition;
     design.medium == Medium::Array
-        || matches!(design.method, Method::Levels(_) | Method::Adjustment(_))
+        || composition.adaptation.is_some()
+        || matches!(composition.response.form, Form::Adjustment(_))
         || design.stimuli.iter().any(is_virtual)
 }
 
 /// What a trial needs, place by place.
 pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
-    match task {
-        Task::Rank {
-            target,
-            alternatives,
-        } => {
-            let target = match design.method.standard() {
-                Some(Standard::RealCloth) => cloth(design, *target),
-                _ => named(design, *target),
-            };
-            let mut placed = vec![Placed::new("target", target)];
-            placed.extend(positions(design, alternatives));
-            placed
-        }
-        Task::OddOne { items, .. } => positions(design, items),
-        Task::JudgePair { items, .. } => positions(design, items),
-        Task::Adjust { item, starts } => adjusted(design, *item, starts),
-        Task::Judge { item, .. } | Task::Estimate { item } | Task::Rate { item } => {
-            vec![Placed::new("to be felt", named(design, *item))]
-        }
-        Task::Interval {
-            level_db, signal, ..
-        } => intervals(design, *level_db, *signal),
+    let composition = &design.composition;
+    if task.adapted.is_some() {
+        return adapted(design, task);
     }
-}
-
-fn positions(design: &Design, items: &[usize]) -> Vec<Placed> {
-    let placed = |(at, item): (usize, &usize)| {
+    if matches!(composition.response.form, Form::Adjustment(_)) {
+        return adjusted(design, task);
+    }
+    let mut placed = Vec::new();
+    if let Some(reference) = task.reference {
+        let is_real = composition.presentation.reference == Standard::RealCloth;
+        let what = if is_real {
+            cloth(design, reference)
+        } else {
+            named(design, reference)
+        };
+        let is_target = composition.order.sets == Sets::Targets;
+        placed.push(Placed::new(
+            if is_target { "target" } else { "standard" },
+            what,
+        ));
+    }
+    if let [item] = task.items.as_slice() {
+        placed.push(Placed::new("to be felt", named(design, *item)));
+        return placed;
+    }
+    let position = |(at, item): (usize, &usize)| {
         Placed::new(format!("position {}", at + 1), named(design, *item))
     };
-    items.iter().enumerate().map(placed).collect()
+    placed.extend(task.items.iter().enumerate().map(position));
+    placed
 }
 
-fn adjusted(design: &Design, item: usize, starts: &[f64]) -> Vec<Placed> {
+fn adjusted(design: &Design, task: &Task) -> Vec<Placed> {
+    let item = task.item().unwrap_or(0);
     let mut placed = vec![Placed::new("to be adjusted", named(design, item))];
-    if design.method.standard() == Some(Standard::RealCloth) {
+    if design.composition.presentation.reference == Standard::RealCloth {
         placed.push(Placed::new("compared with", cloth(design, item)));
     }
-    let parameters = design.method.parameters().iter();
+    let parameters = design.composition.parameters().iter();
     let keys = parameters.map(|turned| turned.what.name());
-    let begun = keys.zip(starts);
+    let begun = keys.zip(&task.starts);
     placed.extend(begun.map(|(key, start)| Placed::new("begins at", format!("{key} = {start}"))));
     placed
 }
 
-fn intervals(design: &Design, level_db: f64, signal: usize) -> Vec<Placed> {
-    let Some(levels) = design.method.levels() else {
+/// What is adapted, at its value where it is adapted and at the reference elsewhere.
+fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
+    let composition = &design.composition;
+    let (Some(adaptation), Some(adapted)) = (&composition.adaptation, task.adapted) else {
         return Vec::new();
     };
-    let hz = levels.band.carrier_hz();
-    let vibration = |db: f64| {
-        let level = with_unit(db, 2, "dB re 1 µm");
-        format!("{hz} Hz at {level} for {} ms", levels.interval_ms)
+    let presentation = &composition.presentation;
+    let at_value = |value: f64| {
+        let (digits, parameter) = (2, adaptation.parameter);
+        if adaptation.is_vibration() {
+            let (hz, level) = (
+                adaptation.band.carrier_hz(),
+                with_unit(value, digits, parameter.unit()),
+            );
+            return format!("{hz} Hz at {level} for {} ms", presentation.interval_ms);
+        }
+        let of = named(design, task.item().unwrap_or(0));
+        format!("{of} with {} = {value}", parameter.name())
     };
-    let others = levels.reference_db.map_or_else(
-        || format!("nothing for {} ms", levels.interval_ms),
-        vibration,
+    let others = adaptation.reference.map_or_else(
+        || format!("nothing for {} ms", presentation.interval_ms),
+        at_value,
     );
-    let signals = vibration(level_db);
-    let placed = |at: usize| {
-        let what = if at == signal { &signals } else { &others };
-        Placed::new(format!("interval {}", at + 1), what)
+    let place = if adaptation.is_vibration() {
+        "interval"
+    } else {
+        "position"
     };
-    (0..levels.intervals).map(placed).collect()
+    let placed = |at: usize| {
+        let is_adapted = presentation.n == 1 || Some(at) == task.right;
+        let what = if is_adapted {
+            at_value(adapted.value)
+        } else {
+            others.clone()
+        };
+        Placed::new(format!("{place} {}", at + 1), what)
+    };
+    (0..presentation.n).map(placed).collect()
 }
 
 /// The real cloth that a stimulus is or stands for.
@@ -122,6 +144,7 @@ fn named(design: &Design, item: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trial::Adapted;
 
     fn described(name: &str, task: &Task) -> Vec<String> {
         let design = Design::shipped(name).unwrap();
@@ -133,9 +156,11 @@ mod tests {
 
     #[test]
     fn cloth_lies_at_its_position_and_the_target_by_itself() {
-        let task = Task::Rank {
-            target: 1,
-            alternatives: [0, 1, 2, 3],
+        let task = Task {
+            items: vec![0, 1, 2, 3],
+            reference: Some(1),
+            right: Some(1),
+            ..Task::default()
         };
         let real = described("ranking-real-target", &task);
         assert_eq!(real[0], "target: the real wool-twill");
@@ -147,10 +172,13 @@ mod tests {
 
     #[test]
     fn the_interval_with_the_signal_is_told_to_whoever_presents_it() {
-        let task = Task::Interval {
-            track: 0,
-            level_db: -1.5,
-            signal: 1,
+        let task = Task {
+            right: Some(1),
+            adapted: Some(Adapted {
+                track: 0,
+                value: -1.5,
+            }),
+            ..Task::default()
         };
         let threshold = described("threshold-40", &task);
         assert!(
@@ -168,9 +196,10 @@ mod tests {
 
     #[test]
     fn an_adjustment_says_where_its_parameters_begin() {
-        let task = Task::Adjust {
-            item: 0,
+        let task = Task {
+            items: vec![0],
             starts: vec![20.0, -13.0],
+            ..Task::default()
         };
         let expected = [
             "to be adjusted: silk-crepe",
@@ -192,10 +221,13 @@ mod tests {
             Design::from_toml(&text, std::path::Path::new("a.toml")).unwrap()
         };
         assert!(!needs_array(&design(
-            "textiles = [\"a\", \"b\"]\n[magnitude]\n"
+            "textiles = [\"a\", \"b\"]\n[presentation]\nkind = \"single\"\n[response]\nkind = \"number\"\n"
         )));
         let vibration = "[[stimulus]]\nid = \"v\"\nband_hz = 40\nlevel_db = 0\n";
-        let mixed = format!("textiles = [\"a\"]\n[magnitude]\n{vibration}");
+        let mixed = format!(
+            "textiles = [\"a\"]\n{vibration}[presentation]\nkind = \"single\"\n\
+             [response]\nkind = \"number\"\n"
+        );
         assert!(needs_array(&design(&mixed)));
     }
 }

@@ -2,38 +2,88 @@
 
 use std::str::FromStr;
 
-use crate::design::{Design, Method, Scale, TunedParameter};
-use crate::trial::{Answer, AnswerError, Grade, N_RANKED, N_TRIAD, Task};
+use crate::design::{
+    Adaptation, Composition, Confidence, Design, Form, Kind, Scale, Sets, TunedParameter,
+};
+use crate::trial::{Answer, AnswerError, AnswerValue, Task};
 
 /// How an answer is typed, as an imperative with an example.
-pub fn form(design: &Design, task: &Task) -> String {
-    match task {
-        Task::Rank { .. } => {
-            "type the rank of each position, 1 for the one most like the target: 2 1 3 4".to_owned()
+pub fn form(design: &Design) -> String {
+    let composition = &design.composition;
+    let n = composition.presentation.n;
+    let order = (1..=n).cycle().skip(1).take(n).map(|at| at.to_string());
+    let order = order.collect::<Vec<_>>().join(" ");
+    match &composition.response.form {
+        Form::Choice => choice_form(composition),
+        Form::Words([yes, no]) => words_form(composition, [yes, no]),
+        Form::SameDifferent => words_form(composition, ["same", "different"]),
+        Form::Rank if composition.order.sets == Sets::Targets => {
+            format!("type the positions in order, the one most like the target first: {order}")
         }
-        Task::OddOne { .. } => {
-            "type the odd position, and how hard that was: 2 easy, 2 normal or 2 hard".to_owned()
+        Form::Rank => format!("type the positions in order, the first first: {order}"),
+        Form::BestWorst([best, worst]) => {
+            format!("type the position of the {best} one, then that of the {worst} one: 2 1")
         }
-        Task::Adjust { .. } => adjusted_form(design.method.parameters()),
-        Task::Judge { .. } => match design.method.confidence_grades() {
-            0 => "type real or generated".to_owned(),
-            most => format!("type real or generated, and how sure from 1 to {most}: real {most}"),
-        },
-        Task::JudgePair { .. } => match design.method.confidence_grades() {
-            0 => "type the position of the real one: 1 or 2".to_owned(),
-            most => format!(
-                "type the position of the real one, and how sure from 1 to {most}: 1 {most}"
-            ),
-        },
-        Task::Interval { .. } => format!("type the interval: 1 to {}", intervals(design)),
-        Task::Estimate { .. } => match design.method {
-            Method::Magnitude {
-                modulus: Some(modulus),
-                ..
-            } => format!("type a number above 0 for how strong it is; the first was {modulus}"),
-            _ => "type a number above 0 for how strong it is: 12.5".to_owned(),
-        },
-        Task::Rate { .. } => rating_form(design.method.scales()),
+        Form::Scales(scales) => rating_form(scales),
+        Form::Number {
+            modulus: Some(modulus),
+        } if composition.presentation.standard.is_some() => {
+            format!("type a number above 0 for how strong it is; the standard is {modulus}")
+        }
+        Form::Number {
+            modulus: Some(modulus),
+        } => {
+            format!("type a number above 0 for how strong it is; the first was {modulus}")
+        }
+        Form::Number { .. } if composition.kind() == Kind::Dissimilarity => {
+            "type a number above 0 for how unlike they are: 12.5".to_owned()
+        }
+        Form::Number { .. } => "type a number above 0 for how strong it is: 12.5".to_owned(),
+        Form::Piles => format!("type the positions pile by pile, / between: 1 {n} / 2"),
+        Form::Adjustment(parameters) => adjusted_form(parameters),
+    }
+}
+
+fn choice_form(composition: &Composition) -> String {
+    let n = composition.presentation.n;
+    let what = match composition.order.sets {
+        Sets::Triads => "the odd position",
+        Sets::Opposed => "the position of the real one",
+        Sets::Adapted
+            if composition
+                .adaptation
+                .as_ref()
+                .is_some_and(Adaptation::is_vibration) =>
+        {
+            "the interval"
+        }
+        _ => "the position",
+    };
+    match &composition.response.confidence {
+        Confidence::Unasked if n == 2 => format!("type {what}: 1 or 2"),
+        Confidence::Unasked => format!("type {what}: 1 to {n}"),
+        Confidence::Grades(most) => {
+            format!("type {what}, and how sure from 1 to {most}: 1 {most}")
+        }
+        Confidence::Words(words) => {
+            let examples: Vec<String> = words.iter().map(|(word, _)| format!("2 {word}")).collect();
+            format!("type {what}, and how hard that was: {}", either(&examples))
+        }
+    }
+}
+
+fn words_form(composition: &Composition, [yes, no]: [&str; 2]) -> String {
+    match composition.response.confidence.n_grades() {
+        0 => format!("type {yes} or {no}"),
+        most => format!("type {yes} or {no}, and how sure from 1 to {most}: {yes} {most}"),
+    }
+}
+
+/// `a, b or c`.
+fn either(all: &[String]) -> String {
+    match all {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        all => all.concat(),
     }
 }
 
@@ -46,34 +96,33 @@ pub fn typed_answer(design: &Design, task: &Task, line: &str) -> Result<Answer, 
     let described = Told {
         line: line.trim(),
         words: &words,
-        form: form(design, task),
+        form: form(design),
     };
-    let grades = design.method.confidence_grades();
-    let answer = match task {
-        Task::Rank { .. } => described.ranks()?,
-        Task::OddOne { .. } => described.odd()?,
-        Task::Adjust { .. } => described.adjusted(design.method.parameters())?,
-        Task::Judge { .. } => {
-            let word = described.words.first().copied().unwrap_or_default();
-            let known = ["real", "generated"];
-            let said = known.iter().position(|known| is_short_for(word, known));
-            Answer::Judged {
-                is_real: said.ok_or_else(|| described.wrong())? == 0,
-                confidence: described.confidence(grades)?,
-            }
+    let composition = &design.composition;
+    let n = composition.presentation.n;
+    let confidence = &composition.response.confidence;
+    let answer = match &composition.response.form {
+        Form::Choice => {
+            let position = described.position(0, n)?;
+            Answer::chosen(position, described.confidence(confidence)?)
         }
-        Task::JudgePair { .. } => Answer::Chosen {
-            position: described.position(2)?,
-            confidence: described.confidence(grades)?,
-        },
-        Task::Interval { .. } => Answer::Chosen {
-            position: described.position(intervals(design))?,
-            confidence: described.confidence(0)?,
-        },
-        Task::Estimate { .. } => Answer::Magnitude(described.numbers(1)?[0]),
-        Task::Rate { .. } => described.ratings(design.method.scales())?,
+        Form::Words(_) | Form::SameDifferent => {
+            let known = composition.words().unwrap_or_default();
+            let at = described.word(0, &known)?;
+            Answer::chosen(at, described.confidence(confidence)?)
+        }
+        Form::Rank => described.order(n)?,
+        Form::BestWorst(_) => {
+            let ends = [described.position(0, n)?, described.position(1, n)?];
+            described.only(2)?;
+            AnswerValue::BestWorst(ends).into()
+        }
+        Form::Scales(scales) => described.ratings(scales)?,
+        Form::Number { .. } => AnswerValue::Number(described.numbers(1)?[0]).into(),
+        Form::Piles => described.piles(n)?,
+        Form::Adjustment(parameters) => described.adjusted(parameters)?,
     };
-    task.verdict(&answer)?;
+    composition.verdict(task, &answer)?;
     Ok(answer)
 }
 
@@ -93,25 +142,38 @@ impl Told<'_> {
         AnswerError::value(what, self.form.clone())
     }
 
-    /// Four ranks: `2 1 3 4`, `2,1,3,4` or `2134`.
-    fn ranks(&self) -> Result<Answer, AnswerError> {
+    /// Positions in order: `2 1 3 4`, `2,1,3,4` or `2134`.
+    fn order(&self, n: usize) -> Result<Answer, AnswerError> {
         let letters = self.line.chars();
         let letters = letters.filter(|c| !c.is_whitespace() && *c != ',');
-        let digit = |c: char| u8::try_from(c.to_digit(10)?).ok();
-        let digits: Option<Vec<u8>> = letters.map(digit).collect();
-        let ranks = digits.and_then(|digits| <[u8; N_RANKED]>::try_from(digits).ok());
-        ranks.map(Answer::Ranks).ok_or_else(|| self.wrong())
+        let digit = |c: char| usize::try_from(c.to_digit(10)?).ok()?.checked_sub(1);
+        let positions: Option<Vec<usize>> = letters.map(digit).collect();
+        let positions = positions.ok_or_else(|| self.wrong())?;
+        let mut sorted = positions.clone();
+        sorted.sort_unstable();
+        if !sorted.iter().copied().eq(0..n) {
+            let what = format!("{:?} is not each position once", self.line);
+            return Err(AnswerError::value(what, self.form.clone()));
+        }
+        Ok(Answer::in_order(&positions))
     }
 
-    fn odd(&self) -> Result<Answer, AnswerError> {
-        let position = self.position(N_TRIAD)?;
-        let [_, word] = self.words else {
-            return Err(self.wrong());
-        };
-        let mut grades = Grade::ALL.into_iter();
-        let grade = grades.find(|grade| is_short_for(word, grade.name()));
-        let grade = grade.ok_or_else(|| self.wrong())?;
-        Ok(Answer::Odd { position, grade })
+    /// Positions pile by pile: `1 4 / 2 3 / 5`.
+    fn piles(&self, n: usize) -> Result<Answer, AnswerError> {
+        let mut piles = vec![None; n];
+        for (pile, positions) in self.line.split('/').enumerate() {
+            for word in positions.split_whitespace() {
+                let at = word.parse::<usize>().ok().and_then(|at| at.checked_sub(1));
+                let slot = at
+                    .and_then(|at| piles.get_mut(at))
+                    .filter(|slot| slot.is_none());
+                *slot.ok_or_else(|| self.wrong())? = Some(pile);
+            }
+        }
+        let piles: Option<Vec<usize>> = piles.into_iter().collect();
+        piles
+            .map(|piles| Answer::in_piles(&piles))
+            .ok_or_else(|| self.wrong())
     }
 
     fn adjusted(&self, parameters: &[TunedParameter]) -> Result<Answer, AnswerError> {
@@ -125,7 +187,7 @@ impl Told<'_> {
         }
         // Nobody saw how they came there.
         let steps = Vec::new();
-        Ok(Answer::Adjusted { values, steps })
+        Ok(AnswerValue::Adjusted { values, steps }.into())
     }
 
     fn ratings(&self, scales: &[Scale]) -> Result<Answer, AnswerError> {
@@ -133,32 +195,48 @@ impl Told<'_> {
         for (scale, &value) in scales.iter().zip(&values) {
             check_rating(scale, value)?;
         }
-        Ok(Answer::Ratings(values))
+        Ok(AnswerValue::Ratings(values).into())
     }
 
-    /// The first word as a position from 1, from 0.
-    fn position(&self, n: usize) -> Result<usize, AnswerError> {
-        let position: usize = self.parsed(0)?;
+    /// A word as a position from 1, from 0.
+    fn position(&self, at: usize, n: usize) -> Result<usize, AnswerError> {
+        let position: usize = self.parsed(at)?;
         let position = position.checked_sub(1).filter(|position| *position < n);
         position.ok_or_else(|| self.wrong())
     }
 
+    /// A word, or its beginning, as one of those that are known.
+    fn word(&self, at: usize, known: &[&str]) -> Result<usize, AnswerError> {
+        let word = self.words.get(at).copied().unwrap_or_default();
+        let found = known.iter().position(|known| is_short_for(word, known));
+        found.ok_or_else(|| self.wrong())
+    }
+
     /// The second word as a grade of confidence, which is asked for where there are grades.
-    fn confidence(&self, most: u8) -> Result<Option<u8>, AnswerError> {
+    fn confidence(&self, asked: &Confidence) -> Result<Option<u8>, AnswerError> {
+        let most = asked.n_grades();
         if most == 0 {
-            let is_alone = self.words.len() == 1;
-            return is_alone.then_some(None).ok_or_else(|| self.wrong());
+            return self.only(1).map(|()| None);
+        }
+        self.only(2)?;
+        if let Confidence::Words(_) = asked {
+            let at = self.word(1, &asked.words())?;
+            return Ok(u8::try_from(at + 1).ok());
         }
         let grade: u8 = self.parsed(1)?;
-        let is_grade = (1..=most).contains(&grade) && self.words.len() == 2;
+        let is_grade = (1..=most).contains(&grade);
         is_grade.then_some(Some(grade)).ok_or_else(|| self.wrong())
+    }
+
+    /// Refuses fewer and more words.
+    fn only(&self, n: usize) -> Result<(), AnswerError> {
+        let is_right = self.words.len() == n;
+        is_right.then_some(()).ok_or_else(|| self.wrong())
     }
 
     /// Exactly `n` finite numbers.
     fn numbers(&self, n: usize) -> Result<Vec<f64>, AnswerError> {
-        if self.words.len() != n {
-            return Err(self.wrong());
-        }
+        self.only(n)?;
         let number = |at: usize| {
             let value = Some(self.parsed(at)?).filter(|value: &f64| value.is_finite());
             value.ok_or_else(|| self.wrong())
@@ -187,11 +265,7 @@ fn check_rating(scale: &Scale, value: f64) -> Result<(), AnswerError> {
 
 /// Whether a word begins a longer one: `e`, `easy`; case is ignored.
 fn is_short_for(word: &str, whole: &str) -> bool {
-    !word.is_empty() && whole.starts_with(&word.to_ascii_lowercase())
-}
-
-fn intervals(design: &Design) -> usize {
-    design.method.levels().map_or(0, |levels| levels.intervals)
+    !word.is_empty() && whole.to_lowercase().starts_with(&word.to_lowercase())
 }
 
 fn adjusted_form(parameters: &[TunedParameter]) -> String {
@@ -245,43 +319,42 @@ mod tests {
 
     #[test]
     fn each_method_has_an_answer_of_one_line() {
-        let ranks = Ok(Answer::Ranks([2, 1, 3, 4]));
-        for line in ["2 1 3 4", "2,1,3,4", " 2134 "] {
-            assert_eq!(typed("ranking-virtual-target", line), ranks);
+        let ranks = Ok(AnswerValue::Ranks(vec![4, 1, 2, 3]).into());
+        for line in ["2 3 4 1", "2,3,4,1", " 2341 "] {
+            assert_eq!(
+                typed("ranking-virtual-target", line),
+                ranks,
+                "2 is the first"
+            );
         }
-        let odd = Answer::Odd {
-            position: 1,
-            grade: Grade::Easy,
-        };
+        let odd = Answer::chosen(1, Some(1));
         assert_eq!(typed("odd-one-out", "2 easy"), Ok(odd.clone()));
         assert_eq!(typed("odd-one-out", "2 E"), Ok(odd));
-        let judged = Answer::Judged {
-            is_real: true,
-            confidence: Some(3),
-        };
+        let judged = Answer::chosen(0, Some(3));
         assert_eq!(typed("real-or-generated", "real 3"), Ok(judged));
-        let adjusted = Answer::Adjusted {
-            values: vec![-3.0, 4.5],
-            steps: Vec::new(),
-        };
+        let (values, steps) = (vec![-3.0, 4.5], Vec::new());
+        let adjusted: Answer = AnswerValue::Adjusted { values, steps }.into();
         assert_eq!(
             typed("adjustment-two-gains", "-3 4.5"),
             Ok(adjusted.clone())
         );
         assert_eq!(typed("adjustment-two-gains", "−3 4.5"), Ok(adjusted));
-        assert_eq!(typed("magnitude", "12.5"), Ok(Answer::Magnitude(12.5)));
-        let rated = Answer::Ratings(vec![0.0, 50.0, 99.5, 100.0]);
-        assert_eq!(typed("rating", "0 50 99.5 100"), Ok(rated));
+        assert_eq!(
+            typed("magnitude", "12.5"),
+            Ok(AnswerValue::Number(12.5).into())
+        );
+        let rated = AnswerValue::Ratings(vec![0.0, 50.0, 99.5, 100.0]);
+        assert_eq!(typed("rating", "0 50 99.5 100"), Ok(rated.into()));
     }
 
     #[test]
     fn what_is_no_answer_is_told_how_it_is_typed() {
         for (name, line, expected) in [
-            ("ranking-virtual-target", "1 2 3", "2 1 3 4"),
+            ("ranking-virtual-target", "1 2 3", "2 3 4 1"),
             (
                 "ranking-virtual-target",
                 "1 1 3 4",
-                "each of 1, 2, 3 and 4 once",
+                "not each position once",
             ),
             ("odd-one-out", "", "nothing was typed"),
             ("odd-one-out", "4 easy", "2 easy, 2 normal or 2 hard"),
@@ -305,18 +378,10 @@ mod tests {
     #[test]
     fn an_interval_that_the_design_does_not_have_is_refused() {
         let design = Design::shipped("threshold-40").unwrap();
-        let task = Task::Interval {
-            track: 0,
-            level_db: 3.0,
-            signal: 0,
-        };
-        let n = intervals(&design);
+        let n = design.composition.presentation.n;
+        let (_, task) = first("threshold-40");
         let last = typed_answer(&design, &task, &n.to_string());
-        let chosen = Answer::Chosen {
-            position: n - 1,
-            confidence: None,
-        };
-        assert_eq!(last, Ok(chosen));
+        assert_eq!(last, Ok(Answer::chosen(n - 1, None)));
         assert!(typed_answer(&design, &task, &(n + 1).to_string()).is_err());
         assert!(typed_answer(&design, &task, "0").is_err());
     }

@@ -3,20 +3,26 @@
 //! One design is one experiment; the papers' sessions are designs. A design never changes what
 //! another purpose draws: all chance comes from [`Design::seed`], the subject and the purpose.
 
+mod adaptation;
 mod check;
-mod check_levels;
+mod check_adaptation;
+mod check_composition;
+mod composing;
+mod composition;
 mod file;
-mod method;
+mod old;
 
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-pub use method::{
-    Adjusting, Choosing, Judging, JudgingProtocol, Levels, Method, QuestPlusTrack, Ranking, Rating,
-    Scale, StaircaseTrack, Standard, Stopping, Track, TunedParameter,
+pub(crate) use adaptation::Needs;
+pub use adaptation::{Adaptation, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track};
+pub use composition::{
+    Composition, Confidence, Form, Kind, Order, Presentation, Question, Response, Right, Scale,
+    Sets, Shown, Standard, TunedParameter,
 };
-pub(crate) use method::{Needs, Tunable};
+pub(crate) use composition::{Sequence, Tunable};
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};
@@ -65,7 +71,7 @@ pub struct Design {
     /// What is felt, in order; trials number them from 0.
     pub stimuli: Vec<Stimulus>,
     /// What is asked.
-    pub method: Method,
+    pub composition: Composition,
     /// What surrounds the trials.
     pub course: CourseSettings,
     /// What was settled before the first subject came.
@@ -96,6 +102,13 @@ impl Design {
     pub fn shipped(name: &str) -> Option<Self> {
         let text = Self::shipped_text(name)?;
         Self::from_toml(text, Path::new(name)).ok()
+    }
+
+    /// Whether what is felt is played, on all contactors, wherever the finger is.
+    pub fn plays_vibrations(&self) -> bool {
+        let adaptation = self.composition.adaptation.as_ref();
+        let is_played = |one: &Stimulus| matches!(one.source, Source::Vibration { .. });
+        adaptation.is_some_and(Adaptation::is_vibration) || self.stimuli.iter().any(is_played)
     }
 
     /// Opens the design's library: the one that it names, seen from the folder that the design's

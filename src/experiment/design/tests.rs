@@ -30,7 +30,7 @@ fn every_shipped_design_is_read_and_has_a_title() {
 #[test]
 fn an_unknown_medium_is_refused_with_those_that_are_known() {
     let text = HEAD.replace("array", "stylus");
-    let described = described(&format!("{text}[magnitude]\n"));
+    let described = described(&format!("{text}{NUMBER}"));
     assert!(described.contains("a.toml:3:"), "{described}");
     assert!(
         described.contains("\"array\" or \"real-cloth\""),
@@ -39,33 +39,255 @@ fn an_unknown_medium_is_refused_with_those_that_are_known() {
 }
 
 #[test]
-fn a_design_asks_exactly_one_thing() {
+fn a_design_says_how_it_shows_and_what_is_answered() {
     let none = described(HEAD);
-    assert!(none.contains("nothing is asked"), "{none}");
+    assert!(none.contains("there is no table [presentation]"), "{none}");
+    let half = described(&format!("{HEAD}[presentation]\nkind = \"single\"\n"));
+    assert!(half.contains("there is no table [response]"), "{half}");
     let two = described(&format!(
         "{HEAD}[magnitude]\n[ranking]\ntarget = \"virtual\"\n"
     ));
-    assert!(two.contains("2 tables say what is asked"), "{two}");
+    assert!(two.contains("duplicate field"), "{two}");
+}
+
+#[test]
+fn what_earlier_versions_wrote_is_the_composition_that_it_was() {
+    let asked = |tables: &str| {
+        let text = format!("{HEAD}textiles = [\"a\", \"b\", \"c\", \"d\"]\n{tables}");
+        let design = Design::from_toml(&text, Path::new("a.toml"));
+        design
+            .unwrap_or_else(|error| panic!("{tables}: {error}"))
+            .composition
+    };
+    let single = "[presentation]\nkind = \"single\"\n";
+    for (old, new) in [
+        (
+            "[ranking]\ntarget = \"real-cloth\"\n".to_owned(),
+            "[presentation]\nkind = \"places\"\nn = 4\nreference = \"real-cloth\"\n\
+             [response]\nkind = \"rank\"\n[order]\nsets = \"targets\"\n"
+                .to_owned(),
+        ),
+        (
+            "[odd_one_out]\n".to_owned(),
+            "[presentation]\nkind = \"places\"\nn = 3\n[response]\nkind = \"choice\"\n\
+             confidence_words = [\"easy\", \"normal\", \"hard\"]\n\
+             confidence_weights = [1.0, 0.5, 0.1]\n[order]\nsets = \"triads\"\n"
+                .to_owned(),
+        ),
+        (
+            format!("[adjustment]\nstandard = \"virtual\"\n[[adjustment.parameter]]\n{TURNED}"),
+            format!(
+                "{single}reference = \"virtual\"\n[order]\nrepeats = 2\n[response]\n\
+                 kind = \"adjustment\"\n[[response.parameter]]\n{TURNED}"
+            ),
+        ),
+        (
+            "[magnitude]\nmodulus = 10.0\n".to_owned(),
+            format!(
+                "{single}[order]\nrepeats = 2\n[response]\nkind = \"number\"\nmodulus = 10.0\n"
+            ),
+        ),
+        (
+            format!("[rating]\n[[rating.scale]]\n{SCALE}"),
+            format!("{single}[response]\nkind = \"sliders\"\n[[response.scale]]\n{SCALE}"),
+        ),
+    ] {
+        assert_eq!(asked(&old), asked(&new), "{old}");
+    }
+}
+
+#[test]
+fn old_levels_and_judgements_are_the_shipped_ones() {
+    for (name, old) in [
+        (
+            "jnd-40",
+            "[levels]\nband_hz = 40\nreference_db = 24.0\nrange_db = [24.25, 36.25]\n\
+             [levels.quest_plus]\ngrid_db = 0.25\nwidths_ln = [1.5, 2.0, 3.0, 4.0]\n\
+             [levels.stop]\ntrials = 60\n",
+        ),
+        (
+            "threshold-40",
+            "[levels]\nband_hz = 40\nintervals = 3\nrange_db = [-20.0, 30.0]\n\
+             [levels.staircase]\nup = 1\ndown = 3\nsteps_db = [4.0, 2.0, 1.0]\n\
+             starts_db = [20.0, 10.0]\n[levels.stop]\ntrials = 80\nreversals = 8\n",
+        ),
+        (
+            "real-or-generated",
+            "[[stimulus]]\nid = \"a\"\ncondition = \"measured\"\n[[stimulus]]\nid = \"b\"\n\
+             [judgement]\nreal = \"measured\"\nprotocol = \"single\"\nrepeats = 2\n\
+             confidence_grades = 3\n",
+        ),
+    ] {
+        let design = Design::from_toml(&format!("{HEAD}{old}"), Path::new("a.toml"));
+        let shipped = Design::shipped(name).unwrap();
+        assert_eq!(design.unwrap().composition, shipped.composition, "{name}");
+    }
+}
+
+const TURNED: &str = "key = \"gain_db\"\nfrom = -6.0\nto = 6.0\nstep = 1.0\n";
+const SCALE: &str = "key = \"roughness\"\nlow = \"smooth\"\nhigh = \"rough\"\n";
+const NUMBER: &str = "[presentation]\nkind = \"single\"\n[response]\nkind = \"number\"\n";
+
+/// Tables of a composition.
+fn composed(presentation: &str, response: &str, rest: &str) -> String {
+    format!("[presentation]\n{presentation}\n[response]\n{response}\n{rest}\n")
+}
+
+#[test]
+fn parts_that_do_not_go_together_are_refused_in_one_line_that_says_what_to_do() {
+    let pair = "kind = \"pair\"";
+    let adapted = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 0.9]\n\
+                   reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
+    for (tables, expected, mend) in [
+        (
+            composed("kind = \"single\"", "kind = \"choice\"", ""),
+            "one alone to choose",
+            "two or more places",
+        ),
+        (
+            composed("kind = \"single\"", "kind = \"rank\"", ""),
+            "are not ranked",
+            "\"balanced\"",
+        ),
+        (
+            composed("kind = \"places\"\nn = 3", "kind = \"choice\"", ""),
+            "which stimuli come together",
+            "to [order]",
+        ),
+        (
+            composed(
+                "kind = \"places\"\nn = 3",
+                "kind = \"choice\"",
+                "[order]\nsets = \"targets\"",
+            ),
+            "\"targets\" of 3 at once",
+            "n = 2 or 4",
+        ),
+        (
+            composed(
+                "kind = \"places\"\nn = 2",
+                "kind = \"choice\"",
+                "[order]\nsets = \"targets\"",
+            ),
+            "no target to compare with",
+            "reference",
+        ),
+        (
+            composed("kind = \"single\"", "kind = \"yes-no\"", ""),
+            "which word is right",
+            "the condition",
+        ),
+        (
+            composed(pair, "kind = \"yes-no\"", ""),
+            "said of one alone",
+            "\"single\"",
+        ),
+        (
+            composed("kind = \"single\"", "kind = \"same-different\"", ""),
+            "only two are the same",
+            "\"pairs\"",
+        ),
+        (
+            composed("kind = \"single\"", "kind = \"piles\"", ""),
+            "only all at once",
+            "\"set\"",
+        ),
+        (
+            composed(
+                "kind = \"intervals\"",
+                "kind = \"choice\"",
+                "[order]\nsets = \"pairs\"",
+            ),
+            "does not come in intervals",
+            "\"places\"",
+        ),
+        (
+            composed(pair, "kind = \"number\"\nconfidence_grades = 3", ""),
+            "confidence is asked of no choice",
+            "take it away",
+        ),
+        (
+            composed(pair, "kind = \"choice\"\nmodulus = 3.0", ""),
+            "modulus has no meaning",
+            "take it away",
+        ),
+        (
+            composed(
+                "kind = \"single\"\nstandard = \"z\"",
+                "kind = \"number\"",
+                "",
+            ),
+            "\"z\" is no stimulus",
+            "give the id",
+        ),
+        (
+            composed(pair, "kind = \"choice\"", adapted),
+            "4 stimuli, and compression is adapted",
+            "name one",
+        ),
+        (
+            composed(pair, "kind = \"choice\"", "[order]\nsets = \"adapted\""),
+            "nothing is adapted",
+            "add [adaptation]",
+        ),
+        (
+            composed(
+                pair,
+                "kind = \"choice\"",
+                "[order]\ncatch_trials = 2\nsequence = \"zigzag\"",
+            ),
+            "sequence is \"zigzag\"",
+            "\"williams\"",
+        ),
+    ] {
+        let stimuli = "textiles = [\"a\", \"b\", \"c\", \"d\"]\n";
+        let described = described(&format!("{HEAD}{stimuli}{tables}"));
+        let is_said = described.contains(expected) && described.contains(mend);
+        assert!(is_said, "{tables}: {described}");
+        assert!(
+            !described.contains('\n') && described.starts_with("a.toml:"),
+            "{described}"
+        );
+    }
 }
 
 #[test]
 fn fifteen_textiles_cannot_be_ranked_in_fours() {
     let ids: Vec<String> = (0..15).map(|n| format!("\"t{n}\"")).collect();
     let text = format!(
-        "{HEAD}textiles = [{}]\n[ranking]\ntarget = \"virtual\"\n",
+        "{HEAD}textiles = [{}]\n[presentation]\nkind = \"places\"\nn = 4\n\
+         reference = \"virtual\"\n[response]\nkind = \"rank\"\n[order]\nsets = \"targets\"\n",
         ids.join(", ")
     );
     let described = described(&text);
     assert!(
-        described.contains("a.toml:7: 15 stimuli cannot be ranked"),
+        described.contains("a.toml:13: 15 stimuli cannot be ranked"),
         "{described}"
     );
 }
 
 #[test]
+fn a_question_is_asked_in_the_language_that_is_chosen() {
+    let stimuli = "textiles = [\"a\", \"b\"]\n";
+    let question = |language: &str| {
+        let text = format!(
+            "{HEAD}{stimuli}{NUMBER}[question]\ntext = \"How rough?\"\n{language}\
+             [question.texts]\nde = \"Wie rau?\"\n"
+        );
+        Design::from_toml(&text, Path::new("a.toml"))
+            .unwrap()
+            .composition
+            .question()
+    };
+    assert_eq!(question(""), "How rough?");
+    assert_eq!(question("language = \"de\"\n"), "Wie rau?");
+    assert_eq!(question("language = \"fr\"\n"), "How rough?", "not there");
+}
+
+#[test]
 fn two_stimuli_of_one_name_are_refused_at_the_second() {
     let stimuli = "[[stimulus]]\nid = \"a\"\n[[stimulus]]\nid = \"a\"\n";
-    let described = described(&format!("{HEAD}{stimuli}[magnitude]\n"));
+    let described = described(&format!("{HEAD}{stimuli}{NUMBER}"));
     assert!(
         described.contains("a.toml:8: two stimuli are called \"a\""),
         "{described}"
@@ -74,17 +296,18 @@ fn two_stimuli_of_one_name_are_refused_at_the_second() {
 
 #[test]
 fn a_series_that_nothing_ends_is_refused() {
-    let levels = "[levels]\nband_hz = 40\nrange_db = [0, 20]\n[levels.staircase]\nup = 1\n\
-                  down = 2\nsteps_db = [2.0]\nstarts_db = [10.0]\n";
-    let described = described(&format!("{HEAD}{levels}"));
+    let tables = "[presentation]\nkind = \"intervals\"\n[response]\nkind = \"choice\"\n\
+                  [adaptation]\nparameter = \"level_db\"\nband_hz = 40\nrange = [0, 20]\n\
+                  [adaptation.staircase]\nup = 1\ndown = 2\nsteps = [2.0]\nstarts = [10.0]\n";
+    let described = described(&format!("{HEAD}{tables}"));
     assert!(described.contains("nothing ends a series"), "{described}");
 }
 
 #[test]
 fn a_misspelt_key_is_named_with_its_line() {
-    let described = described(&format!("{HEAD}[magnitude]\nrepeat = 3\n"));
+    let described = described(&format!("{HEAD}{NUMBER}[order]\nrepeat = 3\n"));
     assert!(
-        described.contains("a.toml:6:") && described.contains("`repeat`"),
+        described.contains("a.toml:10:") && described.contains("`repeat`"),
         "{described}"
     );
 }

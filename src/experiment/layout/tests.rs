@@ -1,8 +1,9 @@
 //! What trials present: where it lies, what is told of it, and what is played.
 
 use super::*;
+use crate::Adapted;
 use crate::Procedure;
-use crate::design::{Method, Subject};
+use crate::design::Subject;
 
 fn subject() -> Subject {
     Subject {
@@ -18,15 +19,17 @@ fn first_task(design: &Design) -> Task {
 }
 
 fn is_of_levels(design: &Design) -> bool {
-    matches!(design.method, Method::Levels(_))
+    design.composition.adaptation.is_some()
 }
 
 #[test]
 fn a_virtual_target_lies_in_the_middle_of_four_and_touches_none() {
     let design = Design::shipped("ranking-virtual-target").unwrap();
-    let task = Task::Rank {
-        target: 3,
-        alternatives: [5, 3, 9, 0],
+    let task = Task {
+        items: vec![5, 3, 9, 0],
+        reference: Some(3),
+        right: Some(1),
+        ..Task::default()
     };
     let layout = Layout::of(&design, &task);
     assert_eq!(layout.size_mm, [340.0; 2]);
@@ -65,7 +68,7 @@ fn scenes_of_trials_make_sense_and_differ_in_what_lies_where_alone() {
         }
         let task = first_task(&design);
         let layout = Layout::of(&design, &task);
-        let scene = layout.scene(&design, &Display::default(), Tuning::default());
+        let scene = layout.scene(&design, (&Display::default(), Tuning::default()), |_| None);
         scene.check().unwrap();
         let is_cloth = vibrations(&design, &task).is_empty();
         assert_eq!(!scene.textiles.is_empty(), is_cloth, "{name}");
@@ -79,9 +82,7 @@ fn scenes_of_trials_make_sense_and_differ_in_what_lies_where_alone() {
 fn the_experimenter_lays_the_real_target_and_no_number_with_it() {
     let design = Design::shipped("ranking-real-target").unwrap();
     let task = first_task(&design);
-    let Task::Rank { target, .. } = task else {
-        panic!("a ranking")
-    };
+    let target = task.reference.unwrap();
     let layout = Layout::of(&design, &task);
     assert_eq!((layout.places.len(), layout.size_mm), (4, [240.0; 2]));
     let laid = on_the_table(&design, &task);
@@ -95,16 +96,15 @@ fn the_experimenter_lays_the_real_target_and_no_number_with_it() {
 #[test]
 fn intervals_last_as_long_as_the_design_says_and_one_holds_the_signal() {
     let design = Design::shipped("jnd-40").unwrap();
-    let Method::Levels(levels) = &design.method else {
-        panic!("levels")
-    };
-    let task = Task::Interval {
-        track: 0,
-        level_db: 30.0,
-        signal: 1,
+    let presentation = &design.composition.presentation;
+    let (track, value) = (0, 30.0);
+    let task = Task {
+        right: Some(1),
+        adapted: Some(Adapted { track, value }),
+        ..Task::default()
     };
     let steps = vibrations(&design, &task);
-    assert_eq!(steps.len(), 2 * levels.intervals - 1);
+    assert_eq!(steps.len(), 2 * presentation.n - 1);
     for (nth, step) in steps.iter().enumerate() {
         let um = f64::from(step.amplitude_um[0]);
         assert_eq!(step.amplitude_um[1].to_bits(), 0);
@@ -114,7 +114,7 @@ fn intervals_last_as_long_as_the_design_says_and_one_holds_the_signal() {
             _ => assert!((um - 15.8489).abs() < 1e-3, "{um}"),
         }
         if nth % 2 == 0 {
-            assert_eq!(step.n_ticks * 25, levels.interval_ms);
+            assert_eq!(step.n_ticks * 25, presentation.interval_ms);
         }
     }
 }

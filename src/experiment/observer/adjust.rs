@@ -7,8 +7,9 @@
 
 use super::answer::Participant;
 use super::percept::look;
-use crate::design::TunedParameter;
-use crate::trial::{Adjustment, Answer};
+use super::scale::Jnd;
+use crate::design::{Adaptation, Tunable, TunedParameter};
+use crate::trial::{Adjustment, Answer, AnswerValue};
 use selvedge_foundation::numerics::Random;
 
 /// Strides that a range is crossed in, where a step is finer than that.
@@ -51,7 +52,7 @@ impl Participant<'_> {
             now = next;
         }
         let steps = spread_out(&turned, response_s);
-        Answer::Adjusted { values, steps }
+        AnswerValue::Adjusted { values, steps }.into()
     }
 
     /// The turn by so many strides that brings the percept nearest: parameter, value, distance
@@ -64,7 +65,7 @@ impl Participant<'_> {
     ) -> Option<(usize, f64, f64)> {
         let mut best = None;
         let mut nearest = now;
-        for (at, parameter) in self.design.method.parameters().iter().enumerate() {
+        for (at, parameter) in self.design.composition.parameters().iter().enumerate() {
             for way in [-1.0, 1.0] {
                 let mut tried = values.to_vec();
                 let to = values.get(at)? + way * strides * stride(parameter);
@@ -81,14 +82,36 @@ impl Participant<'_> {
 
     /// Where a stimulus lies with the parameters at these values.
     fn tuned_place(&self, item: usize, values: &[f64]) -> Vec<f64> {
+        let parameters = self.design.composition.parameters().iter();
+        let values = parameters
+            .map(|parameter| parameter.what)
+            .zip(values.iter().copied());
+        self.place_at(item, values)
+    }
+
+    /// Where a stimulus lies with these values of a tuning.
+    fn place_at(&self, item: usize, values: impl Iterator<Item = (Tunable, f64)>) -> Vec<f64> {
         let mut tuning = self.stimuli.tuning();
-        for (parameter, value) in self.design.method.parameters().iter().zip(values) {
-            parameter.what.set(&mut tuning, *value);
-        }
+        values.for_each(|(what, value)| what.set(&mut tuning, value));
         let gains_db = self.stimuli.gains_db(item, &tuning);
         let observer = self.observer;
         let levels = self.stimuli.levels(item);
         observer.strategy.place(observer.jnd, levels, gains_db)
+    }
+
+    /// How far what is adapted lies above nothing at a value, in just noticeable differences: of a
+    /// vibration its level, else how far the stimulus moves from where the range begins. `None` is
+    /// nothing.
+    pub(super) fn adapted_jnd(&self, adaptation: &Adaptation, value: Option<f64>) -> f64 {
+        let jnd: Jnd = self.observer.jnd;
+        if adaptation.is_vibration() {
+            return jnd.steps(adaptation.band, value.unwrap_or(f64::NEG_INFINITY));
+        }
+        let place = |value: f64| self.place_at(0, [(adaptation.parameter, value)].into_iter());
+        let least = adaptation.reference.unwrap_or(adaptation.range[0]);
+        let value = value.unwrap_or(least);
+        let away = self.apart(&place(value), &place(least)) / self.root_n();
+        away.copysign(value - least)
     }
 
     /// Parameters left on any of their steps.
@@ -98,18 +121,10 @@ impl Participant<'_> {
             let steps = ((value - parameter.from) / parameter.step).round();
             (parameter.from + steps * parameter.step).min(parameter.to)
         };
-        let values: Vec<f64> = self
-            .design
-            .method
-            .parameters()
-            .iter()
-            .map(anywhere)
-            .take(n)
-            .collect();
-        Answer::Adjusted {
-            values,
-            steps: Vec::new(),
-        }
+        let parameters = self.design.composition.parameters().iter();
+        let values = parameters.map(anywhere).take(n).collect();
+        let steps = Vec::new();
+        AnswerValue::Adjusted { values, steps }.into()
     }
 }
 

@@ -1,10 +1,10 @@
 //! A subject that an observer is in a session, and its answers.
 
 use super::percept::{distance, look};
-use super::scale::{Jnd, NOISE_JND};
+use super::scale::NOISE_JND;
 use super::{Observer, Stimuli, Strategy};
-use crate::design::{Design, Method, Scale, Standard, Subject};
-use crate::trial::{Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
+use crate::design::{Design, Form, Scale, Sets, Standard, Subject};
+use crate::trial::{Answer, AnswerValue, Task, Trial};
 use selvedge_foundation::numerics::Random;
 
 /// What came of a trial.
@@ -68,13 +68,14 @@ impl<'a> Participant<'a> {
         };
         let items = 0..design.stimuli.len();
         let places: Vec<Vec<f64>> = items.clone().map(presented).collect();
-        let standards = match design.method.standard() {
-            None | Some(Standard::Virtual) => places.clone(),
-            Some(Standard::RealCloth) => items.map(cloth).collect(),
+        let is_adjusted = matches!(design.composition.response.form, Form::Adjustment(_));
+        let standards = match design.composition.presentation.reference {
+            Standard::RealCloth => items.map(cloth).collect(),
             // A mind of one's own: what the library's tuning is for.
-            Some(Standard::None) => items
+            Standard::None if is_adjusted => items
                 .map(|item| place(observer, stimuli, item, stimuli.cloth_gains_db(item)))
                 .collect(),
+            _ => places.clone(),
         };
         let explored = noise / f64::from(observer.looks.max(1)).sqrt();
         Self {
@@ -101,7 +102,7 @@ impl<'a> Participant<'a> {
         let random = self
             .session
             .branch(&format!("{kind} {} attempt {attempt}", trial.number));
-        let response_s = response_s(self, &trial.task, &random);
+        let response_s = response_s(self, &random);
         let is_lapse = random.branch("lapse").uniform() < self.observer.lapse;
         let answer = if is_lapse || self.observer.strategy == Strategy::None {
             self.guess(&trial.task, &mut random.branch("guess"))
@@ -112,20 +113,47 @@ impl<'a> Participant<'a> {
     }
 
     fn considered(&self, task: &Task, response_s: f64, random: &Random) -> Answer {
-        match task {
-            Task::Rank {
-                target,
-                alternatives,
-            } => self.rank(*target, *alternatives, random),
-            Task::OddOne { items, .. } => self.odd_one(*items, random),
-            Task::Adjust { item, starts } => self.adjusted(*item, starts, response_s, random),
-            Task::Judge { item, .. } => self.judged(*item, random),
-            Task::JudgePair { items, .. } => self.judged_pair(*items, random),
-            Task::Interval {
-                level_db, signal, ..
-            } => self.interval(*level_db, *signal, random),
-            Task::Estimate { item } => Answer::Magnitude(self.magnitude(*item, random)),
-            Task::Rate { item } => Answer::Ratings(self.ratings(*item, random)),
+        let composition = &self.design.composition;
+        let sets = composition.order.sets;
+        match &composition.response.form {
+            _ if sets == Sets::Adapted => self.more(task, random),
+            Form::Choice => match sets {
+                Sets::Triads => self.odd_one(&task.items, random),
+                Sets::Opposed => self.judged_pair(&task.items, random),
+                Sets::Targets => {
+                    let order = self.by_likeness(task, random);
+                    Answer::chosen(order.first().copied().unwrap_or(0), self.confidence(0.0))
+                }
+                _ => self.most(&task.items, random),
+            },
+            Form::Words(_) => self.judged(task.item().unwrap_or(0), random),
+            Form::SameDifferent => self.same_or_different(&task.items, random),
+            Form::Rank if sets == Sets::Targets => {
+                Answer::in_order(&self.by_likeness(task, random))
+            }
+            Form::Rank => Answer::in_order(&self.by_amount(&task.items, random)),
+            Form::BestWorst(_) => {
+                let order = self.by_amount(&task.items, random);
+                let ends = [order.first(), order.last()];
+                AnswerValue::BestWorst(ends.map(|at| at.copied().unwrap_or(0))).into()
+            }
+            Form::Scales(scales) if task.items.len() > 1 => {
+                let unlike = self.unlikeness(&task.items, random);
+                AnswerValue::Ratings(scales.iter().map(|s| s.at_share(unlike)).collect()).into()
+            }
+            Form::Scales(_) => {
+                AnswerValue::Ratings(self.ratings(task.item().unwrap_or(0), random)).into()
+            }
+            Form::Number { .. } if task.items.len() > 1 => {
+                let unlike = self.unlikeness(&task.items, random);
+                AnswerValue::Number(self.modulus() * unlike.max(1e-3)).into()
+            }
+            Form::Number { .. } => AnswerValue::Number(self.magnitude(task, random)).into(),
+            Form::Piles => self.piles(&task.items, random),
+            Form::Adjustment(_) => {
+                let item = task.item().unwrap_or(0);
+                self.adjusted(item, &task.starts, response_s, random)
+            }
         }
     }
 
@@ -149,85 +177,134 @@ impl<'a> Participant<'a> {
         n.max(1e-12).sqrt()
     }
 
-    /// In the order of their distances from the target.
-    fn rank(&self, target: usize, alternatives: [usize; N_RANKED], random: &Random) -> Answer {
+    /// Positions in the order of their distances from the target.
+    fn by_likeness(&self, task: &Task, random: &Random) -> Vec<usize> {
         let mut looks = random.branch("percepts");
+        let target = task.reference.unwrap_or(0);
         let target = look(&self.standards[target], self.explored, &mut looks);
         let target = self.kept(&target, &mut random.branch("memory"));
         let mut rank_noise = random.branch("rank noise");
-        let distances = alternatives.map(|item| {
-            let noise = self.observer.rank_noise_jnd * rank_noise.normal();
-            self.apart(&target, &self.seen(item, &mut looks)) + noise
-        });
-        let mut order = [0, 1, 2, 3];
-        // Those that are equally far come in an order by chance.
-        random.branch("ties").shuffle(&mut order);
-        order.sort_by(|&a, &b| distances[a].total_cmp(&distances[b]));
-        let mut ranks = [0; N_RANKED];
-        for (rank, position) in (1..).zip(order) {
-            ranks[position] = rank;
-        }
-        Answer::Ranks(ranks)
+        let distances: Vec<f64> = task
+            .items
+            .iter()
+            .map(|&item| {
+                let noise = self.observer.rank_noise_jnd * rank_noise.normal();
+                self.apart(&target, &self.seen(item, &mut looks)) + noise
+            })
+            .collect();
+        ordered(&distances, random)
     }
 
     /// The one that is not of the closest pair: the farthest from the other two.
-    fn odd_one(&self, items: [usize; N_TRIAD], random: &Random) -> Answer {
+    fn odd_one(&self, items: &[usize], random: &Random) -> Answer {
         let mut looks = random.branch("percepts");
-        let percepts = items.map(|item| self.seen(item, &mut looks));
-        // By the position that each pair leaves out.
-        let across = [[1, 2], [0, 2], [0, 1]].map(|[a, b]| self.apart(&percepts[a], &percepts[b]));
-        let mut order = [0, 1, 2];
-        random.branch("ties").shuffle(&mut order);
-        order.sort_by(|&a, &b| across[a].total_cmp(&across[b]));
-        let [odd, second, third] = order;
-        let margin = (0.5 * (across[second] + across[third]) - across[odd]) / self.root_n();
-        let [hard, easy] = self.observer.habits.grade_criteria_jnd;
-        let grade = if margin < hard {
-            Grade::Hard
-        } else if margin < easy {
-            Grade::Normal
-        } else {
-            Grade::Easy
+        let percepts: Vec<Vec<f64>> = items
+            .iter()
+            .map(|item| self.seen(*item, &mut looks))
+            .collect();
+        let [first, second, third] = percepts.as_slice() else {
+            return self.guess_chosen(items.len(), random);
         };
-        Answer::Odd {
-            position: odd,
-            grade,
+        // By the position that each pair leaves out.
+        let across = [[second, third], [first, third], [first, second]];
+        let across = across.map(|[a, b]| self.apart(a, b));
+        let order = ordered(&across, random);
+        let others = 0.5 * (across[order[1]] + across[order[2]]);
+        let margin = (others - across[order[0]]) / self.root_n();
+        let grade = match self.design.composition.response.confidence.words().len() {
+            0 => self.confidence(margin),
+            n => Some(self.grade(margin, n)),
+        };
+        Answer::chosen(order[0], grade)
+    }
+
+    /// How hard it was by the margin: the last word where it was hardest.
+    fn grade(&self, margin: f64, n_words: usize) -> u8 {
+        let criteria = self.observer.habits.grade_criteria_jnd;
+        let n_reached = criteria
+            .iter()
+            .filter(|criterion| margin >= **criterion)
+            .count();
+        u8::try_from(n_words.saturating_sub(n_reached).max(1)).unwrap_or(1)
+    }
+
+    /// The same where the two lie nearer than the criterion.
+    fn same_or_different(&self, items: &[usize], random: &Random) -> Answer {
+        let mut looks = random.branch("percepts");
+        let mut percept = |at: usize| self.seen(items.get(at).copied().unwrap_or(0), &mut looks);
+        let (first, second) = (percept(0), percept(1));
+        let away = self.apart(&first, &second) / self.root_n();
+        let margin = self.observer.habits.same_criterion_jnd - away;
+        Answer::chosen(usize::from(margin < 0.0), self.confidence(margin))
+    }
+
+    /// How unlike two are as a share: nothing for the same percept, one for what has nothing in
+    /// common.
+    fn unlikeness(&self, items: &[usize], random: &Random) -> f64 {
+        let mut looks = random.branch("percepts");
+        let mut percept = |at: usize| self.seen(items.get(at).copied().unwrap_or(0), &mut looks);
+        let (first, second) = (percept(0), percept(1));
+        let away = self.apart(&first, &second) / self.root_n();
+        let noise = self.observer.habits.rating_noise * random.branch("rating").normal();
+        1.0 - (-away / self.observer.habits.unlike_jnd).exp() + noise
+    }
+
+    /// Each joins the nearest pile whose middle is near enough, or begins one.
+    fn piles(&self, items: &[usize], random: &Random) -> Answer {
+        let mut looks = random.branch("percepts");
+        let near = self.observer.habits.pile_jnd;
+        let mut piles: Vec<Vec<Vec<f64>>> = Vec::new();
+        let mut of = Vec::with_capacity(items.len());
+        for &item in items {
+            let percept = self.seen(item, &mut looks);
+            let away = |pile: &Vec<Vec<f64>>| self.apart(&middle(pile), &percept) / self.root_n();
+            let nearest = (0..piles.len())
+                .map(|at| (at, away(&piles[at])))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            let at = match nearest {
+                Some((at, away)) if away < near => at,
+                _ => {
+                    piles.push(Vec::new());
+                    piles.len() - 1
+                }
+            };
+            piles[at].push(percept);
+            of.push(at);
         }
+        Answer::in_piles(&of)
     }
 
     /// Real where it lies near what the material should feel like.
     fn judged(&self, item: usize, random: &Random) -> Answer {
         let away = self.away(item, &mut random.branch("percepts"), random);
         let margin = self.observer.habits.real_criterion_jnd - away;
-        Answer::Judged {
-            is_real: margin > 0.0,
-            confidence: self.confidence(margin),
-        }
+        Answer::chosen(usize::from(margin <= 0.0), self.confidence(margin))
     }
 
-    fn judged_pair(&self, items: [usize; 2], random: &Random) -> Answer {
+    fn judged_pair(&self, items: &[usize], random: &Random) -> Answer {
         let mut looks = random.branch("percepts");
-        let [first, second] = items.map(|item| self.away(item, &mut looks, random));
+        let mut away = |at: usize| {
+            let item = items.get(at).copied().unwrap_or(0);
+            self.away(item, &mut looks, random)
+        };
+        let (first, second) = (away(0), away(1));
         let position = match first.total_cmp(&second) {
             std::cmp::Ordering::Less => 0,
             std::cmp::Ordering::Equal => random.branch("ties").index(2),
             std::cmp::Ordering::Greater => 1,
         };
-        Answer::Chosen {
-            position,
-            confidence: self.confidence(first - second),
-        }
+        Answer::chosen(position, self.confidence(first - second))
     }
 
     /// How far a look at a stimulus is from what its material should feel like: the middle of the
     /// real ones of the material (of all, where it has none), as it is kept in mind.
     fn away(&self, item: usize, looks: &mut Random, random: &Random) -> f64 {
-        let Method::Judgement(judging) = &self.design.method else {
+        let Some(condition) = self.design.composition.right_condition() else {
             return 0.0;
         };
         let stimuli = &self.design.stimuli;
         let real: Vec<usize> = (0..stimuli.len())
-            .filter(|&at| stimuli[at].condition == judging.real)
+            .filter(|&at| stimuli[at].condition == condition)
             .collect();
         let is_its = |at: &usize| stimuli[*at].material == stimuli[item].material;
         let own: Vec<usize> = real.iter().copied().filter(is_its).collect();
@@ -250,40 +327,82 @@ impl<'a> Participant<'a> {
     }
 
     fn n_grades(&self) -> Option<u8> {
-        Some(self.design.method.confidence_grades()).filter(|&n| n > 0)
+        Some(self.design.composition.response.confidence.n_grades()).filter(|&n| n > 0)
     }
 
-    /// The interval that feels strongest.
-    fn interval(&self, level_db: f64, signal: usize, random: &Random) -> Answer {
-        let Some(levels) = self.design.method.levels() else {
-            return self.guess_chosen(2, random);
-        };
-        let jnd: Jnd = self.observer.jnd;
-        let others_db = levels.reference_db.unwrap_or(f64::NEG_INFINITY);
+    /// Positions in the order of what is asked of them, the most first: along the way from the
+    /// first to the last stimulus of the design.
+    fn by_amount(&self, items: &[usize], random: &Random) -> Vec<usize> {
         let mut looks = random.branch("percepts");
-        let felt: Vec<f64> = (0..levels.intervals)
-            .map(|at| {
-                let db = if at == signal { level_db } else { others_db };
-                let steps = jnd.steps(levels.band, db);
-                steps + self.noise * NOISE_JND * looks.normal()
-            })
+        let amounts: Vec<f64> = items
+            .iter()
+            .map(|&item| -self.along(&self.seen(item, &mut looks)))
+            .collect();
+        ordered(&amounts, random)
+    }
+
+    /// The position with the most of what is asked.
+    fn most(&self, items: &[usize], random: &Random) -> Answer {
+        let order = self.by_amount(items, random);
+        Answer::chosen(order.first().copied().unwrap_or(0), self.confidence(0.0))
+    }
+
+    /// How far a percept lies on the way from the first to the last stimulus of the design, in
+    /// just noticeable differences.
+    fn along(&self, percept: &[f64]) -> f64 {
+        let (Some(first), Some(last)) = (self.places.first(), self.places.last()) else {
+            return 0.0;
+        };
+        let way = last.iter().zip(first).map(|(to, from)| to - from);
+        let way: Vec<f64> = way.collect();
+        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
+        percept
+            .iter()
+            .zip(&way)
+            .map(|(x, way)| x * way)
+            .sum::<f64>()
+            / length
+    }
+
+    /// The position that has most of what is adapted; of one alone, whether it has more than the
+    /// reference.
+    fn more(&self, task: &Task, random: &Random) -> Answer {
+        let composition = &self.design.composition;
+        let (Some(adaptation), Some(adapted)) = (&composition.adaptation, task.adapted) else {
+            return self.guess_chosen(composition.n_choices(), random);
+        };
+        let mut looks = random.branch("percepts");
+        let noise = self.noise * NOISE_JND;
+        let mut felt =
+            |value: Option<f64>| self.adapted_jnd(adaptation, value) + noise * looks.normal();
+        if composition.presentation.n == 1 {
+            let [low, high] = adaptation.range;
+            let middle = adaptation.reference.unwrap_or(0.5 * (low + high));
+            let criterion = self.adapted_jnd(adaptation, Some(middle));
+            let margin = felt(Some(adapted.value)) - criterion;
+            return Answer::chosen(usize::from(margin <= 0.0), self.confidence(margin));
+        }
+        let value = |at: usize| {
+            let is_adapted = Some(at) == task.right;
+            is_adapted.then_some(adapted.value).or(adaptation.reference)
+        };
+        let felt: Vec<f64> = (0..composition.presentation.n)
+            .map(|at| felt(value(at)))
             .collect();
         let mut order: Vec<usize> = (0..felt.len()).collect();
         random.branch("ties").shuffle(&mut order);
-        let strongest = order
+        let most = order
             .into_iter()
             .max_by(|&a, &b| felt[a].total_cmp(&felt[b]));
-        Answer::Chosen {
-            position: strongest.unwrap_or(0),
-            confidence: None,
-        }
+        let is_told = composition.response.confidence.n_grades() > 0;
+        let sure = is_told.then(|| self.confidence(0.0)).flatten();
+        Answer::chosen(most.unwrap_or(0), sure)
     }
 
     fn guess_chosen(&self, n: usize, random: &Random) -> Answer {
-        Answer::Chosen {
-            position: random.branch("guess").index(n),
-            confidence: self.guessed_confidence(&mut random.branch("guessed confidence")),
-        }
+        let position = random.branch("guess").index(n);
+        let confidence = self.guessed_confidence(&mut random.branch("guessed confidence"));
+        Answer::chosen(position, confidence)
     }
 
     fn guessed_confidence(&self, random: &mut Random) -> Option<u8> {
@@ -293,50 +412,71 @@ impl<'a> Participant<'a> {
 
     /// An answer that has nothing to do with the stimuli.
     fn guess(&self, task: &Task, random: &mut Random) -> Answer {
-        match task {
-            Task::Rank { .. } => {
-                let mut ranks = [1, 2, 3, 4];
-                random.shuffle(&mut ranks);
-                Answer::Ranks(ranks)
+        let composition = &self.design.composition;
+        let n = composition.presentation.n;
+        let mut shuffled = |n: usize| {
+            let mut order: Vec<usize> = (0..n).collect();
+            random.shuffle(&mut order);
+            order
+        };
+        match &composition.response.form {
+            Form::Choice if composition.order.sets == Sets::Triads => {
+                let position = random.index(n);
+                Answer::chosen(position, self.guessed_confidence(random))
             }
-            Task::OddOne { .. } => Answer::Odd {
-                position: random.index(N_TRIAD),
-                grade: Grade::ALL[random.index(Grade::ALL.len())],
-            },
-            Task::Adjust { starts, .. } => self.left_anywhere(starts.len(), random),
-            Task::Judge { .. } => Answer::Judged {
-                is_real: random.index(2) == 0,
-                confidence: self.guessed_confidence(random),
-            },
-            Task::JudgePair { .. } => self.guess_chosen(2, random),
-            Task::Interval { .. } => {
-                let n = self
-                    .design
-                    .method
-                    .levels()
-                    .map_or(2, |levels| levels.intervals);
-                self.guess_chosen(n, random)
+            Form::Words(_) => {
+                let position = random.index(2);
+                Answer::chosen(position, self.guessed_confidence(random))
             }
-            Task::Estimate { .. } => {
+            Form::Choice | Form::SameDifferent => {
+                self.guess_chosen(composition.n_choices(), random)
+            }
+            Form::Rank => {
+                let ranks = shuffled(n)
+                    .into_iter()
+                    .map(|at| u8::try_from(at + 1).unwrap_or(1));
+                AnswerValue::Ranks(ranks.collect()).into()
+            }
+            Form::BestWorst(_) => {
+                let order = shuffled(n);
+                AnswerValue::BestWorst([order[0], order[n - 1]]).into()
+            }
+            Form::Number { .. } => {
                 let noise = self.observer.habits.magnitude_noise * random.normal();
-                Answer::Magnitude(self.modulus() * noise.exp())
+                AnswerValue::Number(self.modulus() * noise.exp()).into()
             }
-            Task::Rate { .. } => {
-                let mut anywhere = |scale: &Scale| {
+            Form::Scales(scales) => {
+                let anywhere = |scale: &Scale| {
                     let [low, high] = scale.bounds();
                     scale.placed(random.uniform_in(low, high))
                 };
-                Answer::Ratings(
-                    self.design
-                        .method
-                        .scales()
-                        .iter()
-                        .map(&mut anywhere)
-                        .collect(),
-                )
+                AnswerValue::Ratings(scales.iter().map(anywhere).collect()).into()
             }
+            Form::Piles => {
+                let piles: Vec<usize> = (0..n).map(|_| random.index(n.div_ceil(3))).collect();
+                Answer::in_piles(&piles)
+            }
+            Form::Adjustment(_) => self.left_anywhere(task.starts.len(), random),
         }
     }
+}
+
+/// Numbers from the least to the most, by their positions; those that are equal come in an order by
+/// chance.
+fn ordered(numbers: &[f64], random: &Random) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..numbers.len()).collect();
+    random.branch("ties").shuffle(&mut order);
+    order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
+    order
+}
+
+/// The mean of several percepts.
+fn middle(percepts: &[Vec<f64>]) -> Vec<f64> {
+    let n_axes = percepts.first().map_or(0, Vec::len);
+    let mean = |axis: usize| {
+        percepts.iter().map(|percept| percept[axis]).sum::<f64>() / percepts.len() as f64
+    };
+    (0..n_axes).map(mean).collect()
 }
 
 fn place(observer: &Observer, stimuli: &Stimuli, item: usize, gains_db: [f64; 2]) -> Vec<f64> {
@@ -344,30 +484,14 @@ fn place(observer: &Observer, stimuli: &Stimuli, item: usize, gains_db: [f64; 2]
     observer.strategy.place(observer.jnd, levels, gains_db)
 }
 
-/// Median time of a task, s; intervals come on top. All assumed, but that a ranking takes 30 to
-/// 90 s.
-fn median_s(task: &Task) -> f64 {
-    match task {
-        Task::Rank { .. } => 50.0,
-        Task::OddOne { .. } | Task::Rate { .. } => 20.0,
-        Task::Adjust { .. } => 30.0,
-        Task::Judge { .. } => 8.0,
-        Task::JudgePair { .. } => 12.0,
-        Task::Interval { .. } => 1.0,
-        Task::Estimate { .. } => 5.0,
-    }
-}
-
 /// How long a subject takes for a trial, s, log-normal about the median. A subject that is quick is
 /// quick in all.
-fn response_s(participant: &Participant<'_>, task: &Task, random: &Random) -> f64 {
+fn response_s(participant: &Participant<'_>, random: &Random) -> f64 {
     let spread = participant.observer.habits.time_spread;
     let own = participant.person.branch("quickness").normal();
     let now = random.branch("time").normal();
     // As much between subjects as within one.
     let share = std::f64::consts::FRAC_1_SQRT_2 * (own + now);
-    let shown_s = participant.design.method.levels().map_or(0.0, |levels| {
-        f64::from(levels.interval_ms) * levels.intervals as f64 / 1000.0
-    });
-    shown_s + median_s(task) * (spread * share).exp()
+    let [shown_s, median_s] = participant.design.composition.trial_s();
+    shown_s + median_s * (spread * share).exp()
 }

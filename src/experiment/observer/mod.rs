@@ -87,6 +87,13 @@ pub struct Habits {
     pub(crate) real_criterion_jnd: f64,
     /// How much farther from the criterion makes one grade of confidence more, likewise.
     pub(crate) confidence_jnd: f64,
+    /// Two that lie nearer than this are called the same, in just noticeable differences a coordinate
+    /// (root mean square).
+    pub(crate) same_criterion_jnd: f64,
+    /// Two so far apart are called unlike by 63 % of a scale, likewise.
+    pub(crate) unlike_jnd: f64,
+    /// What lies nearer than this to the middle of a pile is laid there, likewise.
+    pub(crate) pile_jnd: f64,
     /// Turning ends once the difference to the standard is below this, in just noticeable
     /// differences a coordinate: where it began shows in where it ends.
     pub(crate) satisfied_jnd: f64,
@@ -108,6 +115,9 @@ impl Default for Habits {
             grade_criteria_jnd: [1.0, 2.0],
             real_criterion_jnd: 1.5,
             confidence_jnd: 0.5,
+            same_criterion_jnd: 1.5,
+            unlike_jnd: 5.0,
+            pile_jnd: 3.0,
             satisfied_jnd: 0.5,
             modulus_spread: 1.0,
             exponent_spread: 0.1,

@@ -1,7 +1,8 @@
 //! Numbers for strengths, and places on scales.
 
 use super::answer::Participant;
-use crate::design::{Method, Scale};
+use crate::design::{Form, Scale};
+use crate::trial::Task;
 use selvedge_foundation::numerics::Random;
 use selvedge_statistics::Summary;
 use selvedge_textile::tactile::Perception;
@@ -16,6 +17,12 @@ const RATING_SLOPE: f64 = 1.2;
 const RATING_SHIFT: f64 = 0.3;
 
 impl Scale {
+    /// So far on the way from its low to its high end, as the scale takes it.
+    pub(super) fn at_share(&self, share: f64) -> f64 {
+        let [low, high] = self.bounds();
+        self.placed(low + share * (high - low))
+    }
+
     /// A value as the scale takes it: within bounds, and on a point where it has points.
     pub(super) fn placed(&self, value: f64) -> f64 {
         let [low, high] = self.bounds();
@@ -31,15 +38,16 @@ impl Scale {
 impl Participant<'_> {
     /// A power of what the model of perception gives (exponents 0.95 and 0.58 after Stevens), by
     /// the subject's own exponent and modulus.
-    pub(super) fn magnitude(&self, item: usize, random: &Random) -> f64 {
+    pub(super) fn magnitude(&self, task: &Task, random: &Random) -> f64 {
+        let item = task.item().unwrap_or(0);
         let habits = &self.observer.habits;
         let own = self.person.branch("exponent").normal();
         let exponent = (habits.exponent_spread * own).exp();
         let noise = habits.magnitude_noise * random.branch("percepts").normal();
         let felt = self.strength(item).powf(exponent);
         let said = match self.stated_modulus() {
-            // The number was said to be that of the first stimulus.
-            Some(_) => felt / self.strength(0).powf(exponent),
+            // The number was said to be that of the standard, or of the first stimulus.
+            Some(_) => felt / self.strength(task.reference.unwrap_or(0)).powf(exponent),
             None => felt,
         };
         self.modulus() * said * noise.exp()
@@ -51,8 +59,8 @@ impl Participant<'_> {
     }
 
     fn stated_modulus(&self) -> Option<f64> {
-        match self.design.method {
-            Method::Magnitude { modulus, .. } => modulus,
+        match self.design.composition.response.form {
+            Form::Number { modulus } => modulus,
             _ => None,
         }
     }
@@ -87,10 +95,14 @@ impl Participant<'_> {
             let along = along + RATING_SHIFT * shift.normal();
             let share = 1.0 / (1.0 + (-RATING_SLOPE * along).exp());
             let share = share + self.observer.habits.rating_noise * noise.normal();
-            let [low, high] = scale.bounds();
-            scale.placed(low + share * (high - low))
+            scale.at_share(share)
         };
-        self.design.method.scales().iter().map(&mut rate).collect()
+        self.design
+            .composition
+            .scales()
+            .iter()
+            .map(&mut rate)
+            .collect()
     }
 
     /// How stimuli spread along a coordinate; `None` where they do not.

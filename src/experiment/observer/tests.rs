@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::*;
 use crate::design::Design;
-use crate::{Answer, Record, Simulation, Task, simulated_subject};
+use crate::{AnswerValue, Record, Simulation, simulated_subject};
 use selvedge_foundation::quantity::{factor_of_gain, level_db};
 use selvedge_statistics::{mean, spearman};
 use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
@@ -195,19 +195,14 @@ fn ranks_recover_how_far_apart_levels_are() {
     let observer = fixed(3.0);
     let mut ranks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     for record in records_of(&design, &stimuli, &observer, 40) {
-        let (
-            Task::Rank {
-                target,
-                alternatives,
-            },
-            Some(Answer::Ranks(given)),
-        ) = (&record.trial.task, record.answer())
+        let (Some(target), Some(AnswerValue::Ranks(given))) =
+            (record.trial.task.reference, record.value())
         else {
             panic!("{record:?} is no ranking");
         };
-        for (&item, &rank) in alternatives.iter().zip(given) {
-            if item != *target {
-                let pair = (item.min(*target), item.max(*target));
+        for (&item, &rank) in record.trial.task.items.iter().zip(given) {
+            if item != target {
+                let pair = (item.min(target), item.max(target));
                 ranks.entry(pair).or_default().push(f64::from(rank));
             }
         }
@@ -269,12 +264,12 @@ fn gains_are_turned_to_what_the_library_s_tuning_gives() {
     };
     let stimuli = Stimuli::from_levels(&design, tuning, of).unwrap();
     for record in records_of(&design, &stimuli, &fixed(0.01), 2) {
-        let (Task::Adjust { item, .. }, Some(Answer::Adjusted { values, steps })) =
-            (&record.trial.task, record.answer())
+        let (Some(item), Some(AnswerValue::Adjusted { values, steps })) =
+            (record.trial.task.item(), record.value())
         else {
             panic!("{record:?} is no adjustment");
         };
-        let level = levels_of(&known, &known[*item]).level_db().unwrap();
+        let level = levels_of(&known, &known[item]).level_db().unwrap();
         let expected = 2.0 - 0.5 * (level - 19.0);
         assert!(
             (values[0] - expected).abs() <= 0.5 + 1e-9,
@@ -301,10 +296,8 @@ fn where_turning_begins_shows_in_where_it_ends() {
     let design = shipped("gain-matching");
     let mut ends = [Vec::new(), Vec::new()];
     for record in records(&design, &Observer::default(), 20) {
-        if let (Task::Adjust { starts, .. }, Some(Answer::Adjusted { values, .. })) =
-            (&record.trial.task, record.answer())
-        {
-            ends[usize::from(starts[0] > 0.0)].push(values[0]);
+        if let Some(AnswerValue::Adjusted { values, .. }) = record.value() {
+            ends[usize::from(record.trial.task.starts[0] > 0.0)].push(values[0]);
         }
     }
     let [low, high] = ends.map(|values| mean(&values).unwrap());
@@ -325,10 +318,10 @@ fn numbers_for_strengths_rise_by_the_exponents_of_the_model() {
     };
     let mut given = BTreeMap::new();
     for record in records(&design, &observer, 1) {
-        if let (Task::Estimate { item }, Some(Answer::Magnitude(value))) =
-            (&record.trial.task, record.answer())
+        if let (Some(item), Some(AnswerValue::Number(value))) =
+            (record.trial.task.item(), record.value())
         {
-            given.insert(design.stimuli[*item].id.as_str(), *value);
+            given.insert(design.stimuli[item].id.as_str(), *value);
         }
     }
     // Six decibels each, well above threshold.
@@ -348,14 +341,14 @@ fn ratings_stay_on_their_scales_and_follow_the_stimuli() {
     let design = shipped("rating");
     let mut by_item = vec![Vec::new(); design.stimuli.len()];
     for record in records(&design, &fixed(1.0), 8) {
-        if let (Task::Rate { item }, Some(Answer::Ratings(values))) =
-            (&record.trial.task, record.answer())
+        if let (Some(item), Some(AnswerValue::Ratings(values))) =
+            (record.trial.task.item(), record.value())
         {
             assert!(
                 values.iter().all(|v| (0.0..=100.0).contains(v)),
                 "{values:?}"
             );
-            by_item[*item].push(values[0]);
+            by_item[item].push(values[0]);
         }
     }
     let means: Vec<f64> = by_item.iter().map(|values| mean(values).unwrap()).collect();

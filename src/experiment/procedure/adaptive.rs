@@ -1,8 +1,11 @@
-//! Trials whose level depends on the answers before: staircases in turn, or QUEST+.
+//! Trials whose value depends on the answers before: staircases in turn, or QUEST+.
 
+use super::listed::adapted_task;
 use crate::ExperimentError;
-use crate::design::{Levels, Needs, QuestPlusTrack, StaircaseTrack, Stopping, Track};
-use crate::trial::{Answer, AnswerError, Task, Trial};
+use crate::design::{
+    Adaptation, Design, Needs, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track,
+};
+use crate::trial::{Adapted, Answer, AnswerError, Trial};
 use selvedge_foundation::numerics::Random;
 use selvedge_statistics::Computed;
 use selvedge_statistics::adaptive::{
@@ -10,14 +13,15 @@ use selvedge_statistics::adaptive::{
 };
 use selvedge_statistics::psychometric::Guess;
 
-/// A series that nothing has ended after so many trials is ended: at a limit of the levels no
+/// A series that nothing has ended after so many trials is ended: at a limit of the values no
 /// reversal may ever come.
 const MOST_TRIALS: u32 = 1000;
 
-/// Levels found from answers.
+/// Values found from answers.
 #[derive(Debug, Clone)]
 pub(super) struct Adaptive {
-    levels: Levels,
+    design: Design,
+    adaptation: Adaptation,
     random: Random,
     practice: Vec<Trial>,
     n_answered: usize,
@@ -33,47 +37,52 @@ enum Series {
 }
 
 impl Series {
-    /// Whose turn it is and its level, dB re 1 µm.
-    fn level(&self, levels: &Levels) -> Option<(usize, f64)> {
-        match self {
-            Self::Staircases(staircases) => staircases.stimulus(),
-            Self::QuestPlus(quest) => Some((0, levels.level_db(quest.stimulus()?))),
-        }
+    /// Whose turn it is and its value.
+    fn next(&self, adaptation: &Adaptation) -> Option<Adapted> {
+        let (track, value) = match self {
+            Self::Staircases(staircases) => staircases.stimulus()?,
+            Self::QuestPlus(quest) => (0, adaptation.value(quest.stimulus()?)),
+        };
+        Some(Adapted { track, value })
     }
 
-    fn answer(&mut self, levels: &Levels, level_db: f64, is_right: bool) -> Computed<()> {
+    fn answer(&mut self, adaptation: &Adaptation, value: f64, is_more: bool) -> Computed<()> {
         match self {
-            Self::Staircases(staircases) => staircases.answer(level_db, is_right),
-            Self::QuestPlus(quest) => quest.answer(levels.stimulus(level_db), is_right),
+            Self::Staircases(staircases) => staircases.answer(value, is_more),
+            Self::QuestPlus(quest) => quest.answer(adaptation.stimulus(value), is_more),
         }
     }
 }
 
 impl Adaptive {
-    /// The series of a session with trials of practice at the strongest level that a series begins
-    /// with. `None` where levels are known before.
+    /// The series of a session with trials of practice at the strongest value that a series begins
+    /// with. `None` where values are known before.
     ///
     /// # Errors
     /// The design's numbers make no series.
     pub(super) fn of(
-        levels: &Levels,
-        n_practice: usize,
+        design: &Design,
+        adaptation: &Adaptation,
         random: &Random,
     ) -> Result<Option<Self>, ExperimentError> {
-        let made = match &levels.track {
-            Track::Staircase(track) => staircases(levels, track, random).map(Series::Staircases),
+        let made = match &adaptation.track {
+            Track::Staircase(track) => {
+                staircases(adaptation, track, random).map(Series::Staircases)
+            }
             Track::QuestPlus(track) => {
-                quest_plus(levels, track).map(|quest| Series::QuestPlus(Box::new(quest)))
+                let quest = quest_plus(adaptation, track);
+                quest.map(|quest| Series::QuestPlus(Box::new(quest)))
             }
             Track::Constant { .. } => return Ok(None),
         };
         let series = made.map_err(|error| {
-            let what = format!("the levels make no series: {}", error.reason);
-            ExperimentError::value(what, "mend [levels] in the design")
+            let what = format!("the values make no series: {}", error.reason);
+            ExperimentError::value(what, "mend [adaptation] in the design")
         })?;
         let mut adaptive = Self {
-            practice: practice(levels, n_practice, random),
-            levels: levels.clone(),
+            practice: practice(design, adaptation, random),
+            adaptation: adaptation.clone(),
+            design: design.clone(),
             random: random.branch("positions"),
             n_answered: 0,
             series,
@@ -93,9 +102,9 @@ impl Adaptive {
 
     /// How many there will be at most.
     pub(super) fn n_trials(&self) -> usize {
-        let stated = match self.levels.stopping.trials {
+        let stated = match self.adaptation.stopping.trials {
             0 => MOST_TRIALS as usize,
-            n if self.levels.stopping.needs == Needs::All => n.max(MOST_TRIALS as usize),
+            n if self.adaptation.stopping.needs == Needs::All => n.max(MOST_TRIALS as usize),
             n => n,
         };
         let n_series = match &self.series {
@@ -109,11 +118,11 @@ impl Adaptive {
         let Some(trial) = &self.now else {
             return Err(AnswerError::value("all is answered", "end the session"));
         };
-        answer.check_choice(self.levels.intervals)?;
-        let verdict = trial.task.verdict(answer)?;
-        if let (Task::Interval { level_db, .. }, false) = (&trial.task, trial.is_practice) {
-            let is_right = verdict == Some(true);
-            let taken = self.series.answer(&self.levels, *level_db, is_right);
+        let composition = &self.design.composition;
+        let verdict = composition.verdict(&trial.task, answer)?;
+        if let (Some(adapted), false) = (trial.task.adapted, trial.is_practice) {
+            let is_more = composition.says_more(&trial.task, answer);
+            let taken = self.series.answer(&self.adaptation, adapted.value, is_more);
             taken.map_err(|error| AnswerError::value(error.reason, "end the session"))?;
         }
         self.n_answered += 1;
@@ -126,50 +135,50 @@ impl Adaptive {
             return Some(trial.clone());
         }
         let number = self.n_answered - self.practice.len();
-        let (track, level_db) = self.series.level(&self.levels)?;
+        let adapted = self.series.next(&self.adaptation)?;
         let mut random = self.random.branch(&format!("trial {number}"));
+        let position = random.index(self.design.composition.presentation.n);
         Some(Trial {
             block: 0,
             number,
             is_practice: false,
-            task: Task::Interval {
-                track,
-                level_db,
-                signal: random.index(self.levels.intervals),
-            },
+            task: adapted_task(&self.design, adapted, position),
         })
     }
 }
 
-fn practice(levels: &Levels, n: usize, random: &Random) -> Vec<Trial> {
-    let level_db = match &levels.track {
-        Track::Staircase(track) => track.starts_db.iter().copied().fold(f64::MIN, f64::max),
-        _ => levels.range_db[1],
+fn practice(design: &Design, adaptation: &Adaptation, random: &Random) -> Vec<Trial> {
+    let value = match &adaptation.track {
+        Track::Staircase(track) => track.starts.iter().copied().fold(f64::MIN, f64::max),
+        _ => adaptation.range[1],
     };
-    let mut signals = random.branch("practice").branch("positions");
-    let trial = |number| Trial {
-        block: 0,
-        number,
-        is_practice: true,
-        task: Task::Interval {
-            track: 0,
-            level_db,
-            signal: signals.index(levels.intervals),
-        },
+    let mut positions = random.branch("practice").branch("positions");
+    let mut trial = |number| {
+        let position = positions.index(design.composition.presentation.n);
+        Trial {
+            block: 0,
+            number,
+            is_practice: true,
+            task: adapted_task(design, Adapted { track: 0, value }, position),
+        }
     };
-    (0..n).map(trial).collect()
+    (0..design.course.practice_trials).map(&mut trial).collect()
 }
 
 fn staircases(
-    levels: &Levels,
+    adaptation: &Adaptation,
     track: &StaircaseTrack,
     random: &Random,
 ) -> Computed<Interleaved<Staircase>> {
-    let one = |&start_db: &f64| {
-        let stop = stop(&levels.stopping, Stop::Reversals, levels.stopping.reversals);
-        Staircase::new(track.plan(start_db, levels.range_db, stop))
+    let one = |&start: &f64| {
+        let stop = stop(
+            &adaptation.stopping,
+            Stop::Reversals,
+            adaptation.stopping.reversals,
+        );
+        Staircase::new(track.plan(start, adaptation.range, stop))
     };
-    let made: Computed<Vec<Staircase>> = track.starts_db.iter().map(one).collect();
+    let made: Computed<Vec<Staircase>> = track.starts.iter().map(one).collect();
     Interleaved::new(made?, random.branch("tracks").seed())
 }
 
@@ -177,31 +186,34 @@ fn staircases(
 ///
 /// # Errors
 /// The design's numbers make no series.
-pub(crate) fn quest_plus(levels: &Levels, track: &QuestPlusTrack) -> Computed<QuestPlus> {
-    let [low, high] = levels.range_db.map(|db| levels.stimulus(db));
+pub(crate) fn quest_plus(adaptation: &Adaptation, track: &QuestPlusTrack) -> Computed<QuestPlus> {
+    let [low, high] = adaptation.range.map(|value| adaptation.stimulus(value));
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a design has at most 500 steps"
     )]
-    let n_steps = ((high - low) / track.grid_db + 1e-6) as u32;
+    let n_steps = ((high - low) / track.grid + 1e-6) as u32;
     let grid: Vec<f64> = (0..=n_steps)
-        .map(|n| low + f64::from(n) * track.grid_db)
+        .map(|n| low + f64::from(n) * track.grid)
         .collect();
-    #[expect(clippy::cast_precision_loss, reason = "2 to 8 intervals")]
-    let guess = Guess::Share(1.0 / levels.intervals as f64);
+    #[expect(clippy::cast_precision_loss, reason = "2 to 8 alternatives")]
+    let guess = match adaptation.seeks {
+        Seeks::Difference => Guess::Share(1.0 / adaptation.alternatives as f64),
+        Seeks::Equality => Guess::EqualToLapse,
+    };
     let grid = QuestGrid {
-        family: levels.family(),
+        family: adaptation.family(),
         guess,
         stimuli: grid.clone(),
         thresholds: grid,
         widths: track.widths.clone(),
         lapses: track.lapses.clone(),
     };
-    let sd = levels.stopping.posterior_sd_db;
+    let sd = adaptation.stopping.posterior_sd;
     let mut conditions = Vec::new();
     conditions.extend((sd > 0.0).then_some(Stop::PosteriorSd(sd)));
-    QuestPlus::new(grid, ended(&levels.stopping, conditions))
+    QuestPlus::new(grid, ended(&adaptation.stopping, conditions))
 }
 
 fn stop(stopping: &Stopping, of: fn(u32) -> Stop, n: usize) -> Stop {

@@ -11,7 +11,7 @@ use adaptive::Adaptive;
 pub(super) use adaptive::quest_plus;
 
 use super::ExperimentError;
-use super::design::{Design, Method, Subject};
+use super::design::{Composition, Design, Subject};
 use super::schedule::subject_random;
 use super::trial::{Answer, AnswerError, Trial};
 use selvedge_foundation::numerics::Random;
@@ -26,8 +26,8 @@ enum Kind {
     Listed {
         trials: Vec<Trial>,
         n_answered: usize,
-        /// Choices of a trial, where the design says how many there are.
-        n_choices: usize,
+        /// What is asked.
+        composition: Box<Composition>,
     },
     /// The next trial depends on the answers.
     Adaptive(Box<Adaptive>),
@@ -40,18 +40,15 @@ impl Procedure {
     /// The design has no schedule.
     pub fn of(design: &Design, subject: &Subject) -> Result<Self, ExperimentError> {
         let random = session_random(design, subject);
-        let mut n_choices = usize::MAX;
-        if let Method::Levels(levels) = &design.method {
-            let n_practice = design.course.practice_trials;
-            if let Some(adaptive) = Adaptive::of(levels, n_practice, &random)? {
-                return Ok(Self(Kind::Adaptive(Box::new(adaptive))));
-            }
-            n_choices = levels.intervals;
+        if let Some(adaptation) = &design.composition.adaptation
+            && let Some(adaptive) = Adaptive::of(design, adaptation, &random)?
+        {
+            return Ok(Self(Kind::Adaptive(Box::new(adaptive))));
         }
         Ok(Self(Kind::Listed {
             trials: listed::trials(design, subject, &random)?,
             n_answered: 0,
-            n_choices,
+            composition: Box::new(design.composition.clone()),
         }))
     }
 
@@ -98,13 +95,12 @@ impl Procedure {
             Kind::Listed {
                 trials,
                 n_answered,
-                n_choices,
+                composition,
             } => {
                 let Some(trial) = trials.get(*n_answered) else {
                     return Err(AnswerError::value("all is answered", "end the session"));
                 };
-                answer.check_choice(*n_choices)?;
-                let verdict = trial.task.verdict(answer)?;
+                let verdict = composition.verdict(&trial.task, answer)?;
                 *n_answered += 1;
                 Ok(verdict)
             }

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 use super::values::{
-    Called, Count, Derived, If, Seconds, Steps, Stimulus, Value, derived, derived_if, flag, number,
-    position,
+    Count, Derived, First, Grade, If, Seconds, Steps, Stimulus, Value, Word, derived, derived_if,
+    flag, number, position,
 };
-use super::{Outcome, Record, SCHEMA_VERSION, TRIAL, blank, question};
-use crate::design::{Design, Scale};
+use super::{Outcome, Record, SCHEMA_VERSION, TRIAL, blank, blank_answer};
+use crate::design::{Confidence, Design, Scale, Sets, Shown};
 use crate::presentation::{Presentation, Validity};
-use crate::trial::{Adjustment, Answer, Task, Trial};
+use crate::trial::{Adjustment, Answer, AnswerValue, Task, Trial};
 
 /// What the cells of a column hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,7 +125,7 @@ pub(super) fn visit<V: Visit>(
 ) -> Result<(), V::Error> {
     let (mut answer, is_answered) = match &record.outcome {
         Outcome::Answered(answer) => (answer.clone(), true),
-        Outcome::Aborted => (question(&design.method).1, false),
+        Outcome::Aborted => (blank_answer(&design.composition), false),
     };
     let trial = &mut record.trial;
     columns! { to;
@@ -144,7 +144,7 @@ pub(super) fn visit<V: Visit>(
     }
     placed(trial, &mut record.attempt, to)?;
     asked(design, &mut trial.task, (&mut answer, is_answered), to)?;
-    chosen(&mut answer, is_answered, to)?;
+    chosen(design, (&mut answer, is_answered), to)?;
     let rt_ms = record.timing.response_ms();
     if to.is_since(2) {
         presented(&mut record.presentation, is_answered, to)?;
@@ -230,24 +230,27 @@ fn presented<V: Visit>(
 }
 
 /// What an answer chose, and how sure that was.
-fn chosen<V: Visit>(answer: &mut Answer, is_answered: bool, to: &mut V) -> Result<(), V::Error> {
-    let (kind, value): (Kind, &mut dyn Value) = match answer {
-        Answer::Ranks(ranks) => {
+fn chosen<V: Visit>(
+    design: &Design,
+    (answer, is_answered): (&mut Answer, bool),
+    to: &mut V,
+) -> Result<(), V::Error> {
+    let words = design.composition.words();
+    let (kind, value): (Kind, &mut dyn Value) = match (&mut answer.value, &words) {
+        (AnswerValue::Ranks(ranks), _) => {
             let first = ranks.iter().position(|&rank| rank == 1);
             (Kind::Count, &mut derived_if(first.map(position)))
         }
-        Answer::Odd { position, .. } | Answer::Chosen { position, .. } => {
-            (Kind::Count, &mut Count(position))
-        }
-        Answer::Judged { is_real, .. } => (Kind::Level, &mut Called(is_real)),
-        Answer::Magnitude(value) => (Kind::Number, value),
-        Answer::Adjusted { .. } | Answer::Ratings(_) => (Kind::Text, &mut derived("")),
+        (AnswerValue::Chosen(at), Some(words)) => (Kind::Level, &mut Word(at, words)),
+        (AnswerValue::Chosen(at), None) => (Kind::Count, &mut Count(at)),
+        (AnswerValue::Number(value), _) => (Kind::Number, value),
+        _ => (Kind::Text, &mut derived("")),
     };
     let meaning = "what was chosen; empty where several numbers were given";
     let column = Column::of("response".to_owned(), kind, meaning.to_owned());
     to.column(column, &mut If(is_answered, value))?;
-    let confidence: &mut dyn Value = match answer {
-        Answer::Judged { confidence, .. } | Answer::Chosen { confidence, .. } => confidence,
+    let confidence: &mut dyn Value = match design.composition.response.confidence {
+        Confidence::Grades(_) => &mut answer.confidence,
         _ => &mut derived(""),
     };
     columns! { to;
@@ -257,90 +260,147 @@ fn chosen<V: Visit>(answer: &mut Answer, is_answered: bool, to: &mut V) -> Resul
     Ok(())
 }
 
-/// Columns of each method: what was presented, and answers of several numbers.
+/// What was presented, and answers of several numbers.
 fn asked<V: Visit>(
     design: &Design,
     task: &mut Task,
     (answer, is_answered): (&mut Answer, bool),
     to: &mut V,
 ) -> Result<(), V::Error> {
-    match (task, answer) {
-        (
-            Task::Rank {
-                target,
-                alternatives,
-            },
-            Answer::Ranks(ranks),
-        ) => {
-            ranked(target, alternatives, (ranks, is_answered), to)?;
-        }
-        (Task::OddOne { items, odd }, Answer::Odd { grade, .. }) => {
-            stimuli("item", "stimulus", items, to)?;
-            columns! { to;
-                position_odd: Count, "where the odd one was, from 1" => &mut Count(odd);
-                grade: Level, "easy, normal or hard" => &mut If(is_answered, grade);
+    shown(design, task, to)?;
+    let composition = &design.composition;
+    match &mut answer.value {
+        AnswerValue::Ranks(ranks) => {
+            let meaning = match composition.order.sets {
+                Sets::Targets => "rank of alternative",
+                _ => "rank of stimulus",
+            };
+            let end = match composition.order.sets {
+                Sets::Targets => "1 most alike; answered as an order of positions",
+                _ => "1 the first; answered as an order of positions",
+            };
+            for (rank, n) in ranks.iter_mut().zip(1..) {
+                let meaning = format!("{meaning} {n}, {end}");
+                let column = Column::of(format!("rank{n}"), Kind::Rank, meaning);
+                to.column(column, &mut If(is_answered, rank))?;
             }
         }
-        (Task::Adjust { item, starts }, Answer::Adjusted { values, steps }) => {
-            item_and_condition(item, design, to)?;
-            set(design, starts, (values, steps, is_answered), to)?;
-        }
-        (Task::JudgePair { items, real }, _) => {
-            stimuli("item", "stimulus", items, to)?;
+        AnswerValue::BestWorst([best, worst]) => {
             columns! { to;
-                position_real: Count, "where the real one was, from 1" => &mut Count(real);
+                best: Count, "position at the first end of what is asked, from 1" =>
+                    &mut If(is_answered, &mut Count(best));
+                worst: Count, "position at the other end, from 1" =>
+                    &mut If(is_answered, &mut Count(worst));
             }
         }
-        (Task::Judge { item, is_real }, _) => {
-            item_and_condition(item, design, to)?;
-            columns! { to; is_real: Flag, "1 for a real one, 0 for a generated one" => is_real; }
+        AnswerValue::Adjusted { values, steps } => {
+            set(design, &mut task.starts, (values, steps, is_answered), to)?;
         }
-        (
-            Task::Interval {
-                track,
-                level_db,
-                signal,
-            },
-            _,
-        ) => {
-            columns! { to;
-                track: Count, "which of the interleaved series, from 1" => &mut Count(track);
-                level_db: Number "dB re 1 µm", "level of the signal" => level_db;
-                interval_signal: Count, "which interval held it, from 1" => &mut Count(signal);
+        AnswerValue::Ratings(places) => {
+            rated(composition.scales(), (places, is_answered), to)?;
+        }
+        AnswerValue::Piles(piles) => {
+            for (pile, n) in piles.iter_mut().zip(1..) {
+                let column = Column::of(
+                    format!("pile{n}"),
+                    Kind::Count,
+                    format!("pile of stimulus {n}"),
+                );
+                to.column(column, &mut If(is_answered, &mut Count(pile)))?;
             }
         }
-        (Task::Rate { item }, Answer::Ratings(places)) => {
-            item_and_condition(item, design, to)?;
-            rated(design.method.scales(), (places, is_answered), to)?;
-        }
-        (Task::Estimate { item } | Task::Rate { item } | Task::Adjust { item, .. }, _) => {
-            item_and_condition(item, design, to)?;
-        }
-        (Task::Rank { .. } | Task::OddOne { .. }, _) => {}
+        AnswerValue::Chosen(_) | AnswerValue::Number(_) => {}
+    }
+    let words = composition.response.confidence.words();
+    if !words.is_empty() {
+        let column = Column::of("grade".to_owned(), Kind::Level, listed(&words));
+        let grade = &mut Grade(&mut answer.confidence, &words);
+        to.column(column, &mut If(is_answered, grade))?;
     }
     Ok(())
 }
 
-/// The target, its alternatives, and the rank of each.
-fn ranked<V: Visit>(
-    target: &mut usize,
-    alternatives: &mut [usize],
-    (ranks, is_answered): (&mut [u8], bool),
-    to: &mut V,
-) -> Result<(), V::Error> {
-    columns! { to; target: Stimulus, "the target" => &mut Stimulus(target); }
-    stimuli("alt", "alternative", alternatives, to)?;
-    let at = alternatives.iter().position(|item| item == target);
-    columns! { to;
-        position_correct: Count, "where the target was, from 1" =>
-            &mut derived_if(at.map(position));
+/// Words as a sentence has them: `easy, normal or hard`.
+fn listed(words: &[&str]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        words => words.concat(),
     }
-    for (rank, n) in ranks.iter_mut().zip(1..) {
-        let meaning = format!("rank of alternative {n}, 1 most alike");
-        let column = Column::of(format!("rank{n}"), Kind::Rank, meaning);
-        to.column(column, &mut If(is_answered, rank))?;
+}
+
+/// What was presented: the reference, the stimuli by position, what was adapted, what is right.
+fn shown<V: Visit>(design: &Design, task: &mut Task, to: &mut V) -> Result<(), V::Error> {
+    let composition = &design.composition;
+    let (sets, how) = (composition.order.sets, composition.presentation.shown);
+    let is_target = sets == Sets::Targets;
+    if let Some(reference) = &mut task.reference {
+        let (name, meaning) = if is_target {
+            ("target", "the target")
+        } else {
+            ("standard", "what it is compared with")
+        };
+        let column = Column::of(name.to_owned(), Kind::Stimulus, meaning.to_owned());
+        to.column(column, &mut Stimulus(reference))?;
     }
-    Ok(())
+    match task.items.as_mut_slice() {
+        [] => {}
+        [item] => item_and_condition(item, design, to)?,
+        [item, ..] if sets == Sets::Adapted => {
+            columns! { to; item: Stimulus, "the stimulus" => &mut Stimulus(item); }
+        }
+        items if is_target => stimuli("alt", "alternative", items, to)?,
+        items => stimuli("item", "stimulus", items, to)?,
+    }
+    if let (Some(adapted), Some(adaptation)) = (&mut task.adapted, &composition.adaptation) {
+        columns! { to;
+            track: Count, "which of the interleaved series, from 1" => &mut Count(&mut adapted.track);
+        }
+        let parameter = adaptation.parameter;
+        let column = Column {
+            unit: parameter.unit(),
+            ..Column::of(
+                parameter.column(),
+                Kind::Number,
+                parameter.meaning().to_owned(),
+            )
+        };
+        to.column(column, &mut adapted.value)?;
+    }
+    if composition.order.catch_trials > 0 {
+        columns! { to;
+            catch: Flag, "1 where all stimuli are the same, to catch who does not attend" =>
+                &mut task.is_catch;
+        }
+    }
+    let Some(right) = &mut task.right else {
+        return Ok(());
+    };
+    if let Some([yes, no]) = composition.words() {
+        let meaning = format!("1 for a {yes} one, 0 for a {no} one");
+        let column = Column::of(format!("is_{}", plain(yes)), Kind::Flag, meaning);
+        return to.column(column, &mut First(right));
+    }
+    let (name, meaning) = match (sets, how) {
+        (Sets::Targets, _) => ("position_correct", "where the target was, from 1"),
+        (Sets::Triads, _) => ("position_odd", "where the odd one was, from 1"),
+        (Sets::Opposed, _) => ("position_real", "where the real one was, from 1"),
+        (_, Shown::Intervals) => ("interval_signal", "which interval held it, from 1"),
+        _ => ("position_right", "where the right one was, from 1"),
+    };
+    let column = Column::of(name.to_owned(), Kind::Count, meaning.to_owned());
+    to.column(column, &mut Count(right))
+}
+
+/// A word as a part of a column's name.
+fn plain(word: &str) -> String {
+    let letter = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
+    word.chars().map(letter).collect()
 }
 
 /// Every parameter as it began and as it was left, and how it came there.
@@ -350,7 +410,7 @@ fn set<V: Visit>(
     (values, steps, is_answered): (&mut [f64], &mut Vec<Adjustment>, bool),
     to: &mut V,
 ) -> Result<(), V::Error> {
-    let parameters = design.method.parameters().iter();
+    let parameters = design.composition.parameters().iter();
     let keys: Vec<&str> = parameters.map(|turned| turned.what.name()).collect();
     for ((key, start), value) in keys.iter().zip(starts).zip(values) {
         let meaning = format!("{key} at the beginning");
@@ -462,7 +522,7 @@ pub(crate) fn describe_trial(design: &Design, trial: &Trial) -> String {
         ..blank(design)
     };
     let mut cells = Asked(design, Vec::new());
-    let (mut answer, trial) = (question(&design.method).1, &mut record.trial);
+    let (mut answer, trial) = (blank_answer(&design.composition), &mut record.trial);
     let Ok(()) = placed(trial, &mut 1, &mut cells);
     let Ok(()) = asked(design, &mut trial.task, (&mut answer, false), &mut cells);
     cells.1.join("; ")

@@ -18,9 +18,9 @@ pub(crate) use columns::{
 pub(crate) use mark::{Mark, MarkKind, read_marks};
 pub(crate) use read::{read_records, trials};
 
-use super::design::{Design, JudgingProtocol, Method, Subject};
+use super::design::{Composition, Design, Form, Sets, Subject};
 use super::presentation::Presentation;
-use super::trial::{Answer, Grade, Task, Trial};
+use super::trial::{Adapted, Answer, AnswerValue, Task, Trial};
 use columns::{Column, Visit, visit};
 use selvedge_foundation::quantity::rfc3339;
 use selvedge_textile::tactile::Tuning;
@@ -123,6 +123,11 @@ impl Record {
         to.1
     }
 
+    /// What was answered, if it was, without how sure that was.
+    pub fn value(&self) -> Option<&AnswerValue> {
+        self.answer().map(|answer| &answer.value)
+    }
+
     /// What was answered, if it was.
     pub fn answer(&self) -> Option<&Answer> {
         match &self.outcome {
@@ -146,16 +151,15 @@ impl Visit for Writer<'_> {
 
 /// A record of a design that says nothing yet.
 fn blank(design: &Design) -> Record {
-    let (task, answer) = question(&design.method);
     Record {
         trial: Trial {
             block: 0,
             number: 0,
             is_practice: false,
-            task,
+            task: blank_task(design),
         },
         attempt: 1,
-        outcome: Outcome::Answered(answer),
+        outcome: Outcome::Answered(blank_answer(&design.composition)),
         is_correct: None,
         timing: Timing::default(),
         apparatus: Apparatus::default(),
@@ -164,62 +168,36 @@ fn blank(design: &Design) -> Record {
     }
 }
 
-/// What a method asks, and an answer to it.
-fn question(method: &Method) -> (Task, Answer) {
-    let (item, items) = (0, [0; 2]);
-    let chosen = Answer::Chosen {
-        position: 0,
-        confidence: None,
-    };
-    let judged = Answer::Judged {
-        is_real: false,
-        confidence: None,
-    };
-    match method {
-        Method::Ranking(_) => {
-            let (target, alternatives) = (0, [0; 4]);
-            let task = Task::Rank {
-                target,
-                alternatives,
-            };
-            (task, Answer::Ranks([0; 4]))
-        }
-        Method::OddOneOut(_) => {
-            let (items, odd) = ([0; 3], 0);
-            let (position, grade) = (0, Grade::Normal);
-            (Task::OddOne { items, odd }, Answer::Odd { position, grade })
-        }
-        Method::Adjustment(adjusting) => {
-            let (starts, steps) = (vec![0.0; adjusting.parameters.len()], Vec::new());
-            let values = starts.clone();
-            (
-                Task::Adjust { item, starts },
-                Answer::Adjusted { values, steps },
-            )
-        }
-        Method::Judgement(judging) => match judging.protocol {
-            JudgingProtocol::Single => (
-                Task::Judge {
-                    item,
-                    is_real: false,
-                },
-                judged,
-            ),
-            JudgingProtocol::Pair => (Task::JudgePair { items, real: 0 }, chosen),
-        },
-        Method::Levels(_) => {
-            let (track, level_db, signal) = (0, 0.0, 0);
-            let task = Task::Interval {
-                track,
-                level_db,
-                signal,
-            };
-            (task, chosen)
-        }
-        Method::Magnitude { .. } => (Task::Estimate { item }, Answer::Magnitude(0.0)),
-        Method::Rating(rating) => {
-            let places = vec![0.0; rating.scales.len()];
-            (Task::Rate { item }, Answer::Ratings(places))
-        }
+/// A trial of a design that says nothing yet.
+fn blank_task(design: &Design) -> Task {
+    let composition = &design.composition;
+    let n = composition.presentation.n;
+    let is_target = composition.order.sets == Sets::Targets;
+    let has_items = !design.stimuli.is_empty();
+    Task {
+        items: vec![0; if has_items { n } else { 0 }],
+        reference: (is_target || composition.presentation.standard.is_some()).then_some(0),
+        right: composition.has_right().then_some(0),
+        adapted: composition.adaptation.as_ref().map(|_| Adapted::default()),
+        starts: vec![0.0; composition.parameters().len()],
+        is_catch: false,
     }
+}
+
+/// An answer that says nothing yet.
+fn blank_answer(composition: &Composition) -> Answer {
+    let n = composition.presentation.n;
+    let value = match &composition.response.form {
+        Form::Choice | Form::Words(_) | Form::SameDifferent => AnswerValue::Chosen(0),
+        Form::Rank => AnswerValue::Ranks(vec![0; n]),
+        Form::BestWorst(_) => AnswerValue::BestWorst([0; 2]),
+        Form::Scales(scales) => AnswerValue::Ratings(vec![0.0; scales.len()]),
+        Form::Number { .. } => AnswerValue::Number(0.0),
+        Form::Piles => AnswerValue::Piles(vec![0; n]),
+        Form::Adjustment(parameters) => AnswerValue::Adjusted {
+            values: vec![0.0; parameters.len()],
+            steps: Vec::new(),
+        },
+    };
+    value.into()
 }

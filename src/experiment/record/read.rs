@@ -84,7 +84,7 @@ impl Row<'_> {
         }
         visit(&mut record, design, ("", 0), &mut self)?;
         if let Some(answer) = record.answer() {
-            let verdict = record.trial.task.verdict(answer);
+            let verdict = design.composition.verdict(&record.trial.task, answer);
             record.is_correct =
                 verdict.map_err(|error| self.wrong(error.to_string(), "restore the row"))?;
         }
@@ -112,7 +112,6 @@ impl Visit for Row<'_> {
         };
         value.take(cell, self.design).map_err(|wrong| {
             let usual = || (format!("{cell:?}"), format!("give {}", column.expected()));
-            let wrong = wrong.map(|(what, mend)| (what, mend.to_owned()));
             let (what, mend) = wrong.unwrap_or_else(usual);
             self.wrong(format!("{name} is {what}"), mend)
         })

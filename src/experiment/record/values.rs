@@ -3,12 +3,12 @@
 use crate::design::Design;
 use crate::named::Named as _;
 use crate::presentation::Proof;
-use crate::trial::{Adjustment, Grade};
+use crate::trial::Adjustment;
 use selvedge_foundation::files::push_number;
 
 /// What is wrong with a cell after `COLUMN is`, and how to mend it; `None` where the type of the
 /// column says both.
-pub(super) type Wrong = Option<(String, &'static str)>;
+pub(super) type Wrong = Option<(String, String)>;
 
 /// What a record holds in a column.
 pub(super) trait Value {
@@ -144,7 +144,7 @@ impl Value for Option<Proof> {
         *self = known.map(|(_, proof)| proof);
         let mend = "give array, emulator, screen, real-cloth, elsewhere, simulated or nothing";
         if self.is_none() && !cell.is_empty() {
-            return Err(Some((format!("{cell:?}"), mend)));
+            return Err(Some((format!("{cell:?}"), mend.to_owned())));
         }
         Ok(())
     }
@@ -162,21 +162,34 @@ impl Value for Seconds<'_> {
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
         let texts = cell.split(';').filter(|_| !cell.is_empty());
         let values: Option<Vec<f64>> = texts.map(|text| text.trim().parse().ok()).collect();
-        *self.0 = values.ok_or_else(|| Some((format!("{cell:?}"), "give s; s; … or nothing")))?;
+        *self.0 = values
+            .ok_or_else(|| Some((format!("{cell:?}"), "give s; s; … or nothing".to_owned())))?;
         Ok(())
     }
 }
 
-impl Value for Grade {
+/// A grade from 1 by its word.
+pub(super) struct Grade<'a>(pub(super) &'a mut Option<u8>, pub(super) &'a [&'a str]);
+
+impl Value for Grade<'_> {
     fn cell(&self, _: &Design) -> String {
-        self.name().to_owned()
+        let word = self
+            .0
+            .and_then(|grade| self.1.get(usize::from(grade).checked_sub(1)?));
+        word.map_or_else(String::new, |word| (*word).to_owned())
     }
 
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
-        let found = Self::ALL.into_iter().find(|grade| grade.name() == cell);
-        *self = found.ok_or_else(|| Some((format!("{cell:?}"), "give easy, normal or hard")))?;
+        let at = named_one_of(cell, self.1)?;
+        *self.0 = u8::try_from(at + 1).ok();
         Ok(())
     }
+}
+
+/// Which of several words a cell has.
+fn named_one_of(cell: &str, words: &[&str]) -> Result<usize, Wrong> {
+    let found = words.iter().position(|word| *word == cell);
+    found.ok_or_else(|| Some((format!("{cell:?}"), format!("give {}", words.join(" or ")))))
 }
 
 /// A number from 0 that files count from 1.
@@ -190,7 +203,7 @@ impl Value for Count<'_> {
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
         let number: usize = cell.parse().ok().ok_or(None)?;
         let less = number.checked_sub(1);
-        *self.0 = less.ok_or_else(|| Some(("0".to_owned(), "count from 1")))?;
+        *self.0 = less.ok_or_else(|| Some(("0".to_owned(), "count from 1".to_owned())))?;
         Ok(())
     }
 }
@@ -211,26 +224,39 @@ impl Value for Stimulus<'_> {
             .position(|stimulus| stimulus.id == cell);
         *self.0 = found.ok_or_else(|| {
             let what = format!("{cell:?}, which is no stimulus of the design");
-            Some((what, "use the design that the log was made with"))
+            Some((what, "use the design that the log was made with".to_owned()))
         })?;
         Ok(())
     }
 }
 
-/// Whether it was called real.
-pub(super) struct Called<'a>(pub(super) &'a mut bool);
+/// The word that was chosen.
+pub(super) struct Word<'a>(pub(super) &'a mut usize, pub(super) &'a [&'a str; 2]);
 
-impl Value for Called<'_> {
+impl Value for Word<'_> {
     fn cell(&self, _: &Design) -> String {
-        (if *self.0 { "real" } else { "generated" }).to_owned()
+        let word = self.1.get(*self.0);
+        word.map_or_else(String::new, |word| (*word).to_owned())
     }
 
     fn take(&mut self, cell: &str, _: &Design) -> Result<(), Wrong> {
-        let known = ["generated", "real"]
-            .iter()
-            .position(|known| *known == cell);
-        let wrong = || Some((format!("{cell:?}"), "give real or generated"));
-        *self.0 = known.ok_or_else(wrong)? == 1;
+        *self.0 = named_one_of(cell, self.1)?;
+        Ok(())
+    }
+}
+
+/// Whether the first of two is right.
+pub(super) struct First<'a>(pub(super) &'a mut usize);
+
+impl Value for First<'_> {
+    fn cell(&self, _: &Design) -> String {
+        flag(*self.0 == 0)
+    }
+
+    fn take(&mut self, cell: &str, design: &Design) -> Result<(), Wrong> {
+        let mut is_first = false;
+        is_first.take(cell, design)?;
+        *self.0 = usize::from(!is_first);
         Ok(())
     }
 }
@@ -262,7 +288,8 @@ impl Value for Steps<'_> {
         };
         let texts = cell.split(';').filter(|_| !cell.is_empty());
         let steps: Option<Vec<Adjustment>> = texts.map(step).collect();
-        let wrong = || Some((format!("{cell:?}"), "give ms:key=value; … or nothing"));
+        let mend = "give ms:key=value; … or nothing".to_owned();
+        let wrong = || Some((format!("{cell:?}"), mend));
         *self.0 = steps.ok_or_else(wrong)?;
         Ok(())
     }

@@ -3,11 +3,11 @@
 use super::comparison::{DesignWithStimuli, Kind, Options, Replication, by_levels, guessing};
 use super::studies::{Studies, Subjects, percent_right, planned};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Section, Table, cells, percent_of, triad_answer};
-use crate::design::{Design, Method};
+use crate::analysis::{Cell, Section, Table, cells, grade_weights, percent_of, triad_answer};
+use crate::design::{self, Design};
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Mds, Null, NullKind, Ties};
-use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
+use selvedge_statistics::ranking::{Grade, OddOneOut, TriadAnswer};
 use selvedge_statistics::{Computed, Undefined};
 
 const PAPER: &str = "Allerkamp et al., odd one out";
@@ -25,8 +25,8 @@ const MOST_DIMENSIONS: usize = 4;
 
 /// How often each subject comes.
 pub(super) fn sessions_of(design: &Design) -> u32 {
-    match design.method {
-        Method::OddOneOut(_) => N_SESSIONS,
+    match design.composition.kind() {
+        design::Kind::OddOneOut => N_SESSIONS,
         _ => 1,
     }
 }
@@ -100,7 +100,11 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
         100.0 * n as f64 / right.len() as f64
     });
     let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
-    let tally = OddOneOut::of(names.len(), &answers, weights(&laid.design));
+    let tally = OddOneOut::of(
+        names.len(),
+        &answers,
+        grade_weights(&laid.design.composition),
+    );
     let ends = tally.as_ref().map_or([f64::NAN; 2], |tally| {
         [tally.n_ceiling as f64, tally.n_floor as f64]
     });
@@ -109,13 +113,6 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
         grades,
         ends,
         data: tally.and_then(|tally| Dissimilarities::new(names, &tally.distances())),
-    }
-}
-
-fn weights(design: &Design) -> GradeWeights {
-    match &design.method {
-        Method::OddOneOut(choosing) => choosing.weights.into(),
-        _ => [1.0; 3].into(),
     }
 }
 

@@ -3,13 +3,17 @@
 //! Each purpose (relabelling, blocks, order, positions) draws from a branch of its own, so that a
 //! change in one shifts none of the others.
 
+mod balanced;
 mod blocks;
 mod plane;
 mod ranking;
+mod square;
 mod triads;
 
+pub(crate) use balanced::balanced_sets;
 pub use ranking::ScheduleError;
 pub(crate) use ranking::{RankingSchedule, is_ranked};
+pub(crate) use square::square_rounds;
 pub(crate) use triads::{Triad, triads};
 
 use selvedge_foundation::numerics::Random;

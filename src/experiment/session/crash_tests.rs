@@ -2,7 +2,6 @@
 
 use super::tests::{Folder, circumstances, files_text, go_on, subject};
 use super::*;
-use crate::Grade;
 use crate::Trial;
 use selvedge_foundation::numerics::Random;
 use selvedge_render::scene::PathRow;
@@ -218,10 +217,7 @@ fn the_path_of_a_trial_is_a_path_and_is_there_before_its_row() {
         panic!("a trial waits");
     };
     let file = path_file(session.log(), trial, 1);
-    let answer = Answer::Odd {
-        position: 0,
-        grade: Grade::Hard,
-    };
+    let answer = Answer::chosen(0, Some(3));
     session.answer(&answer, &about).unwrap();
     assert_eq!(ExplorationPath::read(&file).unwrap(), explored);
     // A path that cannot be written keeps its row out of the log.

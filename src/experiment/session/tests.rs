@@ -5,8 +5,8 @@ use std::time::UNIX_EPOCH;
 
 use super::*;
 use crate::Trial;
-use crate::design::Method;
-use crate::{Grade, Proof, Task};
+use crate::design::Form;
+use crate::{AnswerValue, Proof, Task};
 use selvedge_foundation::numerics::Random;
 pub(crate) use selvedge_scratch::ScratchFolder as Folder;
 
@@ -20,44 +20,31 @@ pub(super) fn subject() -> Subject {
 
 /// Some answer to a task.
 pub(crate) fn any_answer(design: &Design, task: &Task, random: &mut Random) -> Answer {
-    match task {
-        Task::Rank { .. } => {
-            let mut ranks = [1, 2, 3, 4];
-            random.shuffle(&mut ranks);
-            Answer::Ranks(ranks)
+    let composition = &design.composition;
+    match &composition.response.form {
+        Form::Rank => {
+            let mut order = [0, 1, 2, 3];
+            random.shuffle(&mut order);
+            Answer::in_order(&order)
         }
-        Task::OddOne { .. } => Answer::Odd {
-            position: random.index(3),
-            grade: Grade::ALL[random.index(3)],
-        },
-        Task::Adjust { starts, .. } => Answer::Adjusted {
-            values: starts.iter().map(|start| start / 3.0).collect(),
-            steps: vec![crate::Adjustment {
+        Form::Adjustment(_) => {
+            let values = task.starts.iter().map(|start| start / 3.0).collect();
+            let steps = vec![crate::Adjustment {
                 at_ms: 0.1,
                 parameter: 0,
-                value: starts[0] / 3.0,
-            }],
-        },
-        Task::Judge { .. } => Answer::Judged {
-            is_real: random.index(2) == 0,
-            confidence: Some(2),
-        },
-        Task::JudgePair { .. } | Task::Interval { .. } => Answer::Chosen {
-            position: random.index(2),
-            confidence: None,
-        },
-        Task::Estimate { .. } => Answer::Magnitude(0.1 + random.uniform()),
-        Task::Rate { .. } => {
-            let Method::Rating(rating) = &design.method else {
-                return Answer::Ratings(Vec::new());
-            };
-            Answer::Ratings(
-                rating
-                    .scales
-                    .iter()
-                    .map(|_| 100.0 * random.uniform())
-                    .collect(),
-            )
+                value: task.starts[0] / 3.0,
+            }];
+            AnswerValue::Adjusted { values, steps }.into()
+        }
+        Form::Number { .. } => AnswerValue::Number(0.1 + random.uniform()).into(),
+        Form::Scales(scales) => {
+            let anywhere = scales.iter().map(|_| 100.0 * random.uniform());
+            AnswerValue::Ratings(anywhere.collect()).into()
+        }
+        _ => {
+            let n_grades = composition.response.confidence.n_grades();
+            let confidence = Some(n_grades.min(2)).filter(|grade| *grade > 0);
+            Answer::chosen(random.index(composition.n_choices()), confidence)
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod choice;
 mod forced_choice;
+mod matching;
 mod roc;
 mod triangle;
 mod yes_no;
@@ -15,6 +16,7 @@ pub use choice::{Choice, Correction};
 pub use forced_choice::forced_choice;
 #[cfg(test)]
 pub(crate) use forced_choice::share_of_d_prime;
+pub use matching::{abx, same_different};
 pub use roc::{Roc, roc};
 pub use triangle::triangle;
 pub use yes_no::{Answers, YesNo, yes_no};

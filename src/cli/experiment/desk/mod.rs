@@ -202,7 +202,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
             let Some(start) = self.begun(trial)? else {
                 return Ok(());
             };
-            let ask = form(self.session.design(), &trial.task);
+            let ask = form(self.session.design());
             self.say(&ask)?;
             loop {
                 match self.line()? {

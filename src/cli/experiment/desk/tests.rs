@@ -81,10 +81,7 @@ fn a_session_goes_from_instructions_to_its_end() {
     assert!(said.contains("  position 1      "), "{said}");
     let records = records(&session);
     assert_eq!(records.len(), 4);
-    let answer = Answer::Odd {
-        position: 1,
-        grade: Grade::Easy,
-    };
+    let answer = Answer::chosen(1, Some(1));
     assert!(records.iter().all(|row| row.answer() == Some(&answer)));
     assert!(records.iter().all(|row| row.timing.response_ms() == 1000.0));
 }

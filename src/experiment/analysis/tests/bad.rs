@@ -149,11 +149,8 @@ fn random_data_are_on_unless_refused_and_found_once_a_size() {
     assert!(Options::default().n_random_data >= 40);
     let design = Design::shipped("odd-one-out").unwrap();
     let by_place = |task: &Task, _: usize| {
-        let Task::OddOne { items, odd } = task else {
-            panic!("no triad");
-        };
-        let apart = items[*odd].abs_diff(items[(*odd + 1) % 3]);
-        super::odd(task, apart > 1, Grade::ALL[apart % 3])
+        let apart = apart(task);
+        odd(task, apart > 1, Grade::ALL[apart % 3])
     };
     let found: Vec<Found> = (0..2)
         .map(|nth| held(&design, (nth, 1), by_place))

@@ -1,7 +1,5 @@
 //! Triads and judgements whose counts are known.
 
-use std::path::Path;
-
 use super::*;
 use selvedge_foundation::numerics::Random;
 
@@ -35,12 +33,7 @@ fn triads_that_are_always_easy_are_all_at_the_ceiling_and_give_no_map() {
 fn errors_and_weights_of_triads_are_those_by_hand() {
     let design = Design::shipped("odd-one-out").unwrap();
     // Whatever holds the first fabric is missed; the others are normal.
-    let answer = |task: &Task, _: usize| {
-        let Task::OddOne { items, .. } = task else {
-            panic!("no triad");
-        };
-        odd(task, !items.contains(&0), Grade::Normal)
-    };
+    let answer = |task: &Task, _: usize| odd(task, !task.items.contains(&0), Grade::Normal);
     let found: Vec<Found> = (0..4).map(|nth| held(&design, (nth, 1), answer)).collect();
     let analysis = analysed(&found);
     let subjects = table(&analysis, "odd-one-out-accuracy", "subjects");
@@ -73,11 +66,9 @@ fn sensitivity_of_judgements_is_that_of_their_counts() {
     let found: Vec<Found> = (0..3)
         .map(|nth| {
             held(&design, (nth, 1), |task, number| {
-                let Task::Judge { is_real, .. } = task else {
-                    panic!("no judgement");
-                };
+                let is_real = task.right == Some(0);
                 let confidence = if number % 2 == 0 { 1 } else { 3 };
-                judged(task, *is_real && number < 16, confidence)
+                judged(task, is_real && number < 16, confidence)
             })
         })
         .collect();
@@ -110,11 +101,7 @@ fn sensitivity_of_judgements_is_that_of_their_counts() {
 
 #[test]
 fn complementary_percentages_of_pairs_leave_no_effect_of_material() {
-    let text = Design::shipped_text("real-or-generated").unwrap();
-    let text = text
-        .replace("\"single\"", "\"pair\"")
-        .replace("least_trials = 32", "least_trials = 1");
-    let design = Design::from_toml(&text, Path::new("pair.toml")).unwrap();
+    let design = pair_design();
     let mut random = Random::new(3);
     let found: Vec<Found> = (0..5)
         .map(|nth| {
@@ -149,9 +136,7 @@ fn missing_cells_of_an_analysis_of_variance_are_refused_with_their_list() {
         .stimuli
         .iter()
         .position(|s| s.id == "jute-plain-measured");
-    found[1]
-        .records
-        .retain(|r| !matches!(r.trial.task, Task::Judge { item, .. } if Some(item) == jute));
+    found[1].records.retain(|r| r.trial.task.item() != jute);
     let analysis = analysed(&found);
     let anova = table(&analysis, "single-judgements-called-real", "anova");
     let why = anova.cell(0, "remarks");

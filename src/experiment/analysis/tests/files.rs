@@ -108,15 +108,12 @@ fn subjects_who_always_answer_the_same_give_reasons_and_never_nan() {
     ] {
         let mut design = Design::shipped(name).unwrap();
         design.library = None;
-        let same = |task: &Task, _: usize| match task {
-            Task::Rank { .. } => Answer::Ranks([1, 2, 3, 4]),
-            Task::OddOne { .. } => Answer::Odd {
-                position: 0,
-                grade: Grade::Hard,
-            },
-            Task::Estimate { .. } => Answer::Magnitude(1.0),
-            Task::Rate { .. } => Answer::Ratings(vec![50.0; 4]),
-            other => judged(other, true, 1),
+        let same = |task: &Task, _: usize| match name {
+            "ranking-virtual-target" => Answer::in_order(&[0, 1, 2, 3]),
+            "odd-one-out" => Answer::chosen(0, Some(3)),
+            "magnitude" => AnswerValue::Number(1.0).into(),
+            "rating" => AnswerValue::Ratings(vec![50.0; 4]).into(),
+            _ => judged(task, true, 1),
         };
         let found: Vec<Found> = (0..2).map(|nth| held(&design, (nth, 1), same)).collect();
         check_files(&found, &format!("same-{name}"));

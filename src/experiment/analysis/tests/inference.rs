@@ -256,18 +256,14 @@ fn sensitivity_of_a_hundred_observers_is_found_and_held() {
     };
     let found = held_with(&stimuli, &design, &observer, N..N + 1000);
     for record in found.iter().flat_map(|found| &found.records) {
-        let (Task::Judge { .. }, Some(Answer::Judged { is_real, .. })) =
-            (&record.trial.task, record.answer())
-        else {
-            continue;
-        };
+        let is_real = record.value() == Some(&AnswerValue::Chosen(0));
         // Said to be real and right, or wrong and real.
-        if record.is_correct == Some(*is_real) {
+        if record.is_correct == Some(is_real) {
             answers.n_signal += 1;
-            answers.hits += u64::from(*is_real);
+            answers.hits += u64::from(is_real);
         } else {
             answers.n_noise += 1;
-            answers.false_alarms += u64::from(*is_real);
+            answers.false_alarms += u64::from(is_real);
         }
     }
     let d_prime = yes_no(answers, Correction::LogLinear).unwrap().d_prime;

@@ -2,6 +2,7 @@
 
 mod bad;
 mod choices;
+mod composed;
 mod files;
 mod inference;
 mod pairs;
@@ -9,13 +10,13 @@ mod ranking;
 mod settings;
 mod speeds;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::design::{Design, Subject};
 use crate::{
-    Answer, Apparatus, Course, Grade, Outcome, Presentation, Proof, Record, Step, Task, Timing,
-    Trial,
+    Answer, AnswerValue, Apparatus, Course, Grade, Outcome, Presentation, Proof, Record, Step,
+    Task, Timing, Trial,
 };
 use selvedge_foundation::progress::unheard;
 
@@ -36,8 +37,7 @@ fn analysed(found: &[Found]) -> Analysis {
     unheard(|progress| analyse(found, &few(), progress)).unwrap()
 }
 
-fn record(trial: Trial, answer: Answer, response_s: u64) -> Record {
-    let is_correct = trial.task.verdict(&answer).unwrap();
+fn record(trial: Trial, answer: Answer, is_correct: Option<bool>) -> Record {
     let start_ns = trial.number as u64 * 100_000_000_000;
     Record {
         trial,
@@ -48,7 +48,7 @@ fn record(trial: Trial, answer: Answer, response_s: u64) -> Record {
             start_utc: "2026-01-01T00:00:00Z".to_owned(),
             response_utc: "2026-01-01T00:00:05Z".to_owned(),
             start_ns,
-            response_ns: start_ns + response_s * 1_000_000_000,
+            response_ns: start_ns + 5_000_000_000,
         },
         apparatus: Apparatus::default(),
         presentation: Presentation::confirmed(Proof::Array),
@@ -75,8 +75,8 @@ fn held(
             Step::Trial(trial) => {
                 let trial = trial.clone();
                 let said = answer(&trial.task, trial.number);
-                course.answer(&said).unwrap();
-                records.push(record(trial, said, 5));
+                let is_correct = course.answer(&said).unwrap();
+                records.push(record(trial, said, is_correct));
             }
             _ => course.pass(),
         }
@@ -105,23 +105,39 @@ fn value(table: &Table, row: usize, column: &str) -> f64 {
 }
 
 fn odd(task: &Task, is_right: bool, grade: Grade) -> Answer {
-    let Task::OddOne { odd, .. } = task else {
-        panic!("no triad");
-    };
-    let position = if is_right { *odd } else { (odd + 1) % 3 };
-    Answer::Odd { position, grade }
+    let odd = task.right.unwrap();
+    let position = if is_right { odd } else { (odd + 1) % 3 };
+    let grade = Grade::ALL.iter().zip(1..).find(|(one, _)| **one == grade);
+    Answer::chosen(position, grade.map(|(_, n)| n))
 }
 
+/// The shipped design of judgements with two side by side.
+fn pair_design() -> Design {
+    let text = Design::shipped_text("real-or-generated").unwrap();
+    let text = text
+        .replace("\"single\"", "\"pair\"")
+        .replace(
+            "\"yes-no\"\nwords = [\"real\", \"generated\"]",
+            "\"choice\"",
+        )
+        .replace("[order]", "[order]\nsets = \"opposed\"")
+        .replace("least_trials = 32", "least_trials = 1");
+    Design::from_toml(&text, Path::new("pair.toml")).unwrap()
+}
+
+/// How far the odd one stands from the others in the design.
+fn apart(task: &Task) -> usize {
+    let odd = task.right.unwrap();
+    task.items[odd].abs_diff(task.items[(odd + 1) % 3])
+}
+
+/// Of one alone: called real or not, so sure; of two: right or not.
 fn judged(task: &Task, said: bool, confidence: u8) -> Answer {
-    match task {
-        Task::Judge { .. } => Answer::Judged {
-            is_real: said,
-            confidence: Some(confidence),
-        },
-        Task::JudgePair { real, .. } => Answer::Chosen {
-            position: if said { *real } else { 1 - real },
-            confidence: None,
-        },
-        _ => panic!("no judgement"),
+    match task.items.len() {
+        1 => Answer::chosen(usize::from(!said), Some(confidence)),
+        _ => {
+            let right = task.right.unwrap();
+            Answer::chosen(if said { right } else { 1 - right }, None)
+        }
     }
 }

@@ -1,19 +1,9 @@
 //! Comparisons of two, odd ones out as distances, and maps by other distances.
 
-use std::path::Path;
-
 use super::*;
 use crate::Task;
 use selvedge_statistics::detection::{Correction, triangle};
 use selvedge_statistics::normal_quantile;
-
-fn pair_design() -> Design {
-    let text = Design::shipped_text("real-or-generated").unwrap();
-    let text = text
-        .replace("\"single\"", "\"pair\"")
-        .replace("least_trials = 32", "least_trials = 1");
-    Design::from_toml(&text, Path::new("pair.toml")).unwrap()
-}
 
 #[test]
 fn conditions_compared_in_pairs_stand_as_far_apart_as_the_share_of_choices_says() {
@@ -68,13 +58,9 @@ fn materials_that_no_pair_joins_are_named_and_have_no_scale() {
 
 /// Alternatives ranked by their number, whatever the target is.
 fn by_number(task: &Task) -> Answer {
-    let Task::Rank { alternatives, .. } = task else {
-        panic!("no ranking");
-    };
-    let rank = |item: &usize| alternatives.iter().filter(|a| *a <= item).count();
-    Answer::Ranks(std::array::from_fn(|at| {
-        u8::try_from(rank(&alternatives[at])).unwrap()
-    }))
+    let mut order: Vec<usize> = (0..4).collect();
+    order.sort_by_key(|at| task.items[*at]);
+    Answer::in_order(&order)
 }
 
 #[test]
@@ -128,19 +114,12 @@ fn bradley_and_terry_of_pairs_stands_beside_plackett_and_luce_with_errors_over_s
     let found: Vec<Found> = (0..4)
         .map(|nth| {
             held(&design, (nth, 1), |task, _| {
-                let Task::Rank {
-                    target,
-                    alternatives,
-                } = task
-                else {
-                    panic!("no ranking");
-                };
-                let far: Vec<f64> = alternatives
-                    .iter()
-                    .map(|a| a.abs_diff(*target) as f64 + 4.0 * random.normal())
-                    .collect();
-                let rank = |at: usize| far.iter().filter(|f| **f <= far[at]).count();
-                Answer::Ranks(std::array::from_fn(|at| u8::try_from(rank(at)).unwrap()))
+                let target = task.reference.unwrap();
+                let far = |item: &usize| item.abs_diff(target) as f64 + 4.0 * random.normal();
+                let far: Vec<f64> = task.items.iter().map(far).collect();
+                let mut order: Vec<usize> = (0..4).collect();
+                order.sort_by(|a, b| far[*a].total_cmp(&far[*b]));
+                Answer::in_order(&order)
             })
         })
         .collect();
@@ -170,10 +149,8 @@ fn distances_after_craven_are_those_of_the_shares_of_pairs() {
     let found: Vec<Found> = (0..4)
         .map(|nth| {
             held(&design, (nth, 1), |task, _| {
-                let Task::OddOne { items, .. } = task else {
-                    panic!("no triad");
-                };
-                let is_pair = |a: usize, b: usize| items.contains(&a) && items.contains(&b);
+                let is_pair =
+                    |a: usize, b: usize| task.items.contains(&a) && task.items.contains(&b);
                 let is_right = !is_pair(0, 2) && (!is_pair(0, 1) || nth > 0);
                 odd(task, is_right, Grade::Easy)
             })
@@ -209,12 +186,9 @@ fn weights_that_change_no_order_leave_nothing_over_and_others_something() {
     let design = Design::shipped("odd-one-out").unwrap();
     let by_place = |easy_from: usize| {
         move |task: &Task, _: usize| {
-            let Task::OddOne { items, odd } = task else {
-                panic!("no triad");
-            };
-            let apart = items[*odd].abs_diff(items[(*odd + 1) % 3]);
+            let apart = apart(task);
             let grade = Grade::ALL[2 - (apart / easy_from).min(2)];
-            super::odd(task, apart > 1, grade)
+            odd(task, apart > 1, grade)
         }
     };
     let found: Vec<Found> = (0..5)

@@ -9,22 +9,11 @@ use super::*;
 /// design.
 fn ranked(n_first: usize) -> impl FnMut(&Task, usize) -> Answer {
     move |task, number| {
-        let Task::Rank {
-            target,
-            alternatives,
-        } = task
-        else {
-            panic!("no ranking");
-        };
-        let mut order: Vec<usize> = (0..4).filter(|at| alternatives[*at] != *target).collect();
-        order.sort_by_key(|at| alternatives[*at].abs_diff(*target));
-        let own = alternatives.iter().position(|a| a == target).unwrap();
+        let (target, own) = (task.reference.unwrap(), task.right.unwrap());
+        let mut order: Vec<usize> = (0..4).filter(|at| *at != own).collect();
+        order.sort_by_key(|at| task.items[*at].abs_diff(target));
         order.insert(usize::from(number >= n_first), own);
-        let mut ranks = [0; 4];
-        for (place, rank) in order.iter().zip(1..) {
-            ranks[*place] = rank;
-        }
-        Answer::Ranks(ranks)
+        Answer::in_order(&order)
     }
 }
 

@@ -3,34 +3,31 @@
 use std::path::PathBuf;
 
 use super::*;
-use crate::design::{Levels, Source, Track};
+use crate::Adapted;
+use crate::design::{Adaptation, Source, Track};
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_statistics::adaptive::{Procedure as _, Staircase};
 
 /// Trials of a staircase whose observer is right from 5 dB on and wrong below.
 fn staircase_session(design: &Design, nth: usize) -> Found {
-    let Method::Levels(levels) = &design.method else {
-        panic!("no levels");
-    };
+    let levels = design.composition.adaptation.as_ref().unwrap();
     let Track::Staircase(track) = &levels.track else {
         panic!("no staircase");
     };
     let mut records = Vec::new();
-    for series in 0..track.starts_db.len() {
+    for series in 0..track.starts.len() {
         let mut staircase = levels_of(levels, series);
         for _ in 0..40 {
-            let level_db = staircase.stimulus().unwrap();
-            let is_right = level_db >= 5.0 - nth as f64;
-            staircase.answer(level_db, is_right).unwrap();
-            let task = Task::Interval {
-                track: series,
-                level_db,
-                signal: 0,
+            let value = staircase.stimulus().unwrap();
+            let is_right = value >= 5.0 - nth as f64;
+            staircase.answer(value, is_right).unwrap();
+            let track = series;
+            let task = Task {
+                right: Some(0),
+                adapted: Some(Adapted { track, value }),
+                ..Task::default()
             };
-            let answer = Answer::Chosen {
-                position: usize::from(!is_right),
-                confidence: None,
-            };
+            let answer = Answer::chosen(usize::from(!is_right), None);
             let number = records.len();
             let trial = Trial {
                 block: 0,
@@ -38,7 +35,7 @@ fn staircase_session(design: &Design, nth: usize) -> Found {
                 is_practice: false,
                 task,
             };
-            records.push(record(trial, answer, 5));
+            records.push(record(trial, answer, Some(is_right)));
         }
     }
     let subject = Subject {
@@ -50,7 +47,7 @@ fn staircase_session(design: &Design, nth: usize) -> Found {
     Found::of_records(log, (design, subject), records)
 }
 
-fn levels_of(levels: &Levels, series: usize) -> Staircase {
+fn levels_of(levels: &Adaptation, series: usize) -> Staircase {
     let Track::Staircase(track) = &levels.track else {
         panic!("no staircase");
     };
@@ -73,14 +70,11 @@ fn matched_gains_on_a_line_are_a_compression() {
     let found: Vec<Found> = (0..4)
         .map(|nth| {
             held(&design, (nth, 1), |task, _| {
-                let Task::Adjust { item, .. } = task else {
-                    panic!("no adjustment");
-                };
+                let item = task.item().unwrap();
                 let off = if nth % 2 == 0 { 1.0 } else { -1.0 };
-                Answer::Adjusted {
-                    values: vec![3.0 + off - 0.4 * levels[*item]],
-                    steps: Vec::new(),
-                }
+                let values = vec![3.0 + off - 0.4 * levels[item]];
+                let steps = Vec::new();
+                AnswerValue::Adjusted { values, steps }.into()
             })
         })
         .collect();
@@ -111,13 +105,12 @@ fn numbers_that_follow_a_power_law_give_its_exponent() {
     let found: Vec<Found> = (0..3)
         .map(|nth| {
             held(&design, (nth, 1), |task, _| {
-                let Task::Estimate { item } = task else {
-                    panic!("no estimate");
-                };
-                let Source::Vibration { level_db, .. } = design.stimuli[*item].source else {
+                let item = task.item().unwrap();
+                let Source::Vibration { level_db, .. } = design.stimuli[item].source else {
                     panic!("no vibration");
                 };
-                Answer::Magnitude((nth as f64 + 1.0) * factor_of_gain(level_db).powf(0.6))
+                let value = (nth as f64 + 1.0) * factor_of_gain(level_db).powf(0.6);
+                AnswerValue::Number(value).into()
             })
         })
         .collect();

@@ -16,12 +16,9 @@ const FAST_MM_PER_S: f64 = 194.871_71;
 
 /// Easier the further apart two fabrics stand in the design.
 fn by_place(task: &Task) -> Answer {
-    let Task::OddOne { items, odd } = task else {
-        panic!("no triad");
-    };
-    let apart = items[*odd].abs_diff(items[(*odd + 1) % 3]);
+    let apart = apart(task);
     let grade = Grade::ALL[2 - apart.min(4) / 2];
-    super::odd(task, apart > 0, grade)
+    odd(task, apart > 0, grade)
 }
 
 /// Moves through the trials of a session: for so many seconds at such a speed each, then rests.

@@ -13,7 +13,7 @@ use selvedge_engine::{RecordedSample, VibrationStep};
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
-use selvedge_experiment::{Answer, Apparatus, Outcome, Presentation, Task as Asked, Timing, Trial};
+use selvedge_experiment::{Answer, Apparatus, Outcome, Presentation, Timing, Trial};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_textile::tactile::Tuning;
@@ -238,11 +238,15 @@ impl ActiveSession {
     pub(crate) fn tuning(&self) -> Tuning {
         let tuning = self.materials.tuning();
         match &self.draft {
-            Draft::Adjust { values, .. } => {
-                layout::tuned(tuning, self.design.method.parameters(), values)
-            }
-            _ => tuning,
+            Draft::Adjust { values, .. } => self.tuned(tuning, values),
+            _ => self.tuned(tuning, &[]),
         }
+    }
+
+    fn tuned(&self, tuning: Tuning, values: &[f64]) -> Tuning {
+        self.trial().map_or(tuning, |trial| {
+            layout::tuned(&self.design, &trial.task, tuning, values)
+        })
     }
 
     /// Which attempt at the trial that waits this is, from 1.
@@ -286,9 +290,9 @@ impl ActiveSession {
 
     /// Whether a vibration may be played again: where its strength is asked, once it is over.
     pub(crate) fn may_play_again(&self) -> bool {
-        let is_interval = |trial: &Trial| matches!(trial.task, Asked::Interval { .. });
         let has_any = !self.vibrations().is_empty();
-        has_any && self.vibration.is_none() && !self.trial().is_some_and(is_interval)
+        let is_adapted = self.design.composition.adaptation.is_some();
+        has_any && self.vibration.is_none() && !is_adapted
     }
 
     /// Ends the trial that waits: its row is on its way. Whether anything was ended.

@@ -1,24 +1,22 @@
 //! What has been answered so far of a trial, before it is handed in.
 
-use selvedge_experiment::design::{Design, Scale, TunedParameter};
-use selvedge_experiment::{Adjustment, Answer, Grade, N_RANKED, N_TRIAD, Task, Trial};
+use selvedge_experiment::design::{Composition, Design, Form, Scale, Sets, TunedParameter};
+use selvedge_experiment::{Adjustment, Answer, AnswerValue, Trial};
 use selvedge_foundation::quantity;
 
 /// A part of an answer.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Mark {
-    /// This position is the next in rank, or is chosen.
+    /// This position is the next in order, or is chosen; of two words, this one.
     Place(usize),
-    /// This position has this rank, from 0.
+    /// This position has this place in the order, from 0.
     Rank(usize, usize),
     /// What was placed last is taken back.
     TakeBack,
-    /// How hard it was.
-    Grade(Grade),
-    /// Real or not.
-    Real(bool),
     /// How sure, from 1.
     Confidence(u8),
+    /// This position goes to the next pile.
+    NextPile(usize),
     /// Turn this parameter by so many of its steps.
     Turn(usize, i32),
     /// Turn this parameter to this value.
@@ -48,15 +46,8 @@ pub(crate) enum Draft {
     /// Nothing is asked.
     #[default]
     Nothing,
-    /// The positions by rank.
-    Ranks([Option<usize>; N_RANKED]),
-    /// The odd one.
-    Odd {
-        /// Its position.
-        position: Option<usize>,
-        /// How hard it was.
-        grade: Option<Grade>,
-    },
+    /// Positions in order.
+    Order(Order),
     /// Parameters as they are now.
     Adjust {
         /// What they are, in the design's order.
@@ -66,22 +57,19 @@ pub(crate) enum Draft {
         /// What may be turned.
         parameters: Vec<TunedParameter>,
     },
-    /// Real or generated.
-    Judge {
-        /// What was said.
-        is_real: Option<bool>,
-        /// How sure.
-        sure: Sure,
-    },
-    /// One of several.
+    /// One of several positions or words.
     Choose {
         /// How many there are.
         n: usize,
+        /// What they are called; numbers where they have no words.
+        words: Vec<String>,
         /// Which.
         position: Option<usize>,
         /// How sure.
         sure: Sure,
     },
+    /// The pile of each position, from 0.
+    Piles(Vec<Option<usize>>),
     /// A number.
     Magnitude(String),
     /// A place on each scale.
@@ -93,24 +81,101 @@ pub(crate) enum Draft {
     },
 }
 
+/// Positions in order: all of them, or the ones at both ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Order {
+    /// How many positions there are.
+    pub n: usize,
+    /// The positions that were put in order so far.
+    pub slots: Vec<Option<usize>>,
+    /// What the first and the last are.
+    pub ends: [String; 2],
+    /// Whether the slots are the two ends alone.
+    pub has_ends_alone: bool,
+}
+
+impl Order {
+    /// Nothing in order yet.
+    pub(crate) fn of(composition: &Composition) -> Self {
+        let n = composition.presentation.n;
+        let (n_slots, ends) = match &composition.response.form {
+            Form::BestWorst(words) => (2, words.clone()),
+            _ if composition.order.sets == Sets::Targets => {
+                (n, ["most alike", "least alike"].map(str::to_owned))
+            }
+            _ => (n, ["first", "last"].map(str::to_owned)),
+        };
+        Self {
+            n,
+            slots: vec![None; n_slots],
+            ends,
+            has_ends_alone: matches!(composition.response.form, Form::BestWorst(_)),
+        }
+    }
+
+    fn take(&mut self, mark: &Mark) {
+        match *mark {
+            Mark::Place(position) if position < self.n => {
+                if self.slots.contains(&Some(position)) {
+                    return;
+                }
+                if let Some(free) = self.slots.iter_mut().find(|slot| slot.is_none()) {
+                    *free = Some(position);
+                }
+            }
+            Mark::Rank(position, rank) if position < self.n && rank < self.slots.len() => {
+                let from = self.slots.iter().position(|slot| *slot == Some(position));
+                // Who stood there takes the place that becomes free, if one does.
+                let displaced = self.slots[rank].replace(position);
+                if let Some(from) = from
+                    && from != rank
+                {
+                    self.slots[from] = displaced;
+                }
+            }
+            Mark::TakeBack => {
+                if let Some(last) = self.slots.iter_mut().rev().find(|slot| slot.is_some()) {
+                    *last = None;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn answer(&self) -> Result<Answer, &'static str> {
+        let all: Option<Vec<usize>> = self.slots.iter().copied().collect();
+        match (all.as_deref(), self.has_ends_alone) {
+            (Some(&[best, worst]), true) => Ok(AnswerValue::BestWorst([best, worst]).into()),
+            (Some(all), false) => Ok(Answer::in_order(all)),
+            (_, true) => Err("Choose both first"),
+            (None, false) => Err("Put all in order first"),
+        }
+    }
+}
+
 /// How sure somebody is, where that is asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Sure {
     /// Grades that are offered; 0 asks for none.
     pub n_grades: u8,
+    /// What they are called; numbers where they have no words.
+    pub words: Vec<String>,
     /// What was said, from 1.
     pub grade: Option<u8>,
 }
 
 impl Sure {
-    fn of(n_grades: u8) -> Self {
+    fn of(composition: &Composition) -> Self {
+        let confidence = &composition.response.confidence;
+        let words = confidence.words().into_iter();
         Self {
-            n_grades,
+            n_grades: confidence.n_grades(),
+            words: words.map(str::to_owned).collect(),
             grade: None,
         }
     }
 
-    fn is_said(self) -> bool {
+    fn is_said(&self) -> bool {
         self.n_grades == 0 || self.grade.is_some()
     }
 
@@ -119,38 +184,43 @@ impl Sure {
             self.grade = Some(grade);
         }
     }
+
+    fn missing(&self) -> &'static str {
+        if self.words.is_empty() {
+            "Say how sure you are"
+        } else {
+            "Say how hard that was"
+        }
+    }
 }
 
 impl Draft {
     /// An answer to a trial in which nothing was said yet.
     pub(crate) fn of(design: &Design, trial: &Trial) -> Self {
-        let method = &design.method;
-        let grades = method.confidence_grades();
-        match &trial.task {
-            Task::Rank { .. } => Self::Ranks([None; N_RANKED]),
-            Task::OddOne { .. } => Self::Odd {
-                position: None,
-                grade: None,
-            },
-            Task::Adjust { starts, .. } => Self::Adjust {
-                values: starts.clone(),
+        let composition = &design.composition;
+        let n = composition.presentation.n;
+        match &composition.response.form {
+            Form::Choice | Form::Words(_) | Form::SameDifferent => {
+                let words = composition.words().into_iter().flatten();
+                Self::Choose {
+                    n: composition.n_choices(),
+                    words: words.map(str::to_owned).collect(),
+                    position: None,
+                    sure: Sure::of(composition),
+                }
+            }
+            Form::Rank | Form::BestWorst(_) => Self::Order(Order::of(composition)),
+            Form::Adjustment(parameters) => Self::Adjust {
+                values: trial.task.starts.clone(),
                 steps: Vec::new(),
-                parameters: method.parameters().to_vec(),
+                parameters: parameters.clone(),
             },
-            Task::Judge { .. } => Self::Judge {
-                is_real: None,
-                sure: Sure::of(grades),
+            Form::Number { .. } => Self::Magnitude(String::new()),
+            Form::Scales(scales) => Self::Ratings {
+                values: vec![None; scales.len()],
+                scales: scales.clone(),
             },
-            Task::JudgePair { .. } | Task::Interval { .. } => Self::Choose {
-                n: method.levels().map_or(2, |levels| levels.intervals),
-                position: None,
-                sure: Sure::of(grades),
-            },
-            Task::Estimate { .. } => Self::Magnitude(String::new()),
-            Task::Rate { .. } => Self::Ratings {
-                values: vec![None; method.scales().len()],
-                scales: method.scales().to_vec(),
-            },
+            Form::Piles => Self::Piles(vec![None; n]),
         }
     }
 
@@ -158,9 +228,8 @@ impl Draft {
     /// it is ignored.
     pub(crate) fn take(&mut self, mark: &Mark, at_ms: f64) {
         match (self, mark) {
-            (Self::Ranks(order), mark) => take_rank(order, mark),
-            (Self::Odd { position, .. }, Mark::Place(at)) if *at < N_TRIAD => *position = Some(*at),
-            (Self::Odd { grade, .. }, Mark::Grade(said)) => *grade = Some(*said),
+            (Self::Order(order), mark) => order.take(mark),
+            (Self::Piles(piles), Mark::NextPile(at)) => next_pile(piles, *at),
             (
                 Self::Adjust {
                     values,
@@ -186,11 +255,8 @@ impl Draft {
                     turn((values, steps), (*at, parameter), (*to, at_ms));
                 }
             }
-            (Self::Judge { is_real, .. }, Mark::Real(said)) => *is_real = Some(*said),
             (Self::Choose { n, position, .. }, Mark::Place(at)) if at < n => *position = Some(*at),
-            (Self::Judge { sure, .. } | Self::Choose { sure, .. }, Mark::Confidence(grade)) => {
-                sure.take(*grade);
-            }
+            (Self::Choose { sure, .. }, Mark::Confidence(grade)) => sure.take(*grade),
             (Self::Magnitude(text), Mark::Type(typed)) => text.clone_from(typed),
             (Self::Ratings { values, scales }, Mark::Rate(at, to)) => {
                 if let (Some(value), Some(scale)) = (values.get_mut(*at), scales.get(*at)) {
@@ -206,73 +272,66 @@ impl Draft {
     pub(crate) fn answer(&self) -> Result<Answer, &'static str> {
         match self {
             Self::Nothing => Err("Nothing is asked now"),
-            Self::Ranks(order) => ranks(order),
-            Self::Odd { position, grade } => Ok(Answer::Odd {
-                position: position.ok_or("Choose the odd one first")?,
-                grade: grade.ok_or("Say how hard that was")?,
-            }),
-            Self::Adjust { values, steps, .. } => Ok(Answer::Adjusted {
-                values: values.clone(),
-                steps: steps.clone(),
-            }),
-            Self::Judge { is_real, sure } => {
-                let is_real = is_real.ok_or("Say which it is first")?;
-                if !sure.is_said() {
-                    return Err("Say how sure you are");
-                }
-                Ok(Answer::Judged {
-                    is_real,
-                    confidence: sure.grade,
-                })
+            Self::Order(order) => order.answer(),
+            Self::Piles(piles) => {
+                let all: Option<Vec<usize>> = piles.iter().copied().collect();
+                let all = all.ok_or("Put each into a pile first")?;
+                Ok(Answer::in_piles(&all))
+            }
+            Self::Adjust { values, steps, .. } => {
+                let (values, steps) = (values.clone(), steps.clone());
+                Ok(AnswerValue::Adjusted { values, steps }.into())
             }
             Self::Choose { position, sure, .. } => {
                 let position = position.ok_or("Choose one first")?;
                 if !sure.is_said() {
-                    return Err("Say how sure you are");
+                    return Err(sure.missing());
                 }
-                Ok(Answer::Chosen {
-                    position,
-                    confidence: sure.grade,
-                })
+                Ok(Answer::chosen(position, sure.grade))
             }
             Self::Magnitude(text) => {
                 let number = text.trim().replace(',', ".").parse::<f64>();
                 let is_strength = |value: &f64| *value > 0.0 && value.is_finite();
                 let number = number.ok().filter(is_strength);
-                number.map(Answer::Magnitude).ok_or("Type a number above 0")
+                let number = number.map(|number| AnswerValue::Number(number).into());
+                number.ok_or("Type a number above 0")
             }
             Self::Ratings { values, .. } => {
                 let all: Option<Vec<f64>> = values.iter().copied().collect();
-                all.map(Answer::Ratings)
+                all.map(|all| AnswerValue::Ratings(all).into())
                     .ok_or("Place it on every scale first")
             }
         }
     }
 
-    /// Whether what was said is handed in at once: where one of several is chosen, and nothing
-    /// else is asked.
-    pub(crate) fn is_handed_in_at_once(&self, task: &Task) -> bool {
-        let is_interval = matches!(task, Task::Interval { .. });
-        is_interval && self.answer().is_ok()
+    /// Whether what was said is handed in at once: where something is played, one of several is
+    /// chosen, and nothing else is asked.
+    pub(crate) fn is_handed_in_at_once(&self, design: &Design) -> bool {
+        let is_choice = matches!(self, Self::Choose { sure, .. } if sure.n_grades == 0);
+        design.plays_vibrations() && is_choice && self.answer().is_ok()
     }
 
     /// What was said so far, for the experimenter.
     pub(crate) fn describe(&self) -> String {
         match self {
-            Self::Ranks(order) => {
+            Self::Order(order) => {
                 let name = |at: &Option<usize>| {
                     at.map_or_else(|| "·".to_owned(), |at| (at + 1).to_string())
                 };
-                order.iter().map(name).collect::<Vec<_>>().join(" ")
+                order.slots.iter().map(name).collect::<Vec<_>>().join(" ")
             }
-            Self::Odd { position, .. } | Self::Choose { position, .. } => {
-                position.map_or_else(String::new, |at| (at + 1).to_string())
+            Self::Choose {
+                position, words, ..
+            } => position.map_or_else(String::new, |at| {
+                words
+                    .get(at)
+                    .cloned()
+                    .unwrap_or_else(|| (at + 1).to_string())
+            }),
+            Self::Piles(piles) => {
+                let n_said = piles.iter().flatten().count();
+                format!("{n_said} of {} in piles", piles.len())
             }
-            Self::Judge { is_real, .. } => match is_real {
-                Some(true) => "real".to_owned(),
-                Some(false) => "generated".to_owned(),
-                None => String::new(),
-            },
             Self::Adjust { values, .. } => {
                 let described = values.iter().map(|value| quantity::fixed(*value, 2));
                 described.collect::<Vec<_>>().join(", ")
@@ -287,42 +346,16 @@ impl Draft {
     }
 }
 
-fn take_rank(order: &mut [Option<usize>; N_RANKED], mark: &Mark) {
-    match *mark {
-        Mark::Place(position) if position < N_RANKED => {
-            if order.contains(&Some(position)) {
-                return;
-            }
-            if let Some(free) = order.iter_mut().find(|slot| slot.is_none()) {
-                *free = Some(position);
-            }
-        }
-        Mark::Rank(position, rank) if position < N_RANKED && rank < N_RANKED => {
-            let from = order.iter().position(|slot| *slot == Some(position));
-            // Who stood there takes the place that becomes free, if one does.
-            let displaced = order[rank].replace(position);
-            if let Some(from) = from
-                && from != rank
-            {
-                order[from] = displaced;
-            }
-        }
-        Mark::TakeBack => {
-            if let Some(last) = order.iter_mut().rev().find(|slot| slot.is_some()) {
-                *last = None;
-            }
-        }
-        _ => {}
+/// Moves a position on: through the piles of the others to a new one, and back to the first.
+fn next_pile(piles: &mut [Option<usize>], at: usize) {
+    let others = piles.iter().enumerate().filter(|(other, _)| *other != at);
+    let n_piles = others
+        .filter_map(|(_, pile)| *pile)
+        .max()
+        .map_or(1, |last| last + 2);
+    if let Some(pile) = piles.get_mut(at) {
+        *pile = Some(pile.map_or(0, |pile| (pile + 1) % n_piles));
     }
-}
-
-fn ranks(order: &[Option<usize>; N_RANKED]) -> Result<Answer, &'static str> {
-    let mut ranks = [0; N_RANKED];
-    for (rank, position) in (1_u8..).zip(order) {
-        let position = position.ok_or("Rank all four first")?;
-        ranks[position] = rank;
-    }
-    Ok(Answer::Ranks(ranks))
 }
 
 /// Turns a parameter within its range, in whole steps from its lower end.
@@ -375,9 +408,10 @@ mod tests {
         draft.take(&Mark::TakeBack, 0.0);
         draft.take(&Mark::Place(1), 0.0);
         draft.take(&Mark::Place(3), 0.0);
-        assert_eq!(draft.answer(), Ok(Answer::Ranks([2, 3, 1, 4])));
+        assert_eq!(draft.answer(), Ok(Answer::in_order(&[2, 0, 1, 3])));
         draft.take(&Mark::Rank(3, 0), 0.0);
-        assert_eq!(draft.answer(), Ok(Answer::Ranks([2, 3, 4, 1])), "exchanged");
+        let exchanged = Answer::in_order(&[3, 0, 1, 2]);
+        assert_eq!(draft.answer(), Ok(exchanged), "exchanged");
     }
 
     #[test]
@@ -390,7 +424,7 @@ mod tests {
         draft.take(&Mark::Set(0, 19.6), 10.0);
         draft.take(&Mark::Turn(0, 3), 20.0);
         draft.take(&Mark::Turn(0, 1), 30.0);
-        let Ok(Answer::Adjusted { values, steps }) = draft.answer() else {
+        let Ok(AnswerValue::Adjusted { values, steps }) = draft.answer().map(|a| a.value) else {
             panic!("it is always an answer")
         };
         assert!(
@@ -401,16 +435,34 @@ mod tests {
     }
 
     #[test]
+    fn a_position_goes_through_the_piles_to_a_new_one_and_back() {
+        let mut draft = Draft::Piles(vec![None; 3]);
+        for (at, piles) in [
+            (0, [Some(0), None, None]),
+            (1, [Some(0), Some(0), None]),
+            (1, [Some(0), Some(1), None]),
+            (2, [Some(0), Some(1), Some(0)]),
+            (1, [Some(0), Some(0), Some(0)]),
+            (1, [Some(0), Some(1), Some(0)]),
+        ] {
+            draft.take(&Mark::NextPile(at), 0.0);
+            assert_eq!(draft, Draft::Piles(piles.to_vec()));
+        }
+        assert_eq!(draft.answer(), Ok(Answer::in_piles(&[0, 1, 0])));
+    }
+
+    #[test]
     fn what_is_missing_is_said_until_all_is_there() {
         let mut odd = draft("odd-one-out");
-        assert_eq!(odd.answer(), Err("Choose the odd one first"));
+        assert_eq!(odd.answer(), Err("Choose one first"));
         odd.take(&Mark::Place(3), 0.0);
         assert!(odd.answer().is_err(), "there are three");
         odd.take(&Mark::Place(2), 0.0);
-        odd.take(&Mark::Grade(Grade::Hard), 0.0);
+        assert_eq!(odd.answer(), Err("Say how hard that was"));
+        odd.take(&Mark::Confidence(3), 0.0);
         assert!(odd.answer().is_ok());
         let mut judged = draft("real-or-generated");
-        judged.take(&Mark::Real(false), 0.0);
+        judged.take(&Mark::Place(1), 0.0);
         judged.take(&Mark::Confidence(4), 0.0);
         assert_eq!(judged.answer(), Err("Say how sure you are"));
         judged.take(&Mark::Confidence(3), 0.0);

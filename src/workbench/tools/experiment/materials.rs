@@ -82,7 +82,12 @@ impl Materials {
         layout: &Layout,
         tuning: Tuning,
     ) -> Result<PreparedScene, AppError> {
-        let scene = layout.scene(design, &self.display, tuning);
+        let all = self.loaded.textiles().iter().zip(self.loaded.levels_db());
+        let levels_db: Vec<(&str, Option<f64>)> = all
+            .map(|(textile, level_db)| (textile.id(), *level_db))
+            .collect();
+        let level_db = |id: &str| levels_db.iter().find(|(of, _)| *of == id)?.1;
+        let scene = layout.scene(design, (&self.display, tuning), level_db);
         let loaded = self.loaded.with_scene(scene)?;
         let (method, accuracy) = (self.rendering.method, self.rendering.accuracy());
         let prepared = PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;

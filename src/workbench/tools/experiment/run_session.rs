@@ -62,8 +62,8 @@ impl Experiment {
         if let Some(tuning) = session.mark(mark, bench.stamp()) {
             bench.send(Command::SetTuning(tuning));
         }
-        let trial = session.trial();
-        if trial.is_some_and(|trial| session.draft.is_handed_in_at_once(&trial.task)) {
+        let is_trial = session.trial().is_some();
+        if is_trial && session.draft.is_handed_in_at_once(&session.design) {
             if session.missing().is_some() {
                 // Who chooses before all was played chooses again.
                 session.forget_draft();

@@ -12,9 +12,9 @@ use crate::tools::experiment::guide;
 use crate::tools::experiment::now::{Now, Pause};
 use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::state::Experiment;
-use selvedge_experiment::design::{Design, Method, Source};
+use selvedge_experiment::Trial;
+use selvedge_experiment::design::{Design, Form, Source};
 use selvedge_experiment::layout::{Layout, on_the_table};
-use selvedge_experiment::{Task, Trial};
 use selvedge_foundation::geometry::Point;
 
 /// What the participant sees.
@@ -260,7 +260,7 @@ impl ActiveSession {
             ),
             Now::Trial(trial) => ParticipantView::Trial(TrialView {
                 ground: self.ground(Some(trial), finger),
-                question: question(&self.design, trial),
+                question: question(&self.design),
                 draft: &self.draft,
                 is_open: self.is_open(),
                 missing: self.missing(),
@@ -288,14 +288,10 @@ impl ActiveSession {
     }
 
     fn intervals(&self) -> Option<(usize, Option<usize>)> {
-        match (&self.draft, &self.now) {
-            (Draft::Choose { n, .. }, Now::Trial(trial)) => {
-                let is_interval = matches!(trial.task, Task::Interval { .. });
-                is_interval.then(|| (*n, self.interval()))
-            }
-            (_, Now::Trial(_)) if !self.vibrations().is_empty() => Some((1, self.interval())),
-            _ => None,
-        }
+        let n_steps = self.vibrations().len();
+        let is_trial = matches!(self.now, Now::Trial(_));
+        // Silence comes first, and a pause between each two.
+        (is_trial && n_steps > 0).then(|| (n_steps / 2, self.interval()))
     }
 
     /// The session as the experimenter sees it.
@@ -339,16 +335,14 @@ impl ActiveSession {
 const SHORT: usize = 140;
 
 /// What is asked, as far as the design says it more plainly than the task.
-fn question(design: &Design, trial: &Trial) -> String {
+fn question(design: &Design) -> String {
     let instructions = design.course.instructions.trim();
     let is_short = !instructions.is_empty() && instructions.chars().count() <= SHORT;
-    match (&trial.task, &design.method) {
+    let composition = &design.composition;
+    match (composition.question.shown(), &composition.response.form) {
         // What it is adjusted to is the design's alone to say.
-        (Task::Adjust { .. }, _) if is_short => instructions.to_owned(),
-        (Task::Interval { .. }, Method::Levels(levels)) if levels.reference_db.is_some() => {
-            "choose the interval with the stronger vibration".to_owned()
-        }
-        _ => trial.task.question().to_owned(),
+        (None, Form::Adjustment(_)) if is_short => instructions.to_owned(),
+        _ => composition.question(),
     }
 }
 
@@ -363,21 +357,18 @@ fn place_of(trial: &Trial) -> String {
 
 /// What lies where, by positions alone.
 fn slots(layout: &Layout, trial: Option<&Trial>) -> Vec<Slot> {
-    let is_ranking = trial.is_some_and(|trial| matches!(trial.task, Task::Rank { .. }));
+    let is_compared = trial.is_some_and(|trial| trial.task.reference.is_some());
     let slot = |place: &selvedge_experiment::layout::Place| Slot {
         origin_mm: place.origin_mm,
         number: place.number,
-        is_target: is_ranking && place.number.is_none(),
+        is_target: is_compared && place.number.is_none(),
     };
     layout.places.iter().map(slot).collect()
 }
 
 /// The textile whose picture all alternatives have.
 fn target_of<'a>(design: &'a Design, trial: &Trial) -> Option<&'a str> {
-    let Task::Rank { target, .. } = trial.task else {
-        return None;
-    };
-    match &design.stimuli.get(target)?.source {
+    match &design.stimuli.get(trial.task.reference?)?.source {
         Source::Textile { id, .. } => Some(id),
         _ => None,
     }

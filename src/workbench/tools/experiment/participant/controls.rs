@@ -7,35 +7,41 @@ use eframe::egui::{
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::experiment::draft::Act;
-use crate::tools::experiment::draft::{Draft, Mark, Sure};
+use crate::tools::experiment::draft::{Draft, Mark, Order, Sure};
 use crate::tools::experiment::participant::ground::count;
 use crate::tools::experiment::participant::{big, ranks};
 use crate::tools::experiment::view::TrialView;
 use selvedge_experiment::design::{Scale, TunedParameter};
-use selvedge_experiment::{Grade, N_TRIAD};
 
 /// Width of the line of a scale, points.
 const SCALE: f32 = 420.0;
 /// Height of a scale, points.
 const SCALE_ROW: f32 = 44.0;
 
+/// Buttons of piles in a row.
+const PILES_A_ROW: usize = 9;
+
 /// Width of the button that hands a ranking in, and the gap before it, points.
 const DONE: f32 = 168.0;
 
 /// Whether that button has room beside the ranks.
-fn is_wide(room: f32) -> bool {
-    room >= ranks::width() + DONE
+fn is_wide(order: &Order, room: f32) -> bool {
+    room >= ranks::width(order) + DONE
 }
 
 /// The height that an answer needs where there is `room` across, points.
 pub(crate) fn height(draft: &Draft, room: f32) -> f32 {
     match draft {
-        Draft::Ranks(_) if !is_wide(room) => super::ANSWER + big::ROW,
+        Draft::Order(order) if !is_wide(order, room) => super::ANSWER + big::ROW,
+        Draft::Piles(piles) => {
+            let n_rows = piles.len().div_ceil(PILES_A_ROW);
+            count(n_rows + 1) * (big::ROW + 2.0 * STEP)
+        }
         Draft::Ratings { scales, .. } => SCALE_ROW * count(scales.len()) + big::ROW + 4.0 * STEP,
         Draft::Adjust { parameters, .. } => {
             SCALE_ROW * count(parameters.len()) + big::ROW + 4.0 * STEP
         }
-        Draft::Judge { sure, .. } | Draft::Choose { sure, .. } if sure.n_grades > 0 => {
+        Draft::Choose { sure, .. } if sure.n_grades > 0 && sure.words.is_empty() => {
             3.0 * (big::ROW + 2.0 * STEP)
         }
         _ => super::ANSWER,
@@ -46,9 +52,9 @@ pub(crate) fn height(draft: &Draft, room: f32) -> f32 {
 pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     match trial.draft {
         Draft::Nothing => {}
-        Draft::Ranks(order) => {
-            let is_wide = is_wide(ui.available_width());
-            row(ui, ranks::width() + DONE, |ui| {
+        Draft::Order(order) => {
+            let is_wide = is_wide(order, ui.available_width());
+            row(ui, ranks::width(order) + DONE, |ui| {
                 ranks::show(ui, order, acts);
                 if is_wide {
                     ui.add_space(2.0 * STEP);
@@ -61,30 +67,16 @@ pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
                 row(ui, DONE, |ui| show_done(ui, trial, acts));
             }
         }
-        Draft::Odd { position, grade } => {
-            show_numbers(ui, N_TRIAD, *position, acts);
-            row(ui, 3.0 * 128.0 + 160.0, |ui| {
-                for one in Grade::ALL {
-                    let mark = Mark::Grade(one);
-                    choose(ui, one.name(), *grade == Some(one), mark, acts);
-                }
-                ui.add_space(4.0 * STEP);
-                show_done(ui, trial, acts);
-            });
+        Draft::Choose {
+            n,
+            words,
+            position,
+            sure,
+        } => {
+            show_choices(ui, (*n, words), *position, acts);
+            show_sure(ui, trial, sure, acts);
         }
-        Draft::Choose { n, position, sure } => {
-            show_numbers(ui, *n, *position, acts);
-            show_sure(ui, trial, *sure, acts);
-        }
-        Draft::Judge { is_real, sure } => {
-            row(ui, 2.0 * 172.0, |ui| {
-                for (words, said) in [("real", true), ("generated", false)] {
-                    let is_on = *is_real == Some(said);
-                    choose(ui, words, is_on, Mark::Real(said), acts);
-                }
-            });
-            show_sure(ui, trial, *sure, acts);
-        }
+        Draft::Piles(piles) => show_piles(ui, trial, piles, acts),
         Draft::Magnitude(text) => show_number(ui, trial, text, acts),
         Draft::Adjust {
             values, parameters, ..
@@ -154,17 +146,59 @@ fn choose(ui: &mut Ui, words: &str, is_on: bool, mark: Mark, acts: &mut Vec<Act>
     }
 }
 
-fn show_numbers(ui: &mut Ui, n: usize, chosen: Option<usize>, acts: &mut Vec<Act>) {
-    row(ui, count(n) * 80.0, |ui| {
+/// Words, or numbers where there are none.
+fn show_choices(
+    ui: &mut Ui,
+    (n, words): (usize, &[String]),
+    chosen: Option<usize>,
+    acts: &mut Vec<Act>,
+) {
+    let width = if words.is_empty() { 80.0 } else { 172.0 };
+    row(ui, count(n) * width, |ui| {
         for at in 0..n {
-            let words = (at + 1).to_string();
-            choose(ui, &words, chosen == Some(at), Mark::Place(at), acts);
+            let number = (at + 1).to_string();
+            let words = words.get(at).unwrap_or(&number);
+            choose(ui, words, chosen == Some(at), Mark::Place(at), acts);
         }
     });
 }
 
+/// A button for each position, which goes to the next pile with every press; piles have letters.
+fn show_piles(ui: &mut Ui, trial: &TrialView<'_>, piles: &[Option<usize>], acts: &mut Vec<Act>) {
+    let letter = |pile: usize| char::from(b'A' + u8::try_from(pile).unwrap_or(25).min(25));
+    let all: Vec<(usize, &Option<usize>)> = piles.iter().enumerate().collect();
+    for some in all.chunks(PILES_A_ROW) {
+        row(ui, count(some.len()) * 80.0, |ui| {
+            for (at, pile) in some {
+                let of = pile.map_or_else(|| "·".to_owned(), |pile| letter(pile).to_string());
+                let words = format!("{} {of}", at + 1);
+                let label = format!("Fabric {}: pile {of}", at + 1);
+                if big::button(ui, (&words, &label), 64.0, pile.is_some()).clicked() {
+                    acts.push(Act::Mark(Mark::NextPile(*at)));
+                }
+            }
+        });
+    }
+    row(ui, 160.0, |ui| show_done(ui, trial, acts));
+}
+
 /// How sure somebody is, where that is asked, and the button that ends the trial.
-fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: Sure, acts: &mut Vec<Act>) {
+fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: &Sure, acts: &mut Vec<Act>) {
+    if !sure.words.is_empty() {
+        return row(ui, f32::from(sure.n_grades) * 128.0 + 160.0, |ui| {
+            for (grade, word) in (1..).zip(&sure.words) {
+                choose(
+                    ui,
+                    word,
+                    sure.grade == Some(grade),
+                    Mark::Confidence(grade),
+                    acts,
+                );
+            }
+            ui.add_space(4.0 * STEP);
+            show_done(ui, trial, acts);
+        });
+    }
     if sure.n_grades > 0 {
         let width = f32::from(sure.n_grades) * 80.0 + 220.0;
         let n = f32::from(sure.n_grades);

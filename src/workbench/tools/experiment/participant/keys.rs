@@ -3,12 +3,11 @@
 use eframe::egui::{Key, Ui};
 
 use crate::tools::experiment::draft::Act;
-use crate::tools::experiment::draft::{Draft, Mark};
+use crate::tools::experiment::draft::{Draft, Mark, Sure};
 use crate::tools::experiment::view::TrialView;
-use selvedge_experiment::Grade;
 
 /// Keys of positions, from the first.
-const DIGITS: [Key; 8] = [
+const DIGITS: [Key; 9] = [
     Key::Num1,
     Key::Num2,
     Key::Num3,
@@ -17,10 +16,8 @@ const DIGITS: [Key; 8] = [
     Key::Num6,
     Key::Num7,
     Key::Num8,
+    Key::Num9,
 ];
-/// Keys of grades, from easy to hard.
-const GRADES: [Key; 3] = [Key::E, Key::N, Key::H];
-
 /// Keys that belong to whatever has the focus.
 const ARROWS: [Key; 4] = [
     Key::ArrowUp,
@@ -54,16 +51,33 @@ pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
 
 /// Which keys answer, for whoever has no pointer.
 pub(crate) fn hint(trial: &TrialView<'_>) -> String {
-    let sure = |n_grades: u8| match n_grades {
-        0 => String::new(),
-        n => format!(", then 1 to {n} for how sure you are"),
+    let sure = |sure: &Sure| match (sure.n_grades, sure.words.is_empty()) {
+        (0, _) => String::new(),
+        (n, true) => format!(", then 1 to {n} for how sure you are"),
+        (_, false) => format!(", then {}", names(&sure.words)),
     };
     let keys = match trial.draft {
         Draft::Nothing => return String::new(),
-        Draft::Ranks(_) => "1 to 4 in order, Backspace takes back".to_owned(),
-        Draft::Odd { .. } => "1 to 3, then E, N or H".to_owned(),
-        Draft::Choose { n, sure: said, .. } => format!("1 to {n}{}", sure(said.n_grades)),
-        Draft::Judge { sure: said, .. } => format!("R or G{}", sure(said.n_grades)),
+        Draft::Order(order) if order.has_ends_alone => {
+            let [best, worst] = &order.ends;
+            format!(
+                "1 to {}, the {best} one, then the {worst} one; Backspace takes back",
+                order.n
+            )
+        }
+        Draft::Order(order) => format!("1 to {} in order, Backspace takes back", order.n),
+        Draft::Choose {
+            n,
+            words,
+            sure: said,
+            ..
+        } if words.is_empty() => {
+            format!("1 to {n}{}", sure(said))
+        }
+        Draft::Choose {
+            words, sure: said, ..
+        } => format!("{}{}", names(words), sure(said)),
+        Draft::Piles(_) => "Tab for the next one, Space for its pile".to_owned(),
         Draft::Adjust { parameters, .. } => match parameters.len() {
             0 | 1 => "up and down".to_owned(),
             _ => "up and down, left and right".to_owned(),
@@ -84,38 +98,65 @@ pub(crate) fn hint(trial: &TrialView<'_>) -> String {
     format!("Keys: {keys}{again}{end}")
 }
 
+/// The key of each word: its first letter that is a key and begins no word before it.
+fn keys_of(words: &[String]) -> Vec<Key> {
+    let mut keys = Vec::new();
+    for word in words {
+        let letters = word
+            .chars()
+            .map(|letter| letter.to_ascii_uppercase().to_string());
+        let mut known = letters.filter_map(|letter| Key::from_name(&letter));
+        keys.extend(known.find(|key| !keys.contains(key)));
+    }
+    keys
+}
+
+/// Those keys as a sentence has them: `E, N or H`.
+fn names(words: &[String]) -> String {
+    let keys: Vec<&str> = keys_of(words).into_iter().map(Key::name).collect();
+    match keys.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        keys => keys.concat(),
+    }
+}
+
 /// What the keys say in this trial.
 fn marks(draft: &Draft, is_pressed: impl Fn(Key) -> bool) -> Vec<Mark> {
     let digits = || (0..).zip(DIGITS).filter(|(_, key)| is_pressed(*key));
     let mut marks = Vec::new();
     match draft {
-        Draft::Ranks(_) => {
+        Draft::Order(_) => {
             marks.extend(digits().map(|(at, _)| Mark::Place(at)));
             if is_pressed(Key::Backspace) {
                 marks.push(Mark::TakeBack);
             }
         }
-        Draft::Odd { .. } => {
-            marks.extend(digits().map(|(at, _)| Mark::Place(at)));
-            let grades = GRADES.into_iter().zip(Grade::ALL);
-            let said = grades.filter(|(key, _)| is_pressed(*key));
-            marks.extend(said.map(|(_, grade)| Mark::Grade(grade)));
-        }
-        Draft::Choose { position, sure, .. } => {
-            // Once one is chosen, digits say how sure that is.
-            let is_sure = position.is_some() && sure.n_grades > 0;
-            let mark = |at: usize| match (is_sure, u8::try_from(at + 1)) {
-                (true, Ok(grade)) => Mark::Confidence(grade),
-                _ => Mark::Place(at),
+        Draft::Choose {
+            words,
+            position,
+            sure,
+            ..
+        } => {
+            let named = |words: &[String]| -> Vec<usize> {
+                let keys = (0..).zip(keys_of(words));
+                keys.filter(|(_, key)| is_pressed(*key))
+                    .map(|(at, _)| at)
+                    .collect()
             };
-            marks.extend(digits().map(|(at, _)| mark(at)));
-        }
-        Draft::Judge { .. } => {
-            let words = [(Key::R, true), (Key::G, false)];
-            let said = words.into_iter().filter(|(key, _)| is_pressed(*key));
-            marks.extend(said.map(|(_, is_real)| Mark::Real(is_real)));
-            let sure = digits().filter_map(|(at, _)| u8::try_from(at + 1).ok());
-            marks.extend(sure.map(Mark::Confidence));
+            let grade = |at: usize| u8::try_from(at + 1).ok().map(Mark::Confidence);
+            marks.extend(named(words).into_iter().map(Mark::Place));
+            marks.extend(named(&sure.words).into_iter().filter_map(grade));
+            // Once one is chosen, digits say how sure that is.
+            let is_next = position.is_some() && sure.n_grades > 0 && sure.words.is_empty();
+            let is_sure = !words.is_empty() || is_next;
+            let mark = |at: usize| {
+                if is_sure {
+                    grade(at)
+                } else {
+                    Some(Mark::Place(at))
+                }
+            };
+            marks.extend(digits().filter_map(|(at, _)| mark(at)));
         }
         Draft::Adjust { .. } => {
             let turns = [
@@ -127,7 +168,7 @@ fn marks(draft: &Draft, is_pressed: impl Fn(Key) -> bool) -> Vec<Mark> {
             let turned = turns.into_iter().filter(|(key, ..)| is_pressed(*key));
             marks.extend(turned.map(|(_, parameter, by)| Mark::Turn(parameter, by)));
         }
-        Draft::Nothing | Draft::Magnitude(_) | Draft::Ratings { .. } => {}
+        Draft::Nothing | Draft::Magnitude(_) | Draft::Ratings { .. } | Draft::Piles(_) => {}
     }
     marks
 }
@@ -135,22 +176,42 @@ fn marks(draft: &Draft, is_pressed: impl Fn(Key) -> bool) -> Vec<Mark> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tools::experiment::draft::Sure;
+    use crate::tools::experiment::draft::Order;
 
     #[test]
     fn digits_choose_first_and_then_say_how_sure() {
+        let sure = || Sure {
+            n_grades: 3,
+            ..Sure::default()
+        };
         let draft = |position| Draft::Choose {
             n: 2,
+            words: Vec::new(),
             position,
-            sure: Sure {
-                n_grades: 3,
-                grade: None,
-            },
+            sure: sure(),
         };
         let two = |key| key == Key::Num2;
         assert_eq!(marks(&draft(None), two), [Mark::Place(1)]);
         assert_eq!(marks(&draft(Some(0)), two), [Mark::Confidence(2)]);
-        let ranked = Draft::Ranks([None; 4]);
+        let words = ["easy", "normal", "hard"].map(str::to_owned);
+        let graded = Draft::Choose {
+            n: 3,
+            words: Vec::new(),
+            position: Some(0),
+            sure: Sure {
+                words: words.to_vec(),
+                ..sure()
+            },
+        };
+        assert_eq!(marks(&graded, two), [Mark::Place(1)], "grades have letters");
+        let hard = |key| key == Key::H;
+        assert_eq!(marks(&graded, hard), [Mark::Confidence(3)]);
+        let ranked = Draft::Order(Order {
+            n: 4,
+            slots: vec![None; 4],
+            ends: [String::new(), String::new()],
+            has_ends_alone: false,
+        });
         assert_eq!(
             marks(&ranked, |key| key == Key::Backspace),
             [Mark::TakeBack]
@@ -159,11 +220,13 @@ mod tests {
 
     #[test]
     fn the_keys_that_answer_are_named() {
-        let draft = Draft::Judge {
-            is_real: None,
+        let draft = Draft::Choose {
+            n: 2,
+            words: ["real", "generated"].map(str::to_owned).to_vec(),
+            position: None,
             sure: Sure {
                 n_grades: 3,
-                grade: None,
+                ..Sure::default()
             },
         };
         let ground = crate::tools::experiment::view::Ground {

@@ -1,4 +1,4 @@
-//! Ranking: four numbers that are laid in order, by drag, click or digit.
+//! Ranking: numbers that are laid in order, by drag, click or digit.
 
 use eframe::egui::{
     self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
@@ -7,20 +7,19 @@ use eframe::egui::{
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::experiment::draft::Act;
-use crate::tools::experiment::draft::Mark;
+use crate::tools::experiment::draft::{Mark, Order};
 use crate::tools::experiment::participant::big;
 use crate::tools::experiment::participant::big::Face;
 use crate::tools::experiment::participant::ground::count;
-use selvedge_experiment::N_RANKED;
 
 /// Side of a number and of its place, points.
 const SIDE: f32 = 64.0;
 
 /// Shows the numbers that are not ranked yet, and the ranks.
-pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], acts: &mut Vec<Act>) {
+pub(crate) fn show(ui: &mut Ui, order: &Order, acts: &mut Vec<Act>) {
     ui.spacing_mut().item_spacing.x = 2.0 * STEP;
-    for position in 0..N_RANKED {
-        let is_free = !order.contains(&Some(position));
+    for position in 0..order.n {
+        let is_free = !order.slots.contains(&Some(position));
         let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
         if !is_free {
             paint_gap(ui, rect);
@@ -38,12 +37,13 @@ pub(crate) fn show(ui: &mut Ui, order: &[Option<usize>; N_RANKED], acts: &mut Ve
     let (rect, _) = ui.allocate_exact_size(vec2(28.0, SIDE), Sense::hover());
     paint_arrow(ui, rect);
     ui.add_space(4.0 * STEP);
-    for (rank, ranked) in order.iter().enumerate() {
-        show_rank(ui, rank, *ranked, acts);
+    for rank in 0..order.slots.len() {
+        show_rank(ui, rank, order, acts);
     }
 }
 
-fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, acts: &mut Vec<Act>) {
+fn show_rank(ui: &mut Ui, rank: usize, order: &Order, acts: &mut Vec<Act>) {
+    let ranked = order.slots[rank];
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
     let what = ranked.map_or_else(|| "empty".to_owned(), |at| format!("fabric {}", at + 1));
     name(ui, &response, &format!("Rank {}: {what}", rank + 1));
@@ -55,8 +55,8 @@ fn show_rank(ui: &mut Ui, rank: usize, ranked: Option<usize>, acts: &mut Vec<Act
     big::ring(ui, rect, &response);
     let palette = Palette::in_ui(ui);
     let words = match rank {
-        0 => "most alike",
-        _ if rank + 1 == N_RANKED => "least alike",
+        0 => order.ends[0].as_str(),
+        _ if rank + 1 == order.slots.len() => order.ends[1].as_str(),
         _ => "",
     };
     let below = pos2(rect.center().x, rect.bottom() + 4.0);
@@ -126,6 +126,6 @@ fn paint_arrow(ui: &Ui, rect: Rect) {
 }
 
 /// Width of all of it, points.
-pub(crate) fn width() -> f32 {
-    2.0 * count(N_RANKED) * (SIDE + 2.0 * STEP) + 28.0 + 12.0 * STEP
+pub(crate) fn width(order: &Order) -> f32 {
+    count(order.n + order.slots.len()) * (SIDE + 2.0 * STEP) + 28.0 + 12.0 * STEP
 }

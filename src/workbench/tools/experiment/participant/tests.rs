@@ -5,7 +5,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::*;
-use crate::tools::experiment::draft::{Draft, Mark};
+use crate::tools::experiment::draft::{Draft, Mark, Order, Sure};
 use crate::tools::experiment::view::Ground;
 
 fn trial(draft: &Draft) -> TrialView<'_> {
@@ -17,12 +17,36 @@ fn trial(draft: &Draft) -> TrialView<'_> {
             finger: None,
             feels: true,
         },
-        question: "rank all four, 1 for the one most like the target".to_owned(),
+        question: "put all 4 in order, the one most like the target first".to_owned(),
         draft,
         is_open: true,
         missing: None,
         intervals: None,
         may_play: false,
+    }
+}
+
+/// Four that are put in order by their likeness to a target.
+fn in_order(slots: [Option<usize>; 4]) -> Draft {
+    Draft::Order(Order {
+        n: 4,
+        slots: slots.to_vec(),
+        ends: ["most alike", "least alike"].map(str::to_owned),
+        has_ends_alone: false,
+    })
+}
+
+/// The odd one of three, and how hard that was.
+fn odd(position: Option<usize>) -> Draft {
+    Draft::Choose {
+        n: 3,
+        words: Vec::new(),
+        position,
+        sure: Sure {
+            n_grades: 3,
+            words: ["easy", "normal", "hard"].map(str::to_owned).to_vec(),
+            grade: None,
+        },
     }
 }
 
@@ -53,7 +77,7 @@ fn marks(harness: &Harness<'_, Vec<Act>>) -> Vec<Act> {
 
 #[test]
 fn ranks_are_given_by_click_by_digit_and_by_drag() {
-    let draft = Draft::Ranks([Some(0), None, None, None]);
+    let draft = in_order([Some(0), None, None, None]);
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
     harness.run();
     harness.get_by_label("Fabric 3").click();
@@ -81,14 +105,14 @@ fn ranks_are_given_by_click_by_digit_and_by_drag() {
 
 #[test]
 fn nothing_is_handed_in_before_all_is_answered() {
-    let draft = Draft::Ranks([Some(0), Some(2), Some(1), None]);
+    let draft = in_order([Some(0), Some(2), Some(1), None]);
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
     harness.run();
     harness.key_press(Key::Enter);
     harness.get_by_label("Done").click();
     harness.run();
     assert_eq!(marks(&harness), []);
-    let complete = Draft::Ranks([Some(0), Some(2), Some(1), Some(3)]);
+    let complete = in_order([Some(0), Some(2), Some(1), Some(3)]);
     let mut harness = window(ParticipantView::Trial(trial(&complete)));
     harness.run();
     harness.key_press(Key::Enter);
@@ -190,10 +214,7 @@ fn scales_are_answered_by_keys_alone_and_whole_steps_stay_whole() {
 
 #[test]
 fn keys_go_to_the_answer_though_a_button_was_reached_by_tab() {
-    let draft = Draft::Odd {
-        position: Some(1),
-        grade: None,
-    };
+    let draft = odd(Some(1));
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
     harness.run();
     harness.key_press(Key::Tab);
@@ -215,8 +236,9 @@ fn keys_go_to_the_answer_though_a_button_was_reached_by_tab() {
 fn where_choosing_is_all_there_is_nothing_to_hand_in() {
     let draft = Draft::Choose {
         n: 2,
+        words: Vec::new(),
         position: None,
-        sure: crate::tools::experiment::draft::Sure::default(),
+        sure: Sure::default(),
     };
     let view = TrialView {
         intervals: Some((2, None)),
@@ -232,25 +254,32 @@ fn where_choosing_is_all_there_is_nothing_to_hand_in() {
 
 #[test]
 fn everything_that_is_pressed_lies_within_the_smallest_window_and_apart() {
-    let grades = |n_grades| crate::tools::experiment::draft::Sure {
+    let grades = |n_grades| Sure {
         n_grades,
-        grade: None,
+        ..Sure::default()
     };
     let drafts = [
-        Draft::Ranks([Some(2), None, None, None]),
-        Draft::Odd {
-            position: None,
-            grade: None,
-        },
+        in_order([Some(2), None, None, None]),
+        odd(None),
         Draft::Choose {
             n: 8,
+            words: Vec::new(),
             position: None,
             sure: grades(0),
         },
-        Draft::Judge {
-            is_real: None,
+        Draft::Choose {
+            n: 2,
+            words: ["real", "generated"].map(str::to_owned).to_vec(),
+            position: None,
             sure: grades(7),
         },
+        Draft::Order(Order {
+            n: 4,
+            slots: vec![None; 2],
+            ends: ["most pleasant", "least pleasant"].map(str::to_owned),
+            has_ends_alone: true,
+        }),
+        Draft::Piles(vec![None; 16]),
         Draft::Magnitude(String::new()),
         Draft::Ratings {
             values: vec![None; 4],
@@ -283,7 +312,7 @@ fn everything_that_is_pressed_lies_within_the_smallest_window_and_apart() {
 
 #[test]
 fn while_the_screen_is_blank_answers_are_typed_in_the_experimenters_pane_alone() {
-    let draft = Draft::Ranks([Some(0), None, None, None]);
+    let draft = in_order([Some(0), None, None, None]);
     let mut blank = window(ParticipantView::Blank(trial(&draft).ground));
     blank.run();
     blank.get_by_label("Blank screen");

@@ -130,10 +130,7 @@ fn differing(
 
 #[test]
 fn pictures_of_two_trials_with_other_targets_differ_in_the_targets_picture_alone() {
-    let target = |drawn: &Drawn| match session(&drawn.window).trial().map(|trial| &trial.task) {
-        Some(Task::Rank { target, .. }) => *target,
-        _ => panic!("a ranking"),
-    };
+    let target = |drawn: &Drawn| session(&drawn.window).trial().unwrap().task.reference;
     let trial = |name: &str| {
         let folder = Folder::new(&format!("drawn-{name}"));
         let mut drawn = Drawn::trial(&folder, "ranking-virtual-target", name, Theme::Dark);
@@ -211,7 +208,7 @@ fn said(design: &str) -> Vec<Mark> {
         "rating" => vec![Mark::Rate(1, 30.0), Mark::Rate(0, 80.0)],
         "magnitude" => vec![Mark::Type("12.5".to_owned())],
         "adjustment-two-gains" => vec![Mark::Turn(0, 3)],
-        "real-or-generated" => vec![Mark::Real(true), Mark::Confidence(2)],
+        "real-or-generated" => vec![Mark::Place(0), Mark::Confidence(2)],
         _ => vec![Mark::Place(1), Mark::Place(3)],
     }
 }
@@ -286,7 +283,7 @@ fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
         } else {
             feel(&mut drawn);
             mark(&mut drawn.window, Mark::Place(1));
-            mark(&mut drawn.window, Mark::Grade(Grade::Hard));
+            mark(&mut drawn.window, Mark::Confidence(3));
             answer(&mut drawn.window);
         }
         drawn.pass(3);
@@ -320,7 +317,7 @@ fn a_blank_screen_shows_nothing_and_feels_all_the_same_and_the_experimenter_type
     drawn.keep_picture("blank");
 
     feel(&mut drawn);
-    let grade = Mark::Grade(Grade::Easy);
+    let grade = Mark::Confidence(1);
     mark(&mut drawn.window, Mark::Place(1));
     mark(&mut drawn.window, grade);
     answer(&mut drawn.window);

@@ -24,7 +24,7 @@ use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::view::{Ground, Link, TrialView};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{find_sessions, path_file, samples_file};
-use selvedge_experiment::{Grade, Proof, Task, Validity};
+use selvedge_experiment::{AnswerValue, Proof, Validity};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
@@ -274,7 +274,7 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
     let answer = one.records[0].answer().cloned();
     assert_eq!(
         answer,
-        Some(selvedge_experiment::Answer::Ranks([2, 3, 1, 4]))
+        Some(selvedge_experiment::Answer::in_order(&[2, 0, 1, 3]))
     );
     assert!(!one.records[0].apparatus.stimulus_hash.is_empty());
     act(&mut window, |one, bench| one.resume_session(log, bench));
@@ -308,7 +308,7 @@ fn an_answer_waits_until_everything_was_felt() {
     to_trial(&mut window);
     let say = |window: &mut Headless| {
         mark(window, Mark::Place(1));
-        mark(window, Mark::Grade(Grade::Easy));
+        mark(window, Mark::Confidence(1));
         answer(window);
         window.pass(4);
     };
@@ -513,9 +513,7 @@ fn what_is_seen_of_a_trial_is_the_same_whatever_is_right() {
         let folder = Folder::new(pseudonym);
         let mut window = begun(&folder, "ranking-virtual-target", pseudonym);
         to_trial(&mut window);
-        let Task::Rank { target, .. } = session(&window).trial().unwrap().task else {
-            panic!("a ranking")
-        };
+        let target = session(&window).trial().unwrap().task.reference.unwrap();
         let bench = &window.workbench.bench;
         let device = (Link::of(bench), ArrayNow::of(bench));
         let described = format!("{:?}", session(&window).view(device, 0.0));
@@ -577,7 +575,7 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     window.pass(2);
     feel(&mut window);
     mark(&mut window, Mark::Place(1));
-    mark(&mut window, Mark::Grade(Grade::Easy));
+    mark(&mut window, Mark::Confidence(1));
     answer(&mut window);
     window.pass(4);
     assert_eq!(
@@ -622,7 +620,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     answer(&mut window);
     window.pass(4);
     let found = find_sessions(&folder.0).unwrap().0;
-    let Some(selvedge_experiment::Answer::Adjusted { values, steps }) =
+    let Some(AnswerValue::Adjusted { values, steps }) =
         found[0].records[0].answer()
     else {
         panic!("an adjustment")

@@ -1,0 +1,154 @@
+//! One of several chosen, right or wrong: shares and d′ by subject, by the relation that belongs to
+//! how stimuli came together.
+
+use super::draw::{Bar, bars};
+use super::included_trials::{Experiment, Subject};
+use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, percent_of};
+use super::options::Options;
+use super::tables::tests;
+use crate::design::{Form, Sets};
+use selvedge_statistics::detection::{
+    Choice, Correction, abx, forced_choice, same_different, triangle,
+};
+use selvedge_statistics::{
+    Computed, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
+};
+
+const SUBJECTS: [(&str, &str); 11] = [
+    ("subject", "subject"),
+    ("trials", "trials"),
+    ("right", "right"),
+    ("percent", "%"),
+    ("ci_low_percent", "95 % CI from"),
+    ("ci_high_percent", "to"),
+    ("p", "exact binomial p, above chance"),
+    ("d_prime", "d′"),
+    ("d_prime_ci_low", "95 % CI from"),
+    ("d_prime_ci_high", "to"),
+    ("correction", "correction"),
+];
+
+/// Right answers of a subject: all, and those of pairs of the same one.
+struct Counts {
+    right: u64,
+    n: u64,
+    /// Pairs of different ones called different, and how many there were.
+    hits: [u64; 2],
+    /// Pairs of the same one called different, and how many there were.
+    false_alarms: [u64; 2],
+}
+
+impl Counts {
+    fn of(subject: &Subject<'_>) -> Self {
+        let mut counts = Self {
+            right: 0,
+            n: 0,
+            hits: [0; 2],
+            false_alarms: [0; 2],
+        };
+        for record in subject.trials() {
+            let Some(is_right) = record.is_correct else {
+                continue;
+            };
+            counts.n += 1;
+            counts.right += u64::from(is_right);
+            let is_same = record.trial.task.right == Some(0);
+            let (of, is_called) = if is_same {
+                (&mut counts.false_alarms, !is_right)
+            } else {
+                (&mut counts.hits, is_right)
+            };
+            of[0] += u64::from(is_called);
+            of[1] += 1;
+        }
+        counts
+    }
+}
+
+/// Shares and d′ by subject and over them.
+pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
+    let composition = &experiment.design.composition;
+    let chance = 1.0 / composition.n_choices() as f64;
+    let mut section = experiment.section("choices", "right answers");
+    section.note(format!(
+        "Chance is {} %. {} Intervals of shares are Wilson's, p is exact (binomial).",
+        selvedge_foundation::quantity::fixed(100.0 * chance, 1),
+        relation(experiment)
+    ));
+    let mut table = Table::new("subjects", "Right answers by subject", &SUBJECTS);
+    let (mut percents, mut d_primes, mut shown) = (Vec::new(), Vec::new(), Vec::new());
+    for subject in &experiment.subjects {
+        let counts = Counts::of(subject);
+        let (right, n) = (counts.right, counts.n);
+        let choice = sensitivity(experiment, &counts);
+        percents.push(100.0 * right as f64 / n.max(1) as f64);
+        d_primes.extend(choice.as_ref().ok().map(|choice| choice.d_prime));
+        shown.push(Bar::share(subject.name, right, n));
+        table.push(cells![
+            subject.name,
+            n,
+            right,
+            percent_of(right, n, "no trials"),
+            percent_interval(right, n),
+            exact_binomial(right, n, chance, Sides::Greater).map(|o| o.p),
+            or_undefined(choice.map(|choice| choice_cells(&choice)), 4)
+        ]);
+    }
+    section.table(table);
+    let means = [("right, %", percents.clone()), ("d′", d_primes.clone())];
+    section.over_subjects(&means, options);
+    let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
+    let what = "right, % against chance";
+    let found = [
+        (what, t(&percents, 100.0 * chance)),
+        (what, wilcoxon_signed_rank(&percents, 100.0 * chance)),
+        ("d′ against 0", t(&d_primes, 0.0)),
+    ];
+    section.table(tests("tests", "Against guessing", &found));
+    let title = experiment.titled("right answers");
+    let shown = (shown.as_slice(), Some([0.0, 100.0]));
+    let label = "right, % (95 % interval)";
+    section.figure(bars(
+        "bars",
+        &title,
+        label,
+        shown,
+        &[(100.0 * chance, "chance")],
+    ));
+    vec![section]
+}
+
+fn choice_cells(choice: &Choice) -> Vec<Cell> {
+    let correction = choice.correction.map_or("none", Correction::name);
+    cells![choice.d_prime, choice.interval.clone(), correction]
+}
+
+/// What d′ is here.
+fn relation(experiment: &Experiment<'_>) -> &'static str {
+    let composition = &experiment.design.composition;
+    match (&composition.response.form, composition.order.sets) {
+        (Form::SameDifferent, _) => {
+            "d′ is that of an observer who goes by the difference of both, from pairs called \
+             different where they are and where they are not."
+        }
+        (_, Sets::Triads) => "d′ is that of the triangle test; below chance it is 0.",
+        (_, Sets::Targets) => {
+            "d′ is that of ABX without bias, by independent looks at each; below chance it is 0."
+        }
+        _ => "d′ is that of forced choice without bias.",
+    }
+}
+
+fn sensitivity(experiment: &Experiment<'_>, counts: &Counts) -> Computed<Choice> {
+    let composition = &experiment.design.composition;
+    let (right, n, correction) = (counts.right, counts.n, Correction::LogLinear);
+    match (&composition.response.form, composition.order.sets) {
+        (Form::SameDifferent, _) => same_different(counts.hits, counts.false_alarms),
+        (_, Sets::Triads) => triangle(right, n, correction),
+        (_, Sets::Targets) => abx(right, n, correction),
+        _ => {
+            let m = u32::try_from(composition.n_choices()).unwrap_or(2);
+            forced_choice(right, n, m, correction)
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Designs that nothing but their text composes: held by simulated observers, written, read back
+//! and analysed.
+
+use super::*;
+use crate::observer::{Observer, tests::stimuli};
+use crate::session::find_sessions;
+use crate::simulate::Simulation;
+use selvedge_scratch::ScratchFolder as Scratch;
+
+/// A design, trials of a session that count, and a table that its analysis has to have.
+struct Composed {
+    name: &'static str,
+    text: &'static str,
+    n_trials: usize,
+    /// Section, table and rows of it.
+    found: (&'static str, &'static str, usize),
+}
+
+macro_rules! composed {
+    ($($name:literal: $n:literal => $section:literal, $table:literal, $rows:literal;)*) => {
+        [$(Composed {
+            name: $name,
+            text: include_str!(concat!("designs/", $name, ".toml")),
+            n_trials: $n,
+            found: ($section, $table, $rows),
+        },)*]
+    };
+}
+
+const N_OBSERVERS: usize = 6;
+
+/// Rows of subjects: all of them.
+const COMPOSED: [Composed; 14] = composed! {
+    "roughness-2afc": 42 => "choices", "subjects", 6;
+    "abx": 84 => "choices", "subjects", 6;
+    "triangle": 42 => "choices", "subjects", 6;
+    "best-worst": 20 => "scores", "scores", 16;
+    "dissimilarity": 46 => "unlike", "pairs", 21;
+    "free-sorting": 1 => "piles", "together", 16;
+    "magnitude-standard": 15 => "exponents", "exponents", 7;
+    "equality-constant": 84 => "thresholds", "fits", 6;
+    "compression-staircase": 0 => "thresholds", "fits", 6;
+    "same-different": 84 => "choices", "subjects", 6;
+    "gain-yes-no": 60 => "thresholds", "fits", 6;
+    "preference": 42 => "scales", "stimuli-scales", 7;
+    "ranked-threes": 14 => "scores", "scores", 7;
+    "masked-threshold": 40 => "thresholds", "fits", 6;
+};
+
+fn design(one: &Composed) -> Design {
+    Design::from_toml(one.text, Path::new(one.name)).unwrap()
+}
+
+#[test]
+fn every_composition_is_held_read_back_and_analysed() {
+    for one in &COMPOSED {
+        let design = design(one);
+        let folder = Scratch::new(one.name);
+        let observer = Observer::default();
+        let stimuli = stimuli(&design);
+        let simulation = Simulation {
+            design: &design,
+            stimuli: &stimuli,
+            observer: &observer,
+            seed: 3,
+        };
+        unheard(|progress| simulation.write(&folder.0, (N_OBSERVERS, 1), progress)).unwrap();
+        let (found, unread) = find_sessions(&folder.0).unwrap();
+        assert!(unread.is_empty(), "{}: {unread:?}", one.name);
+        for session in &found {
+            let held = simulation.records(&session.subject).unwrap();
+            assert_eq!(session.records, held, "{}: as it was answered", one.name);
+            if one.n_trials > 0 {
+                assert_eq!(held.len(), one.n_trials, "{}", one.name);
+            }
+        }
+        let analysis = analysed(&found);
+        let (section, key, n_rows) = one.found;
+        let section = format!("{}-{section}", design.experiment);
+        assert_eq!(
+            table(&analysis, &section, key).rows.len(),
+            n_rows,
+            "{}",
+            one.name
+        );
+    }
+}
+
+/// What observers answer in a design of these, analysed.
+fn analysed_of(name: &str) -> (Design, Analysis) {
+    let one = COMPOSED.iter().find(|one| one.name == name).unwrap();
+    let design = design(one);
+    let (observer, stimuli) = (Observer::default(), stimuli(&design));
+    let simulation = Simulation {
+        design: &design,
+        stimuli: &stimuli,
+        observer: &observer,
+        seed: 3,
+    };
+    let held = |nth| {
+        let subject = crate::simulated_subject(nth, 1);
+        let records = simulation.records(&subject).unwrap();
+        let log = PathBuf::from(format!("nowhere/{nth}.csv"));
+        Found::of_records(log, (&design, subject), records)
+    };
+    let found: Vec<Found> = (0..N_OBSERVERS).map(held).collect();
+    let analysis = analysed(&found);
+    (design, analysis)
+}
+
+#[test]
+fn answers_say_what_observers_feel() {
+    // Equality lies at the reference, 24 dB: at a difference of nothing.
+    let (_, analysis) = analysed_of("equality-constant");
+    let group = table(&analysis, "equality-constant-thresholds", "group");
+    let pse = value(group, 0, "mean");
+    assert!(pse.abs() < 0.8, "{pse}");
+    // Two that are the same are less unlike than any two others, and apart in no pile.
+    for (name, section, percent) in [
+        ("abx", "abx-choices", 50.0),
+        ("triangle", "triangle-choices", 100.0 / 3.0),
+        ("same-different", "same-different-choices", 50.0),
+        ("roughness-2afc", "roughness-2afc-choices", 50.0),
+    ] {
+        let (_, analysis) = analysed_of(name);
+        let group = table(&analysis, section, "group");
+        let (right, d_prime) = (value(group, 0, "mean"), value(group, 1, "mean"));
+        assert!(
+            right > percent + 10.0 && d_prime > 0.5,
+            "{name}: {right} %, d′ {d_prime}"
+        );
+    }
+    // The design lists what is asked from the least to the most, as the observers have it.
+    let (design, analysis) = analysed_of("best-worst");
+    let scores = table(&analysis, "best-worst-scores", "scores");
+    let last = design.stimuli.len() - 1;
+    assert!(
+        value(scores, last, "mean") > value(scores, 0, "mean"),
+        "{scores:?}"
+    );
+}
+
+#[test]
+fn a_catch_trial_shows_the_same_twice_and_does_not_count() {
+    let one = COMPOSED
+        .iter()
+        .find(|one| one.name == "dissimilarity")
+        .unwrap();
+    let design = design(one);
+    let found = held(&design, (0, 1), |task, _| {
+        let is_same = task.items[0] == task.items[1];
+        assert_eq!(task.is_catch, is_same);
+        AnswerValue::Ratings(vec![if is_same { 1.0 } else { 50.0 }]).into()
+    });
+    let n_catch = found
+        .records
+        .iter()
+        .filter(|r| r.trial.task.is_catch)
+        .count();
+    assert_eq!(n_catch, 4, "two in each of two blocks");
+    let pairs = analysed(&[found]);
+    let pairs = table(&pairs, "dissimilarity-unlike", "pairs");
+    assert!(
+        (0..21).all(|row| value(pairs, row, "mean") == 1.0),
+        "all as unlike: {pairs:?}"
+    );
+}
