@@ -190,9 +190,6 @@ fn beside(items: &[usize], reference: usize) -> Layout {
     if let Some(last) = layout.places.last_mut() {
         last.number = None;
     }
-    if let [alone, _] = layout.places.as_mut_slice() {
-        alone.number = None;
-    }
     layout
 }
 

@@ -4,7 +4,7 @@
 use selvedge_foundation::numerics::Random;
 
 use crate::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
-use crate::detection::{Answers, Correction, forced_choice, share_of_d_prime, yes_no};
+use crate::detection::{Answers, Correction, choice_share, forced_choice, yes_no};
 use crate::procrustes::protest;
 use crate::psychometric::stevens::{Estimate, stevens};
 use crate::psychometric::{Block, Family, Guess, Model, Psychometric};
@@ -94,7 +94,7 @@ fn intervals_of_d_primes_and_of_thresholds_hold_the_truth() {
             Ok(yes_no(answers, Correction::LogLinear)?.interval.holds(1.5))
         }),
         ("d′ of four alternatives", 60, |random| {
-            let correct = successes(random, 80, share_of_d_prime(1.0, 4)?);
+            let correct = successes(random, 80, choice_share(1.0, 4)?);
             let found = forced_choice(u64::from(correct), 80, 4, Correction::LogLinear)?;
             Ok(found.interval?.holds(1.0))
         }),

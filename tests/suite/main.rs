@@ -28,6 +28,7 @@ mod mds;
 mod model_surfaces;
 mod no_allocation;
 mod no_allocation_engine;
+mod old_designs;
 mod picture;
 mod program;
 mod programs;

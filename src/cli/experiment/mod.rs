@@ -5,6 +5,7 @@ mod designs;
 mod desk;
 mod noise;
 mod plan;
+mod preview;
 mod replicate;
 mod run;
 mod simulate;
@@ -28,6 +29,8 @@ pub(super) enum ExperimentCommand {
     Verify(verify::VerifyArgs),
     /// A plan to freeze before the first subject: hypotheses, tests, number, exclusions
     Plan(plan::PlanArgs),
+    /// What a design comes to: trials, duration, balance, power
+    Preview(preview::PreviewArgs),
     /// The designs that are part of the program
     Designs(designs::DesignsArgs),
     /// A noise that covers what an array can be heard by, as a sound file
@@ -45,6 +48,7 @@ pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
         ExperimentCommand::Analyse(args) => analyse::run(args),
         ExperimentCommand::Verify(args) => verify::run(args),
         ExperimentCommand::Plan(args) => plan::run(args),
+        ExperimentCommand::Preview(args) => preview::run(args),
         ExperimentCommand::Designs(args) => designs::run(args),
         ExperimentCommand::Noise(args) => noise::run(args),
         ExperimentCommand::Simulate(args) => simulate::run(args),

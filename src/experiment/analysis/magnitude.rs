@@ -4,12 +4,12 @@ use super::draw::{Bar, bars, scatter};
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, cells};
 use super::tables::{summaries, tests};
-use crate::AnswerValue;
 use crate::design::Source;
+use crate::{AnswerValue, Record};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
-use selvedge_statistics::paired_t;
 use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
+use selvedge_statistics::{Interval, Summary, mean, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
 fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
@@ -58,6 +58,8 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let conditions = conditions(experiment);
     if conditions.is_empty() {
         section.note("**No exponents**: no stimulus is a vibration of a known level.");
+        section.table(means(experiment));
+        return vec![section];
     }
     let mut table = Table::new("exponents", "Exponents", &EXPONENTS);
     let mut found: Vec<(&str, Stevens)> = Vec::new();
@@ -91,6 +93,48 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     }
     draw(experiment, &found, &mut section);
     vec![section]
+}
+
+/// Geometric means of every stimulus over subjects, of each subject's numbers over their own mean.
+fn means(experiment: &Experiment<'_>) -> Table {
+    let columns = [
+        ("item", "stimulus"),
+        ("n", "subjects"),
+        ("mean", "geometric mean, over that of all"),
+        ("ci_low", "95 % CI from"),
+        ("ci_high", "to"),
+    ];
+    let mut table = Table::new("means", "Numbers by stimulus", &columns);
+    let logarithms: Vec<Vec<(usize, f64)>> = (experiment.subjects.iter())
+        .map(|subject| {
+            let number = |record: &Record| match (record.trial.task.item(), record.value()) {
+                (Some(item), Some(AnswerValue::Number(value))) => Some((item, value.ln())),
+                _ => None,
+            };
+            subject.trials().filter_map(number).collect()
+        })
+        .collect();
+    for (item, name) in experiment.ids().iter().enumerate() {
+        let of = |own: &Vec<(usize, f64)>| {
+            let all: Vec<f64> = own.iter().map(|(_, ln)| *ln).collect();
+            let its: Vec<f64> = own
+                .iter()
+                .filter(|(i, _)| *i == item)
+                .map(|(_, ln)| *ln)
+                .collect();
+            Some(mean(&its).ok()? - mean(&all).ok()?)
+        };
+        let values: Vec<f64> = logarithms.iter().filter_map(of).collect();
+        let interval = Summary::of(&values).and_then(|summary| summary.interval(0.95));
+        let interval = interval.map(|i| Interval {
+            low: i.low.exp(),
+            high: i.high.exp(),
+            ..i
+        });
+        let centre = mean(&values).map(f64::exp);
+        table.push(cells![name, values.len(), centre, interval]);
+    }
+    table
 }
 
 /// The conditions of vibrations, in the design's order.

@@ -12,7 +12,7 @@ const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
 ///
 /// # Errors
 /// Fewer than two or more than 1000 alternatives, a distance that is not finite.
-pub(crate) fn share_of_d_prime(d_prime: f64, m: u32) -> Computed {
+pub fn choice_share(d_prime: f64, m: u32) -> Computed {
     if !(2..=1000).contains(&m) || !d_prime.is_finite() {
         return undefined(format!("d′ = {d_prime} among {m} alternatives"));
     }
@@ -29,9 +29,9 @@ fn share(d_prime: f64, m: u32) -> f64 {
 /// The d′ of a share of correct choices among `m` alternatives, to 1e-10; negative below chance.
 ///
 /// # Errors
-/// As [`share_of_d_prime`]; a share within 1e-9 of 0 or 1 or outside.
+/// As [`choice_share`]; a share within 1e-9 of 0 or 1 or outside.
 pub(crate) fn d_prime_of_share(correct: f64, m: u32) -> Computed {
-    share_of_d_prime(0.0, m)?;
+    choice_share(0.0, m)?;
     if !(SHARES[0]..=SHARES[1]).contains(&correct) {
         let reason = format!("a share of {correct} among {m} alternatives has no finite d′");
         return undefined(reason);
@@ -50,7 +50,7 @@ pub fn forced_choice(
     m: u32,
     correction: Correction,
 ) -> Computed<Choice> {
-    share_of_d_prime(0.0, m)?;
+    choice_share(0.0, m)?;
     let relation = Relation {
         chance: 1.0 / f64::from(m),
         share_of: &|d| share(d, m),
@@ -69,7 +69,7 @@ mod tests {
     fn two_alternatives_agree_with_their_closed_form() -> Computed<()> {
         for d in [-6.0, -1.0, 0.0, 0.3, 1.0, 2.5, 6.0] {
             let closed = normal_lower(d * FRAC_1_SQRT_2);
-            let found = share_of_d_prime(d, 2)?;
+            let found = choice_share(d, 2)?;
             assert!(
                 (found / closed - 1.0).abs() < 1e-12,
                 "{d}: {found} for {closed}"
@@ -84,14 +84,13 @@ mod tests {
     fn without_a_difference_the_share_is_chance_and_its_slope_the_mean_of_the_largest()
     -> Computed<()> {
         for m in [2_u32, 3, 4, 8, 100] {
-            let chance = share_of_d_prime(0.0, m)?;
+            let chance = choice_share(0.0, m)?;
             assert!((chance - 1.0 / f64::from(m)).abs() < 1e-14, "{m}: {chance}");
         }
         // dPc/dd′ at 0 is ∫ x φ Φ^(m−1): the mean of the largest of m over m, for m = 3
         // 3/(2√π)/3, for m = 4 3(1 + (2/π) asin ⅓)/(2√π)/4.
-        let slope = |m: u32| -> Computed {
-            Ok((share_of_d_prime(1e-4, m)? - share_of_d_prime(-1e-4, m)?) / 2e-4)
-        };
+        let slope =
+            |m: u32| -> Computed { Ok((choice_share(1e-4, m)? - choice_share(-1e-4, m)?) / 2e-4) };
         let root = 2.0 * PI.sqrt();
         assert!((slope(3)? - 1.0 / root).abs() < 1e-9, "three");
         let four = 0.75 * (1.0 + 2.0 / PI * (1.0_f64 / 3.0).asin()) / root;
@@ -102,7 +101,7 @@ mod tests {
     #[test]
     fn four_alternatives_agree_with_a_simulated_observer_and_lead_back() -> Computed<()> {
         let d = d_prime_of_share(0.413, 4)?;
-        assert!((share_of_d_prime(d, 4)? - 0.413).abs() < 1e-13, "{d}");
+        assert!((choice_share(d, 4)? - 0.413).abs() < 1e-13, "{d}");
         let mut random = Random::new(12);
         let n = 100_000;
         let mut chooses = || {
@@ -113,7 +112,7 @@ mod tests {
         let found = n_right as f64 / f64::from(n);
         assert!((found - 0.413).abs() < 0.005, "{found}");
         for share in [1e-6, 0.01, 0.2, 0.641, 0.999_999] {
-            let back = share_of_d_prime(d_prime_of_share(share, 4)?, 4)?;
+            let back = choice_share(d_prime_of_share(share, 4)?, 4)?;
             assert!((back / share - 1.0).abs() < 1e-10, "{back} for {share}");
         }
         Ok(())

@@ -13,10 +13,8 @@ mod yes_no;
 
 pub(crate) use choice::inverted;
 pub use choice::{Choice, Correction};
-pub use forced_choice::forced_choice;
-#[cfg(test)]
-pub(crate) use forced_choice::share_of_d_prime;
-pub use matching::{abx, same_different};
+pub use forced_choice::{choice_share, forced_choice};
+pub use matching::{abx, abx_share, same_different};
 pub use roc::{Roc, roc};
-pub use triangle::triangle;
+pub use triangle::{triangle, triangle_share};
 pub use yes_no::{Answers, YesNo, yes_no};

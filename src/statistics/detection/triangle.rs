@@ -11,7 +11,7 @@ const CHANCE: f64 = 1.0 / 3.0;
 ///
 /// By the rule of Gauss and Legendre with five nodes in each eighth from 0 to 9 (Abramowitz &
 /// Stegun table 25.4): exact to rounding.
-fn share(d_prime: f64) -> f64 {
+pub fn triangle_share(d_prime: f64) -> f64 {
     const NODES: [[f64; 2]; 5] = [
         [-0.906_179_845_938_664, 0.236_926_885_056_189_1],
         [-0.538_469_310_105_683_1, 0.478_628_670_499_366_5],
@@ -47,7 +47,7 @@ fn triangle_d_prime(correct: f64) -> Computed {
     if correct <= CHANCE {
         return Ok(0.0);
     }
-    Ok(inverted(share, correct, [0.0, 30.0]))
+    Ok(inverted(triangle_share, correct, [0.0, 30.0]))
 }
 
 /// d′ of one subject's triads, with its error and interval. Only shares of 0 and 1 are corrected.
@@ -57,7 +57,7 @@ fn triangle_d_prime(correct: f64) -> Computed {
 pub fn triangle(correct: u64, trials: u64, correction: Correction) -> Computed<Choice> {
     let relation = Relation {
         chance: CHANCE,
-        share_of: &share,
+        share_of: &triangle_share,
         d_prime_of: &triangle_d_prime,
     };
     relation.choice(correct, trials, correction)
@@ -70,9 +70,20 @@ mod tests {
 
     #[test]
     fn without_a_difference_a_third_is_right_and_far_apart_all() {
-        assert!((share(0.0) - CHANCE).abs() < 1e-14, "{}", share(0.0));
-        assert!(share(20.0) > 1.0 - 1e-14, "{}", share(20.0));
-        assert!((share(-1.3) - share(1.3)).abs() < 1e-15, "even");
+        assert!(
+            (triangle_share(0.0) - CHANCE).abs() < 1e-14,
+            "{}",
+            triangle_share(0.0)
+        );
+        assert!(
+            triangle_share(20.0) > 1.0 - 1e-14,
+            "{}",
+            triangle_share(20.0)
+        );
+        assert!(
+            (triangle_share(-1.3) - triangle_share(1.3)).abs() < 1e-15,
+            "even"
+        );
     }
 
     #[test]
@@ -87,9 +98,9 @@ mod tests {
             };
             let found = (0..n).filter(|_| finds()).count() as f64 / f64::from(n);
             assert!(
-                (found - share(d)).abs() < 0.007,
+                (found - triangle_share(d)).abs() < 0.007,
                 "{d}: {found} and {}",
-                share(d)
+                triangle_share(d)
             );
         }
     }
@@ -97,7 +108,7 @@ mod tests {
     #[test]
     fn shares_lead_back_to_their_distance() -> Computed<()> {
         for d in [0.2, 1.0, 2.5, 5.0] {
-            let back = triangle_d_prime(share(d))?;
+            let back = triangle_d_prime(triangle_share(d))?;
             assert!((back - d).abs() < 1e-10, "{back} for {d}");
         }
         Ok(())

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
 use super::*;
+use selvedge_experiment::Outcome;
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::Found;
-use selvedge_experiment::{Grade, Outcome};
 use selvedge_scratch::ScratchFolder as Folder;
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\

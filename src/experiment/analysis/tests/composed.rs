@@ -30,7 +30,7 @@ macro_rules! composed {
 const N_OBSERVERS: usize = 6;
 
 /// Rows of subjects: all of them.
-const COMPOSED: [Composed; 14] = composed! {
+const COMPOSED: [Composed; 15] = composed! {
     "roughness-2afc": 42 => "choices", "subjects", 6;
     "abx": 84 => "choices", "subjects", 6;
     "triangle": 42 => "choices", "subjects", 6;
@@ -38,6 +38,7 @@ const COMPOSED: [Composed; 14] = composed! {
     "dissimilarity": 46 => "unlike", "pairs", 21;
     "free-sorting": 1 => "piles", "together", 16;
     "magnitude-standard": 15 => "exponents", "exponents", 7;
+    "magnitude-textiles": 8 => "exponents", "means", 4;
     "equality-constant": 84 => "thresholds", "fits", 6;
     "compression-staircase": 0 => "thresholds", "fits", 6;
     "same-different": 84 => "choices", "subjects", 6;

@@ -478,6 +478,9 @@ mod tests {
         for scale in 0..4 {
             rated.take(&Mark::Rate(scale, 25.0), 0.0);
         }
-        assert_eq!(rated.answer(), Ok(Answer::Ratings(vec![25.0; 4])));
+        assert_eq!(
+            rated.answer(),
+            Ok(AnswerValue::Ratings(vec![25.0; 4]).into())
+        );
     }
 }

@@ -52,7 +52,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
     assert!(session(&window).trial().is_some(), "the session goes on");
     assert!(matches!(
         session(&window).draft,
-        Draft::Odd {
+        Draft::Choose {
             position: Some(1),
             ..
         }

@@ -346,13 +346,8 @@ fn a_trial_waits_for_an_armed_array_and_is_voided_with_it_and_three_times_stop()
         "{seen:?}"
     );
     mark(&mut window, Mark::Place(1));
-    let untouched = Draft::Odd {
-        position: None,
-        grade: None,
-    };
-    assert_eq!(
-        session(&window).draft,
-        untouched,
+    assert!(
+        matches!(session(&window).draft, Draft::Choose { position: None, .. }),
         "nothing is answered before it begins"
     );
     for nth in 1..=3 {
@@ -412,14 +407,12 @@ fn a_beginning_is_taken_back_without_a_trace_but_a_line() {
 
 #[test]
 fn the_keys_that_a_trial_names_answer_it_in_the_main_window() {
-    let is_odd = |draft: &Draft| {
-        let (position, grade) = (Some(1), Some(Grade::Hard));
-        *draft == Draft::Odd { position, grade }
+    let is_chosen = |draft: &Draft, at: usize, said: Option<u8>| match draft {
+        Draft::Choose { position, sure, .. } => *position == Some(at) && sure.grade == said,
+        _ => false,
     };
-    let is_real = |draft: &Draft| {
-        let is_real = Some(true);
-        matches!(draft, Draft::Judge { is_real: said, .. } if *said == is_real)
-    };
+    let is_odd = |draft: &Draft| is_chosen(draft, 1, Some(3));
+    let is_real = |draft: &Draft| is_chosen(draft, 0, None);
     press_in_trial("odd-one-out", &[Key::Num2, Key::H], is_odd);
     press_in_trial("real-or-generated", &[Key::R], is_real);
 }
@@ -620,9 +613,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     answer(&mut window);
     window.pass(4);
     let found = find_sessions(&folder.0).unwrap().0;
-    let Some(AnswerValue::Adjusted { values, steps }) =
-        found[0].records[0].answer()
-    else {
+    let Some(AnswerValue::Adjusted { values, steps }) = found[0].records[0].value() else {
         panic!("an adjustment")
     };
     assert!((values[0] - turned).abs() < 1e-9 && steps.len() == 2);

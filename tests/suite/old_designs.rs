@@ -1,0 +1,62 @@
+//! Logs of earlier versions, whose designs said in one table what was asked: they lead to the
+//! trials, rows and analysis of the designs that are shipped now.
+
+use std::path::Path;
+
+use selvedge_experiment::analysis::{Options, analyse_folder};
+use selvedge_experiment::design::Design;
+use selvedge_experiment::session::find_sessions;
+use selvedge_experiment::{Course, Step};
+use selvedge_foundation::progress::unheard;
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/old_logs");
+
+#[test]
+fn old_logs_are_read_by_the_compositions_that_their_tables_were() {
+    let (found, unread) = find_sessions(Path::new(FOLDER)).unwrap();
+    assert!(unread.is_empty(), "{unread:?}");
+    let names = [
+        "real-or-generated",
+        "odd-one-out",
+        "gain-matching",
+        "jnd-40",
+    ];
+    assert_eq!(found.len(), names.len());
+    for (session, name) in found.iter().zip(names) {
+        let shipped = Design::shipped(name).unwrap();
+        assert_ne!(session.design.hash, shipped.hash, "the texts differ");
+        assert_eq!(session.design.composition, shipped.composition, "{name}");
+        // What the shipped design asks now is what was asked then, and all was answered.
+        let course = Course::resume(&shipped, &session.subject, &session.records);
+        let mut course = course.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(course.progress().0, session.records.len(), "{name}");
+        while matches!(
+            course.step(),
+            Step::Instructions(_) | Step::Familiarisation(_)
+        ) {
+            course.pass();
+        }
+        assert_eq!(course.step(), Step::Finished, "{name}");
+    }
+}
+
+#[test]
+fn old_logs_are_analysed_as_what_they_were() {
+    let options = Options {
+        n_random_data: 0,
+        n_permutations: 9,
+        n_resamples: 20,
+        ..Options::default()
+    };
+    let analysis = unheard(|progress| analyse_folder(Path::new(FOLDER), &options, progress));
+    let analysis = analysis.unwrap();
+    let keys: Vec<&str> = analysis.sections.iter().map(|s| s.key.as_str()).collect();
+    for expected in [
+        "jnd-40-thresholds",
+        "odd-one-out-accuracy",
+        "gain-matching-gain-db",
+        "single-judgements-sensitivity",
+    ] {
+        assert!(keys.contains(&expected), "{expected} among {keys:?}");
+    }
+}
