@@ -378,9 +378,16 @@ mod tests {
         Watch::of(&Design::shipped(name).unwrap(), task, Proof::Array)
     }
 
+    fn of_items(items: &[usize]) -> Task {
+        Task {
+            items: items.to_vec(),
+            ..Task::default()
+        }
+    }
+
     /// A judgement of one textile, of which nothing has to be explored.
     fn judged() -> Watch {
-        let task = Task::Rate { item: 0 };
+        let task = of_items(&[0]);
         watch("rating", &task)
     }
 
@@ -465,9 +472,9 @@ mod tests {
         );
         let standing = shown(&mut watch, [limited(20)]);
         assert!(void(&standing).contains("limits changed"), "{standing:?}");
-        let task = Task::Adjust {
-            item: 0,
+        let task = Task {
             starts: vec![0.0],
+            ..of_items(&[0])
         };
         let mut adjusted = self::watch("gain-matching", &task);
         assert_eq!(shown(&mut adjusted, [STILL, limited(40)]), Standing::Valid);
@@ -475,9 +482,9 @@ mod tests {
 
     #[test]
     fn each_of_several_textiles_is_felt_in_movement_for_a_second() {
-        let task = Task::OddOne {
-            items: [0, 1, 0],
-            odd: 1,
+        let task = Task {
+            right: Some(1),
+            ..of_items(&[0, 1, 0])
         };
         let mut watch = watch("odd-one-out", &task);
         let places = Layout::of(&Design::shipped("odd-one-out").unwrap(), &task).places;
@@ -499,10 +506,11 @@ mod tests {
     #[test]
     fn every_interval_is_played_to_its_end_and_its_onset_told() {
         let design = Design::shipped("threshold-40").unwrap();
-        let task = Task::Interval {
-            track: 0,
-            level_db: 10.0,
-            signal: 0,
+        let (track, value) = (0, 10.0);
+        let task = Task {
+            right: Some(0),
+            adapted: Some(crate::Adapted { track, value }),
+            ..Task::default()
         };
         let steps = vibrations(&design, &task);
         let mut watch = Watch::of(&design, &task, Proof::Array);
