@@ -185,7 +185,8 @@ impl Composition {
         }))
     }
 
-    /// Whether an answer says more of what is adapted: right, or the adapted one, or the first word.
+    /// Whether an answer says more of what is adapted: right, or the adapted one, or the first
+    /// word.
     pub(crate) fn says_more(&self, task: &Task, answer: &Answer) -> bool {
         let more = if self.words().is_some() {
             Some(0)

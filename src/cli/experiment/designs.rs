@@ -1,5 +1,7 @@
 //! `selvedge experiment designs`: what can be held without writing a file.
 
+use std::path::Path;
+
 use clap::Args;
 
 use super::super::{CliError, output};
@@ -36,4 +38,19 @@ fn table() -> String {
         ))
     };
     Design::shipped_names().filter_map(line).collect()
+}
+
+/// The design of a file, or of the program where no file has that name.
+pub(super) fn design(named: &Path) -> Result<Design, CliError> {
+    if named.exists() {
+        return Ok(Design::read(named)?);
+    }
+    named.to_str().and_then(Design::shipped).ok_or_else(|| {
+        let names: Vec<&str> = Design::shipped_names().collect();
+        CliError::Input(format!(
+            "there is no design {}; give a file, or one of {}",
+            named.display(),
+            names.join(", ")
+        ))
+    })
 }

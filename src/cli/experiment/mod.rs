@@ -11,12 +11,9 @@ mod run;
 mod simulate;
 mod verify;
 
-use std::path::Path;
-
 use clap::Subcommand;
 
 use super::CliError;
-use selvedge_experiment::design::Design;
 
 /// What to do with experiments.
 #[derive(Debug, Subcommand)]
@@ -54,19 +51,4 @@ pub(super) fn run(command: &ExperimentCommand) -> Result<(), CliError> {
         ExperimentCommand::Simulate(args) => simulate::run(args),
         ExperimentCommand::Replicate(args) => replicate::run(args),
     }
-}
-
-/// The design of a file, or of the program where no file has that name.
-fn design(named: &Path) -> Result<Design, CliError> {
-    if named.exists() {
-        return Ok(Design::read(named)?);
-    }
-    named.to_str().and_then(Design::shipped).ok_or_else(|| {
-        let names: Vec<&str> = Design::shipped_names().collect();
-        CliError::Input(format!(
-            "there is no design {}; give a file, or one of {}",
-            named.display(),
-            names.join(", ")
-        ))
-    })
 }

@@ -30,7 +30,7 @@ pub(crate) struct PlanArgs {
 
 /// Writes the plan that design and method suggest.
 pub(super) fn run(args: &PlanArgs) -> Result<(), CliError> {
-    let design = super::design(&args.design)?;
+    let design = super::designs::design(&args.design)?;
     let mut plan = Plan::suggested(&design);
     plan.subjects = args.subjects.unwrap_or(plan.subjects);
     plan.alpha = args.alpha;

@@ -27,7 +27,7 @@ pub(crate) struct PreviewArgs {
 
 /// Prints it.
 pub(super) fn run(args: &PreviewArgs) -> Result<(), CliError> {
-    let design = super::design(&args.design)?;
+    let design = super::designs::design(&args.design)?;
     let options = PreviewOptions {
         n_subjects: args.subjects,
         effect: args.effect,

@@ -79,7 +79,7 @@ struct ToldArgs {
 
 /// Holds the session.
 pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
-    let design = super::design(&args.design)?;
+    let design = super::designs::design(&args.design)?;
     let apparatus = apparatus(args, &design)?;
     let mut bench = Terminal::new();
     let mut session = opened(args, design, &apparatus.device, bench.now().utc)?;

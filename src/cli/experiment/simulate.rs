@@ -92,7 +92,7 @@ impl SimulateArgs {
 pub(super) fn run(args: &SimulateArgs) -> Result<(), CliError> {
     let observer = args.observer();
     observer.check()?;
-    let design = super::design(&args.design)?;
+    let design = super::designs::design(&args.design)?;
     let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
     let library = design
         .open_library(folder, selvedge_workbench::build_cache().as_ref())

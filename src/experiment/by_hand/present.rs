@@ -221,7 +221,8 @@ mod tests {
             Design::from_toml(&text, std::path::Path::new("a.toml")).unwrap()
         };
         assert!(!needs_array(&design(
-            "textiles = [\"a\", \"b\"]\n[presentation]\nkind = \"single\"\n[response]\nkind = \"number\"\n"
+            "textiles = [\"a\", \"b\"]\n[presentation]\nkind = \"single\"\n\
+             [response]\nkind = \"number\"\n"
         )));
         let vibration = "[[stimulus]]\nid = \"v\"\nband_hz = 40\nlevel_db = 0\n";
         let mixed = format!(

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::composition::Tunable;
+use super::parameter::Tunable;
 use crate::named::named;
 use selvedge_statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
 use selvedge_statistics::psychometric::Family;

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::adapting::{AdaptationKeys, band};
 use super::check::check;
-use super::composing::{AdaptationKeys, Keys, OrderKeys, PresentationKeys, ResponseKeys, band};
+use super::composing::{Keys, OrderKeys, PresentationKeys, ResponseKeys};
 use super::old::OldTables;
 use super::{CourseSettings, Design, Medium, Question, Rules, Source, Stimulus};
 use crate::ExperimentError;

@@ -4,13 +4,16 @@
 //! another purpose draws: all chance comes from [`Design::seed`], the subject and the purpose.
 
 mod adaptation;
+mod adapting;
 mod check;
 mod check_adaptation;
 mod check_composition;
 mod composing;
 mod composition;
 mod file;
+mod kind;
 mod old;
+mod parameter;
 
 use std::path::{Path, PathBuf};
 
@@ -18,11 +21,14 @@ use serde::Deserialize;
 
 pub(crate) use adaptation::Needs;
 pub use adaptation::{Adaptation, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track};
+pub(crate) use composition::Sequence;
 pub use composition::{
-    Composition, Confidence, Form, Kind, Order, Presentation, Question, Response, Right, Scale,
-    Sets, Shown, Standard, TunedParameter,
+    Composition, Confidence, Form, Order, Presentation, Question, Response, Right, Sets, Shown,
+    Standard,
 };
-pub(crate) use composition::{Sequence, Tunable};
+pub use kind::Kind;
+pub(crate) use parameter::Tunable;
+pub use parameter::{Scale, TunedParameter};
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};

@@ -4,7 +4,8 @@
 use serde::Deserialize;
 
 use super::adaptation::count;
-use super::composing::{AdaptationKeys, ConstantKeys, QuestPlusKeys, interval_ms};
+use super::adapting::{AdaptationKeys, ConstantKeys, QuestPlusKeys};
+use super::composing::interval_ms;
 use super::{
     Composition, Confidence, Form, Order, Presentation, Question, Response, Right, Scale, Seeks,
     Sequence, Sets, Shown, StaircaseTrack, Standard, Stopping, Tunable, TunedParameter,

@@ -3,7 +3,7 @@
 use super::percept::{distance, look};
 use super::scale::NOISE_JND;
 use super::{Observer, Stimuli, Strategy};
-use crate::design::{Design, Form, Scale, Sets, Standard, Subject};
+use crate::design::{Design, Form, Sets, Standard, Subject};
 use crate::trial::{Answer, AnswerValue, Task, Trial};
 use selvedge_foundation::numerics::Random;
 
@@ -27,7 +27,7 @@ pub(crate) struct Participant<'a> {
     /// The generator of its session.
     session: Random,
     /// Of the noise of one look, relative to everybody's.
-    noise: f64,
+    pub(super) noise: f64,
     /// Of the noise of what was explored.
     pub(super) explored: f64,
     /// By coordinate.
@@ -317,7 +317,7 @@ impl<'a> Participant<'a> {
     }
 
     /// One grade more for every so much of a margin, where grades are asked for.
-    fn confidence(&self, margin: f64) -> Option<u8> {
+    pub(super) fn confidence(&self, margin: f64) -> Option<u8> {
         let n_grades = self.n_grades()?;
         let reached = |grade: &u8| {
             let needed = self.observer.habits.confidence_jnd * f64::from(*grade - 1);
@@ -326,144 +326,14 @@ impl<'a> Participant<'a> {
         (1..=n_grades).rev().find(reached)
     }
 
-    fn n_grades(&self) -> Option<u8> {
+    pub(super) fn n_grades(&self) -> Option<u8> {
         Some(self.design.composition.response.confidence.n_grades()).filter(|&n| n > 0)
-    }
-
-    /// Positions in the order of what is asked of them, the most first: along the way from the
-    /// first to the last stimulus of the design.
-    fn by_amount(&self, items: &[usize], random: &Random) -> Vec<usize> {
-        let mut looks = random.branch("percepts");
-        let amounts: Vec<f64> = items
-            .iter()
-            .map(|&item| -self.along(&self.seen(item, &mut looks)))
-            .collect();
-        ordered(&amounts, random)
-    }
-
-    /// The position with the most of what is asked.
-    fn most(&self, items: &[usize], random: &Random) -> Answer {
-        let order = self.by_amount(items, random);
-        Answer::chosen(order.first().copied().unwrap_or(0), self.confidence(0.0))
-    }
-
-    /// How far a percept lies on the way from the first to the last stimulus of the design, in
-    /// just noticeable differences.
-    fn along(&self, percept: &[f64]) -> f64 {
-        let (Some(first), Some(last)) = (self.places.first(), self.places.last()) else {
-            return 0.0;
-        };
-        let way = last.iter().zip(first).map(|(to, from)| to - from);
-        let way: Vec<f64> = way.collect();
-        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
-        percept
-            .iter()
-            .zip(&way)
-            .map(|(x, way)| x * way)
-            .sum::<f64>()
-            / length
-    }
-
-    /// The position that has most of what is adapted; of one alone, whether it has more than the
-    /// reference.
-    fn more(&self, task: &Task, random: &Random) -> Answer {
-        let composition = &self.design.composition;
-        let (Some(adaptation), Some(adapted)) = (&composition.adaptation, task.adapted) else {
-            return self.guess_chosen(composition.n_choices(), random);
-        };
-        let mut looks = random.branch("percepts");
-        let noise = self.noise * NOISE_JND;
-        let mut felt =
-            |value: Option<f64>| self.adapted_jnd(adaptation, value) + noise * looks.normal();
-        if composition.presentation.n == 1 {
-            let [low, high] = adaptation.range;
-            let middle = adaptation.reference.unwrap_or(0.5 * (low + high));
-            let criterion = self.adapted_jnd(adaptation, Some(middle));
-            let margin = felt(Some(adapted.value)) - criterion;
-            return Answer::chosen(usize::from(margin <= 0.0), self.confidence(margin));
-        }
-        let value = |at: usize| {
-            let is_adapted = Some(at) == task.right;
-            is_adapted.then_some(adapted.value).or(adaptation.reference)
-        };
-        let felt: Vec<f64> = (0..composition.presentation.n)
-            .map(|at| felt(value(at)))
-            .collect();
-        let mut order: Vec<usize> = (0..felt.len()).collect();
-        random.branch("ties").shuffle(&mut order);
-        let most = order
-            .into_iter()
-            .max_by(|&a, &b| felt[a].total_cmp(&felt[b]));
-        let is_told = composition.response.confidence.n_grades() > 0;
-        let sure = is_told.then(|| self.confidence(0.0)).flatten();
-        Answer::chosen(most.unwrap_or(0), sure)
-    }
-
-    fn guess_chosen(&self, n: usize, random: &Random) -> Answer {
-        let position = random.branch("guess").index(n);
-        let confidence = self.guessed_confidence(&mut random.branch("guessed confidence"));
-        Answer::chosen(position, confidence)
-    }
-
-    fn guessed_confidence(&self, random: &mut Random) -> Option<u8> {
-        let grades: Vec<u8> = (1..=self.n_grades()?).collect();
-        grades.get(random.index(grades.len())).copied()
-    }
-
-    /// An answer that has nothing to do with the stimuli.
-    fn guess(&self, task: &Task, random: &mut Random) -> Answer {
-        let composition = &self.design.composition;
-        let n = composition.presentation.n;
-        let mut shuffled = |n: usize| {
-            let mut order: Vec<usize> = (0..n).collect();
-            random.shuffle(&mut order);
-            order
-        };
-        match &composition.response.form {
-            Form::Choice if composition.order.sets == Sets::Triads => {
-                let position = random.index(n);
-                Answer::chosen(position, self.guessed_confidence(random))
-            }
-            Form::Words(_) => {
-                let position = random.index(2);
-                Answer::chosen(position, self.guessed_confidence(random))
-            }
-            Form::Choice | Form::SameDifferent => {
-                self.guess_chosen(composition.n_choices(), random)
-            }
-            Form::Rank => {
-                let ranks = shuffled(n)
-                    .into_iter()
-                    .map(|at| u8::try_from(at + 1).unwrap_or(1));
-                AnswerValue::Ranks(ranks.collect()).into()
-            }
-            Form::BestWorst(_) => {
-                let order = shuffled(n);
-                AnswerValue::BestWorst([order[0], order[n - 1]]).into()
-            }
-            Form::Number { .. } => {
-                let noise = self.observer.habits.magnitude_noise * random.normal();
-                AnswerValue::Number(self.modulus() * noise.exp()).into()
-            }
-            Form::Scales(scales) => {
-                let anywhere = |scale: &Scale| {
-                    let [low, high] = scale.bounds();
-                    scale.placed(random.uniform_in(low, high))
-                };
-                AnswerValue::Ratings(scales.iter().map(anywhere).collect()).into()
-            }
-            Form::Piles => {
-                let piles: Vec<usize> = (0..n).map(|_| random.index(n.div_ceil(3))).collect();
-                Answer::in_piles(&piles)
-            }
-            Form::Adjustment(_) => self.left_anywhere(task.starts.len(), random),
-        }
     }
 }
 
 /// Numbers from the least to the most, by their positions; those that are equal come in an order by
 /// chance.
-fn ordered(numbers: &[f64], random: &Random) -> Vec<usize> {
+pub(super) fn ordered(numbers: &[f64], random: &Random) -> Vec<usize> {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     random.branch("ties").shuffle(&mut order);
     order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));

@@ -15,6 +15,7 @@
 //! - the same percepts, lapses and times of response come from branches of their own
 
 mod adjust;
+mod amount;
 mod answer;
 mod measure;
 mod percept;
@@ -87,8 +88,8 @@ pub struct Habits {
     pub(crate) real_criterion_jnd: f64,
     /// How much farther from the criterion makes one grade of confidence more, likewise.
     pub(crate) confidence_jnd: f64,
-    /// Two that lie nearer than this are called the same, in just noticeable differences a coordinate
-    /// (root mean square).
+    /// Two that lie nearer than this are called the same, in just noticeable differences a
+    /// coordinate (root mean square).
     pub(crate) same_criterion_jnd: f64,
     /// Two so far apart are called unlike by 63 % of a scale, likewise.
     pub(crate) unlike_jnd: f64,

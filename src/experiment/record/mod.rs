@@ -4,6 +4,7 @@
 //! Positions, blocks, trials and attempts count from 1 in files, from 0 in code; stimuli go by
 //! their ids.
 
+mod asked;
 mod columns;
 mod mark;
 mod read;
