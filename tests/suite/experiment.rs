@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Circumstances, Session, path_file};
-use selvedge_experiment::{Answer, Apparatus, Presentation, Proof, Step, Timing};
+use selvedge_experiment::{Answer, Apparatus, Grade, Presentation, Proof, Step, Timing};
 use selvedge_render::scene::ExplorationPath;
 
 use crate::program::{Lab, Outcome, PATH, Rows};
