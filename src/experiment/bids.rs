@@ -371,8 +371,9 @@ fn write_dataset(sessions: &[&Found], out: &Path) -> Result<(), ExperimentError>
     };
     let path = out.join("dataset_description.json");
     write_atomic(&path, to_json_string(&dataset, &path)?.as_bytes())?;
-    let readme = "Events of every session, one row a trial; columns are described beside them. Practice, \
-                  what was given up (aborted) and what was not felt (valid = 0) do not count. \
-                  code/main_table.py and code/main_table.R make code/main-table.tsv once more.\n";
+    let readme = "Events of every session, one row a trial; columns are described beside them. \
+                  Practice, what was given up (aborted) and what was not felt (valid = 0) do not \
+                  count. code/main_table.py and code/main_table.R make code/main-table.tsv once \
+                  more.\n";
     Ok(write_atomic(&out.join("README"), readme.as_bytes())?)
 }

@@ -1,5 +1,5 @@
-//! What a reader wants first: who took part, what was planned, what was left out and why, the answer in
-//! a sentence with its interval, and one figure.
+//! What a reader wants first: who took part, what was planned, what was left out and why, the
+//! answer in a sentence with its interval, and one figure.
 
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table};
@@ -10,7 +10,7 @@ use selvedge_foundation::quantity::with_unit;
 pub(super) fn first_page(experiment: &Experiment<'_>, sections: &mut [Section]) -> Section {
     let title = experiment.design.title.clone();
     let mut page = Section::new(experiment.key("first"), format!("{title}: the answer"));
-    if let Some(answer) = sections.iter().find_map(|section| answer(section)) {
+    if let Some(answer) = sections.iter().find_map(answer) {
         page.note(format!("**{answer}**"));
     }
     page.note(who(experiment));
@@ -119,7 +119,7 @@ fn who(experiment: &Experiment<'_>) -> String {
             told.extend(session.participant.as_ref());
         }
     }
-    let mut described = format!("{} took part", seen.len());
+    let mut described = vec![format!("{} took part", seen.len())];
     let particular = |at: usize| -> Vec<&str> {
         let words = told.iter().map(|one| one.particulars()[at].as_str());
         words.filter(|word| !word.is_empty()).collect()
@@ -131,18 +131,19 @@ fn who(experiment: &Experiment<'_>) -> String {
     ages.sort_unstable();
     if let (Some(first), Some(last)) = (ages.first(), ages.last()) {
         let median = ages[ages.len() / 2];
-        described += &format!(
-            "; {first} to {last} years, median {median} ({} told)",
-            ages.len()
-        );
+        let n = ages.len();
+        described.push(format!(
+            "{first} to {last} years, median {median} ({n} told)"
+        ));
     }
     for sex in crate::SEXES {
         let n = particular(1).iter().filter(|one| **one == sex).count();
         if n > 0 {
-            described += &format!("; {n} {sex}");
+            described.push(format!("{n} {sex}"));
         }
     }
-    format!("{described}; {} sessions.", experiment.sessions.len())
+    described.push(format!("{} sessions", experiment.sessions.len()));
+    format!("{}.", described.join("; "))
 }
 
 fn planned(experiment: &Experiment<'_>) -> String {

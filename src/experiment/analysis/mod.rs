@@ -46,6 +46,7 @@ mod ranking_scale;
 mod rating;
 mod tables;
 mod variance;
+mod what_counts;
 mod write;
 
 use std::path::Path;

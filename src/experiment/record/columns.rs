@@ -170,16 +170,20 @@ pub(super) fn visit<V: Visit>(
         note: Text, "the experimenter's note" => &mut record.note;
     }
     if to.is_since(2) {
-        columns! { to;
-            path_sha256: Text, "SHA-256 of the file of how it was explored" =>
-                &mut record.presentation.path_sha256;
-            rows: Whole, "rows before an opening or a closing" => &mut derived("");
-            before_sha256: Text, "SHA-256 of the row before, first of the sidecar" =>
-                &mut derived("");
-        }
+        bound(&mut record.presentation.path_sha256, to)?;
     }
     if is_answered {
         record.outcome = Outcome::Answered(answer);
+    }
+    Ok(())
+}
+
+/// What binds a row to its path and to the row before it.
+fn bound<V: Visit>(path_sha256: &mut String, to: &mut V) -> Result<(), V::Error> {
+    columns! { to;
+        path_sha256: Text, "SHA-256 of the file of how it was explored" => path_sha256;
+        rows: Whole, "trials before an opening or a closing" => &mut derived("");
+        before_sha256: Text, "SHA-256 of the row before, first of the sidecar" => &mut derived("");
     }
     Ok(())
 }

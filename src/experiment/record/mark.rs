@@ -108,7 +108,7 @@ pub(crate) fn read_marks(table: &Table, path: &Path) -> Result<Vec<MarkInLog>, F
             utc: cell("t_start_utc"),
             device: cell("device"),
             note: cell("note"),
-            rows: rows.parse().map_err(|_| {
+            rows: rows.parse().ok().ok_or_else(|| {
                 wrong(
                     format!("rows is {rows:?}"),
                     "restore the row: it counts those before it",

@@ -81,7 +81,7 @@ pub(super) fn remove_pieces(log: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let rest = name.to_str().and_then(|name| name.strip_prefix(&*begins));
-        if rest.is_some_and(|rest| rest.starts_with('.') && rest.ends_with(".part")) {
+        if rest.is_some_and(|rest| rest.starts_with('.') && rest.strip_suffix(".part").is_some()) {
             // One that cannot be removed is in nobody's way.
             drop(std::fs::remove_file(entry.path()));
         }

@@ -1,5 +1,5 @@
-//! The file beside a log, which is written once: the design as it was, what was to be asked, by which
-//! program, on what, and what the columns hold.
+//! The file beside a log, which is written once: the design as it was, what was to be asked, by
+//! which program, on what, and what the columns hold.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -102,17 +102,16 @@ pub(crate) fn verify_stimuli(
         let is_same = |(design, place, _): &(Design, Option<PathBuf>, _)| {
             design.hash == session.design.hash && *place == folder
         };
-        let at = match known.iter().position(is_same) {
-            Some(at) => at,
-            None => {
-                let hashes = folder.as_deref().map_or(Ok(None), |folder| {
-                    at_hand(&session.design, folder, progress)
-                })?;
-                known.push((session.design.clone(), folder, hashes));
-                known.len() - 1
-            }
+        if !known.iter().any(is_same) {
+            let hashes = folder.as_deref().map_or(Ok(None), |folder| {
+                at_hand(&session.design, folder, progress)
+            })?;
+            known.push((session.design.clone(), folder.clone(), hashes));
+        }
+        let is_same = |(design, place, _): &&(Design, Option<PathBuf>, _)| {
+            design.hash == session.design.hash && *place == folder
         };
-        if let Some(hashes) = &known[at].2 {
+        if let Some((.., Some(hashes))) = known.iter().find(is_same) {
             session.compare_stimuli(hashes);
         }
     }

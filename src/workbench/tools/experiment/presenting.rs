@@ -1,6 +1,7 @@
-//! What a trial needs before it begins, what became of its ticks, and whether an answer may be taken.
+//! What a trial needs before it begins, what became of its ticks, and whether an answer may be
+//! taken.
 //!
-//! A presentation that stops counting is voided: its row says why, and the trial is presented again.
+//! A presentation that stops counting is voided: its row says why, and it is presented again.
 
 use crate::bench::Bench;
 use crate::bench::view::BridgePhase;

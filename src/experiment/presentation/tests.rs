@@ -1,0 +1,179 @@
+//! Presentations tick by tick: what counts, what waits, what is voided and why.
+
+use super::*;
+
+const STILL: PresentedTick = PresentedTick {
+    is_sent: true,
+    n_missed: 7,
+    n_limited: 3,
+    n_values: 48,
+    position: Point {
+        x_mm: 0.0,
+        y_mm: 0.0,
+    },
+    speed_mm_per_s: 0.0,
+    vibration: None,
+};
+
+fn watch(name: &str, task: &Task) -> Watch {
+    Watch::of(&Design::shipped(name).unwrap(), task, Proof::Array)
+}
+
+fn of_items(items: &[usize]) -> Task {
+    Task {
+        items: items.to_vec(),
+        ..Task::default()
+    }
+}
+
+/// A judgement of one textile, of which nothing has to be explored.
+fn judged() -> Watch {
+    let task = of_items(&[0]);
+    watch("rating", &task)
+}
+
+fn shown(watch: &mut Watch, ticks: impl IntoIterator<Item = PresentedTick>) -> Standing {
+    for tick in ticks {
+        watch.tick(&tick, 1);
+    }
+    watch.standing()
+}
+
+fn void(standing: &Standing) -> &str {
+    match standing {
+        Standing::Void(why) => why,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn counters_that_ran_before_are_not_held_against_a_presentation() {
+    let mut watch = judged();
+    assert!(
+        matches!(watch.standing(), Standing::Incomplete(_)),
+        "nothing was presented"
+    );
+    assert_eq!(shown(&mut watch, [STILL; 200]), Standing::Valid);
+    let row = watch.presentation(1000);
+    assert_eq!((row.frames_applied, row.frames_late), (Some(200), Some(0)));
+    assert_eq!((row.armed_share, row.limited_share), (Some(1.0), Some(0.0)));
+    assert_eq!(row.validity(), Validity::Valid);
+}
+
+#[test]
+fn one_tick_may_be_missed_or_one_of_a_hundred_and_never_three_in_a_row() {
+    let missed = |n_missed: u64| PresentedTick { n_missed, ..STILL };
+    let mut one = judged();
+    assert_eq!(shown(&mut one, [STILL, missed(8)]), Standing::Valid);
+    let standing = shown(&mut one, [missed(8), missed(9)]);
+    assert!(void(&standing).contains("2 of 4"), "{standing:?}");
+    let mut many = judged();
+    let calm = std::iter::repeat_n(STILL, 400);
+    assert_eq!(shown(&mut many, calm), Standing::Valid);
+    let apart = [8, 8, 9, 9, 10, 10, 11, 11].map(missed);
+    assert_eq!(shown(&mut many, apart), Standing::Valid, "four of 408");
+    let standing = shown(&mut many, [12, 13, 14].map(missed));
+    assert!(void(&standing).contains("in a row"), "{standing:?}");
+    let mut at_once = judged();
+    let standing = shown(&mut at_once, [STILL, missed(10)]);
+    assert!(void(&standing).contains("3 ticks in a row"), "{standing:?}");
+}
+
+#[test]
+fn a_tick_that_no_armed_device_got_voids_for_good() {
+    let mut watch = judged();
+    let off = PresentedTick {
+        is_sent: false,
+        ..STILL
+    };
+    let standing = shown(&mut watch, [STILL, off, STILL, STILL]);
+    assert!(void(&standing).contains("not armed"), "{standing:?}");
+    let row = watch.presentation(0);
+    assert_eq!(
+        (row.armed_share, row.validity()),
+        (Some(0.75), Validity::Void)
+    );
+    let mut stopped = judged();
+    shown(&mut stopped, [STILL; 50]);
+    stopped.end("everything was switched off");
+    assert!(void(&stopped.standing()).contains("switched off"));
+}
+
+#[test]
+fn limits_may_change_one_of_a_hundred_values_unless_levels_are_adjusted() {
+    let limited = |n: u64| PresentedTick {
+        n_limited: 3 + n,
+        ..STILL
+    };
+    let mut watch = judged();
+    assert_eq!(
+        shown(&mut watch, [STILL, limited(19)]),
+        Standing::Valid,
+        "1 % of a second"
+    );
+    let standing = shown(&mut watch, [limited(20)]);
+    assert!(void(&standing).contains("limits changed"), "{standing:?}");
+    let task = Task {
+        starts: vec![0.0],
+        ..of_items(&[0])
+    };
+    let mut adjusted = self::watch("gain-matching", &task);
+    assert_eq!(shown(&mut adjusted, [STILL, limited(40)]), Standing::Valid);
+}
+
+#[test]
+fn each_of_several_textiles_is_felt_in_movement_for_a_second() {
+    let task = Task {
+        right: Some(1),
+        ..of_items(&[0, 1, 0])
+    };
+    let mut watch = watch("odd-one-out", &task);
+    let places = Layout::of(&Design::shipped("odd-one-out").unwrap(), &task).places;
+    for (nth, place) in places.iter().enumerate() {
+        let on = |speed_mm_per_s: f64| PresentedTick {
+            position: Point::new(place.origin_mm.x_mm + 50.0, place.origin_mm.y_mm + 50.0),
+            speed_mm_per_s,
+            ..STILL
+        };
+        shown(&mut watch, [on(0.5); 80]);
+        let waits = format!("number {} was not felt for 1 s yet", nth + 1);
+        assert_eq!(watch.standing(), Standing::Incomplete(waits));
+        shown(&mut watch, [on(30.0); 40]);
+    }
+    assert_eq!(watch.standing(), Standing::Valid);
+    assert_eq!(watch.presentation(0).explored_s, [1.0; 3]);
+}
+
+#[test]
+fn every_interval_is_played_to_its_end_and_its_onset_told() {
+    let design = Design::shipped("threshold-40").unwrap();
+    let (track, value) = (0, 10.0);
+    let task = Task {
+        right: Some(0),
+        adapted: Some(crate::Adapted { track, value }),
+        ..Task::default()
+    };
+    let steps = vibrations(&design, &task);
+    let mut watch = Watch::of(&design, &task, Proof::Array);
+    shown(
+        &mut watch,
+        [PresentedTick {
+            vibration: Some(0),
+            ..STILL
+        }; 24],
+    );
+    for (nth, step) in (1..).zip(&steps) {
+        assert!(
+            matches!(watch.standing(), Standing::Incomplete(_)),
+            "step {nth}"
+        );
+        let tick = PresentedTick {
+            vibration: Some(nth),
+            ..STILL
+        };
+        shown(&mut watch, (0..step.n_ticks).map(|_| tick));
+    }
+    assert_eq!(watch.standing(), Standing::Valid);
+    let onset_ns = watch.presentation(5).onset_ns;
+    assert_eq!(onset_ns, Some(24 * TICK_NS + 5), "behind the silence");
+}
