@@ -48,14 +48,14 @@ fn cell(text: &str, n: usize, column: &str, edit: impl FnOnce(&str) -> String) -
 fn other(cell: &str) -> String {
     match cell {
         "1" => "2".to_owned(),
-        "0" => "1".to_owned(),
         _ => "1".to_owned(),
     }
 }
 
 fn without(text: &str, n: usize) -> String {
-    let kept = text.lines().enumerate().filter(|(at, _)| *at != n);
-    kept.map(|(_, line)| format!("{line}\n")).collect()
+    let mut kept: Vec<&str> = text.lines().collect();
+    kept.remove(n);
+    kept.join("\n") + "\n"
 }
 
 fn swapped(text: &str, a: usize, b: usize) -> String {
