@@ -153,11 +153,7 @@ fn duration_s(design: &Design, n_trials: usize, n_blocks: usize) -> f64 {
     let course = &design.course;
     let [played_s, answer_s] = design.composition.trial_s();
     let after = course.break_after_blocks;
-    let n_breaks = if after > 0 {
-        (n_blocks.max(1) - 1) / after
-    } else {
-        0
-    };
+    let n_breaks = (n_blocks.max(1) - 1).checked_div(after).unwrap_or(0);
     let movements_s: f64 = course.familiarisation.iter().map(|one| one.for_s).sum();
     n_trials as f64 * (played_s + answer_s + BETWEEN_S)
         + n_breaks as f64 * course.break_s

@@ -41,8 +41,11 @@ fn described(design: &Design, preview: &Preview) -> String {
     let mut lines = vec![
         format!("{} ({})", design.title, design.composition.kind().name()),
         format!(
-            "{} trials at most in {} blocks, {} of practice before them",
-            preview.n_trials, preview.n_blocks, preview.n_practice
+            "{} trials at most in {} block{}, {} of practice before them",
+            preview.n_trials,
+            preview.n_blocks,
+            if preview.n_blocks == 1 { "" } else { "s" },
+            preview.n_practice
         ),
         format!(
             "about {:.0} min a session: {played_s:.1} s played and {answer_s:.1} s for an answer \

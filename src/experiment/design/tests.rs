@@ -128,119 +128,120 @@ const TURNED: &str = "key = \"gain_db\"\nfrom = -6.0\nto = 6.0\nstep = 1.0\n";
 const SCALE: &str = "key = \"roughness\"\nlow = \"smooth\"\nhigh = \"rough\"\n";
 const NUMBER: &str = "[presentation]\nkind = \"single\"\n[response]\nkind = \"number\"\n";
 
-/// Tables of a composition.
-fn composed(presentation: &str, response: &str, rest: &str) -> String {
-    format!("[presentation]\n{presentation}\n[response]\n{response}\n{rest}\n")
-}
+const SINGLE: &str = "kind = \"single\"";
+const PAIR: &str = "kind = \"pair\"";
+const ADAPTED: &str = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 0.9]\n\
+    reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
+
+/// Presentation, response and further tables, with what is said of them and how it is mended.
+const MISFITS: [([&str; 3], &str, &str); 16] = [
+    (
+        [SINGLE, "kind = \"choice\"", ""],
+        "one alone to choose",
+        "two or more places",
+    ),
+    (
+        [SINGLE, "kind = \"rank\"", ""],
+        "are not ranked",
+        "\"balanced\"",
+    ),
+    (
+        ["kind = \"places\"\nn = 3", "kind = \"choice\"", ""],
+        "which stimuli come together",
+        "to [order]",
+    ),
+    (
+        [
+            "kind = \"places\"\nn = 3",
+            "kind = \"choice\"",
+            "[order]\nsets = \"targets\"",
+        ],
+        "\"targets\" of 3 at once",
+        "n = 2 or 4",
+    ),
+    (
+        [
+            "kind = \"places\"\nn = 2",
+            "kind = \"choice\"",
+            "[order]\nsets = \"targets\"",
+        ],
+        "no target to compare with",
+        "reference",
+    ),
+    (
+        [SINGLE, "kind = \"yes-no\"", ""],
+        "which word is right",
+        "the condition",
+    ),
+    (
+        [PAIR, "kind = \"yes-no\"", ""],
+        "said of one alone",
+        "\"single\"",
+    ),
+    (
+        [SINGLE, "kind = \"same-different\"", ""],
+        "only two are the same",
+        "\"pairs\"",
+    ),
+    (
+        [SINGLE, "kind = \"piles\"", ""],
+        "only all at once",
+        "\"set\"",
+    ),
+    (
+        [
+            "kind = \"intervals\"",
+            "kind = \"choice\"",
+            "[order]\nsets = \"pairs\"",
+        ],
+        "does not come in intervals",
+        "\"places\"",
+    ),
+    (
+        [PAIR, "kind = \"number\"\nconfidence_grades = 3", ""],
+        "confidence is asked of no choice",
+        "take it away",
+    ),
+    (
+        [PAIR, "kind = \"choice\"\nmodulus = 3.0", ""],
+        "modulus has no meaning",
+        "take it away",
+    ),
+    (
+        [
+            "kind = \"single\"\nstandard = \"z\"",
+            "kind = \"number\"",
+            "",
+        ],
+        "\"z\" is no stimulus",
+        "give the id",
+    ),
+    (
+        [PAIR, "kind = \"choice\"", ADAPTED],
+        "4 stimuli, and compression is adapted",
+        "name one",
+    ),
+    (
+        [PAIR, "kind = \"choice\"", "[order]\nsets = \"adapted\""],
+        "nothing is adapted",
+        "add [adaptation]",
+    ),
+    (
+        [
+            pair,
+            "kind = \"choice\"",
+            "[order]\ncatch_trials = 2\nsequence = \"zigzag\"",
+        ],
+        "sequence is \"zigzag\"",
+        "\"williams\"",
+    ),
+];
 
 #[test]
 fn parts_that_do_not_go_together_are_refused_in_one_line_that_says_what_to_do() {
-    let pair = "kind = \"pair\"";
-    let adapted = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 0.9]\n\
-                   reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
-    for (tables, expected, mend) in [
-        (
-            composed("kind = \"single\"", "kind = \"choice\"", ""),
-            "one alone to choose",
-            "two or more places",
-        ),
-        (
-            composed("kind = \"single\"", "kind = \"rank\"", ""),
-            "are not ranked",
-            "\"balanced\"",
-        ),
-        (
-            composed("kind = \"places\"\nn = 3", "kind = \"choice\"", ""),
-            "which stimuli come together",
-            "to [order]",
-        ),
-        (
-            composed(
-                "kind = \"places\"\nn = 3",
-                "kind = \"choice\"",
-                "[order]\nsets = \"targets\"",
-            ),
-            "\"targets\" of 3 at once",
-            "n = 2 or 4",
-        ),
-        (
-            composed(
-                "kind = \"places\"\nn = 2",
-                "kind = \"choice\"",
-                "[order]\nsets = \"targets\"",
-            ),
-            "no target to compare with",
-            "reference",
-        ),
-        (
-            composed("kind = \"single\"", "kind = \"yes-no\"", ""),
-            "which word is right",
-            "the condition",
-        ),
-        (
-            composed(pair, "kind = \"yes-no\"", ""),
-            "said of one alone",
-            "\"single\"",
-        ),
-        (
-            composed("kind = \"single\"", "kind = \"same-different\"", ""),
-            "only two are the same",
-            "\"pairs\"",
-        ),
-        (
-            composed("kind = \"single\"", "kind = \"piles\"", ""),
-            "only all at once",
-            "\"set\"",
-        ),
-        (
-            composed(
-                "kind = \"intervals\"",
-                "kind = \"choice\"",
-                "[order]\nsets = \"pairs\"",
-            ),
-            "does not come in intervals",
-            "\"places\"",
-        ),
-        (
-            composed(pair, "kind = \"number\"\nconfidence_grades = 3", ""),
-            "confidence is asked of no choice",
-            "take it away",
-        ),
-        (
-            composed(pair, "kind = \"choice\"\nmodulus = 3.0", ""),
-            "modulus has no meaning",
-            "take it away",
-        ),
-        (
-            composed(
-                "kind = \"single\"\nstandard = \"z\"",
-                "kind = \"number\"",
-                "",
-            ),
-            "\"z\" is no stimulus",
-            "give the id",
-        ),
-        (
-            composed(pair, "kind = \"choice\"", adapted),
-            "4 stimuli, and compression is adapted",
-            "name one",
-        ),
-        (
-            composed(pair, "kind = \"choice\"", "[order]\nsets = \"adapted\""),
-            "nothing is adapted",
-            "add [adaptation]",
-        ),
-        (
-            composed(
-                pair,
-                "kind = \"choice\"",
-                "[order]\ncatch_trials = 2\nsequence = \"zigzag\"",
-            ),
-            "sequence is \"zigzag\"",
-            "\"williams\"",
-        ),
-    ] {
+    for ([presentation, response, rest], expected, mend) in MISFITS {
         let stimuli = "textiles = [\"a\", \"b\", \"c\", \"d\"]\n";
+        let tables = format!("[presentation]\n{presentation}\n[response]\n{response}\n{rest}\n");
         let described = described(&format!("{HEAD}{stimuli}{tables}"));
         let is_said = described.contains(expected) && described.contains(mend);
         assert!(is_said, "{tables}: {described}");

@@ -125,7 +125,6 @@ pub(super) fn visit<V: Visit>(
         Outcome::Answered(answer) => (answer.clone(), true),
         Outcome::Aborted => (blank_answer(&design.composition), false),
     };
-    let trial = &mut record.trial;
     columns! { to;
         schema_version: Version, "version of these columns" => &mut derived(&SCHEMA_VERSION);
     }
@@ -140,8 +139,13 @@ pub(super) fn visit<V: Visit>(
         subject: Text, "pseudonym" => &mut derived(pseudonym);
         session: Count, "session of this subject, from 1" => &mut derived(&session);
     }
-    placed(trial, &mut record.attempt, to)?;
-    asked(design, &mut trial.task, (&mut answer, is_answered), to)?;
+    placed(&mut record.trial, &mut record.attempt, to)?;
+    asked(
+        design,
+        &mut record.trial.task,
+        (&mut answer, is_answered),
+        to,
+    )?;
     chosen(design, (&mut answer, is_answered), to)?;
     let rt_ms = record.timing.response_ms();
     if to.is_since(2) {

@@ -133,11 +133,9 @@ fn apart(task: &Task) -> usize {
 
 /// Of one alone: called real or not, so sure; of two: right or not.
 fn judged(task: &Task, said: bool, confidence: u8) -> Answer {
-    match task.items.len() {
-        1 => Answer::chosen(usize::from(!said), Some(confidence)),
-        _ => {
-            let right = task.right.unwrap();
-            Answer::chosen(if said { right } else { 1 - right }, None)
-        }
+    if task.items.len() == 1 {
+        return Answer::chosen(usize::from(!said), Some(confidence));
     }
+    let right = task.right.unwrap();
+    Answer::chosen(if said { right } else { 1 - right }, None)
 }
