@@ -228,7 +228,7 @@ const MISFITS: [([&str; 3], &str, &str); 16] = [
     ),
     (
         [
-            pair,
+            PAIR,
             "kind = \"choice\"",
             "[order]\ncatch_trials = 2\nsequence = \"zigzag\"",
         ],
