@@ -13,8 +13,7 @@ use selvedge_foundation::files::FileError;
 pub(crate) struct PlanArgs {
     /// Design: a file, or a name that "selvedge experiment designs" lists
     design: PathBuf,
-    /// File of the plan; sessions are held by the one that is called STUDY_EXPERIMENT.plan.toml in
-    /// their folder
+    /// File of the plan; sessions are held by the one in their folder that has its usual name
     #[arg(long, value_name = "PLAN.toml")]
     out: Option<PathBuf>,
     /// How many people take part (as many as the design says)
