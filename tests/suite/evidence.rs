@@ -177,7 +177,7 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
 fn check_script(set: &Path, table: &str, design: &str) {
     let script = set.join("code/main_table.py");
     let Ok(made) = Command::new("python3").arg(&script).output() else {
-        println!("no python3: its script is not tried");
+        eprintln!("no python3: its script is not tried");
         return;
     };
     let said = String::from_utf8_lossy(&made.stderr);

@@ -3,6 +3,7 @@
 
 use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table};
+use super::what_counts::describe_proof;
 use crate::Participant;
 use selvedge_foundation::quantity::with_unit;
 
@@ -13,6 +14,7 @@ pub(super) fn first_page(experiment: &Experiment<'_>, sections: &mut [Section]) 
     if let Some(answer) = sections.iter().find_map(answer) {
         page.note(format!("**{answer}**"));
     }
+    describe_proof(&experiment.sessions, &mut page);
     page.note(who(experiment));
     page.note(planned(experiment));
     page.note(left_out(experiment));

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::model::{Cell, Section, Table, cells, file_name};
-use super::what_counts::{describe_proof, is_pilot, left_out_void, out_row, planned};
+use super::what_counts::{is_pilot, left_out_void, out_row, planned};
 use crate::design::Design;
 use crate::record::{Outcome, Record};
 use crate::session::Found;
@@ -126,7 +126,6 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
         format!("{key}-sessions"),
         format!("{}: sessions", design.title),
     );
-    describe_proof(&sessions, &mut section);
     describe_rules(design, &mut section);
     let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
     let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);

@@ -65,6 +65,7 @@ use super::session::{self, Found, Unread};
 use first_page::first_page;
 use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
+use what_counts::describe_proof;
 
 /// The key of the section that lists logs that cannot be read.
 pub const UNREAD: &str = "unread";
@@ -149,6 +150,7 @@ pub(crate) fn analyse(
         if experiment.subjects.is_empty() {
             sections.push(experiment.sessions_section());
             let mut empty = Section::new(experiment.key("empty"), experiment.design.title.clone());
+            describe_proof(&experiment.sessions, &mut empty);
             empty.note("No trial is left to analyse.");
             sections.push(empty);
             continue;

@@ -1,5 +1,6 @@
 //! The form that a session begins with, and the sessions of its folder.
 
+use std::cell::OnceCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -9,7 +10,7 @@ use crate::bench::session::title_of;
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
 use selvedge_experiment::session::{Found, find_sessions, log_path};
-use selvedge_experiment::{Course, Participant, Participants, Plan};
+use selvedge_experiment::{Course, Participant, Participants, Plan, Preview, PreviewOptions};
 
 /// The file of the masking noise in the folder of sessions.
 pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
@@ -88,6 +89,8 @@ pub(crate) struct Form {
     pub listing: Option<Task<Listed>>,
     /// The folder that was listed last.
     listed: Option<String>,
+    /// What the design comes to, once somebody looked.
+    preview: OnceCell<Option<Preview>>,
 }
 
 /// What a folder holds.
@@ -133,6 +136,7 @@ impl Default for Form {
             has_noise: false,
             listing: None,
             listed: None,
+            preview: OnceCell::new(),
         }
     }
 }
@@ -141,8 +145,23 @@ impl Form {
     /// Takes another design.
     pub(crate) fn choose(&mut self, chosen: Chosen) {
         self.design = chosen.read().map(Box::new);
+        self.preview = OnceCell::new();
         self.chosen = chosen;
         self.failure = None;
+    }
+
+    /// What the design comes to: trials, duration, balance, power. Counted once.
+    pub(crate) fn preview(&self) -> Option<&Preview> {
+        let look = || {
+            let design = self.design.as_deref().ok()?;
+            let options = PreviewOptions {
+                n_subjects: None,
+                effect: 1.0,
+                seed: 1,
+            };
+            Preview::of(design, &options).ok()
+        };
+        self.preview.get_or_init(look).as_ref()
     }
 
     /// Why no session can begin yet, if so.

@@ -14,7 +14,7 @@ use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{HANDS, SEXES};
+use selvedge_experiment::{HANDS, Preview, SEXES};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -34,6 +34,9 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     });
     if let Ok(design) = &form.design {
         note(ui, &about(design), Tone::Quiet);
+    }
+    if let Some(preview) = form.preview() {
+        show_preview(ui, preview);
     }
     field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
     field(ui, "session", &mut form.session, ("1", 64.0));
@@ -168,6 +171,22 @@ fn show_designs(ui: &mut Ui, form: &mut Form, commands: &mut Commands) {
             commands.push(FileCommand::Ask(Purpose::OpenDesign).into());
         }
     });
+}
+
+/// How long a session takes, how likely the study finds an effect, and what is not even.
+fn show_preview(ui: &mut Ui, preview: &Preview) {
+    let minutes = preview.duration_s / 60.0;
+    let percent = 100.0 * preview.power.share;
+    let words = format!(
+        "{} trials, about {minutes:.0} min; power {percent:.0} % of {} subjects: {}",
+        preview.n_trials, preview.n_subjects, preview.power.described
+    );
+    note(ui, &words, Tone::Quiet);
+    let uneven = preview.deviations();
+    if !uneven.is_empty() {
+        let words = format!("Not even: {}", uneven.join("; "));
+        note(ui, &words, Tone::Wrong);
+    }
 }
 
 /// A design in a line: how many stimuli, where, how often.

@@ -141,6 +141,22 @@ fn a_break_counts_down_before_anybody_goes_on() {
 }
 
 #[test]
+fn space_plays_again_while_a_number_is_being_typed_and_is_no_part_of_it() {
+    let draft = Draft::Magnitude("1".to_owned());
+    let view = TrialView {
+        may_play: true,
+        ..trial(&draft)
+    };
+    let mut harness = window(ParticipantView::Trial(view));
+    harness.run();
+    assert!(harness.ctx.text_edit_focused(), "the number has the keys");
+    harness.key_press(Key::Space);
+    harness.event(eframe::egui::Event::Text(" ".to_owned()));
+    harness.run();
+    assert_eq!(marks(&harness), [Act::Play]);
+}
+
+#[test]
 fn a_number_is_typed_and_a_line_answers_keys() {
     let draft = Draft::Magnitude(String::new());
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
