@@ -35,14 +35,14 @@ start
 slowly 'key Escape' 'key ctrl+3'
 sleep 1
 # The pseudonym, then the button that says what will be written.
-slowly 'mousemove 1270 288' 'click 1' "type --delay 30 'p01'" 'key Tab'
+slowly 'mousemove 1270 291' 'click 1' "type --delay 30 'p01'" 'key Tab'
 sleep 0.5
 shot form
 slowly 'mousemove 1150 449' 'click 1'
 sleep 1
 shot asked
 [ ! -e "$log" ] || fail "it is written before it was asked"
-slowly 'mousemove 1126 246' 'click 1'
+slowly 'mousemove 1126 218' 'click 1'
 await 60 test -s "$log" || fail "the session does not begin"
 sleep 1
 shot waiting
@@ -50,7 +50,7 @@ shot waiting
 slowly 'key 2' 'key e' 'key Return'
 [ "$(rows)" = 0 ] || fail "keys answer what is not presented"
 # Armed: the trial begins by itself, and waits until all three were felt.
-slowly 'mousemove 1235 642' 'click 1'
+slowly 'mousemove 1235 691' 'click 1'
 sleep 3
 shot begun
 slowly 'mousemove 400 300' 'key 2' 'key e' 'key Return'
@@ -65,14 +65,14 @@ await 20 has_rows 1 || fail "the keys do not answer"
 sleep 1
 xdotool mousemove 200 350
 sleep 0.5
-slowly 'mousemove 1235 642' 'click 1'
+slowly 'mousemove 1235 691' 'click 1'
 await 20 has_rows 2 || fail "no row of what was voided"
 [ "$(column valid | tail -n 1)" = 0 ] || fail "what was voided counts"
 column void | tail -n 1 | grep -q 'armed' || fail "it is not said why"
 sleep 1
 shot voided
 for nth in 1 2; do
-  slowly 'mousemove 1235 642' 'click 1'
+  slowly 'mousemove 1235 691' 'click 1'
   sleep 3
   # Whoever is presented two in a row answers both.
   while ! has_rows $((2 + nth)); do
@@ -80,7 +80,7 @@ for nth in 1 2; do
     slowly 'mousemove 400 300' 'key 3' 'key h' 'key Return'
     sleep 1
   done
-  [ "$nth" = 2 ] || slowly 'mousemove 1235 642' 'click 1'
+  [ "$nth" = 2 ] || slowly 'mousemove 1235 691' 'click 1'
   sleep 1
 done
 shot end

@@ -68,24 +68,24 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     linear(tiles, LinearDir::Horizontal, &parts)
 }
 
-/// The participant's view, large; the experimenter's beside it, with the device and every other
-/// pane below. In a small window the participant's view stands in front of all.
+/// The participant's view, large, and behind it what was found; the experimenter's beside them,
+/// with the device and every other pane below. In a small window the participant's stands in front.
 fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let mut rest = Pane::ALL.to_vec();
     rest.sort_by_key(|pane| match pane {
         Pane::Participant => 0,
-        Pane::Experimenter => 1,
-        Pane::Bridge => 2,
-        Pane::Analysis => 3,
+        Pane::Analysis => 1,
+        Pane::Experimenter => 2,
+        Pane::Bridge => 3,
         _ => 4,
     });
     if !is_roomy(size) {
         return tabs(tiles, &rest);
     }
-    let participant = tabs(tiles, &rest[..1]);
-    let experimenter = tabs(tiles, &rest[1..2]);
-    let rest = tabs(tiles, &rest[2..]);
-    let parts = [(experimenter, 0.6), (rest, 0.4)];
+    let participant = tabs(tiles, &rest[..2]);
+    let experimenter = tabs(tiles, &rest[2..3]);
+    let rest = tabs(tiles, &rest[3..]);
+    let parts = [(experimenter, 0.66), (rest, 0.34)];
     let right = linear(tiles, LinearDir::Vertical, &parts);
     let parts = [(participant, size.x - EXPERIMENTER), (right, EXPERIMENTER)];
     linear(tiles, LinearDir::Horizontal, &parts)

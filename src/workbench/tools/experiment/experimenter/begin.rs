@@ -178,8 +178,8 @@ fn show_preview(ui: &mut Ui, preview: &Preview) {
     let minutes = preview.duration_s / 60.0;
     let percent = 100.0 * preview.power.share;
     let words = format!(
-        "{} trials, about {minutes:.0} min; power {percent:.0} % of {} subjects: {}",
-        preview.n_trials, preview.n_subjects, preview.power.described
+        "{} trials, about {minutes:.0} min; power {percent:.0} % of {} subjects for an effect of 1",
+        preview.n_trials, preview.n_subjects
     );
     note(ui, &words, Tone::Quiet);
     let uneven = preview.deviations();

@@ -19,8 +19,10 @@ use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    show_window(ui, &mut experiment.window);
-    show_blank(ui, &mut experiment.is_blank);
+    ui.horizontal_wrapped(|ui| {
+        show_window(ui, &mut experiment.window);
+        show_blank(ui, &mut experiment.is_blank);
+    });
     show_typed(ui, experiment, context.bench);
     if experiment.session.is_some() {
         session::show(ui, experiment, context);

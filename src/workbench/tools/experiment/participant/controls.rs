@@ -9,7 +9,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark, Order, Sure};
 use crate::tools::experiment::participant::ground::count;
-use crate::tools::experiment::participant::{big, ranks};
+use crate::tools::experiment::participant::{big, keys, ranks};
 use crate::tools::experiment::view::TrialView;
 use selvedge_experiment::design::{Scale, TunedParameter};
 
@@ -248,10 +248,7 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Ac
     row(ui, 420.0, |ui| {
         let label = ui.label(RichText::new("Number").font(theme::large()));
         let mut typed = text.to_owned();
-        let is_typed = ui.ctx().text_edit_focused();
-        if trial.may_play && is_typed && ui.input_mut(take_space) {
-            acts.push(Act::Play);
-        }
+        keys::take_space(ui, trial, acts);
         let field = TextEdit::singleline(&mut typed)
             .font(theme::large())
             .char_limit(12)
@@ -271,15 +268,6 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Ac
         }
         show_done(ui, trial, acts);
     });
-}
-
-/// Takes Space away from a field in which no number has one; says whether it was pressed.
-fn take_space(input: &mut egui::InputState) -> bool {
-    let is_pressed = input.consume_key(egui::Modifiers::NONE, Key::Space);
-    input
-        .events
-        .retain(|event| !matches!(event, egui::Event::Text(text) if text == " "));
-    is_pressed
 }
 
 /// A parameter as a line without numbers: where it is, and its two keys.

@@ -1,6 +1,6 @@
 //! Answers by keys, wherever the pointer is.
 
-use eframe::egui::{Key, Ui};
+use eframe::egui::{Event, Key, Modifiers, Ui};
 
 use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark, Sure};
@@ -45,6 +45,21 @@ pub(crate) fn take(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
         acts.push(Act::Answer);
     }
     if is_pressed(Key::Space) && trial.may_play {
+        acts.push(Act::Play);
+    }
+}
+
+/// Takes Space away from the field that has the focus, in which no number has one: it plays again.
+pub(super) fn take_space(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
+    if !trial.may_play || !ui.ctx().text_edit_focused() {
+        return;
+    }
+    let is_pressed = ui.input_mut(|input| {
+        let is_blank = |event: &Event| matches!(event, Event::Text(text) if text == " ");
+        input.events.retain(|event| !is_blank(event));
+        input.consume_key(Modifiers::NONE, Key::Space)
+    });
+    if is_pressed {
         acts.push(Act::Play);
     }
 }
