@@ -31,8 +31,9 @@ differences() {
 }
 display
 start "$work/wool.scene.toml"
-# The display is led out of the way, and its trail has time to fade.
-slowly 'key Escape' 'mousemove 420 520'
+# The display is led out of the part that is compared, but stays on the cloth: one that is not under it
+# is drawn paler. Its trail has time to fade.
+slowly 'key Escape' 'mousemove 600 450'
 sleep 2
 import -window root "$work/card.png"
 shot card
