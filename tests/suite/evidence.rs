@@ -174,6 +174,7 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
 }
 
 /// The script in Python makes the same table, and notices another; without Python it is not tried.
+#[expect(clippy::print_stderr, reason = "says what was skipped")]
 fn check_script(set: &Path, table: &str, design: &str) {
     let script = set.join("code/main_table.py");
     let Ok(made) = Command::new("python3").arg(&script).output() else {
