@@ -198,3 +198,32 @@ fn check_script(set: &Path, table: &str, design: &str) {
         "{design}: another table is noticed: {why}"
     );
 }
+
+#[test]
+fn logs_of_the_first_version_are_whole_and_of_unknown_validity() {
+    let lab = Lab::named("old");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/old_logs");
+    for entry in fs::read_dir(fixtures).unwrap() {
+        let file = entry.unwrap().path();
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        lab.write(&format!("logs/{name}"), fs::read(&file).unwrap());
+    }
+    let whole = verified(&lab);
+    assert_eq!((whole.code, whole.out.as_str()), (0, "4 logs, 0 broken\n"));
+    let analyse = [
+        "experiment",
+        "analyse",
+        "logs",
+        "--out",
+        "found",
+        "--maps",
+        "0",
+    ];
+    assert_eq!(
+        lab.run(&[&analyse[..], &["--random-data", "0"]].concat())
+            .code,
+        0
+    );
+    let page = lab.read("found/index.md");
+    assert_eq!(page.matches("**unknown validity**").count(), 4, "{page}");
+}

@@ -92,6 +92,12 @@ fn number(table: &Table, row: usize, column: &str) -> Option<String> {
     table.cell(row, column)?.number().map(short)
 }
 
+/// So many of something.
+fn counted(n: usize, what: &str) -> String {
+    let ending = if n == 1 { "" } else { "s" };
+    format!("{n} {what}{ending}")
+}
+
 /// A number with three digits that count.
 fn short(value: f64) -> String {
     let magnitude = value.abs();
@@ -144,7 +150,7 @@ fn who(experiment: &Experiment<'_>) -> String {
             described.push(format!("{n} {sex}"));
         }
     }
-    described.push(format!("{} sessions", experiment.sessions.len()));
+    described.push(counted(experiment.sessions.len(), "session"));
     format!("{}.", described.join("; "))
 }
 
@@ -182,8 +188,9 @@ fn left_out(experiment: &Experiment<'_>) -> String {
         1 => "1 session is left out, see why among the sessions".to_owned(),
         n => format!("{n} sessions are left out, see why among the sessions"),
     };
-    format!(
-        "{out}; {n_trials} trials of {} subjects count.",
-        experiment.subjects.len()
-    )
+    let (trials, subjects) = (
+        counted(n_trials, "trial"),
+        counted(experiment.subjects.len(), "subject"),
+    );
+    format!("{out}; {trials} of {subjects} count.")
 }

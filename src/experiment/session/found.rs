@@ -8,7 +8,7 @@ use super::Sidecar;
 use super::verify::{Break, Evidence};
 use crate::design::{Design, Subject};
 use crate::record::{MarkKind, Record, column_names, read_marks, read_records};
-use crate::{ExperimentError, FrozenPlan, Participant, Participants};
+use crate::{Course, ExperimentError, FrozenPlan, Participant, Participants};
 use selvedge_foundation::files::{self, FileError, Journal, Table};
 
 /// A session that was held.
@@ -147,6 +147,9 @@ impl Found {
             records: &records,
         };
         let breaks = evidence.breaks()?;
+        let is_old = sidecar.schema_version() == 1;
+        let is_over =
+            Course::resume(&design, &subject, &records).is_ok_and(|course| course.is_over());
         let folder = log.parent().unwrap_or_else(|| Path::new(""));
         let plan = FrozenPlan::find(folder, &design)?;
         Ok(Self {
@@ -158,7 +161,8 @@ impl Found {
             has_torn_row: complete < text.len(),
             is_closed: read_marks(&table, log)?
                 .iter()
-                .any(|mark| mark.kind == MarkKind::Closing),
+                .any(|mark| mark.kind == MarkKind::Closing)
+                || is_old && is_over,
             plan_sha256: sidecar.sha256_of("plan").map(str::to_owned),
             library_sha256: sidecar.sha256_of("library").map(str::to_owned),
             design_file: sidecar.design_file(log).ok(),
