@@ -27,6 +27,20 @@ fn verified(lab: &Lab) -> Outcome {
     lab.run(&["experiment", "verify", "logs"])
 }
 
+/// The logs, analysed without maps and random data, which take long.
+fn analysed(lab: &Lab, choices: &[&str]) -> Outcome {
+    let analyse = "experiment analyse logs --out found --maps 0 --random-data 0";
+    let words: Vec<&str> = analyse.split(' ').collect();
+    lab.run(&[&words[..], choices].concat())
+}
+
+/// The page that they give.
+fn page(lab: &Lab) -> String {
+    let outcome = analysed(lab, &[]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    lab.read("found/index.md")
+}
+
 /// The log of the second observer.
 fn second_log(lab: &Lab) -> std::path::PathBuf {
     let entries = fs::read_dir(lab.path("logs")).unwrap();
@@ -56,18 +70,7 @@ fn logs_are_whole_until_a_row_is_cut_out_and_then_left_out_with_its_reason() {
     );
     assert!(broken.out.ends_with("3 logs, 1 broken\n"), "{}", broken.out);
     assert_eq!(broken.err.lines().count(), 1, "{}", broken.err);
-    let analyse = [
-        "experiment",
-        "analyse",
-        "logs",
-        "--out",
-        "found",
-        "--maps",
-        "0",
-    ];
-    let analysed = lab.run(&[&analyse[..], &["--random-data", "0"]].concat());
-    assert_eq!(analysed.code, 0, "{}", analysed.err);
-    let page = fs::read_to_string(lab.path("found/index.md")).unwrap();
+    let page = page(&lab);
     assert!(
         page.contains("| o02 | 1 |") && page.contains("not as it was written"),
         "{page}"
@@ -106,21 +109,7 @@ fn a_plan_is_frozen_once_and_stands_beside_what_was_done() {
     fs::create_dir_all(lab.path("logs")).unwrap();
     fs::rename(lab.path(&name), lab.path("logs").join(&name)).unwrap();
     simulated(&lab, "odd-one-out");
-    let analyse = [
-        "experiment",
-        "analyse",
-        "logs",
-        "--out",
-        "found",
-        "--maps",
-        "0",
-    ];
-    assert_eq!(
-        lab.run(&[&analyse[..], &["--random-data", "0"]].concat())
-            .code,
-        0
-    );
-    let page = fs::read_to_string(lab.path("found/index.md")).unwrap();
+    let page = page(&lab);
     for line in ["| subjects | 3 | 3 |", "0 of 3 sessions", "α = 0.01"] {
         assert!(page.contains(line), "{line}: {page}");
     }
@@ -131,25 +120,9 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
     for design in DESIGNS {
         let lab = Lab::named("bids");
         simulated(&lab, design);
-        let analyse = [
-            "experiment",
-            "analyse",
-            "logs",
-            "--out",
-            "found",
-            "--maps",
-            "0",
-        ];
-        let choices = [
-            "--random-data",
-            "0",
-            "--permutations",
-            "99",
-            "--bids",
-            "set",
-        ];
-        let analysed = lab.run(&[&analyse[..], &choices].concat());
-        assert_eq!(analysed.code, 0, "{}", analysed.err);
+        let choices = ["--permutations", "99", "--bids", "set"];
+        let outcome = analysed(&lab, &choices);
+        assert_eq!(outcome.code, 0, "{}", outcome.err);
         let set = lab.path("set");
         for file in [
             "dataset_description.json",
@@ -167,7 +140,7 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
         assert_eq!(names.len(), 2, "{names:?}");
         let table = fs::read_to_string(set.join("code/main-table.tsv")).unwrap();
         assert!(table.lines().count() > 3, "{table}");
-        let taken = lab.run(&[&analyse[..], &choices].concat());
+        let taken = analysed(&lab, &choices);
         assert!(taken.err.contains("name a new folder"), "{}", taken.err);
         check_script(&set, &table, design);
     }
@@ -210,20 +183,6 @@ fn logs_of_the_first_version_are_whole_and_of_unknown_validity() {
     }
     let whole = verified(&lab);
     assert_eq!((whole.code, whole.out.as_str()), (0, "4 logs, 0 broken\n"));
-    let analyse = [
-        "experiment",
-        "analyse",
-        "logs",
-        "--out",
-        "found",
-        "--maps",
-        "0",
-    ];
-    assert_eq!(
-        lab.run(&[&analyse[..], &["--random-data", "0"]].concat())
-            .code,
-        0
-    );
-    let page = lab.read("found/index.md");
+    let page = page(&lab);
     assert_eq!(page.matches("**unknown validity**").count(), 4, "{page}");
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::super::terminal::{self, with_meter};
 use super::super::{CliError, output};
 
-use selvedge_experiment::analysis::{self, Analysis, Cell, Options, UNREAD, analyse_folder};
+use selvedge_experiment::analysis::{self, Analysis, Cell, Options, UNREAD, analyse_with_unread};
 use selvedge_experiment::{ExperimentError, Participants, write_bids};
 
 /// Logs, and how they are analysed.
@@ -56,9 +56,11 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
         ..Options::default()
     };
     let analysed = with_meter("analysing", |progress| {
-        analyse_folder(&args.logs, &options, progress)
+        let (found, unread) = analysis::sessions(&args.logs, progress)?;
+        let analysis = analyse_with_unread(&found, &unread, &options, progress)?;
+        Ok((analysis, found))
     })?;
-    let analysis = analysed.map_err(|error| match error {
+    let (analysis, found) = analysed.map_err(|error: ExperimentError| match error {
         ExperimentError::Cancelled(stopped) => CliError::from(stopped),
         other => other.into(),
     })?;
@@ -67,7 +69,6 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
     }
     analysis.write(&args.out)?;
     if let Some(out) = &args.bids {
-        let (found, _) = analysis::sessions(&args.logs)?;
         write_bids(&found, &Participants::read(&args.logs)?, out)?;
     }
     output::print(&summary(&analysis, args))

@@ -80,18 +80,22 @@ pub fn analyse_folder(
     options: &Options,
     progress: &mut Progress<'_>,
 ) -> Result<Analysis, ExperimentError> {
-    let (mut found, unread) = sessions(folder)?;
-    session::verify_stimuli(&mut found, progress)?;
+    let (found, unread) = sessions(folder, progress)?;
     analyse_with_unread(&found, &unread, options, progress)
 }
 
-/// The sessions of a folder, and its logs that cannot be read.
+/// The sessions of a folder with everything that is not as it was written, and its logs that cannot
+/// be read.
 ///
 /// # Errors
-/// The folder or all of its logs cannot be read, or there are no sessions.
-pub fn sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
-    let (found, unread) = session::find_sessions(folder)?;
+/// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.
+pub fn sessions(
+    folder: &Path,
+    progress: &mut Progress<'_>,
+) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
+    let (mut found, unread) = session::find_sessions(folder)?;
     if !found.is_empty() {
+        session::verify_stimuli(&mut found, progress)?;
         return Ok((found, unread));
     }
     let none = || {

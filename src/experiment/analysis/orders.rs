@@ -6,12 +6,13 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Section, Table, cells};
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
+use super::rating::crossed;
 use super::tables::{SUMMARY, summary_cells, tests};
 use super::variance::complete_rows;
 use crate::{AnswerValue, Record};
+use selvedge_statistics::Summary;
 use selvedge_statistics::ranking::Preferences;
-use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman};
-use selvedge_statistics::{Computed, Summary};
+use selvedge_statistics::variance::friedman;
 
 /// What a trial put before what, as numbers of stimuli.
 fn comparisons(record: &Record) -> Vec<[usize; 2]> {
@@ -111,24 +112,6 @@ fn scored(experiment: &Experiment<'_>) -> Section {
         &[(0.0, "as often")],
     ));
     section
-}
-
-fn crossed(
-    experiment: &Experiment<'_>,
-    names: &[String],
-    all: &[Vec<Option<f64>>],
-) -> Computed<Crossed> {
-    let mut answers = Vec::new();
-    for (subject, values) in experiment.subjects.iter().zip(all) {
-        for (name, value) in names.iter().zip(values) {
-            answers.extend(value.map(|value| CellAnswer {
-                subject: subject.name.to_owned(),
-                levels: vec![name.clone()],
-                value,
-            }));
-        }
-    }
-    Crossed::of_answers(&["stimulus"], &answers)
 }
 
 fn scaled(experiment: &Experiment<'_>, options: &Options) -> Section {

@@ -105,7 +105,12 @@ fn picture(experiment: &Experiment<'_>, scale: &Scale, shown: &[Bar]) -> Drawn {
     bars(&key, &title, &label, (shown, Some(scale.bounds())), &[])
 }
 
-fn crossed(experiment: &Experiment<'_>, names: &[String], all: &Subjects) -> Computed<Crossed> {
+/// A number of every subject for every stimulus, crossed; what is missing is left out.
+pub(super) fn crossed(
+    experiment: &Experiment<'_>,
+    names: &[String],
+    all: &[Vec<Option<f64>>],
+) -> Computed<Crossed> {
     let mut answers = Vec::new();
     for (subject, values) in experiment.subjects.iter().zip(all) {
         for (name, value) in names.iter().zip(values) {

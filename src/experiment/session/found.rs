@@ -148,8 +148,13 @@ impl Found {
         };
         let breaks = evidence.breaks()?;
         let is_old = sidecar.schema_version() == 1;
-        let is_over =
-            Course::resume(&design, &subject, &records).is_ok_and(|course| course.is_over());
+        let is_over = || {
+            let course = Course::resume(&design, &subject, &records);
+            course.is_ok_and(|course| course.is_over())
+        };
+        let marks = read_marks(&table, log)?;
+        let is_closed = marks.iter().any(|mark| mark.kind == MarkKind::Closing);
+        let is_closed = is_closed || is_old && is_over();
         let folder = log.parent().unwrap_or_else(|| Path::new(""));
         let plan = FrozenPlan::find(folder, &design)?;
         Ok(Self {
@@ -159,10 +164,7 @@ impl Found {
             design,
             records,
             has_torn_row: complete < text.len(),
-            is_closed: read_marks(&table, log)?
-                .iter()
-                .any(|mark| mark.kind == MarkKind::Closing)
-                || is_old && is_over,
+            is_closed,
             plan_sha256: sidecar.sha256_of("plan").map(str::to_owned),
             library_sha256: sidecar.sha256_of("library").map(str::to_owned),
             design_file: sidecar.design_file(log).ok(),

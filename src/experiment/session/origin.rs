@@ -23,10 +23,8 @@ impl<'a> Origin<'a> {
     /// A design in a file; one that is not there is part of the program.
     pub fn file(device: &'a str, design: &'a Path) -> Self {
         Self {
-            device,
             design_file: Some(design).filter(|file| file.is_file()),
-            is_pilot: false,
-            sha256: Vec::new(),
+            ..Self::from(device)
         }
     }
 

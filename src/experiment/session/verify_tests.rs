@@ -4,6 +4,7 @@ use std::fs;
 
 use super::tests::{Folder, any_answer, circumstances};
 use super::*;
+use crate::StimulusHashes;
 use crate::analysis::{Options, analyse_folder};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::unheard;
@@ -377,4 +378,29 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
             "{name}: {page}"
         );
     }
+}
+
+#[test]
+fn a_session_with_other_textiles_than_those_at_hand_is_named_wherever_sessions_are_read() {
+    let folder = Folder::new("textiles");
+    let design = Design::shipped("odd-one-out").unwrap();
+    let library = design.open_library(Path::new(""), None).unwrap();
+    let hashes = unheard(|progress| StimulusHashes::of_library(&design, &library, progress));
+    let held_with = |nth: usize, library: String| {
+        let subject = Subject {
+            pseudonym: format!("p{nth:02}"),
+            nth,
+            session: 1,
+        };
+        let origin = Origin::from("none").with("library", library);
+        Session::create(&folder.0, design.clone(), subject, origin).unwrap();
+    };
+    held_with(1, hashes.unwrap().all());
+    held_with(2, "0".repeat(64));
+    let (found, _) = unheard(|progress| crate::analysis::sessions(&folder.0, progress)).unwrap();
+    assert_eq!(found[0].breaks, []);
+    let [one] = &found[1].breaks[..] else {
+        panic!("{:?}", found[1].breaks);
+    };
+    assert!(one.what.contains("textiles are not those"), "{one}");
 }

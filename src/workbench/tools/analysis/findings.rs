@@ -81,7 +81,7 @@ pub(crate) fn find_out(
         let folder = folder.display();
         return Err(format!("there is no folder {folder}; check the path"));
     }
-    let (mut found, unread) = sessions(folder).map_err(|error| error.to_string())?;
+    let (mut found, unread) = sessions(folder, progress).map_err(|error| error.to_string())?;
     let left_out = if asked.choice.with_active {
         Vec::new()
     } else {
