@@ -115,6 +115,7 @@ const HOMES: &[(&str, &str)] = &[
     ("statrs", "src/statistics/"),
     ("tiff", "src/foundation/files/"),
     ("toml", "src/foundation/files/"),
+    ("toml_edit", "src/foundation/files/edited_keys.rs"),
     ("winit", "src/workbench/"),
     ("x11rb", "src/workbench/"),
     ("zip", "src/foundation/files/archive.rs"),

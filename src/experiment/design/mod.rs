@@ -14,6 +14,7 @@ mod file;
 mod kind;
 mod old;
 mod parameter;
+mod vocabulary;
 
 use std::path::{Path, PathBuf};
 
@@ -29,6 +30,7 @@ pub use composition::{
 pub use kind::Kind;
 pub(crate) use parameter::Tunable;
 pub use parameter::{Scale, TunedParameter};
+pub use vocabulary::names_of;
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};

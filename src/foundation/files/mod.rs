@@ -6,8 +6,8 @@
 //! is wrong, where (path and line), and how to mend it.
 //!
 //! # Invariants
-//! - the one home of `csv`, `toml`, `serde_json`, `quick-xml`, `zip`, `flate2`, `image`, `png`,
-//!   `tiff`, `sha2` and `md-5`
+//! - the one home of `csv`, `toml`, `toml_edit`, `serde_json`, `quick-xml`, `zip`, `flate2`, `image`,
+//!   `png`, `tiff`, `sha2` and `md-5`
 //! - sizes are checked before anything of that size is held
 //! - the path is given only to name it in errors: content comes in as bytes or text
 //! - numbers are written with the shortest digits that read back the same
@@ -16,6 +16,7 @@ mod archive;
 mod atomic;
 mod bytes;
 mod digits;
+mod edited_keys;
 mod flaw;
 mod gray16;
 mod hash;
@@ -35,6 +36,7 @@ pub use archive::{Archive, pack};
 pub use atomic::{create, write_atomic};
 pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
+pub use edited_keys::{EditedKeys, KeyPlace};
 pub use flaw::{Flaw, Place};
 pub use gray16::{
     GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff, gray_values,
