@@ -123,7 +123,7 @@ impl Course {
     }
 
     /// Whether every trial was answered.
-    pub(crate) fn is_over(&self) -> bool {
+    pub fn is_over(&self) -> bool {
         self.procedure.trial().is_none()
     }
 

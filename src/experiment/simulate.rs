@@ -12,7 +12,7 @@ use super::design::{Design, Subject};
 use super::observer::{Observer, Participant, Stimuli};
 use super::presentation::{Presentation, Proof};
 use super::record::{Apparatus, Outcome, Record, Timing};
-use super::session::{Opening, unwritten, write_whole};
+use super::session::{Found, Opening, unwritten, write_whole};
 use super::trial::Trial;
 use selvedge_foundation::progress::Progress;
 
@@ -52,6 +52,27 @@ pub(crate) fn simulated_subject(nth: usize, session: u32) -> Subject {
 }
 
 impl Simulation<'_> {
+    /// A study as its logs would be found, without writing them: `n_subjects` in `n_sessions` each.
+    ///
+    /// # Errors
+    /// The observer cannot be, or the design has no schedule.
+    pub fn sessions(
+        &self,
+        n_subjects: usize,
+        n_sessions: u32,
+    ) -> Result<Vec<Found>, ExperimentError> {
+        let mut found = Vec::new();
+        for nth in 0..n_subjects {
+            for session in 1..=n_sessions {
+                let subject = simulated_subject(nth, session);
+                let log = PathBuf::from(format!("{}.csv", subject.pseudonym));
+                let records = self.records(&subject)?;
+                found.push(Found::of_records(log, (self.design, subject), records));
+            }
+        }
+        Ok(found)
+    }
+
     /// The rows of a session, from its first trial to its last.
     ///
     /// # Errors

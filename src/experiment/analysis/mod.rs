@@ -143,7 +143,7 @@ fn left_out(unread: &[Unread]) -> Section {
 ///
 /// # Errors
 /// It was cancelled. What cannot be computed is said in the analysis.
-pub(crate) fn analyse(
+pub fn analyse(
     found: &[Found],
     options: &Options,
     progress: &mut Progress<'_>,

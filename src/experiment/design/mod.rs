@@ -209,6 +209,18 @@ pub struct CourseSettings {
     pub familiarisation: Vec<Familiarisation>,
 }
 
+impl CourseSettings {
+    /// Whether there are breaks, where there are blocks enough.
+    pub fn has_breaks(&self) -> bool {
+        self.break_after_blocks > 0
+    }
+
+    /// The least length of a break, s.
+    pub fn break_s(&self) -> f64 {
+        self.break_s
+    }
+}
+
 /// A movement to practise.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -63,7 +63,7 @@ impl Procedure {
     }
 
     /// Every trial in order, where all is known before the first answer.
-    pub(crate) fn listed(&self) -> &[Trial] {
+    pub fn listed(&self) -> &[Trial] {
         match &self.0 {
             Kind::Listed { trials, .. } => trials,
             Kind::Adaptive(_) => &[],

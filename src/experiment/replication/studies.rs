@@ -1,7 +1,5 @@
 //! Many studies of one kind, each by itself, and how what they found is spread.
 
-use std::path::PathBuf;
-
 use super::comparison::{DesignWithStimuli, Options};
 use crate::design::Design;
 use crate::observer::Observer;
@@ -118,16 +116,7 @@ pub(super) fn simulate_study(
         observer: &observer,
         seed: options.seed,
     };
-    let mut found = Vec::new();
-    for nth in 0..planned(&laid.design) {
-        for session in 1..=n_sessions {
-            let subject = simulated_subject(nth, session);
-            let log = PathBuf::from(format!("{}.csv", subject.pseudonym));
-            let records = simulation.records(&subject)?;
-            found.push(Found::of_records(log, (&laid.design, subject), records));
-        }
-    }
-    Ok(found)
+    simulation.sessions(planned(&laid.design), n_sessions)
 }
 
 /// What is right of a subject's rows, %.

@@ -28,7 +28,7 @@ pub struct Found {
     pub breaks: Vec<Break>,
     /// Whether every trial was answered and the log was closed; of the first version, that every
     /// trial was answered.
-    pub(crate) is_closed: bool,
+    pub is_closed: bool,
     /// SHA-256 of the plan that it was held by, if it was by one.
     pub(crate) plan_sha256: Option<String>,
     /// What was told of who took part.

@@ -27,7 +27,7 @@ pub use files::{log_path, path_file, samples_file};
 pub use found::{Found, Unread, find_sessions};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
-pub(crate) use verify::verify_stimuli;
+pub use verify::verify_stimuli;
 pub use verify::{Break, Verified, verify_folder};
 pub(crate) use whole::{unwritten, write_whole};
 

@@ -91,7 +91,7 @@ pub struct Verified {
 ///
 /// # Errors
 /// It was cancelled.
-pub(crate) fn verify_stimuli(
+pub fn verify_stimuli(
     found: &mut [Found],
     progress: &mut Progress<'_>,
 ) -> Result<(), ExperimentError> {

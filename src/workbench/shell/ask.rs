@@ -87,6 +87,11 @@ impl AskWords {
                 ending: "",
             },
             Purpose::OpenDesign => design_words(),
+            Purpose::SaveDesign => Self {
+                title: "Save the design",
+                verb: "Save",
+                ..design_words()
+            },
             Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => folder_words(purpose),
             Purpose::Clip(kind) => clip_words(kind),
             Purpose::Export(_) => Self {

@@ -189,7 +189,11 @@ fn has_desktop(
 fn is_save(purpose: Purpose) -> bool {
     matches!(
         purpose,
-        Purpose::SaveScene | Purpose::SaveRecording | Purpose::Export(_) | Purpose::Clip(_)
+        Purpose::SaveScene
+            | Purpose::SaveRecording
+            | Purpose::SaveDesign
+            | Purpose::Export(_)
+            | Purpose::Clip(_)
     )
 }
 
@@ -228,7 +232,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::Clip(kind) => dialog.add_filter(words.title, &[ending(kind)]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
-        Purpose::OpenDesign => dialog.add_filter("Designs", &["toml"]),
+        Purpose::OpenDesign | Purpose::SaveDesign => dialog.add_filter("Designs", &["toml"]),
         Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => {
             return in_folder(dialog, start);
         }
@@ -260,6 +264,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::Clip(_) => AskWords::of(purpose).ending,
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
         Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
+        Purpose::SaveDesign => ".toml",
         Purpose::Export(_) => ".png",
         Purpose::ImportFiles
         | Purpose::OpenPicture

@@ -68,23 +68,25 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     linear(tiles, LinearDir::Horizontal, &parts)
 }
 
-/// The participant's view, large, and behind it what was found; the experimenter's beside them,
+/// The participant's view, large, and behind it the study and what was found; the experimenter's beside them,
 /// with the device and every other pane below. In a small window the participant's stands in front.
 fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let mut rest = Pane::ALL.to_vec();
     rest.sort_by_key(|pane| match pane {
         Pane::Participant => 0,
-        Pane::Analysis => 1,
-        Pane::Experimenter => 2,
-        Pane::Bridge => 3,
-        _ => 4,
+        Pane::Builder => 1,
+        Pane::Board => 2,
+        Pane::Analysis => 3,
+        Pane::Experimenter => 4,
+        Pane::Bridge => 5,
+        _ => 6,
     });
     if !is_roomy(size) {
         return tabs(tiles, &rest);
     }
-    let participant = tabs(tiles, &rest[..2]);
-    let experimenter = tabs(tiles, &rest[2..3]);
-    let rest = tabs(tiles, &rest[3..]);
+    let participant = tabs(tiles, &rest[..4]);
+    let experimenter = tabs(tiles, &rest[4..5]);
+    let rest = tabs(tiles, &rest[5..]);
     let parts = [(experimenter, 0.66), (rest, 0.34)];
     let right = linear(tiles, LinearDir::Vertical, &parts);
     let parts = [(participant, size.x - EXPERIMENTER), (right, EXPERIMENTER)];

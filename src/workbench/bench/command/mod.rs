@@ -211,6 +211,8 @@ pub(crate) enum Purpose {
     AddLibrary,
     /// Run an experiment by this design.
     OpenDesign,
+    /// Save the design of an experiment.
+    SaveDesign,
     /// Analyse the logs in a folder.
     OpenLogs,
     /// Write the report of an analysis into a folder.

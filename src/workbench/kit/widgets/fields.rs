@@ -122,7 +122,7 @@ pub(crate) fn text(
     label: &egui::Response,
     typed: &mut String,
     (hint, width, need): (&str, f32, Need),
-) {
+) -> egui::Response {
     let palette = Palette::in_ui(ui);
     let width = width.min(ui.available_width());
     let hint = RichText::new(hint).font(theme::number()).color(palette.dim);
@@ -133,6 +133,7 @@ pub(crate) fn text(
         .hint_text(hint);
     let response = ui.add(field).labelled_by(label.id);
     mark_asked(ui, &response, need);
+    response
 }
 
 /// A list to choose from, named.

@@ -26,23 +26,27 @@ const PICTURES: [f32; 3] = [0.3, 190.0, 420.0];
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// The workspace and what stands behind it.
-const FRONT: [Pane; 7] = [
+const FRONT: [Pane; 9] = [
     Pane::Workspace,
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
     Pane::Collection,
     Pane::Participant,
+    Pane::Builder,
+    Pane::Board,
     Pane::Analysis,
 ];
 
 /// What belongs to other perspectives: hidden here until it is asked for.
-const ELSEWHERE: [Pane; 7] = [
+const ELSEWHERE: [Pane; 9] = [
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
     Pane::Collection,
     Pane::Participant,
+    Pane::Builder,
+    Pane::Board,
     Pane::Experimenter,
     Pane::Analysis,
 ];

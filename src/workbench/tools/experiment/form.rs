@@ -1,74 +1,37 @@
-//! The form that a session begins with, and the sessions of its folder.
+//! The form that a session begins with, and what its folder holds.
 
-use std::cell::OnceCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::bench::Bench;
 use crate::bench::background::Task;
-use crate::bench::session::title_of;
+use crate::bench::latest::Latest;
+use crate::bench::pane::Pane;
+use crate::tools::experiment::board::Held;
+use crate::tools::experiment::builder::looked::{Looked, Looking};
+use crate::tools::experiment::builder::study_text::{Chosen, StudyText};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::{Design, Subject, is_name};
-use selvedge_experiment::session::{Found, find_sessions, log_path};
-use selvedge_experiment::{Course, Participant, Participants, Plan, Preview, PreviewOptions};
+use selvedge_experiment::session::{find_sessions, log_path, verify_stimuli};
+use selvedge_experiment::{Participant, Participants, Plan, Preview};
+use selvedge_foundation::progress::Progress;
 
 /// The file of the masking noise in the folder of sessions.
 pub(crate) const NOISE_FILE: &str = "masking-noise.wav";
 
-/// Which design is taken.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Chosen {
-    /// One of the program.
-    Shipped(&'static str),
-    /// The one in a file.
-    File(PathBuf),
-}
-
-impl Chosen {
-    /// What its library is relative to.
-    pub(crate) fn path(&self) -> &Path {
-        match self {
-            Self::Shipped(name) => Path::new(name),
-            Self::File(path) => path,
-        }
-    }
-
-    /// The same as a word that is kept for the next run, where it can be written as one.
-    pub(crate) fn word(&self) -> Option<String> {
-        match self {
-            Self::Shipped(name) => Some((*name).to_owned()),
-            Self::File(path) => std::path::absolute(path).ok()?.to_str().map(str::to_owned),
-        }
-    }
-
-    /// What such a word stands for: a design of the program, or a file that is still there.
-    fn from_word(word: &str) -> Option<Self> {
-        let shipped = Design::shipped_names().find(|name| *name == word);
-        let file = || Some(PathBuf::from(word)).filter(|path| path.is_absolute() && path.is_file());
-        shipped
-            .map(Self::Shipped)
-            .or_else(|| file().map(Self::File))
-    }
-
-    fn read(&self) -> Result<Design, String> {
-        match self {
-            Self::Shipped(name) => {
-                let text = Design::shipped_text(name).unwrap_or_default();
-                Design::from_toml(text, Path::new(name))
-            }
-            Self::File(path) => Design::read(path),
-        }
-        .map_err(|error| error.to_string())
-    }
-}
+/// The effect that power is said for at first.
+const EFFECT: f64 = 1.0;
 
 /// What the next session is to be.
 #[derive(Debug)]
 pub(crate) struct Form {
-    /// The design that was chosen.
-    pub chosen: Chosen,
-    /// The same as it was read.
-    pub design: Result<Box<Design>, String>,
+    /// The design at hand.
+    pub(crate) study: StudyText,
+    /// What it comes to, once somebody looked.
+    pub(crate) looked: Latest<Looking, Looked>,
+    /// The effect that power is said for.
+    pub(crate) effect: f64,
     /// Who takes part.
     pub who: Who,
     /// Which session of this participant, from 1.
@@ -78,7 +41,7 @@ pub(crate) struct Form {
     /// Why the last attempt to begin failed.
     pub failure: Option<String>,
     /// The sessions of the folder, as far as they were listed.
-    pub found: Vec<Row>,
+    pub found: Vec<Held>,
     /// Its logs that cannot be read, a line each.
     pub unread: Vec<String>,
     /// Who took part there, as far as that was listed.
@@ -89,15 +52,13 @@ pub(crate) struct Form {
     pub listing: Option<Task<Listed>>,
     /// The folder that was listed last.
     listed: Option<String>,
-    /// What the design comes to, once somebody looked.
-    preview: OnceCell<Option<Preview>>,
 }
 
 /// What a folder holds.
 #[derive(Debug, Default)]
 pub(crate) struct Listed {
     /// Its sessions.
-    pub found: Vec<Row>,
+    pub found: Vec<Held>,
     /// Its logs that cannot be read, a line each.
     pub unread: Vec<String>,
     /// Its table of participants.
@@ -106,26 +67,12 @@ pub(crate) struct Listed {
     pub(crate) has_noise: bool,
 }
 
-/// A session that was begun.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Row {
-    /// Its log.
-    pub log: PathBuf,
-    /// The design's title.
-    pub title: String,
-    /// Who took part.
-    pub subject: Subject,
-    /// Trials answered and trials there are at most.
-    pub progress: (usize, usize),
-}
-
 impl Default for Form {
     fn default() -> Self {
-        let first = Design::shipped_names().next().unwrap_or_default();
-        let chosen = Chosen::Shipped(first);
         Self {
-            design: chosen.read().map(Box::new),
-            chosen,
+            study: StudyText::default(),
+            looked: Latest::default(),
+            effect: EFFECT,
             who: Who::default(),
             session: "1".to_owned(),
             folder: String::new(),
@@ -136,38 +83,44 @@ impl Default for Form {
             has_noise: false,
             listing: None,
             listed: None,
-            preview: OnceCell::new(),
         }
     }
 }
 
 impl Form {
-    /// Takes another design.
+    /// Takes another design; one that cannot be read is told, and the last one stays.
     pub(crate) fn choose(&mut self, chosen: Chosen) {
-        self.design = chosen.read().map(Box::new);
-        self.preview = OnceCell::new();
-        self.chosen = chosen;
-        self.failure = None;
+        self.failure = self.study.choose(chosen).err();
     }
 
-    /// What the design comes to: trials, duration, balance, power. Counted once.
-    pub(crate) fn preview(&self) -> Option<&Preview> {
-        let look = || {
-            let design = self.design.as_deref().ok()?;
-            let options = PreviewOptions {
-                n_subjects: None,
-                effect: 1.0,
-                seed: 1,
-            };
-            Preview::of(design, &options).ok()
+    /// Counts what the design comes to, in the background.
+    pub(crate) fn look(&mut self, bench: &Bench) {
+        self.looked.poll();
+        let is_seen = bench.shows(Pane::Experimenter) || bench.shows(Pane::Builder);
+        if !is_seen || self.study.design().is_err() {
+            return;
+        }
+        let looking = Looking {
+            text: self.study.text().to_owned(),
+            path: self.study.chosen().path().to_owned(),
+            effect: self.effect,
         };
-        self.preview.get_or_init(look).as_ref()
+        self.looked.follow(&bench.ctx, &bench.executor, &looking);
+    }
+
+    /// What the design comes to, if that was counted.
+    pub(crate) fn preview(&self) -> Option<&Preview> {
+        self.looked.value()?.preview.as_ref().ok()
     }
 
     /// Why no session can begin yet, if so.
     pub(crate) fn refusal(&self) -> Option<String> {
-        if let Err(line) = &self.design {
-            return Some(line.clone());
+        if let Err(fault) = self.study.design() {
+            return Some(fault.line.clone());
+        }
+        if self.study.is_changed() {
+            let mend = "The design was changed: save it in the Study builder first";
+            return Some(mend.to_owned());
         }
         if !is_name(self.who.pseudonym.trim()) {
             let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
@@ -197,7 +150,7 @@ impl Form {
             return None;
         }
         Some(SessionPlan {
-            design: self.design.as_deref().ok()?.clone(),
+            design: self.study.design().ok()?.clone(),
             participant: Some(self.who.participant().ok()?),
             session: self.session_number()?,
             folder: self.folder(),
@@ -206,8 +159,8 @@ impl Form {
 
     /// Why no pilot can begin yet, if so.
     pub(crate) fn pilot_refusal(&self) -> Option<String> {
-        match &self.design {
-            Err(line) => Some(line.clone()),
+        match self.study.design() {
+            Err(fault) => Some(fault.line.clone()),
             Ok(_) if self.folder.trim().is_empty() => {
                 Some("Say in which folder the pilot is kept".to_owned())
             }
@@ -221,7 +174,7 @@ impl Form {
             return None;
         }
         Some(SessionPlan {
-            design: self.design.as_deref().ok()?.clone(),
+            design: self.study.design().ok()?.clone(),
             participant: None,
             session: 1,
             folder: self.folder().join("pilots"),
@@ -233,6 +186,7 @@ impl Form {
         folder.unwrap_or_default().clone_into(&mut self.folder);
         if let Some(chosen) = design.and_then(Chosen::from_word) {
             self.choose(chosen);
+            self.study.begin_here();
         }
     }
 
@@ -334,7 +288,7 @@ impl SessionPlan {
             return Ok(subject);
         };
         if log_path(folder, design, &subject).exists() {
-            let mend = "resume it below, or number another session";
+            let mend = "resume it on the Study board, or number another session";
             let (who, nth) = (&subject.pseudonym, subject.session);
             return Err(format!("session {nth} of {who} was begun before; {mend}"));
         }
@@ -349,7 +303,11 @@ impl SessionPlan {
 }
 
 /// What a folder holds; one that is not there yet holds nothing, unless it was asked for.
-pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
+pub(crate) fn list(
+    folder: &Path,
+    is_asked: bool,
+    progress: &mut Progress<'_>,
+) -> Result<Listed, String> {
     if !folder.exists() {
         if !is_asked {
             return Ok(Listed::default());
@@ -358,49 +316,40 @@ pub(crate) fn list(folder: &Path, is_asked: bool) -> Result<Listed, String> {
         return Err(format!("there is no folder {folder}; check the path"));
     }
     let described = |error: selvedge_experiment::ExperimentError| error.to_string();
-    let (found, unread) = find_sessions(folder).map_err(described)?;
+    let (mut found, unread) = find_sessions(folder).map_err(described)?;
+    verify_stimuli(&mut found, progress).map_err(described)?;
     Ok(Listed {
-        found: found.into_iter().map(row).collect(),
+        found: found.iter().map(Held::of).collect(),
         unread: unread.into_iter().map(|one| described(one.error)).collect(),
         participants: Participants::read(folder).map_err(described)?,
         has_noise: folder.join(NOISE_FILE).is_file(),
     })
 }
 
-fn row(found: Found) -> Row {
-    let course = Course::resume(&found.design, &found.subject, &found.records);
-    let progress = course.map_or((found.records.len(), 0), |course| course.progress());
-    Row {
-        title: title_of(&found.design),
-        log: found.log,
-        subject: found.subject,
-        progress,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tools::experiment::builder::study_text::Target;
 
     #[test]
     fn folder_and_design_of_the_last_run_are_taken_up_unless_the_design_is_gone() {
         let mut form = Form::default();
         form.choose(Chosen::Shipped("rating"));
         form.folder = " /lab/study ".to_owned();
-        let (folder, design) = (form.kept_folder(), form.chosen.word());
+        let (folder, design) = (form.kept_folder(), form.study.chosen().word());
         let mut next = Form::default();
         next.take_up(folder.as_deref(), design.as_deref());
         assert_eq!(
-            (next.folder.as_str(), &next.chosen),
-            ("/lab/study", &form.chosen)
+            (next.folder.as_str(), next.study.chosen()),
+            ("/lab/study", form.study.chosen())
         );
         let mut other = Form::default();
         other.take_up(None, Some("/nowhere/design.toml"));
         assert_eq!(
-            (other.folder.as_str(), &other.chosen),
-            ("", &Form::default().chosen)
+            (other.folder.as_str(), other.study.chosen()),
+            ("", Form::default().study.chosen())
         );
-        assert!(other.design.is_ok());
+        assert!(other.study.design().is_ok() && next.study.steps().names.is_empty());
     }
 
     #[test]
@@ -428,6 +377,12 @@ mod tests {
         form.who.room.clear();
         assert_eq!(form.refusal(), None);
         form.choose(Chosen::File("/nowhere/design.toml".into()));
-        assert!(form.plan().is_none() && form.refusal().unwrap().contains("nowhere"));
+        assert!(form.failure.as_ref().unwrap().contains("nowhere"));
+        assert!(form.plan().is_some(), "the last design stays");
+        let text = format!("{}\n# mine\n", form.study.text());
+        let now = crate::bench::history::Moment::default();
+        form.study.write(text, (Target::Text, "text"), now);
+        assert!(form.refusal().unwrap().contains("save it"));
+        assert!(form.pilot_plan().is_some(), "a pilot needs no file");
     }
 }

@@ -13,6 +13,8 @@
 //! - what participants and experimenters see does not depend on what is right
 
 pub(crate) mod active_session;
+pub(crate) mod board;
+pub(crate) mod builder;
 pub(crate) mod draft;
 pub(crate) mod experimenter;
 pub(crate) mod form;
@@ -40,12 +42,14 @@ use eframe::egui::{
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
+use crate::bench::history::StepList;
 use crate::bench::pane::Pane;
+use crate::bench::recovery::Unsaved;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::{frame_as_armed, scrolled};
 use crate::kit::view_transform::{Pointed, PointerGround};
-use crate::tools::experiment::form::Chosen;
+use crate::tools::experiment::builder::study_text::{Chosen, StudyText};
 use crate::tools::experiment::state::ParticipantsWindow;
 use crate::tools::experiment::view::ParticipantView;
 
@@ -116,7 +120,12 @@ impl Experiment {
 
 impl Tool for Experiment {
     fn panes(&self) -> &'static [Pane] {
-        &[Pane::Participant, Pane::Experimenter]
+        &[
+            Pane::Participant,
+            Pane::Builder,
+            Pane::Board,
+            Pane::Experimenter,
+        ]
     }
 
     fn begin(&mut self, bench: &mut Bench) {
@@ -127,14 +136,33 @@ impl Tool for Experiment {
 
     fn logic(&mut self, bench: &mut Bench) {
         self.poll(bench);
+        self.poll_builder(bench);
     }
 
     fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        if pane == Pane::Participant {
-            self.show_participant(ui, context);
-        } else {
-            scrolled(ui, pane.title(), |ui| experimenter::show(ui, self, context));
+        match pane {
+            Pane::Participant => self.show_participant(ui, context),
+            Pane::Builder => builder::show(ui, self, context),
+            Pane::Board => scrolled(ui, pane.title(), |ui| board::show(ui, self, context)),
+            _ => scrolled(ui, pane.title(), |ui| experimenter::show(ui, self, context)),
         }
+    }
+
+    fn steps(&self, _bench: &Bench) -> Option<StepList> {
+        Some(self.form.study.steps())
+    }
+
+    fn step_to(&mut self, n_done: usize, _bench: &mut Bench) {
+        self.form.study.step_to(n_done);
+    }
+
+    fn unsaved(&self) -> Option<Unsaved> {
+        self.form.study.unsaved()
+    }
+
+    fn restore(&mut self, unsaved: &Unsaved, _bench: &mut Bench) -> Result<(), String> {
+        self.form.study = StudyText::restored(unsaved.read()?);
+        Ok(())
     }
 
     fn windows(&mut self, ctx: &Context, context: &mut PaneContext<'_>) {
@@ -145,21 +173,28 @@ impl Tool for Experiment {
     }
 
     fn command(&mut self, command: &Command, _bench: &mut Bench) {
-        if let Command::File(FileCommand::Use(Purpose::OpenDesign, path)) = command {
-            self.form.choose(Chosen::File(path.clone()));
+        match command {
+            Command::File(FileCommand::Use(Purpose::OpenDesign, path)) => {
+                self.form.choose(Chosen::File(path.clone()));
+            }
+            Command::File(FileCommand::Use(Purpose::SaveDesign, path)) => {
+                self.builder.saved(self.form.study.save(path));
+            }
+            _ => {}
         }
     }
 
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
-        match &self.form.chosen {
-            Chosen::File(path) if purpose == Purpose::OpenDesign => Some(path.clone()),
+        let is_ours = matches!(purpose, Purpose::OpenDesign | Purpose::SaveDesign);
+        match self.form.study.chosen() {
+            Chosen::File(path) if is_ours => Some(path.clone()),
             _ => None,
         }
     }
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
         preferences.folders.sessions = self.form.kept_folder();
-        preferences.design = self.form.chosen.word();
+        preferences.design = self.form.study.chosen().word();
     }
 }
 

@@ -37,7 +37,7 @@ impl Experiment {
         let form = &self.form;
         let is_asked = match &self.session {
             Some(session) => session.design.course.masking_noise,
-            None => (form.design.as_ref()).is_ok_and(|design| design.course.masking_noise),
+            None => (form.study.design()).is_ok_and(|design| design.course.masking_noise),
         };
         let view = || NoiseView::of(self.noise.as_ref(), &form.folder(), form.has_noise);
         is_asked.then(view)

@@ -16,7 +16,7 @@ impl Experiment {
     /// Looks which sessions the folder holds.
     pub(crate) fn list_sessions(&mut self, bench: &Bench, is_asked: bool) {
         let folder = self.form.folder();
-        let work = move |_: &mut Progress<'_>| list(&folder, is_asked);
+        let work = move |progress: &mut Progress<'_>| list(&folder, is_asked, progress);
         let listing = bench.executor.start("selvedge-sessions", work);
         self.form.lists(listing);
     }
@@ -24,7 +24,8 @@ impl Experiment {
     /// Lists a folder once it was typed, while somebody looks.
     pub(crate) fn follow_folder(&mut self, bench: &Bench) {
         let is_typing = bench.ctx.egui_wants_keyboard_input();
-        if self.form.is_to_be_listed() && !is_typing && bench.shows(Pane::Experimenter) {
+        let is_seen = bench.shows(Pane::Experimenter) || bench.shows(Pane::Board);
+        if self.form.is_to_be_listed() && !is_typing && is_seen {
             self.list_sessions(bench, false);
         }
         self.form.who.follow(&self.form.participants);
@@ -42,7 +43,7 @@ impl Experiment {
 
     /// Begins what is planned, on the screen alone where it is a pilot.
     pub(super) fn begin_on(&mut self, plan: Option<SessionPlan>, is_pilot: bool, bench: &Bench) {
-        let (Some(plan), path) = (plan, self.form.chosen.path().to_owned()) else {
+        let (Some(plan), path) = (plan, self.form.study.chosen().path().to_owned()) else {
             return;
         };
         self.asked = None;

@@ -2,6 +2,7 @@
 
 use crate::bench::background::Task;
 use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::builder::Builder;
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::materials::Materials;
 use selvedge_experiment::session::Session;
@@ -22,6 +23,8 @@ pub(crate) struct Experiment {
     pub(super) form: Form,
     /// A session on its way.
     pub(super) beginning: Option<Task<Begun>>,
+    /// What the study builder shows.
+    pub(super) builder: Builder,
     /// The session that is active.
     pub(super) session: Option<Box<ActiveSession>>,
     /// A masking noise on its way to its file.

@@ -238,10 +238,7 @@ impl ActiveSession {
         }
         match &self.now {
             Now::Instructions(text) => words("Welcome", text, Some(0.0)),
-            Now::Break { .. } => {
-                let text = "Rest your finger. Go on when you are ready.";
-                words("A break", text, Some(self.left_s(now_s)))
-            }
+            Now::Break { .. } => words_of_break(Some(self.left_s(now_s))),
             Now::Finished => words("That was all", "Thank you for taking part.", None),
             Now::Familiarisation(movement) => {
                 let [width_mm, height_mm] = self.layout.size_mm;
@@ -331,11 +328,20 @@ impl ActiveSession {
     }
 }
 
+/// What is read in a break.
+pub(super) fn words_of_break(left_s: Option<f64>) -> ParticipantView<'static> {
+    ParticipantView::Words {
+        title: "A break",
+        words: "Rest your finger. Go on when you are ready.".to_owned(),
+        left_s,
+    }
+}
+
 /// Instructions that are no longer than this stand above a trial, letters.
 const SHORT: usize = 140;
 
 /// What is asked, as far as the design says it more plainly than the task.
-fn question(design: &Design) -> String {
+pub(super) fn question(design: &Design) -> String {
     let instructions = design.course.instructions.trim();
     let is_short = !instructions.is_empty() && instructions.chars().count() <= SHORT;
     let composition = &design.composition;
@@ -356,7 +362,7 @@ fn place_of(trial: &Trial) -> String {
 }
 
 /// What lies where, by positions alone.
-fn slots(layout: &Layout, trial: Option<&Trial>) -> Vec<Slot> {
+pub(super) fn slots(layout: &Layout, trial: Option<&Trial>) -> Vec<Slot> {
     let is_compared = trial.is_some_and(|trial| trial.task.reference.is_some());
     let slot = |place: &selvedge_experiment::layout::Place| Slot {
         origin_mm: place.origin_mm,

@@ -1,20 +1,21 @@
-//! The form that a session begins with, and the sessions that can be resumed.
+//! The form that a session begins with.
 
-use eframe::egui::{ProgressBar, RichText, Ui, vec2};
+use eframe::egui::{ProgressBar, Ui};
 
 use crate::bench::Bench;
-use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::bench::session::title_of;
+use crate::bench::command::ShowCommand;
+use crate::bench::pane::Pane;
 use crate::bench::tool::PaneContext;
-use crate::kit::theme::{ROW, STEP};
+use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{Need, Tone, choose, note, row_of, text};
-use crate::kit::widgets::text::{button, choice, section};
-use crate::tools::experiment::form::{Chosen, Form, Row};
+use crate::kit::widgets::text::{button, section};
+use crate::tools::experiment::builder::numbers::in_words;
+use crate::tools::experiment::builder::show_designs;
 use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{HANDS, Preview, SEXES};
+use selvedge_experiment::{HANDS, SEXES};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -30,14 +31,33 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     let form = &mut experiment.form;
     section(ui, "New session");
     row_of(ui, NAME, ("design", ""), |ui, _| {
-        show_designs(ui, form, context.commands);
+        show_designs(ui, form, context);
     });
-    if let Ok(design) = &form.design {
+    if let Ok(design) = form.study.design() {
         note(ui, &about(design), Tone::Quiet);
     }
     if let Some(preview) = form.preview() {
-        show_preview(ui, preview);
+        note(ui, &in_words(preview), Tone::Quiet);
     }
+    ui.horizontal_wrapped(|ui| {
+        let reveal = |pane| ShowCommand::Reveal(pane).into();
+        if button(
+            ui,
+            "Study builder",
+            "Change the design, or look what it comes to",
+            None,
+        ) {
+            context.commands.push(reveal(Pane::Builder));
+        }
+        if button(
+            ui,
+            "Study board",
+            "Who took part, how far, what is missing",
+            None,
+        ) {
+            context.commands.push(reveal(Pane::Board));
+        }
+    });
     field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
     field(ui, "session", &mut form.session, ("1", 64.0));
     show_who(ui, &mut form.who);
@@ -55,7 +75,6 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     } else if let Some(line) = refusal {
         note(ui, &line, Tone::Quiet);
     }
-    show_found(ui, experiment, context.bench);
 }
 
 /// What will be written, before it is.
@@ -150,45 +169,6 @@ fn one_of(ui: &mut Ui, name: &str, chosen: &mut String, words: &[&str]) {
     });
 }
 
-fn show_designs(ui: &mut Ui, form: &mut Form, commands: &mut Commands) {
-    let now = match (&form.design, &form.chosen) {
-        (Ok(design), _) => title_of(design),
-        (Err(_), Chosen::File(path)) => path.display().to_string(),
-        (Err(_), Chosen::Shipped(name)) => (*name).to_owned(),
-    };
-    let width = ui.available_width();
-    choose(ui, "Design", (&now, width, Need::Optional), |ui| {
-        for name in Design::shipped_names() {
-            let title = Design::shipped(name).map_or_else(|| name.to_owned(), |d| title_of(&d));
-            let is_now = form.chosen == Chosen::Shipped(name);
-            if ui.selectable_label(is_now, title).clicked() {
-                form.choose(Chosen::Shipped(name));
-                ui.ctx().request_repaint();
-            }
-        }
-        ui.separator();
-        if ui.selectable_label(false, "Open a design…").clicked() {
-            commands.push(FileCommand::Ask(Purpose::OpenDesign).into());
-        }
-    });
-}
-
-/// How long a session takes, how likely the study finds an effect, and what is not even.
-fn show_preview(ui: &mut Ui, preview: &Preview) {
-    let minutes = preview.duration_s / 60.0;
-    let percent = 100.0 * preview.power.share;
-    let words = format!(
-        "{} trials, about {minutes:.0} min; power {percent:.0} % of {} subjects for an effect of 1",
-        preview.n_trials, preview.n_subjects
-    );
-    note(ui, &words, Tone::Quiet);
-    let uneven = preview.deviations();
-    if !uneven.is_empty() {
-        let words = format!("Not even: {}", uneven.join("; "));
-        note(ui, &words, Tone::Wrong);
-    }
-}
-
 /// A design in a line: how many stimuli, where, how often.
 fn about(design: &Design) -> String {
     let n = design.stimuli.len();
@@ -210,53 +190,4 @@ fn about(design: &Design) -> String {
         design.medium.name(),
         design.study
     )
-}
-
-fn show_found(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
-    section(ui, "Sessions in the folder");
-    let no_folder = experiment.form.folder.trim().is_empty();
-    let refusal = no_folder.then_some("Say in which folder first");
-    let tip = "Look which sessions the folder holds";
-    if button(ui, "List again", tip, refusal) {
-        experiment.list_sessions(bench, true);
-        ui.ctx().request_repaint();
-    }
-    let form = &experiment.form;
-    let mut resumed = None;
-    for found in &form.found {
-        if show_row(ui, found) {
-            resumed = Some(found.log.clone());
-        }
-    }
-    for line in &form.unread {
-        note(ui, line, Tone::Wrong);
-    }
-    if form.found.is_empty() && form.unread.is_empty() {
-        let words = "There is none yet. One that was interrupted is resumed from here.";
-        note(ui, words, Tone::Quiet);
-    }
-    if let Some(log) = resumed {
-        experiment.resume_session(log, bench);
-        ui.ctx().request_repaint();
-    }
-}
-
-/// A session of the folder; says whether it is to be resumed.
-fn show_row(ui: &mut Ui, found: &Row) -> bool {
-    let (done, all) = found.progress;
-    let name = format!(
-        "{}, session {}",
-        found.subject.pseudonym, found.subject.session
-    );
-    let detail = format!("{done} of {all} · {}", found.title);
-    if done >= all {
-        ui.allocate_ui(vec2(ui.available_width(), ROW), |ui| {
-            let words = format!("{name} · complete · {}", found.title);
-            let text = RichText::new(words).color(crate::kit::theme::Palette::in_ui(ui).dim);
-            ui.add(eframe::egui::Label::new(text).truncate());
-        });
-        return false;
-    }
-    let tip = format!("Resume {}", found.log.display());
-    choice(ui, RichText::new(name), &detail, &tip)
 }

@@ -490,7 +490,7 @@ fn sessions_of_a_folder_are_listed_and_one_is_not_begun_twice() {
     begin(&mut window);
     window.pass(3);
     let failure = experiment(&window).form.failure.clone();
-    assert!(failure.unwrap().contains("resume it below"));
+    assert!(failure.unwrap().contains("resume it on the Study board"));
     experiment_mut(&mut window).form.who.pseudonym = "p02".to_owned();
     begin(&mut window);
     window.pass(3);

@@ -144,7 +144,9 @@ fn show_about(ui: &mut Ui, words: &mut WordsDraft) {
         ("licence", &mut words.licence, "of the files"),
         ("notes", &mut words.notes, "one line"),
     ] {
-        named_row(ui, name, |ui, label| text(ui, label, typed, field(hint)));
+        named_row(ui, name, |ui, label| {
+            text(ui, label, typed, field(hint));
+        });
     }
 }
 
