@@ -6,8 +6,8 @@
 //! is wrong, where (path and line), and how to mend it.
 //!
 //! # Invariants
-//! - the one home of `csv`, `toml`, `toml_edit`, `serde_json`, `quick-xml`, `zip`, `flate2`, `image`,
-//!   `png`, `tiff`, `sha2` and `md-5`
+//! - the one home of `csv`, `toml`, `toml_edit`, `serde_json`, `quick-xml`, `zip`, `flate2`,
+//!   `image`, `png`, `tiff`, `sha2` and `md-5`
 //! - sizes are checked before anything of that size is held
 //! - the path is given only to name it in errors: content comes in as bytes or text
 //! - numbers are written with the shortest digits that read back the same

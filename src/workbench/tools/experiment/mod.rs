@@ -19,6 +19,7 @@ pub(crate) mod draft;
 pub(crate) mod experimenter;
 pub(crate) mod form;
 pub(crate) mod guide;
+pub(crate) mod held;
 pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;

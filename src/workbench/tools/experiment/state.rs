@@ -2,7 +2,7 @@
 
 use crate::bench::background::Task;
 use crate::tools::experiment::active_session::ActiveSession;
-use crate::tools::experiment::builder::Builder;
+use crate::tools::experiment::builder::state::Builder;
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::materials::Materials;
 use selvedge_experiment::session::Session;

@@ -6,15 +6,16 @@ use eframe::egui::{TextEdit, Ui};
 
 use crate::kit::widgets::fields::{Need, choose, row_of, text};
 use crate::kit::widgets::text::{button, toggle};
-use crate::tools::experiment::builder::blocks::{Field, Holds, Rows, settle};
+use crate::tools::experiment::builder::blocks::{Field, Holds, Rows};
+use crate::tools::experiment::builder::settle::settle;
 use crate::tools::experiment::builder::study_text::Target;
 use selvedge_experiment::design::names_of;
 use selvedge_foundation::files::{EditedKeys, KeyPlace, KeyValue};
 
 /// Width of a field's name, points.
-const NAME: f32 = 104.0;
+pub(super) const NAME: f32 = 104.0;
 /// Width of a field, points.
-const FIELD: f32 = 216.0;
+pub(super) const FIELD: f32 = 216.0;
 /// What stands where a name is left out.
 const LEFT_OUT: &str = "as usual";
 

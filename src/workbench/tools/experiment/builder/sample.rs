@@ -4,6 +4,7 @@ use eframe::egui::emath::TSTransform;
 use eframe::egui::{Rect, Sense, Ui, UiBuilder, Vec2, vec2};
 
 use crate::kit::widgets::text::toggle;
+use crate::tools::experiment::builder::state::Step;
 use crate::tools::experiment::draft::Draft;
 use crate::tools::experiment::guide;
 use crate::tools::experiment::participant;
@@ -16,52 +17,9 @@ use selvedge_experiment::layout::{Layout, vibrations};
 use selvedge_foundation::geometry::Point;
 
 /// The participant's window that is shown small, points.
-const WHOLE: Vec2 = vec2(1000.0, 720.0);
+const WHOLE: Vec2 = vec2(760.0, 600.0);
 /// When the dot of a movement is looked at, s.
 const GUIDE_S: f64 = 0.6;
-
-/// What of a session is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Step {
-    /// What is read first.
-    Welcome,
-    /// A movement that is practised.
-    Movement,
-    /// A trial.
-    #[default]
-    Trial,
-    /// A break.
-    Break,
-}
-
-impl Step {
-    const ALL: [(Self, &str); 4] = [
-        (Self::Welcome, "welcome"),
-        (Self::Movement, "movement"),
-        (Self::Trial, "trial"),
-        (Self::Break, "break"),
-    ];
-
-    /// The step that a block decides on.
-    pub(crate) fn of_block(title: &str) -> Option<Self> {
-        match title {
-            "Presentation" | "Question" | "Response" | "Adaptation" => Some(Self::Trial),
-            "Course" => Some(Self::Welcome),
-            _ => None,
-        }
-    }
-
-    /// Whether a session of the design has it.
-    fn is_in(self, design: &Design) -> bool {
-        let course = &design.course;
-        match self {
-            Self::Welcome => !course.instructions.is_empty(),
-            Self::Movement => !course.familiarisation.is_empty(),
-            Self::Trial => true,
-            Self::Break => course.has_breaks(),
-        }
-    }
-}
 
 /// Shows a step of a session as wide as there is room.
 pub(crate) fn show(ui: &mut Ui, step: &mut Step, (design, trial): (&Design, Option<&Trial>)) {

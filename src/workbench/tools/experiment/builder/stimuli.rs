@@ -8,8 +8,9 @@ use crate::bench::library_view::LibraryItem;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, choice, toggle};
-use crate::tools::experiment::builder::blocks::STIMULUS;
+use crate::tools::experiment::builder::block_list::STIMULUS;
 use crate::tools::experiment::builder::fields::{Editing, field};
+use crate::tools::experiment::builder::state::List;
 use selvedge_foundation::files::{EditedKeys, KeyValue};
 use selvedge_textile::{Library, elsewhere};
 
@@ -36,15 +37,6 @@ pub(crate) fn ids(keys: &EditedKeys) -> Vec<String> {
             .map(str::to_owned)
     });
     textiles(keys).into_iter().chain(stated).collect()
-}
-
-/// The list of stimuli as it is looked at.
-#[derive(Debug, Default)]
-pub(crate) struct List {
-    /// The stimulus whose fields are shown.
-    open: Option<usize>,
-    /// Why the last textile was not taken.
-    refused: Option<String>,
 }
 
 /// Shows them.

@@ -21,10 +21,36 @@ pub(crate) enum Chosen {
     Shipped(&'static str),
     /// The one in a file.
     File(PathBuf),
+    /// A new one, which has no file yet.
+    New,
 }
+
+/// What a new design begins with: which of two textiles is the rougher?
+const NEW: &str = "study = \"study\"
+experiment = \"pairs\"
+title = \"A new study\"
+medium = \"array\"
+seed = 1
+textiles = [\"silk-crepe\", \"wool-twill\"]
+
+[presentation]
+kind = \"pair\"
+
+[question]
+text = \"choose the rougher one\"
+
+[response]
+kind = \"choice\"
+
+[order]
+repeats = 4
+";
 
 impl From<PathBuf> for Chosen {
     fn from(path: PathBuf) -> Self {
+        if path.as_os_str().is_empty() {
+            return Self::New;
+        }
         let shipped = Design::shipped_names().find(|name| path == Path::new(name));
         shipped.map_or(Self::File(path), Self::Shipped)
     }
@@ -48,6 +74,15 @@ impl Chosen {
         match self {
             Self::Shipped(name) => Path::new(name),
             Self::File(path) => path,
+            Self::New => Path::new(""),
+        }
+    }
+
+    /// What people call it.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::New => "a new design".to_owned(),
+            chosen => chosen.path().display().to_string(),
         }
     }
 
@@ -56,6 +91,7 @@ impl Chosen {
         match self {
             Self::Shipped(name) => Some((*name).to_owned()),
             Self::File(path) => std::path::absolute(path).ok()?.to_str().map(str::to_owned),
+            Self::New => None,
         }
     }
 
@@ -68,8 +104,18 @@ impl Chosen {
         is_there(chosen.path()).then_some(chosen)
     }
 
+    /// What of its text a file holds.
+    fn saved(&self, text: &str) -> String {
+        if *self == Self::New {
+            return String::new();
+        }
+        text.to_owned()
+    }
+
+    /// Its text.
     fn read(&self) -> Result<String, FileError> {
         match self {
+            Self::New => Ok(NEW.to_owned()),
             Self::Shipped(name) => Ok(Design::shipped_text(name).unwrap_or_default().to_owned()),
             Self::File(path) => files::read_text(path),
         }
@@ -179,7 +225,10 @@ impl StudyText {
         let chosen = self.now.chosen.clone();
         self.history.step_to(n_done, &mut self.now);
         if self.now.chosen != chosen {
-            self.saved = self.now.chosen.read().unwrap_or_default();
+            self.saved = self
+                .now
+                .chosen
+                .saved(&self.now.chosen.read().unwrap_or_default());
         }
         (self.keys, self.design) = read(&self.now);
     }
@@ -190,8 +239,8 @@ impl StudyText {
     /// Its file cannot be read.
     pub(crate) fn choose(&mut self, chosen: Chosen) -> Result<(), String> {
         let text = chosen.read().map_err(|error| error.to_string())?;
-        self.saved.clone_from(&text);
-        let name = format!("chose {}", chosen.path().display());
+        self.saved = chosen.saved(&text);
+        let name = format!("chose {}", chosen.name());
         self.change(
             Written { chosen, text },
             Target::All,
@@ -250,7 +299,7 @@ impl StudyText {
             return None;
         }
         let steps = self.steps();
-        let name = format!("Study design ({})", self.now.chosen.path().display());
+        let name = format!("Study design ({})", self.now.chosen.name());
         let last = steps.undo().unwrap_or("none");
         let what = format!("{} steps, the last: {last}", steps.n_done);
         let whole = |history| Work {
@@ -328,6 +377,11 @@ mod tests {
         assert_eq!((study.text(), study.is_changed()), (text.as_str(), true));
         assert!(study.choose(Chosen::File("/nowhere.toml".into())).is_err());
         assert_eq!(study.text(), text, "what cannot be read changes nothing");
+        study.choose(Chosen::New).unwrap();
+        assert!(
+            study.design().is_ok() && study.is_changed(),
+            "no file holds it"
+        );
     }
 
     #[test]

@@ -2,12 +2,16 @@
 
 use eframe::egui::{DragAndDrop, vec2};
 
+use super::view::block_of;
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::bench::history::Moment;
 use crate::bench::library_view::LibraryItem;
 use crate::bench::pane::Pane;
 use crate::shell::headless::Headless;
+use crate::tools::experiment::builder::block_list::BLOCKS;
+use crate::tools::experiment::builder::fields::Editing;
+use crate::tools::experiment::builder::study_text::Target;
 use selvedge_foundation::files::KeyValue;
 
 fn window() -> Headless {
