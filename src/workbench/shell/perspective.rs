@@ -69,7 +69,8 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 }
 
 /// The participant's view, large, and behind it the study and what was found; the experimenter's
-/// beside them, with the device and every other pane below. In a small window the participant's stands in front.
+/// beside them, with the device and every other pane below. In a small window the participant's
+/// stands in front.
 fn experiment(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let mut rest = Pane::ALL.to_vec();
     rest.sort_by_key(|pane| match pane {

@@ -39,6 +39,24 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
     if let Some(preview) = form.preview() {
         note(ui, &in_words(preview), Tone::Quiet);
     }
+    field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
+    field(ui, "session", &mut form.session, ("1", 64.0));
+    show_who(ui, &mut form.who);
+    let refusal = form.refusal();
+    ui.add_space(STEP);
+    if let Some(task) = &experiment.beginning {
+        let bar = ProgressBar::new(task.share()).desired_height(4.0);
+        ui.add(bar);
+        note(ui, "The textiles are being prepared", Tone::Quiet);
+    } else {
+        show_begin(ui, experiment, context.bench);
+    }
+    if let Some(line) = &experiment.form.failure {
+        note(ui, line, Tone::Wrong);
+    } else if let Some(line) = refusal {
+        note(ui, &line, Tone::Quiet);
+    }
+    section(ui, "The study");
     ui.horizontal_wrapped(|ui| {
         let reveal = |pane| ShowCommand::Reveal(pane).into();
         if button(
@@ -58,23 +76,6 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
             context.commands.push(reveal(Pane::Board));
         }
     });
-    field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
-    field(ui, "session", &mut form.session, ("1", 64.0));
-    show_who(ui, &mut form.who);
-    let refusal = form.refusal();
-    ui.add_space(STEP);
-    if let Some(task) = &experiment.beginning {
-        let bar = ProgressBar::new(task.share()).desired_height(4.0);
-        ui.add(bar);
-        note(ui, "The textiles are being prepared", Tone::Quiet);
-    } else {
-        show_begin(ui, experiment, context.bench);
-    }
-    if let Some(line) = &experiment.form.failure {
-        note(ui, line, Tone::Wrong);
-    } else if let Some(line) = refusal {
-        note(ui, &line, Tone::Quiet);
-    }
 }
 
 /// What will be written, before it is.
