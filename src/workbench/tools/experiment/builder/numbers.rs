@@ -76,7 +76,7 @@ pub(crate) fn in_words(preview: &Preview) -> String {
         n => format!(" in {n} blocks"),
     };
     format!(
-        "{} trials{blocks}{practice}, about {minutes:.0} min; {} subjects",
+        "{} trials{blocks}{practice}, about {minutes:.0} min, {} subjects planned",
         preview.n_trials, preview.n_subjects
     )
 }

@@ -37,7 +37,11 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
         note(ui, &about(design), Tone::Quiet);
     }
     if let Some(preview) = form.preview() {
-        note(ui, &in_words(preview), Tone::Quiet);
+        let percent = 100.0 * preview.power.share;
+        let effect = form.effect;
+        let words = in_words(preview);
+        let words = format!("{words}; power {percent:.0} % for an effect of {effect}");
+        note(ui, &words, Tone::Quiet);
     }
     field(ui, "folder", &mut form.folder, ("/path/to/study", WIDE));
     field(ui, "session", &mut form.session, ("1", 64.0));
