@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::report::Certificate;
 use crate::array::DeviceUid;
-use selvedge_foundation::files::{FileError, read_text, write_atomic};
+use selvedge_foundation::files::{FileError, read_text, sha256_hex, write_atomic};
 
 /// A folder of certificates, which need not be there yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,10 +39,19 @@ impl CertificateFolder {
     /// The certificate of a device with this firmware; `None` where none is, or none that can be
     /// read.
     pub fn find(&self, uid: DeviceUid, firmware: [u8; 3]) -> Option<Certificate> {
-        let [major, minor, patch] = firmware;
-        let name = format!("certificate-{uid}-{major}.{minor}.{patch}.json");
-        let path = self.path.join(name);
+        let path = self.place(uid, firmware);
         Certificate::from_json(&read_text(&path).ok()?, &path).ok()
+    }
+
+    /// SHA-256 of that certificate's file; `None` where there is none.
+    pub fn sha256(&self, uid: DeviceUid, firmware: [u8; 3]) -> Option<String> {
+        let text = read_text(&self.place(uid, firmware)).ok()?;
+        Some(sha256_hex([text.as_bytes()]))
+    }
+
+    fn place(&self, uid: DeviceUid, [major, minor, patch]: [u8; 3]) -> PathBuf {
+        let name = format!("certificate-{uid}-{major}.{minor}.{patch}.json");
+        self.path.join(name)
     }
 
     /// Whether a device with this firmware passed everything.

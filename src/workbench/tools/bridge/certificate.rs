@@ -135,7 +135,11 @@ mod tests {
         };
         let caps = DeviceModel::default().caps(1, 1);
         assert_eq!(look(&mut mark, Some(&caps)), Some((caps.firmware, false)));
-        CertificateFolder::new(&folder).write(&passed()).unwrap();
+        let certificates = CertificateFolder::new(&folder);
+        let sha256 = || certificates.sha256(DeviceUid(caps.uid), caps.firmware);
+        assert_eq!(sha256(), None);
+        certificates.write(&passed()).unwrap();
+        assert_eq!(sha256().unwrap().len(), 64);
         assert_eq!(look(&mut mark, Some(&caps)), Some((caps.firmware, false)));
         assert_eq!(look(&mut mark, None), None);
         assert_eq!(look(&mut mark, Some(&caps)), Some((caps.firmware, true)));

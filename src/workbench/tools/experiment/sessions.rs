@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use crate::bench::Bench;
 use crate::bench::pane::Pane;
+use crate::bench::settings::own_certificates;
 use crate::tools::experiment::form::{SessionPlan, list};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::state::{Begun, Experiment};
+use selvedge_device::{CertificateFolder, DeviceUid};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::session::{Origin, Session, Sidecar};
 use selvedge_foundation::files::sha256_hex;
@@ -32,17 +34,22 @@ impl Experiment {
     }
 
     /// Begins the session that the form describes.
-    pub(crate) fn begin_session(&mut self, bench: &Bench) {
+    pub(crate) fn begin_session(&mut self, bench: &mut Bench) {
         self.begin_on(self.form.plan(), false, bench);
     }
 
     /// Begins a pilot: what is asked is tried on the screen, and nobody feels it.
-    pub(crate) fn begin_pilot(&mut self, bench: &Bench) {
+    pub(crate) fn begin_pilot(&mut self, bench: &mut Bench) {
         self.begin_on(self.form.pilot_plan(), true, bench);
     }
 
     /// Begins what is planned, on the screen alone where it is a pilot.
-    pub(super) fn begin_on(&mut self, plan: Option<SessionPlan>, is_pilot: bool, bench: &Bench) {
+    pub(super) fn begin_on(
+        &mut self,
+        plan: Option<SessionPlan>,
+        is_pilot: bool,
+        bench: &mut Bench,
+    ) {
         let (Some(plan), path) = (plan, self.form.study.chosen().path().to_owned()) else {
             return;
         };
@@ -50,7 +57,12 @@ impl Experiment {
         let device = device_name(bench);
         let (design, beside) = (plan.design.clone(), path.clone());
         let profile = bench.engine.profile().to_toml();
+        let caps = bench.engine.snapshot().link.and_then(|link| link.caps);
+        let caps = caps.filter(|_| bench.device.faults.is_none());
         let open = move |materials: &Materials| {
+            let certificate = caps.zip(own_certificates()).and_then(|(caps, folder)| {
+                CertificateFolder::new(&folder).sha256(DeviceUid(caps.uid), caps.firmware)
+            });
             let subject = plan.enrolled()?;
             let profile = profile.map_err(|error| error.to_string())?;
             let origin = Origin::file(&device, &beside)
@@ -58,7 +70,8 @@ impl Experiment {
                 .with("program", program_sha256())
                 .with("library", materials.hashes.all())
                 .with("scene", materials.scene_sha256())
-                .with("profile", sha256_hex([profile.as_bytes()]));
+                .with("profile", sha256_hex([profile.as_bytes()]))
+                .with("certificate", certificate);
             let session = Session::create(&plan.folder, plan.design, subject, origin);
             session.map_err(|error| error.to_string())
         };

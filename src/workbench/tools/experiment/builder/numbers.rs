@@ -82,7 +82,7 @@ pub(crate) fn in_words(preview: &Preview) -> String {
 }
 
 /// The pilots, and what simulated observers found.
-pub(crate) fn show_pilots(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+pub(crate) fn show_pilots(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     section(ui, "Pilots");
     let busy = experiment
         .session

@@ -83,7 +83,7 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
 }
 
 /// What will be written, before it is.
-fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     let Some(plan) = experiment.form.plan() else {
         experiment.asked = None;
         return;
@@ -113,7 +113,7 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
 }
 
 /// The buttons that begin: a session, once it was said what will be written, and a pilot.
-fn show_begin(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+fn show_begin(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     let refusal = experiment.form.refusal();
     ui.horizontal_wrapped(|ui| {
         let tip = "Show what will be written, then begin";
