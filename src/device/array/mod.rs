@@ -100,6 +100,9 @@ pub struct Wiring {
 pub struct DeviceUid(pub [u8; 12]);
 
 impl DeviceUid {
+    /// The number of every emulator, in this program or behind a port.
+    pub const EMULATOR: Self = Self(*b"selvedge-emu");
+
     /// The number that these 24 digits write.
     pub fn parse(digits: &str) -> Option<Self> {
         if digits.len() != 24 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {

@@ -3,6 +3,7 @@
 use super::lie::FirmwareLie;
 use super::miswiring::Miswiring;
 use super::sense::Load;
+use crate::array::DeviceUid;
 use crate::codes::ArrayProfile;
 use crate::framing::{CRC_LEN, HEADER_LEN, LARGEST_BODY};
 use crate::message::{Caps, Config, MAGIC, TICK_US, frame};
@@ -105,7 +106,7 @@ impl DeviceModel {
             sample_hz: SAMPLE_HZ,
             freq_mhz: [40_000, 320_000],
             comp_limit: self.comp_limit,
-            uid: *b"selvedge-emu",
+            uid: DeviceUid::EMULATOR.0,
             firmware: [1, 0, 0],
             name: Caps::name_field(&self.name),
         }

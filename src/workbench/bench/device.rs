@@ -2,7 +2,7 @@
 
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::{Bench, query};
-use selvedge_device::{FaultWords, Target};
+use selvedge_device::{DeviceUid, FaultWords, Target};
 
 impl Bench {
     pub(crate) fn dispatch_device(&mut self, command: DeviceCommand) {
@@ -57,6 +57,13 @@ impl Bench {
             return Ok(Target::Emulator);
         }
         Ok(Target::FaultyEmulator(Box::new(faults)))
+    }
+
+    /// Whether nobody feels what the device is given: it is an emulator, here or behind a port.
+    pub(crate) fn is_emulated(&self) -> bool {
+        let link = self.live.bridge.as_ref();
+        let uid = link.and_then(|link| link.uid);
+        self.device.faults.is_some() || uid == Some(DeviceUid::EMULATOR)
     }
 
     /// Starts the emulator anew with what was chosen, if it can be read and this array can have it.

@@ -74,7 +74,7 @@ impl Default for Presented {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ArrayNow {
     /// By what a presentation on it is proved.
-    proof: Proof,
+    pub(crate) proof: Proof,
     /// Why it presents nothing now; `None` where it does.
     pub(crate) why_not: Option<&'static str>,
 }
@@ -93,7 +93,7 @@ impl ArrayNow {
             Some(_) => None,
         };
         Self {
-            proof: if bench.device.faults.is_some() {
+            proof: if bench.is_emulated() {
                 Proof::Emulator
             } else {
                 Proof::Array

@@ -58,7 +58,7 @@ impl Experiment {
         let (design, beside) = (plan.design.clone(), path.clone());
         let profile = bench.engine.profile().to_toml();
         let caps = bench.engine.snapshot().link.and_then(|link| link.caps);
-        let caps = caps.filter(|_| bench.device.faults.is_none());
+        let caps = caps.filter(|_| !bench.is_emulated());
         let open = move |materials: &Materials| {
             let certificate = caps.zip(own_certificates()).and_then(|(caps, folder)| {
                 CertificateFolder::new(&folder).sha256(DeviceUid(caps.uid), caps.firmware)

@@ -92,7 +92,7 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     for line in plan.describe(&device_name(bench)) {
         note(ui, &line, Tone::Quiet);
     }
-    if bench.device.faults.is_some() {
+    if bench.is_emulated() {
         let words = "The device is an emulator: its rows will say that nobody felt anything.";
         note(ui, words, Tone::Wrong);
     }

@@ -1,6 +1,10 @@
 //! What is settled before a session begins: who takes part, where, with what cloth and noise.
 
 use super::*;
+use crate::bench::view::BridgeView;
+use crate::tools::experiment::presenting::ArrayNow;
+use selvedge_device::{DeviceModel, DeviceUid};
+use selvedge_experiment::Proof;
 
 #[test]
 fn who_takes_part_stands_in_the_table_of_the_study_and_is_not_changed_silently() {
@@ -114,4 +118,22 @@ fn copy(from: &std::path::Path, to: &std::path::Path) {
             fs::copy(entry.path(), at).unwrap();
         }
     }
+}
+
+#[test]
+fn an_emulator_behind_a_port_is_no_array_that_somebody_feels() {
+    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    window.pass(2);
+    let bench = &mut window.workbench.bench;
+    bench.device.faults = None;
+    let mut proof_of = |uid: DeviceUid| {
+        bench.live.bridge = Some(BridgeView {
+            uid: Some(uid),
+            ..BridgeView::default()
+        });
+        ArrayNow::of(bench).proof
+    };
+    assert_eq!(proof_of(DeviceUid(*b"a true array")), Proof::Array);
+    let caps = DeviceModel::default().caps(1, 1);
+    assert_eq!(proof_of(DeviceUid(caps.uid)), Proof::Emulator);
 }
