@@ -135,6 +135,15 @@ pub(crate) struct Block {
     pub(crate) rows: &'static [Rows],
 }
 
+impl Block {
+    /// Whether anything of it has a meaning in this design.
+    pub(crate) fn applies(&self, keys: &EditedKeys) -> bool {
+        let has_fields = self.fields.iter().any(|field| field.applies(keys));
+        // What adapts is chosen in a block of its own, and stimuli are no fields.
+        has_fields || self.title == "Adaptation" || self.fields.is_empty()
+    }
+}
+
 /// What a key says in words; empty where it says nothing.
 pub(crate) fn word(keys: &EditedKeys, table: &str, key: &str) -> String {
     let value = keys.value((table, 0, key));

@@ -44,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, step: &mut Step, (design, trial): (&Design, Opti
     let whole = Rect::from_min_size(rect.min, WHOLE);
     let small = TSTransform::new(rect.min.to_vec2() * (1.0 - scale), scale);
     let mut child = ui.new_child(UiBuilder::new().max_rect(whole));
-    // Not to be answered, but as bright as it will be.
+    // Not to be answered, but as bright as it will be; what keys would say is let go.
     child.visuals_mut().disabled_alpha = 1.0;
     child.disable();
     let clip = small.inverse() * rect.intersect(ui.clip_rect());
@@ -87,9 +87,9 @@ fn view<'a>(
                 ground: ground(&layout, Some(trial)),
                 question: question(design),
                 draft,
-                is_open: false,
+                is_open: true,
                 missing: None,
-                intervals: (n_steps > 0).then_some((n_steps / 2, None)),
+                intervals: (n_steps > 0).then_some((n_steps.div_ceil(2), None)),
                 may_play: false,
             })
         }

@@ -61,12 +61,13 @@ fn show_blocks(
         keys,
         change: None,
     };
+    let keys_now = editing.keys.clone();
     let fault = form.study.design().err().cloned();
     let nowhere = |fault: &&Fault| block_of(&fault.table).is_none();
     if let Some(fault) = fault.as_ref().filter(nowhere) {
         note(ui, &fault.line, Tone::Wrong);
     }
-    for block in &BLOCKS {
+    for block in BLOCKS.iter().filter(|block| block.applies(&keys_now)) {
         let own = |fault: &&Fault| block_of(&fault.table) == Some(block.title);
         let is_open = builder.open == Some(block.title);
         let summary = summary(&editing, block);
