@@ -35,7 +35,10 @@ cat > "$XDG_CONFIG_HOME/selvedge/settings.toml" << SETTINGS
 sessions_folder = "$study"
 experiment_design = "$work/triads.toml"
 SETTINGS
-rows() { awk -F, 'NR > 1 && $2 == "trial"' "$log" | wc -l; }
+# Trials that count: what was voided is presented again.
+rows() {
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "valid") at = i } $2 == "trial" && $at == 1' "$log" | wc -l
+}
 has_rows() { [ "$(rows)" -ge "$1" ]; }
 feel() {
   for x in 150 480 820; do
@@ -64,7 +67,7 @@ for nth in 1 2 3 4 5 6 7 8; do
   for trial in 1 2 3; do
     tries=0
     until has_rows $trial; do
-      [ $((tries += 1)) -lt 6 ] || fail "p0$nth cannot answer trial $trial"
+      [ $((tries += 1)) -lt 8 ] || fail "p0$nth cannot answer trial $trial"
       feel
       answers=(1 2 3 2 3 1 3 2 1)
       slowly 'mousemove 400 300' "key ${answers[$(((nth * 3 + trial) % 9))]}" 'key n' 'key Return'
