@@ -101,7 +101,7 @@ fn old_levels_and_judgements_are_the_shipped_ones() {
     for (name, old) in [
         (
             "jnd-40",
-            "[levels]\nband_hz = 40\nreference_db = 24.0\nrange_db = [24.25, 36.25]\n\
+            "[levels]\nband_hz = 40\nreference_db = 21.0\nrange_db = [21.25, 33.25]\n\
              [levels.quest_plus]\ngrid_db = 0.25\nwidths_ln = [1.5, 2.0, 3.0, 4.0]\n\
              [levels.stop]\ntrials = 60\n",
         ),

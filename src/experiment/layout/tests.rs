@@ -111,7 +111,7 @@ fn intervals_last_as_long_as_the_design_says_and_one_holds_the_signal() {
         match nth {
             2 => assert!((um - 31.6228).abs() < 1e-3, "{um}"),
             nth if nth % 2 == 1 => assert!(um.abs() < 1e-9 && step.n_ticks == 12),
-            _ => assert!((um - 15.8489).abs() < 1e-3, "{um}"),
+            _ => assert!((um - 11.2202).abs() < 1e-3, "{um}"),
         }
         if nth % 2 == 0 {
             assert_eq!(step.n_ticks * 25, presentation.interval_ms);

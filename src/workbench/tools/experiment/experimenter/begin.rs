@@ -15,7 +15,7 @@ use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{HANDS, SEXES};
+use selvedge_experiment::{HANDS, SEXES, over_limits};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -96,14 +96,18 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         let words = "The device is an emulator: its rows will say that nobody felt anything.";
         note(ui, words, Tone::Wrong);
     }
+    let over = over_limits(&plan.design, bench.engine.profile().limit_um);
+    if !over.is_empty() {
+        let words = "The array may not play all of it: trials with it would not count. Lower it in the \
+                     design, or choose an array that may.";
+        note(ui, words, Tone::Wrong);
+        over.iter().for_each(|line| note(ui, line, Tone::Wrong));
+    }
+    let refusal = (!over.is_empty()).then_some("The array may not play all of it");
     ui.add_space(STEP);
     ui.horizontal_wrapped(|ui| {
-        if button(
-            ui,
-            "Begin now",
-            "Open the log, and show the first page",
-            None,
-        ) {
+        let tip = "Open the log, and show the first page";
+        if button(ui, "Begin now", tip, refusal) {
             experiment.begin_session(bench);
         }
         if button(ui, "Not yet", "Nothing is written", None) {
