@@ -65,6 +65,16 @@ impl Figure {
     }
 }
 
+impl Figure {
+    /// Where a point of its first panel lies in its picture at the size that it is laid out for,
+    /// px; `None` for one that has no place in it.
+    pub fn point_px(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+        let page = Page::of(self, Paper::White);
+        let laid = page.panels().next()?;
+        laid.frame.place(at).filter(|at_px| laid.frame.has(*at_px))
+    }
+}
+
 impl<'a> Page<'a> {
     /// Lays a figure out.
     pub(super) fn of(figure: &'a Figure, paper: Paper) -> Self {

@@ -39,136 +39,77 @@ pub(crate) struct AskWords {
 }
 
 impl AskWords {
+    fn new(
+        [title, verb]: [&'static str; 2],
+        missing: &'static str,
+        [hint, name, ending]: [&'static str; 3],
+    ) -> Self {
+        Self {
+            title,
+            verb,
+            hint,
+            missing,
+            name,
+            ending,
+        }
+    }
+
     /// The words for a purpose.
     pub(crate) fn of(purpose: Purpose) -> Self {
-        let scene = Self {
-            title: "Open scene",
-            verb: "Open",
-            hint: "/path/to/NAME.scene.toml",
-            missing: "Type the path of a scene first",
-            name: "untitled.scene.toml",
-            ending: ".toml",
-        };
-        let recording = Self {
-            title: "Open a path to replay",
-            hint: "/path/to/NAME.csv",
-            missing: "Type the name of a file first",
-            name: "recording.csv",
-            ending: ".csv",
-            ..scene
-        };
+        const SCENE: &str = "Type the path of a scene first";
+        const FILE: &str = "Type the name of a file first";
+        const FOLDER: &str = "Type the path of a folder first";
+        const WHERE: &str = "Type where to export to first";
+        let scene = ["/path/to/NAME.scene.toml", "untitled.scene.toml", ".toml"];
+        let path = ["/path/to/NAME.csv", "recording.csv", ".csv"];
+        let design = ["/path/to/DESIGN.toml", "design.toml", ".toml"];
+        let export = |title, file| Self::new([title, "Export"], WHERE, file);
         match purpose {
-            Purpose::OpenScene => scene,
-            Purpose::OpenRecording => recording,
-            Purpose::SaveScene => Self {
-                title: "Save scene as",
-                verb: "Save",
-                ..scene
-            },
-            Purpose::SaveRecording => Self {
-                title: "Export the path of the recording",
-                verb: "Export",
-                ..recording
-            },
-            Purpose::ImportFiles => Self {
-                title: "Add a file of measurements",
-                verb: "Add",
-                hint: "/path/to/NAME.txt",
-                missing: "Type the path of a file first",
-                name: "strokes.txt",
-                ending: "",
-            },
-            Purpose::OpenPicture => Self {
-                title: "Cloth from a picture",
-                verb: "Open",
-                hint: "/path/to/NAME.png",
-                missing: "Type the path of a picture first",
-                name: "cloth.png",
-                ending: "",
-            },
-            Purpose::OpenDesign => design_words(),
-            Purpose::SaveDesign => Self {
-                title: "Save the design",
-                verb: "Save",
-                ..design_words()
-            },
-            Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => folder_words(purpose),
-            Purpose::Clip(kind) => clip_words(kind),
-            Purpose::Export(_) => Self {
-                title: "Export as PNG, SVG or CSV",
-                verb: "Export",
-                hint: "/path/to/NAME.png",
-                missing: "Type where to export to first",
-                name: "export.png",
-                ending: ".png",
-            },
-        }
-    }
-}
-
-fn design_words() -> AskWords {
-    AskWords {
-        title: "Open a design",
-        verb: "Open",
-        hint: "/path/to/DESIGN.toml",
-        missing: "Type the path of a design first",
-        name: "design.toml",
-        ending: ".toml",
-    }
-}
-
-fn folder_words(purpose: Purpose) -> AskWords {
-    if purpose == Purpose::AddLibrary {
-        return AskWords {
-            title: "Add a folder of textiles",
-            verb: "Add",
-            hint: "/path/to/textiles",
-            missing: "Type the path of a folder first",
-            name: "textiles",
-            ending: "",
-        };
-    }
-    if purpose == Purpose::OpenLogs {
-        return AskWords {
-            title: "Analyse the sessions in a folder",
-            verb: "Analyse",
-            hint: "/path/to/study",
-            missing: "Type the path of a folder first",
-            name: "study",
-            ending: "",
-        };
-    }
-    AskWords {
-        title: "Write the report into a folder",
-        verb: "Write",
-        hint: "/path/to/study/analysis",
-        missing: "Type the path of a folder first",
-        name: "analysis",
-        ending: "",
-    }
-}
-
-fn clip_words(kind: ClipKind) -> AskWords {
-    let words = |title, hint, name, ending| AskWords {
-        title,
-        verb: "Export",
-        hint,
-        missing: "Type where to export to first",
-        name,
-        ending,
-    };
-    match kind {
-        ClipKind::Wav { .. } => {
-            let title = "Export the recording as a waveform";
-            words(title, "/path/to/NAME.wav", "recording.wav", ".wav")
-        }
-        ClipKind::Hjif => {
-            let title = "Export the recording as MPEG haptics";
-            words(title, "/path/to/NAME.hjif", "recording.hjif", ".hjif")
-        }
-        ClipKind::Frames => {
-            let title = "Export the recording as frames";
-            words(title, "/path/to/NAME.csv", "frames.csv", ".csv")
+            Purpose::OpenScene => Self::new(["Open scene", "Open"], SCENE, scene),
+            Purpose::SaveScene => Self::new(["Save scene as", "Save"], SCENE, scene),
+            Purpose::OpenRecording => Self::new(["Open a path to replay", "Open"], FILE, path),
+            Purpose::SaveRecording => {
+                Self::new(["Export the path of the recording", "Export"], FILE, path)
+            }
+            Purpose::OpenDesign => Self::new(["Open a design", "Open"], FILE, design),
+            Purpose::SaveDesign => Self::new(["Save the design", "Save"], FILE, design),
+            Purpose::ImportFiles => {
+                let file = ["/path/to/NAME.txt", "strokes.txt", ""];
+                Self::new(["Add a file of measurements", "Add"], FILE, file)
+            }
+            Purpose::OpenPicture => {
+                let file = ["/path/to/NAME.png", "cloth.png", ""];
+                Self::new(["Cloth from a picture", "Open"], FILE, file)
+            }
+            Purpose::AddLibrary => {
+                let folder = ["/path/to/textiles", "textiles", ""];
+                Self::new(["Add a folder of textiles", "Add"], FOLDER, folder)
+            }
+            Purpose::OpenLogs => {
+                let folder = ["/path/to/study", "study", ""];
+                let title = "Analyse the sessions in a folder";
+                Self::new([title, "Analyse"], FOLDER, folder)
+            }
+            Purpose::WriteReport => {
+                let folder = ["/path/to/study/analysis", "analysis", ""];
+                Self::new(["Write the report into a folder", "Write"], FOLDER, folder)
+            }
+            Purpose::Clip(ClipKind::Wav { .. }) => {
+                let file = ["/path/to/NAME.wav", "recording.wav", ".wav"];
+                export("Export the recording as a waveform", file)
+            }
+            Purpose::Clip(ClipKind::Hjif) => {
+                let file = ["/path/to/NAME.hjif", "recording.hjif", ".hjif"];
+                export("Export the recording as MPEG haptics", file)
+            }
+            Purpose::Clip(ClipKind::Frames) => {
+                let file = ["/path/to/NAME.csv", "frames.csv", ".csv"];
+                export("Export the recording as frames", file)
+            }
+            Purpose::Export(_) => {
+                let file = ["/path/to/NAME.png", "export.png", ".png"];
+                export("Export as PNG, SVG or CSV", file)
+            }
         }
     }
 }

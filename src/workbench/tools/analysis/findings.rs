@@ -2,15 +2,24 @@
 //! know before looking at it, and what is taken along of it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
+use std::fs::Metadata;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
 use crate::bench::session::title_of;
 use crate::tools::analysis::asked::Asked;
 use selvedge_experiment::analysis::{Analysis, Cell, Drawn, Table, analyse_with_unread, sessions};
+use selvedge_experiment::design::Source;
 use selvedge_experiment::session::Found;
 use selvedge_foundation::progress::Progress;
+use selvedge_textile::{id_in, is_of_the_program};
+
+/// The library of designs that name none.
+pub(crate) const SHIPPED: &str = "sixteen";
 
 /// What was found, and of what.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +34,10 @@ pub(crate) struct Findings {
     pub left_out: Vec<String>,
     /// What a reader must know before looking at any p value.
     pub warnings: Vec<String>,
+    /// Names of stimuli and materials, and by which ids a scene finds their textiles.
+    pub(crate) textiles: BTreeMap<String, String>,
+    /// What the folder held when it was read.
+    pub(crate) stamp: u64,
 }
 
 impl Findings {
@@ -81,6 +94,7 @@ pub(crate) fn find_out(
         let folder = folder.display();
         return Err(format!("there is no folder {folder}; check the path"));
     }
+    let stamp = stamp_of(folder);
     let (mut found, unread) = sessions(folder, progress).map_err(|error| error.to_string())?;
     let left_out = if asked.choice.with_active {
         Vec::new()
@@ -100,9 +114,49 @@ pub(crate) fn find_out(
         analysis,
         n_sessions: found.len(),
         warnings: interim(&found),
+        textiles: textiles(&found),
+        stamp,
         left_out,
         asked,
     })
+}
+
+/// What a folder holds, as a number: names, sizes and times of its logs and what lies beside them.
+pub(crate) fn stamp_of(folder: &Path) -> u64 {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut files: Vec<(OsString, u64, Option<SystemTime>)> = entries
+        .filter_map(|entry| {
+            let about = entry.metadata().ok().filter(Metadata::is_file)?;
+            Some((entry.file_name(), about.len(), about.modified().ok()))
+        })
+        .collect();
+    files.sort();
+    let mut hasher = DefaultHasher::new();
+    files.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The textiles of all designs, as far as a scene finds them whatever its own library is.
+fn textiles(found: &[Found]) -> BTreeMap<String, String> {
+    let mut textiles = BTreeMap::new();
+    for design in found.iter().map(|one| &one.design) {
+        let library = design
+            .library
+            .as_deref()
+            .unwrap_or_else(|| Path::new(SHIPPED));
+        if !is_of_the_program(library) && !library.is_absolute() {
+            continue;
+        }
+        for stimulus in &design.stimuli {
+            if let Source::Textile { id, .. } = &stimulus.source {
+                for name in [&stimulus.id, &stimulus.material] {
+                    let key = || id_in(library, id);
+                    textiles.entry(name.clone()).or_insert_with(key);
+                }
+            }
+        }
+    }
+    textiles
 }
 
 /// Leaves out every session of whoever takes part in one that is being held; says who that is.

@@ -42,6 +42,7 @@ impl Tool for Analysis {
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
         self.follow_session(context.bench);
+        self.look(context.bench);
         framed(ui, 10, |ui| {
             if let Some(wanted) = view::show(ui, self, context) {
                 self.draw(context.bench, &wanted);

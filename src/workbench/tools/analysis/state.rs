@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::bench::Bench;
 use crate::bench::background::{Executor, Task, finished};
@@ -11,11 +12,14 @@ use crate::bench::latest::Latest;
 use crate::bench::pane::Pane;
 use crate::bench::tool::PaneContext;
 use crate::tools::analysis::asked::{Asked, Choice, Fields};
-use crate::tools::analysis::findings::{Findings, find_out};
+use crate::tools::analysis::findings::{Findings, find_out, stamp_of};
 use crate::tools::analysis::pictures::{Pictures, Wanted};
 use crate::tools::analysis::view::columns::Looks;
 use selvedge_experiment::analysis::{Drawn, Section};
 use selvedge_foundation::progress::Progress;
+
+/// From one look at the folder of results to the next, s.
+const LOOK_S: f64 = 2.0;
 
 /// Analyses: what is asked for, and what was found last. Neither saved nor undoable.
 #[derive(Default)]
@@ -36,6 +40,11 @@ pub(crate) struct Analysis {
     pub(super) failure: Option<String>,
     pub(super) writing: Option<Task<PathBuf>>,
     pub(super) written: Option<Result<PathBuf, String>>,
+    /// A look whether the folder holds something else by now, and when it was taken last, s.
+    pub(super) looking: Option<Task<u64>>,
+    pub(super) looked_s: f64,
+    /// What it held then.
+    pub(super) stamp: Option<u64>,
     pub(super) pictures: Latest<Wanted, Pictures>,
     /// Tables and figures of the section at hand as they are laid out.
     pub(super) looks: Looks,
@@ -154,6 +163,36 @@ impl Analysis {
         found.is_some_and(|found| self.asked().as_ref() != Some(&found.asked))
     }
 
+    /// Whether its folder holds something else than when it was analysed.
+    pub(super) fn has_moved_on(&self) -> bool {
+        let found = self.found.as_ref();
+        let stamps = found.map(|found| found.stamp).zip(self.stamp);
+        stamps.is_some_and(|(then, now)| then != now)
+    }
+
+    /// Looks now and then, while somebody sees the results, whether their folder has changed.
+    pub(super) fn look(&mut self, bench: &Bench) {
+        if let Some(Ok(stamp)) = finished(&mut self.looking) {
+            self.stamp = Some(stamp);
+        }
+        let now_s = bench.ctx.input(|input| input.time);
+        let is_due = now_s - self.looked_s >= LOOK_S || now_s < self.looked_s;
+        let Some(found) = self
+            .found
+            .as_ref()
+            .filter(|_| self.looking.is_none() && is_due)
+        else {
+            return;
+        };
+        self.looked_s = now_s;
+        let folder = found.asked.folder.clone();
+        let work = move |_: &mut Progress<'_>| Ok(stamp_of(&folder));
+        self.looking = Some(bench.executor.start("selvedge-look", work));
+        bench
+            .ctx
+            .request_repaint_after(Duration::from_secs_f64(LOOK_S));
+    }
+
     /// How far the analysis under way is, 0…1.
     pub(super) fn share(&self) -> Option<f32> {
         self.task.as_ref().map(Task::share)
@@ -183,6 +222,7 @@ impl Analysis {
         let sections = &found.analysis.sections;
         let same = key.and_then(|key| sections.iter().position(|s| s.key == key));
         self.section = same.unwrap_or(0);
+        self.stamp = Some(found.stamp);
         self.found = Some(Arc::new(found));
         self.written = None;
     }

@@ -1,8 +1,9 @@
 //! The study board: who took part, how far each session is, what of it counts, what is missing.
 
+use std::path::PathBuf;
+
 use eframe::egui::{Grid, ProgressBar, RichText, Ui};
 
-use crate::bench::Bench;
 use crate::bench::session::title_of;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
@@ -18,7 +19,7 @@ use selvedge_experiment::design::Subject;
 const BAR: f32 = 96.0;
 
 /// Shows the pane.
-pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
+pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
     let form = &mut experiment.form;
     row_of(ui, 60.0, ("folder", ""), |ui, label| {
@@ -48,7 +49,10 @@ pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneC
         let words = "There is none yet. One that was interrupted is resumed from here.";
         return note(ui, words, Tone::Quiet);
     }
-    show_sessions(ui, experiment, context.bench);
+    if let Some(log) = show_sessions(ui, &experiment.form) {
+        experiment.resume_session(log, context.bench);
+        ui.ctx().request_repaint();
+    }
 }
 
 fn show_missing(ui: &mut Ui, form: &Form) {
@@ -65,9 +69,8 @@ fn show_missing(ui: &mut Ui, form: &Form) {
     }
 }
 
-fn show_sessions(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
-    let palette = Palette::in_ui(ui);
-    let dim = |words: &str| RichText::new(words).font(theme::small()).color(palette.dim);
+/// Shows the sessions of the folder; the log of the one to be resumed.
+fn show_sessions(ui: &mut Ui, form: &Form) -> Option<PathBuf> {
     let mut resumed = None;
     let mut broken: Vec<&str> = Vec::new();
     Grid::new("sessions")
@@ -75,32 +78,11 @@ fn show_sessions(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         .spacing([16.0, STEP])
         .show(ui, |ui| {
             for head in ["participant", "progress", "count", "void", "state", ""] {
-                ui.label(dim(head));
+                ui.label(dim(ui, head));
             }
             ui.end_row();
-            for one in &experiment.form.found {
-                let Subject {
-                    pseudonym, session, ..
-                } = &one.subject;
-                let tip = format!("{}\n{}", one.title, one.log.display());
-                ui.label(format!("{pseudonym}, session {session}"))
-                    .on_hover_text(tip);
-                let (done, all) = one.progress;
-                #[expect(clippy::cast_precision_loss, reason = "some hundred trials")]
-                let share = done as f32 / all.max(1) as f32;
-                let bar = ProgressBar::new(share)
-                    .desired_width(BAR)
-                    .desired_height(4.0);
-                ui.horizontal(|ui| {
-                    ui.add(bar);
-                    ui.label(dim(&format!("{done} of {all}")));
-                });
-                let [valid, void, unknown] = one.counts;
-                ui.label(match unknown {
-                    0 => valid.to_string(),
-                    n => format!("{valid} + {n} unknown"),
-                });
-                ui.label(void.to_string());
+            for one in &form.found {
+                show_progress(ui, one);
                 show_standing(ui, one);
                 if one.standing == Standing::Open {
                     let tip = format!("Go on with {}", one.log.display());
@@ -118,15 +100,45 @@ fn show_sessions(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         });
     if !broken.is_empty() {
         section(ui, "Not as it was written: left out of the analysis");
-        broken.iter().for_each(|line| note(ui, line, Tone::Wrong));
+        for line in broken {
+            note(ui, line, Tone::Wrong);
+        }
     }
-    if let Some(line) = &experiment.form.failure {
+    if let Some(line) = &form.failure {
         note(ui, line, Tone::Wrong);
     }
-    if let Some(log) = resumed {
-        experiment.resume_session(log, bench);
-        ui.ctx().request_repaint();
-    }
+    resumed
+}
+
+/// Whose session it is, how far, and what of it counts.
+fn show_progress(ui: &mut Ui, one: &Held) {
+    let Subject {
+        pseudonym, session, ..
+    } = &one.subject;
+    let tip = format!("{}\n{}", one.title, one.log.display());
+    ui.label(format!("{pseudonym}, session {session}"))
+        .on_hover_text(tip);
+    let (done, all) = one.progress;
+    #[expect(clippy::cast_precision_loss, reason = "some hundred trials")]
+    let share = done as f32 / all.max(1) as f32;
+    let bar = ProgressBar::new(share)
+        .desired_width(BAR)
+        .desired_height(4.0);
+    ui.horizontal(|ui| {
+        ui.add(bar);
+        ui.label(dim(ui, &format!("{done} of {all}")));
+    });
+    let [valid, void, unknown] = one.counts;
+    ui.label(match unknown {
+        0 => valid.to_string(),
+        n => format!("{valid} + {n} unknown"),
+    });
+    ui.label(void.to_string());
+}
+
+fn dim(ui: &Ui, words: &str) -> RichText {
+    let palette = Palette::in_ui(ui);
+    RichText::new(words).font(theme::small()).color(palette.dim)
 }
 
 fn show_standing(ui: &mut Ui, one: &Held) {

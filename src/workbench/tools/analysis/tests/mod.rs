@@ -13,6 +13,7 @@ use eframe::egui::{self, vec2};
 use super::*;
 use crate::bench::background::Executor;
 use crate::bench::command::ShowCommand;
+use crate::bench::command::edit::Edit;
 use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
 use crate::shell::headless::Headless;
@@ -324,4 +325,67 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     window.workbench.bench.session.active = None;
     window.pass(3);
     assert!(!analysis(&window).is_uncovered, "the next one is covered");
+}
+
+#[test]
+fn results_say_that_their_folder_has_changed_since() {
+    let folder = Folder::new("moved-on");
+    study(&folder, 2);
+    let mut window = window(&asked(&folder.0));
+    open(&mut window, &folder.0);
+    window.pass(3);
+    let look = |window: &mut Headless| {
+        analysis_mut(window).looked_s = f64::INFINITY;
+        window.pass(3);
+        analysis(window).has_moved_on()
+    };
+    assert!(!look(&mut window), "nothing has changed");
+    fs::write(folder.0.join("another.csv"), "late").unwrap();
+    assert!(look(&mut window));
+    fs::remove_file(folder.0.join("another.csv")).unwrap();
+    assert!(!look(&mut window), "it is as it was");
+}
+
+#[test]
+fn a_point_of_a_map_that_is_clicked_is_felt_in_the_workspace() {
+    let folder = Folder::new("map");
+    study(&folder, 4);
+    let mut window = window(&asked(&folder.0));
+    open(&mut window, &folder.0);
+    window.pass(3);
+    let found = Arc::clone(analysis(&window).found.as_ref().unwrap());
+    let mut sections = found.analysis.sections.iter();
+    let points = sections.find_map(|section| {
+        let drawn = section.figures.iter();
+        let mut points = drawn.map(|drawn| view::figure::textiles_at(drawn, &found));
+        points.find(|points| !points.is_empty())
+    });
+    let points = points.unwrap();
+    assert!(points.len() >= 4, "{points:?}");
+    let (name, key, _) = &points[0];
+    assert_eq!(key, &format!("sixteen:{name}"));
+    let bench = &window.workbench.bench;
+    let (scene, own) = (
+        bench.plain_scene_view(),
+        bench.engine_scene.loaded.library(),
+    );
+    let commands = |key: &str| view::section::felt(key, &scene, own);
+    let expected = match scene.placed(name) {
+        Some(index) => Command::from(ShowCommand::SelectCloth(Some(index))),
+        None => Edit::AddCloths(vec![name.clone()]).into(),
+    };
+    assert_eq!(commands(key)[0], expected);
+    let elsewhere = Edit::AddCloths(vec!["seventy-four:serge".to_owned()]);
+    assert_eq!(commands("seventy-four:serge")[0], elsewhere.into());
+    let added = commands("sixteen:denim");
+    for command in added {
+        window.dispatch(command);
+    }
+    window.pass(2);
+    let textiles = &window.workbench.bench.document.scene().textiles;
+    assert!(
+        textiles.iter().any(|cloth| cloth.id == "denim"),
+        "{textiles:?}"
+    );
+    assert!(window.workbench.shell.shows(Pane::Workspace));
 }

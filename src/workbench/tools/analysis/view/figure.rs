@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{
-    Align2, Color32, ColorImage, ImageData, Pos2, Rect, Role, ScrollArea, Sense, TextureOptions,
-    Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Color32, ColorImage, ImageData, Pos2, Rect, Role, ScrollArea, Sense, Stroke,
+    TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use crate::kit::theme;
@@ -16,10 +16,12 @@ use crate::tools::analysis::pictures::Wanted;
 use crate::tools::analysis::state::Analysis;
 use crate::tools::analysis::view::columns::Looks;
 use selvedge_chart::Paper;
-use selvedge_experiment::analysis::Drawn;
+use selvedge_experiment::analysis::{Cell, Drawn};
 
 /// Widths that a figure can be read at, points.
 const WIDTHS: [f32; 2] = [540.0, 900.0];
+/// How near a point of a map is pointed at, points.
+const POINT: f32 = 9.0;
 /// The room of the button on a figure, points.
 const SAVE: [f32; 2] = [64.0, 24.0];
 
@@ -62,13 +64,22 @@ fn picture_of<'a>(
     pictures.images.get(nth).filter(|_| is_same)
 }
 
-/// Shows a figure in a room of this width; says whether it is to be saved.
+/// What is wanted of a figure.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Asked {
+    /// It is to be saved.
+    Save,
+    /// The textile of a point is to be felt: its id in scenes.
+    Feel(String),
+}
+
+/// Shows a figure in a room of this width; says what is wanted of it.
 pub(crate) fn show(
     ui: &mut Ui,
     (nth, drawn, room): (usize, &Drawn, f32),
     found: &Arc<Findings>,
     analysis: &mut Analysis,
-) -> bool {
+) -> Option<Asked> {
     let picture = picture_of(analysis, found, nth).cloned();
     let looks = &mut analysis.looks;
     let [laid_width, laid_height] = drawn.figure.size_px();
@@ -86,6 +97,7 @@ pub(crate) fn show(
             Some(Err(line)) => say(ui, rect, line),
             None => say(ui, rect, title),
         }
+        let felt = show_points(ui, rect, drawn, found);
         // Within reach however wide the picture is.
         let right = rect.right().min(ui.clip_rect().right());
         let corner = Rect::from_min_size(
@@ -94,9 +106,60 @@ pub(crate) fn show(
         );
         let mut child = ui.new_child(UiBuilder::new().max_rect(corner));
         let label = format!("Save “{title}” as PNG, SVG or CSV");
-        toggle(&mut child, "save…", false, &label)
+        let is_saved = toggle(&mut child, "save…", false, &label);
+        is_saved
+            .then_some(Asked::Save)
+            .or_else(|| felt.map(Asked::Feel))
     })
     .inner
+}
+
+/// The points of a map that stand for textiles: one that is clicked is felt.
+fn show_points(ui: &Ui, rect: Rect, drawn: &Drawn, found: &Findings) -> Option<String> {
+    let points = textiles_at(drawn, found);
+    #[expect(clippy::cast_possible_truncation, reason = "px of the screen")]
+    let scale = rect.width() / drawn.figure.size_px()[0] as f32;
+    let mut felt = None;
+    for (name, key, [x, y]) in points {
+        #[expect(clippy::cast_possible_truncation, reason = "px of the screen")]
+        let at = rect.min + scale * vec2(x as f32, y as f32);
+        let spot = Rect::from_center_size(at, vec2(2.0 * POINT, 2.0 * POINT));
+        let id = ui.scope_id().with((&drawn.key, &name));
+        let response = ui.interact(spot, id, Sense::click());
+        let words = format!("Feel {name} in the workspace");
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
+        if response.hovered() || response.has_focus() {
+            let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
+            ui.painter().circle_stroke(at, POINT, edge);
+        }
+        if response.on_hover_text(words).clicked() {
+            felt = Some(key);
+        }
+    }
+    felt
+}
+
+/// The points of a map by name, the textile of each as scenes find it, and where it lies in the
+/// picture, px.
+pub(crate) fn textiles_at(drawn: &Drawn, found: &Findings) -> Vec<(String, String, [f64; 2])> {
+    let points = &drawn.points;
+    let names: Vec<&str> = points
+        .columns
+        .iter()
+        .map(|column| column.name.as_str())
+        .collect();
+    if !matches!(names[..], ["name", "x1", "x2", ..]) {
+        return Vec::new();
+    }
+    let point = |row: &Vec<Cell>| {
+        let [Cell::Text(name), x, y, ..] = &row[..] else {
+            return None;
+        };
+        let at = [x.number()?, y.number().unwrap_or(0.0)];
+        let key = found.textiles.get(name)?.clone();
+        Some((name.clone(), key, drawn.figure.point_px(at)?))
+    };
+    points.rows.iter().filter_map(point).collect()
 }
 
 fn paint(ui: &Ui, rect: Rect, (nth, image): (usize, &Arc<ColorImage>), looks: &mut Looks) {

@@ -65,7 +65,10 @@ pub(crate) fn show(ui: &mut Ui, analysis: &mut Analysis, context: &mut PaneConte
         note(ui, line, Tone::Wrong);
     } else if analysis.is_past() && analysis.task.is_none() {
         let words = "What is shown was found with other choices: analyse again.";
-        note(ui, words, Tone::Quiet);
+        note(ui, words, Tone::Wrong);
+    } else if analysis.has_moved_on() && analysis.task.is_none() {
+        let words = "The folder has changed since: analyse again.";
+        note(ui, words, Tone::Wrong);
     } else if let Some(found) = &analysis.found {
         let words = match found.n_sessions {
             1 => "1 session".to_owned(),
@@ -152,7 +155,9 @@ pub(crate) fn show_report(ui: &mut Ui, analysis: &Analysis, context: &mut PaneCo
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         let tip = "A page to read, every table as CSV and JSON, every figure as SVG and PNG";
-        if button(ui, "Write report…", tip, None) {
+        let is_past = analysis.is_past() || analysis.has_moved_on();
+        let refusal = is_past.then_some("What is shown is of other logs or choices: analyse again");
+        if button(ui, "Write report…", tip, refusal) {
             let ask = FileCommand::Ask(Purpose::WriteReport);
             context.commands.push(ask.into());
         }

@@ -29,6 +29,8 @@ use crate::tools::analysis::state::Analysis;
 const WIDE: f32 = 640.0;
 /// Width of the left column, points.
 const LEFT: f32 = 244.0;
+/// How bright results are that are of other logs or choices by now.
+const PAST: f32 = 0.5;
 /// What is said before anything was analysed.
 const EMPTY: [&str; 3] = [
     "A folder that sessions were kept in: logs as CSV, each with its .json beside it. Several \
@@ -99,6 +101,9 @@ fn show_found(
             return None;
         }
         let at = found.analysis.sections.get(analysis.section)?;
+        if analysis.is_past() || analysis.has_moved_on() {
+            ui.multiply_opacity(PAST);
+        }
         let area = ScrollArea::vertical()
             .id_salt(("analysed", &at.key))
             .auto_shrink(false);

@@ -1,22 +1,41 @@
 //! The section at hand: what to know, figures, tables.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui::{Label, RichText, Ui};
 
+use crate::bench::command::edit::Edit;
+use crate::bench::command::{Command, ShowCommand};
+use crate::bench::pane::Pane;
 use crate::bench::tool::PaneContext;
+use crate::bench::view::SceneView;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::tools::analysis::findings::Findings;
+use crate::tools::analysis::findings::{Findings, SHIPPED};
 use crate::tools::analysis::pictures::Wanted;
 use crate::tools::analysis::state::Analysis;
+use crate::tools::analysis::view::figure::Asked;
 use crate::tools::analysis::view::{figure, table, words};
 use selvedge_experiment::analysis::Section;
+use selvedge_textile::{Library, elsewhere};
 
 /// Lines longer than this are hard to read, points.
 const MEASURE: f32 = 640.0;
 /// The bar at the right of what scrolls, points.
 const BAR: f32 = 12.0;
+
+/// What brings a textile under the finger: it is laid into the scene unless it lies there, and the
+/// workspace comes into sight.
+pub(crate) fn felt(key: &str, scene: &SceneView, own: &Library) -> [Command; 2] {
+    let is_own = |name: &Path| name == own.root() || name == Path::new(SHIPPED) && own.is_shipped();
+    let key = elsewhere(key).map_or(key, |(name, id)| if is_own(name) { id } else { key });
+    let command = match scene.placed(key) {
+        Some(index) => ShowCommand::SelectCloth(Some(index)).into(),
+        None => Edit::AddCloths(vec![key.to_owned()]).into(),
+    };
+    [command, ShowCommand::Reveal(Pane::Workspace).into()]
+}
 
 /// Shows a section in a room of this width; says which figures are wanted, if it has any.
 pub(crate) fn show(
@@ -41,8 +60,15 @@ pub(crate) fn show(
     let wanted = (!section.figures.is_empty())
         .then(|| figure::wanted(ui, room, (Arc::clone(found), analysis.section)));
     for (nth, drawn) in section.figures.iter().enumerate() {
-        if figure::show(ui, (nth, drawn, room), found, analysis) {
-            analysis.save_figure(nth, context);
+        match figure::show(ui, (nth, drawn, room), found, analysis) {
+            Some(Asked::Save) => analysis.save_figure(nth, context),
+            Some(Asked::Feel(key)) => {
+                let own = context.bench.engine_scene.loaded.library();
+                for command in felt(&key, context.scene, own) {
+                    context.commands.push(command);
+                }
+            }
+            None => {}
         }
         ui.add_space(4.0 * STEP);
     }

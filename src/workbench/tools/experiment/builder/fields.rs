@@ -1,6 +1,6 @@
 //! The keys of a block as fields of a form: what is typed or chosen is set in the text at once.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use eframe::egui::{TextEdit, Ui};
 
@@ -30,10 +30,15 @@ pub(crate) struct Editing {
 
 impl Editing {
     /// Sets a key; `name` is what the step is called.
-    pub(crate) fn set(&mut self, place: KeyPlace<'_>, value: Option<KeyValue>, name: &'static str) {
+    pub(crate) fn set(
+        &mut self,
+        place: KeyPlace<'_>,
+        value: Option<&KeyValue>,
+        name: &'static str,
+    ) {
         let mut hasher = DefaultHasher::new();
         place.hash(&mut hasher);
-        self.keys.set(place, value.as_ref());
+        self.keys.set(place, value);
         self.change = Some((Target::Key(hasher.finish()), name));
     }
 
@@ -67,11 +72,8 @@ pub(crate) fn field(ui: &mut Ui, editing: &mut Editing, (field, nth): (&Field, u
                 .and_then(KeyValue::as_bool)
                 .unwrap_or_default();
             if toggle(ui, if is_on { "yes" } else { "no" }, is_on, field.name) {
-                editing.set(
-                    place,
-                    (!is_on).then_some(KeyValue::Boolean(true)),
-                    field.name,
-                );
+                let value = (!is_on).then_some(&KeyValue::Boolean(true));
+                editing.set(place, value, field.name);
             }
         }
         holds => {
@@ -80,8 +82,8 @@ pub(crate) fn field(ui: &mut Ui, editing: &mut Editing, (field, nth): (&Field, u
             let mut typed = kept.unwrap_or_else(|| words_of(value.as_ref()));
             let response = text(ui, label, &mut typed, (field.hint, FIELD, Need::Optional));
             if response.changed() {
-                if let Some(value) = value_of(holds, &typed) {
-                    editing.set(place, value, field.name);
+                if let Ok(value) = value_of(holds, &typed) {
+                    editing.set(place, value.as_ref(), field.name);
                 }
                 // What is no number yet is typed on; it counts once it is one.
                 ui.data_mut(|data| data.insert_temp(id, typed));
@@ -149,7 +151,7 @@ fn one_of(
         }
     });
     if let Some(value) = chosen {
-        editing.set(place, value, field.name);
+        editing.set(place, value.as_ref(), field.name);
         settle(&mut editing.keys);
         ui.ctx().request_repaint();
     }
@@ -163,7 +165,8 @@ fn paragraph(ui: &mut Ui, editing: &mut Editing, (field, place): (&Field, KeyPla
         .desired_width(NAME + FIELD)
         .hint_text(field.hint);
     if ui.add(area).labelled_by(label.id).changed() {
-        editing.set(place, value_of(Holds::Words, &typed).flatten(), field.name);
+        let value = (!typed.trim().is_empty()).then(|| typed.as_str().into());
+        editing.set(place, value.as_ref(), field.name);
     }
 }
 
@@ -180,11 +183,15 @@ fn words_of(value: Option<&KeyValue>) -> String {
     }
 }
 
-/// What was typed, nothing where that is empty; `None` where it is none of its kind.
-fn value_of(holds: Holds, typed: &str) -> Option<Option<KeyValue>> {
+/// What is typed is no value of its kind, or not yet.
+#[derive(Debug, PartialEq, Eq)]
+struct Unfinished;
+
+/// What was typed, nothing where that is empty.
+fn value_of(holds: Holds, typed: &str) -> Result<Option<KeyValue>, Unfinished> {
     let words = typed.trim();
     if words.is_empty() {
-        return Some(None);
+        return Ok(None);
     }
     let number = |words: &str| {
         let number = words
@@ -195,8 +202,8 @@ fn value_of(holds: Holds, typed: &str) -> Option<Option<KeyValue>> {
         whole.or_else(|| number.map(KeyValue::Float))
     };
     let value = match holds {
-        Holds::Number => number(words)?,
-        Holds::Count => KeyValue::Integer(words.parse().ok()?),
+        Holds::Number => number(words).ok_or(Unfinished)?,
+        Holds::Count => words.parse().map(KeyValue::Integer).or(Err(Unfinished))?,
         Holds::List => {
             let parts: Vec<&str> = words.split(',').map(str::trim).collect();
             let numbers: Option<Vec<KeyValue>> = parts.iter().map(|part| number(part)).collect();
@@ -216,7 +223,7 @@ fn value_of(holds: Holds, typed: &str) -> Option<Option<KeyValue>> {
         }
         _ => typed.into(),
     };
-    Some(Some(value))
+    Ok(Some(value))
 }
 
 #[cfg(test)]
@@ -226,13 +233,13 @@ mod tests {
     #[test]
     fn what_is_typed_is_a_value_of_its_kind_or_none() {
         let value = |holds, typed| value_of(holds, typed).map(|v| v.map(|v| v.to_string()));
-        let some = |text: &str| Some(Some(text.to_owned()));
+        let some = |text: &str| Ok(Some(text.to_owned()));
         assert_eq!(value(Holds::Count, " 4 "), some("4"));
-        assert_eq!(value(Holds::Count, "4.5"), None);
+        assert_eq!(value(Holds::Count, "4.5"), Err(Unfinished));
         assert_eq!(value(Holds::Number, "-6"), some("-6"));
         assert_eq!(value(Holds::Number, "2.5"), some("2.5"));
-        assert_eq!(value(Holds::Number, "inf"), None);
-        assert_eq!(value(Holds::Number, ""), Some(None));
+        assert_eq!(value(Holds::Number, "inf"), Err(Unfinished));
+        assert_eq!(value(Holds::Number, ""), Ok(None));
         assert_eq!(value(Holds::List, "4, 2.5"), some("[4.0, 2.5]"));
         assert_eq!(
             value(Holds::List, "easy, hard"),

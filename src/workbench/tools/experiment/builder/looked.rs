@@ -85,7 +85,7 @@ fn first_trial(design: &Design) -> Option<Trial> {
     let procedure = Procedure::of(design, &subject).ok()?;
     let mut listed = procedure.listed().iter();
     let counts = listed.find(|trial| !trial.is_practice);
-    counts.or(procedure.trial()).cloned()
+    counts.or_else(|| procedure.trial()).cloned()
 }
 
 /// Why textiles cannot be felt: each is looked for in the library that the design names.

@@ -125,7 +125,7 @@ mod tests {
                 match read(&keys) {
                     Ok(_) => n_good += 1,
                     Err(line) => {
-                        assert!(line.contains("; ") && !line.contains("unknown"), "{line}")
+                        assert!(line.contains("; ") && !line.contains("unknown"), "{line}");
                     }
                 }
             }

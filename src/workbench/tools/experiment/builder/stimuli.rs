@@ -170,7 +170,7 @@ fn show_add(ui: &mut Ui, editing: &mut Editing) {
 fn set_textiles(editing: &mut Editing, all: &[String]) {
     let list = all.iter().map(|id| KeyValue::from(id.as_str())).collect();
     let list = (!all.is_empty()).then_some(KeyValue::Array(list));
-    editing.set(TEXTILES, list, "textiles");
+    editing.set(TEXTILES, list.as_ref(), "textiles");
 }
 
 /// Takes a textile of the library; the first says which library the design is of.
@@ -195,7 +195,7 @@ pub(super) fn take(editing: &mut Editing, key: &str, bench: &Bench) -> Result<()
         return Err(format!("{id} is there already"));
     }
     if known.is_empty() {
-        editing.set(LIBRARY, library.map(KeyValue::from), "library");
+        editing.set(LIBRARY, library.map(KeyValue::from).as_ref(), "library");
     }
     let mut all = textiles(&editing.keys);
     all.push(id);

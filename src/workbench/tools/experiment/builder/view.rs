@@ -157,7 +157,7 @@ fn show_question(ui: &mut Ui, editing: &mut Editing) {
         let hint = ("what the composition asks by itself", FIELD, Need::Optional);
         if text(ui, label, &mut typed, hint).changed() {
             let value = (!typed.trim().is_empty()).then(|| typed.into());
-            editing.set(place, value, "question");
+            editing.set(place, value.as_ref(), "question");
         }
     });
 }

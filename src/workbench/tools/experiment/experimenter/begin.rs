@@ -101,7 +101,9 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         let words = "The array may not play all of it: trials with it would not count. Lower it in the \
                      design, or choose an array that may.";
         note(ui, words, Tone::Wrong);
-        over.iter().for_each(|line| note(ui, line, Tone::Wrong));
+        for line in &over {
+            note(ui, line, Tone::Wrong);
+        }
     }
     let refusal = (!over.is_empty()).then_some("The array may not play all of it");
     ui.add_space(STEP);

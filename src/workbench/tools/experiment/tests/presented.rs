@@ -39,7 +39,7 @@ fn begun_on_array(folder: &Folder) -> Headless {
     form.choose(small(folder, "odd-one-out"));
     form.folder = folder.0.display().to_string();
     form.who.pseudonym = "p01".to_owned();
-    act(&mut window, |one, bench| one.begin_session(bench));
+    act(&mut window, Experiment::begin_session);
     window.pass(3);
     for _ in 0..4 {
         pass(&mut window);
