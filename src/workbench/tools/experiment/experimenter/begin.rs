@@ -98,8 +98,8 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     }
     let over = over_limits(&plan.design, bench.engine.profile().limit_um);
     if !over.is_empty() {
-        let words = "The array may not play all of it: trials with it would not count. Lower it in the \
-                     design, or choose an array that may.";
+        let words = "The array may not play all of it: trials with it would not count. Lower it in \
+                     the design, or choose an array that may.";
         note(ui, words, Tone::Wrong);
         for line in &over {
             note(ui, line, Tone::Wrong);
