@@ -172,10 +172,10 @@ impl AckCode {
 
 impl Field for AckCode {
     fn read(fields: &mut FieldReader<'_>) -> Self {
-        Self::from_code(fields.u8())
+        Self::from_code(fields.take())
     }
 
     fn write(self, fields: &mut FieldWriter) {
-        fields.u8(self.code());
+        fields.put(self.code());
     }
 }

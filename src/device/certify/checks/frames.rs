@@ -29,8 +29,7 @@ fn armed(c: &mut Client<'_>) -> Verdict {
         ramp_ms: 10,
         ..c.usual()
     };
-    let says = c.arming(&config);
-    c.tell(&says).map(drop)
+    c.tell_with(|c| c.arming(&config)).map(drop)
 }
 
 fn sum(c: &Client<'_>, codes: &[[u16; 2]]) -> u32 {
@@ -46,12 +45,11 @@ fn stream(c: &mut Client<'_>) -> Verdict {
             Ok(()) => n_right += 1,
             // Host or link were late: the device may have fallen silent.
             Err(Trouble::Late) => armed(c)?,
-            Err(Trouble::Wrong(_)) if c.take_late() => armed(c)?,
+            Err(Trouble::Wrong(_)) if std::mem::take(&mut c.times.is_late) => armed(c)?,
             wrong => return wrong,
         }
         if n_right == 40 {
-            let stop = [c.stop(0)];
-            return c.tell(&stop).map(drop);
+            return c.tell_with(|c| [c.stop(0)]).map(drop);
         }
     }
     Err(Trouble::Late)
