@@ -84,7 +84,13 @@ fn a_cut_link_is_lost_within_500_ms_and_the_device_silent_within_100() {
     let mut pair = Pair::streaming(500);
     pair.cut = true;
     pair.run(125);
-    assert!(pair.device.core().output().iter().all(|codes| *codes == [0, 0]));
+    assert!(
+        pair.device
+            .core()
+            .output()
+            .iter()
+            .all(|codes| *codes == [0, 0])
+    );
     assert_eq!(pair.host.state(), BridgeState::Streaming);
     pair.run(400);
     assert_eq!(pair.host.state(), BridgeState::Lost);
