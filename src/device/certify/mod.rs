@@ -126,7 +126,7 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> (Verdict, u64) {
             // A device that was wrong once is not right because host and link were late later.
             Err(Trouble::Late) => {}
             Err(Trouble::Wrong(what)) if client.times.is_late => {
-                verdict = Err(Trouble::Wrong(what))
+                verdict = Err(Trouble::Wrong(what));
             }
             done => {
                 verdict = done;
