@@ -157,9 +157,9 @@ impl Text<'_> {
             "{{\"version\":\"2023\",\"profile\":\"Main\",\"level\":{level},\
              \"date\":\"1970-01-01\",\"description\":{title},\"timescale\":1000,\
              \"avatars\":[{{\"id\":1,\"lod\":0,\"type\":\"Vibration\"}}],\
-             \"perceptions\":[{{\"id\":1,\"avatar_id\":1,\"description\":\"amplitude 1 at gain 1 is \
-             {full_40} um peak displacement at 40 Hz and {full_320} um at 320 Hz; one channel per \
-             contactor, row by row\",\"perception_modality\":\"Vibrotactile\",\
+             \"perceptions\":[{{\"id\":1,\"avatar_id\":1,\"description\":\"amplitude 1 at gain 1 \
+             is {full_40} um peak displacement at 40 Hz and {full_320} um at 320 Hz; one channel \
+             per contactor, row by row\",\"perception_modality\":\"Vibrotactile\",\
              \"reference_devices\":[],\"effect_library\":[],\"channels\":["
         ));
     }
