@@ -75,9 +75,4 @@ impl Axis {
             ..self
         }
     }
-
-    /// What it measures and in which unit: its label up to the last comma, and what follows.
-    pub fn name_and_unit(&self) -> (&str, &str) {
-        self.label.rsplit_once(", ").unwrap_or((&self.label, ""))
-    }
 }

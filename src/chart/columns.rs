@@ -25,29 +25,17 @@ pub enum Values {
     Words(Vec<String>),
 }
 
-impl From<Vec<u64>> for Values {
-    fn from(values: Vec<u64>) -> Self {
-        Self::Whole(values)
-    }
+macro_rules! from_columns {
+    ($($kind:ident $cell:ty),+) => {$(
+        impl From<Vec<$cell>> for Values {
+            fn from(values: Vec<$cell>) -> Self {
+                Self::$kind(values)
+            }
+        }
+    )+};
 }
 
-impl From<Vec<f32>> for Values {
-    fn from(values: Vec<f32>) -> Self {
-        Self::Single(values)
-    }
-}
-
-impl From<Vec<f64>> for Values {
-    fn from(values: Vec<f64>) -> Self {
-        Self::Double(values)
-    }
-}
-
-impl From<Vec<String>> for Values {
-    fn from(values: Vec<String>) -> Self {
-        Self::Words(values)
-    }
-}
+from_columns!(Whole u64, Single f32, Double f64, Words String);
 
 impl Values {
     fn len(&self) -> usize {

@@ -39,13 +39,12 @@ impl Ruler {
             Scale::Log => value.abs(),
             Scale::Linear | Scale::Whole => self.ends()[0].abs().max(self.ends()[1].abs()),
         };
-        let fits = |(factor, _): &&(f64, &str)| largest >= *factor;
-        let prefix = PREFIXES
-            .iter()
-            .rev()
-            .find(fits)
-            .filter(|_| PREFIXED.contains(&unit));
-        let (factor, prefix) = prefix.copied().unwrap_or((1.0, ""));
+        let is_prefixed = PREFIXED.contains(&unit);
+        let (factor, prefix) = if is_prefixed {
+            prefix_of(largest)
+        } else {
+            (1.0, "")
+        };
         let step = match self.scale() {
             Scale::Log => 0.01 * (value / factor).abs(),
             Scale::Linear => 0.01 * (self.ends()[1] - self.ends()[0]) / factor,
@@ -75,22 +74,16 @@ impl Labels {
             Some((what, unit))
         });
         let numbers = ruler.labelled.iter().copied();
-        let (title, ticks) = match (prefixed, ruler.scale()) {
-            (Some((what, unit)), Scale::Log) => (
-                what,
-                numbers.map(|value| with_prefix(value, unit)).collect(),
-            ),
-            (Some((what, unit)), Scale::Linear | Scale::Whole) => {
-                (what, with_one_prefix(ruler, unit))
+        let ticks = match (prefixed, ruler.scale()) {
+            (Some((_, unit)), Scale::Log) => numbers.map(|x| with_prefix(x, unit)).collect(),
+            (Some((_, unit)), Scale::Linear | Scale::Whole) => with_one_prefix(ruler, unit),
+            (None, Scale::Log) => numbers.map(plain).collect(),
+            (None, Scale::Linear | Scale::Whole) => {
+                numbers.map(|x| stepped(x, ruler.step)).collect()
             }
-            (None, Scale::Log) => (label, numbers.map(plain).collect()),
-            (None, Scale::Linear | Scale::Whole) => (
-                label,
-                numbers.map(|value| stepped(value, ruler.step)).collect(),
-            ),
         };
         Self {
-            title: title.to_owned(),
+            title: prefixed.map_or(label, |(what, _)| what).to_owned(),
             ticks,
         }
     }
@@ -111,22 +104,17 @@ fn with_prefix(value: f64, unit: &str) -> String {
 fn with_one_prefix(ruler: &Ruler, unit: &str) -> Vec<String> {
     let [low, high] = ruler.ends();
     let largest = low.abs().max(high.abs());
-    let fits = |(factor, _): &&(f64, &str)| largest >= *factor;
-    let (factor, prefix) = PREFIXES
-        .iter()
-        .rev()
-        .find(fits)
-        .copied()
-        .unwrap_or((1.0, ""));
-    let step = ruler.step / factor;
-    let label = |value: &f64| {
-        with_unit(
-            value / factor,
-            decimals_of(step),
-            &format!("{prefix}{unit}"),
-        )
-    };
+    let (factor, prefix) = prefix_of(largest);
+    let (decimals, unit) = (decimals_of(ruler.step / factor), format!("{prefix}{unit}"));
+    let label = |value: &f64| with_unit(value / factor, decimals, &unit);
     ruler.labelled.iter().map(label).collect()
+}
+
+/// The prefix of numbers up to this, with its factor.
+fn prefix_of(largest: f64) -> (f64, &'static str) {
+    let mut from_largest = PREFIXES.into_iter().rev();
+    let found = from_largest.find(|(factor, _)| largest >= *factor);
+    found.unwrap_or((1.0, ""))
 }
 
 /// A value between which and its neighbours lies `step`.
@@ -159,16 +147,11 @@ fn plain(value: f64) -> String {
         return text;
     }
     let text = fixed(value, 6);
-    match text.split_once('.') {
-        Some((whole, part)) => {
-            let part = part.trim_end_matches('0');
-            if part.is_empty() {
-                whole.to_owned()
-            } else {
-                format!("{whole}.{part}")
-            }
-        }
-        None => text,
+    let shortest = text.trim_end_matches('0').trim_end_matches('.');
+    if text.contains('.') {
+        shortest.to_owned()
+    } else {
+        text
     }
 }
 

@@ -109,7 +109,7 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     let stop = super::signals::stop_flag()?;
     let log = args.log.as_deref();
     let n_columns = usize::from(model.cols);
-    let mut emulator = selvedge_device::PtyEmulator::with_faults(model, &faults, &args.link, log)?;
+    let mut emulator = selvedge_device::PtyEmulator::new(model, &faults, &args.link, log)?;
     // A reader that only wanted this line may be gone; the device runs on.
     let describe = |link: &Path, path: &str| {
         drop(output::print(&format!("{} -> {path}\n", link.display())));
@@ -120,7 +120,7 @@ fn emulate(args: &EmulateArgs) -> Result<(), CliError> {
     } else {
         None
     };
-    let ended = emulator.run_telling(&stop, describe);
+    let ended = emulator.run(&stop, describe);
     drop(view);
     Ok(ended?)
 }

@@ -35,24 +35,9 @@ impl FieldWriter {
         self
     }
 
-    pub(super) fn u8(&mut self, value: u8) -> &mut Self {
-        self.bytes(&[value])
-    }
-
-    pub(super) fn u16(&mut self, value: u16) -> &mut Self {
-        self.bytes(&value.to_le_bytes())
-    }
-
-    pub(super) fn i16(&mut self, value: i16) -> &mut Self {
-        self.bytes(&value.to_le_bytes())
-    }
-
-    pub(super) fn u32(&mut self, value: u32) -> &mut Self {
-        self.bytes(&value.to_le_bytes())
-    }
-
-    pub(super) fn i32(&mut self, value: i32) -> &mut Self {
-        self.bytes(&value.to_le_bytes())
+    pub(super) fn put(&mut self, field: impl Field) -> &mut Self {
+        field.write(self);
+        self
     }
 
     /// The payload, or `None` when it did not fit.
@@ -71,11 +56,11 @@ macro_rules! number_fields {
     ($($number:ident),+) => {$(
         impl Field for $number {
             fn read(fields: &mut FieldReader<'_>) -> Self {
-                fields.$number()
+                Self::from_le_bytes(fields.bytes())
             }
 
             fn write(self, fields: &mut FieldWriter) {
-                fields.$number(self);
+                fields.bytes(&self.to_le_bytes());
             }
         }
     )+};
@@ -86,13 +71,11 @@ macro_rules! pair_fields {
     ($($number:ty),+) => {$(
         impl Field for [$number; 2] {
             fn read(fields: &mut FieldReader<'_>) -> Self {
-                [Field::read(fields), Field::read(fields)]
+                [fields.take(), fields.take()]
             }
 
             fn write(self, fields: &mut FieldWriter) {
-                for number in self {
-                    number.write(fields);
-                }
+                fields.put(self[0]).put(self[1]);
             }
         }
     )+};
@@ -102,7 +85,7 @@ pair_fields!(u16, u32);
 /// Reads some fields of a message in order.
 macro_rules! read_fields {
     ($from:expr, $message:ident { $($field:ident)+ }) => {
-        $($message.$field = $crate::fields::Field::read($from);)+
+        $($message.$field = $from.take();)+
     };
 }
 pub(super) use read_fields;
@@ -110,7 +93,7 @@ pub(super) use read_fields;
 /// Writes some fields of a message in order.
 macro_rules! write_fields {
     ($to:expr, $message:ident { $($field:ident)+ }) => {
-        $($crate::fields::Field::write($message.$field, $to);)+
+        $($to.put($message.$field);)+
     };
 }
 pub(super) use write_fields;
@@ -151,24 +134,8 @@ impl<'a> FieldReader<'a> {
         }
     }
 
-    pub(super) fn u8(&mut self) -> u8 {
-        self.bytes::<1>()[0]
-    }
-
-    pub(super) fn u16(&mut self) -> u16 {
-        u16::from_le_bytes(self.bytes())
-    }
-
-    pub(super) fn i16(&mut self) -> i16 {
-        i16::from_le_bytes(self.bytes())
-    }
-
-    pub(super) fn u32(&mut self) -> u32 {
-        u32::from_le_bytes(self.bytes())
-    }
-
-    pub(super) fn i32(&mut self) -> i32 {
-        i32::from_le_bytes(self.bytes())
+    pub(super) fn take<T: Field>(&mut self) -> T {
+        T::read(self)
     }
 
     /// Everything after the fixed fields.

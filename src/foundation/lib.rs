@@ -1,5 +1,5 @@
-//! What everything else stands on: places and turns, quantities and their printing, progress and
-//! cancelling, numerical methods, and the formats of files.
+//! What everything else stands on: places and turns, quantities and their printing, enumerations
+//! with words ([`named!`]), progress and cancelling, numerical methods, and the formats of files.
 //!
 //! Knows no word of textiles. To read: [`geometry`], [`quantity`], [`progress`] and [`numerics`]
 //! in any order, then [`files`].
@@ -15,6 +15,7 @@
 
 pub mod files;
 pub mod geometry;
+mod names;
 pub mod numerics;
 pub mod panics;
 pub mod progress;

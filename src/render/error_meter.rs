@@ -93,28 +93,27 @@ impl ErrorMeter {
     /// The error of a band as far as the run went.
     pub fn of_band(&self, band: usize) -> LevelError {
         let run = &self.bands[band];
-        let levels_db = run.levels_db();
-        LevelError {
-            max_db: levels_db.largest(),
-            p99_db: levels_db.quantile(0.99),
-            n_amplitudes: levels_db.count(),
-            max_share_below: run.below_share.max(run.share_below()),
-        }
+        level_error(&run.levels_db(), run.max_share_below())
     }
 
     /// The error of both bands together.
     pub fn finish(&self) -> LevelError {
         let mut levels_db = self.levels_db(0);
         levels_db.merge(&self.levels_db(1));
-        LevelError {
-            max_db: levels_db.largest(),
-            p99_db: levels_db.quantile(0.99),
-            n_amplitudes: levels_db.count(),
-            max_share_below: f64::max(
-                self.of_band(0).max_share_below,
-                self.of_band(1).max_share_below,
-            ),
-        }
+        let [low, high] = &self.bands;
+        level_error(
+            &levels_db,
+            low.max_share_below().max(high.max_share_below()),
+        )
+    }
+}
+
+fn level_error(levels_db: &Histogram, max_share_below: f64) -> LevelError {
+    LevelError {
+        max_db: levels_db.largest(),
+        p99_db: levels_db.quantile(0.99),
+        n_amplitudes: levels_db.count(),
+        max_share_below,
     }
 }
 
@@ -160,17 +159,19 @@ impl BandRun {
 
     /// The largest error below the limit as a share of the largest amplitude: infinite where there
     /// is sound and the reference has none.
-    fn share_below(&self) -> f64 {
-        if self.below_um > 0.0 {
-            self.below_um / self.largest_um
-        } else {
+    fn max_share_below(&self) -> f64 {
+        let is_silent = self.below_um <= 0.0;
+        let share = if is_silent {
             0.0
-        }
+        } else {
+            self.below_um / self.largest_um
+        };
+        self.below_share.max(share)
     }
 
     fn begin_section(&mut self) {
         *self = Self {
-            below_share: self.below_share.max(self.share_below()),
+            below_share: self.max_share_below(),
             before_db: self.levels_db(),
             ..Self::default()
         };

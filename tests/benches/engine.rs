@@ -44,16 +44,16 @@ fn main() {
 
 #[cfg(unix)]
 fn over_a_terminal(duration: Duration) {
-    use selvedge_device::{DeviceModel, PtyEmulator};
+    use selvedge_device::{DeviceModel, Faults, PtyEmulator};
 
     let link = std::env::temp_dir().join(format!("selvedge-bench-{}", std::process::id()));
     let model = DeviceModel::for_array(&ArrayProfile::default());
-    let emulator = PtyEmulator::new(model, &link, None).unwrap();
+    let emulator = PtyEmulator::new(model, &Faults::default(), &link, None).unwrap();
     let is_over = AtomicBool::new(false);
     thread::scope(|scope| {
         let builder = thread::Builder::new().name("bench-emulator".to_owned());
         builder
-            .spawn_scoped(scope, || emulator.run(&is_over).unwrap())
+            .spawn_scoped(scope, || emulator.run(&is_over, |_, _| {}).unwrap())
             .unwrap();
         run(
             "emulator behind a pty",

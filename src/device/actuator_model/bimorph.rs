@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use super::within;
 use crate::BridgeError;
 
 /// Strain for a field, m/V.
@@ -44,18 +45,11 @@ impl Bimorph {
     /// Refuses what is no beam: 1–200 mm long, 0.1–50 mm wide, 0.02–10 mm thick.
     pub fn check(&self) -> Result<(), BridgeError> {
         let ranges = [
-            ("length", self.length_mm, 1.0, 200.0),
-            ("width", self.width_mm, 0.1, 50.0),
-            ("thickness", self.thickness_mm, 0.02, 10.0),
+            ("length", self.length_mm, [1.0, 200.0], " mm"),
+            ("width", self.width_mm, [0.1, 50.0], " mm"),
+            ("thickness", self.thickness_mm, [0.02, 10.0], " mm"),
         ];
-        for (name, value, least, most) in ranges {
-            if !(least..=most).contains(&value) {
-                return Err(BridgeError::Model(format!(
-                    "a bimorph's {name} of {value} mm; give {least} to {most} mm"
-                )));
-            }
-        }
-        Ok(())
+        within("bimorph", &ranges)
     }
 
     /// Length, width and the thickness of one layer, m.

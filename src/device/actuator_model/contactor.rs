@@ -11,7 +11,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Bimorph, SAMPLES_PER_S, Skin};
+use super::{Bimorph, SAMPLES_PER_S, Skin, within};
 use crate::device::Load;
 use crate::{BridgeError, FULL_CODE};
 use selvedge_foundation::numerics::Complex;
@@ -93,17 +93,10 @@ impl ContactorModel {
         self.bimorph.check()?;
         self.skin.check()?;
         let ranges = [
-            ("quality factor", self.quality, 0.1, MAX_QUALITY),
-            ("full scale in V", self.full_scale_v, 1e-3, 1e4),
+            ("quality factor", self.quality, [0.1, MAX_QUALITY], ""),
+            ("full scale in V", self.full_scale_v, [1e-3, 1e4], ""),
         ];
-        for (name, value, least, most) in ranges {
-            if !(least..=most).contains(&value) {
-                return Err(BridgeError::Model(format!(
-                    "a contactor's {name} of {value}; give {least} to {most}"
-                )));
-            }
-        }
-        Ok(())
+        within("contactor", &ranges)
     }
 
     /// Damping of the beam alone, N s/m.

@@ -31,10 +31,25 @@ pub use skin::Skin;
 pub use watch::ActuatorWatch;
 pub(crate) use watch::{ActuatorFeed, actuator_watch};
 
+use crate::BridgeError;
+
 /// Samples a second that the DAC is given.
 pub const SAMPLES_PER_S: u32 = 8000;
 /// Samples of a tick of 25 ms.
 pub(crate) const SAMPLES_PER_TICK: usize = 200;
+
+/// Refuses a model if one of its numbers is out of range: name, value, ends, unit.
+fn within(model: &str, ranges: &[(&str, f64, [f64; 2], &str)]) -> Result<(), BridgeError> {
+    let is_out = |(_, value, [min, max], _): &&(_, f64, [f64; 2], _)| !(min..=max).contains(&value);
+    ranges
+        .iter()
+        .find(is_out)
+        .map_or(Ok(()), |(name, value, [min, max], unit)| {
+            let mend = format!("give {min} to {max}{unit}");
+            let what = format!("a {model}'s {name} of {value}{unit}; {mend}");
+            Err(BridgeError::Model(what))
+        })
+}
 
 #[cfg(test)]
 mod tests;

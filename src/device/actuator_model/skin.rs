@@ -6,6 +6,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use super::within;
 use crate::BridgeError;
 
 /// A load on every contactor.
@@ -48,18 +49,11 @@ impl Skin {
     pub fn check(&self) -> Result<(), BridgeError> {
         let preload_um = self.preload_um.unwrap_or(0.0);
         let ranges = [
-            ("stiffness", self.stiffness_n_per_m, 1e9, "N/m"),
-            ("damping", self.damping_n_s_per_m, 1e4, "N s/m"),
-            ("preload", preload_um, 1e4, "µm"),
+            ("stiffness", self.stiffness_n_per_m, [0.0, 1e9], " N/m"),
+            ("damping", self.damping_n_s_per_m, [0.0, 1e4], " N s/m"),
+            ("preload", preload_um, [0.0, 1e4], " µm"),
         ];
-        for (name, value, most, unit) in ranges {
-            if !(0.0..=most).contains(&value) {
-                return Err(BridgeError::Model(format!(
-                    "a skin's {name} of {value} {unit}; give 0 to {most} {unit}"
-                )));
-            }
-        }
-        Ok(())
+        within("skin", &ranges)
     }
 
     /// The name of a load that has one.

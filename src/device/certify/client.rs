@@ -76,6 +76,15 @@ impl<'a> Client<'a> {
         self.tell_after(&[], says)
     }
 
+    /// The same with what is made for it.
+    pub(super) fn tell_with<S: AsRef<[Say]>>(
+        &mut self,
+        says: impl FnOnce(&mut Self) -> S,
+    ) -> Result<Between, Trouble> {
+        let says = says(self);
+        self.tell(says.as_ref())
+    }
+
     /// The same where these were written before, and their answers are still to come.
     pub(super) fn tell_after(&mut self, written: &[Say], says: &[Say]) -> Result<Between, Trouble> {
         let first = self.read;
@@ -255,11 +264,6 @@ impl<'a> Client<'a> {
         self.heard.push(heard.unwrap_or_else(reply));
     }
 
-    /// The payload of CAPS as it came.
-    pub(super) fn caps_payload(&self) -> &[u8] {
-        &self.caps_payload
-    }
-
     pub(super) fn forget(&mut self) {
         self.heard.clear();
         self.read = 0;
@@ -288,16 +292,6 @@ impl<'a> Client<'a> {
         self.watch
             .take_wrong()
             .map_or(Ok(()), |what| Err(Trouble::Wrong(what)))
-    }
-
-    /// Whether host or link were later than usual since the check began.
-    pub(super) fn is_late(&self) -> bool {
-        self.times.is_late
-    }
-
-    /// The same, and forgets it.
-    pub(super) fn take_late(&mut self) -> bool {
-        std::mem::take(&mut self.times.is_late)
     }
 
     /// The present device time as the link is known, ms.

@@ -73,14 +73,12 @@ pub fn certify(
     let end_us = line.now_us() + LONGEST_US;
     let mut client = Client::new(line, trial.nonce, end_us, stop);
     let opened = client.open(HANDSHAKE_US);
-    let mut results = vec![CheckResult {
-        section: String::from("handshake"),
-        name: String::from("HELLO"),
-        expected: String::from("CAPS with the session of HELLO within 5 s"),
-        outcome: outcome_of(&opened),
-        came: came_of(&opened),
-        device_ms: 0,
-    }];
+    let hello = [
+        "handshake",
+        "HELLO",
+        "CAPS with the session of HELLO within 5 s",
+    ];
+    let mut results = vec![result(hello, &opened, 0)];
     let mut over = opened.err().map(|trouble| reason_of(&trouble));
     let mut section = "";
     for check in
@@ -90,14 +88,18 @@ pub fn certify(
             section = check.section;
             progress(section);
         }
-        let result = over.as_ref().map_or_else(
-            || try_check(&mut client, check),
-            |reason| not_tested(check, reason),
-        );
-        if result.ends {
-            over = Some(format!("nothing more was tried: {}", result.result.came));
+        let (verdict, device_ms) = match &over {
+            None => try_check(&mut client, check),
+            Some(reason) => (Err(Trouble::Untested(reason.clone())), 0),
+        };
+        // No host would go on with a device that is refused by its CAPS.
+        if matches!(verdict, Err(Trouble::Over(_)))
+            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_))))
+        {
+            over = Some(format!("nothing more was tried: {}", came_of(&verdict)));
         }
-        results.push(result.result);
+        let names = [check.section, check.name, check.expects];
+        results.push(result(names, &verdict, device_ms));
     }
     let ended = match over {
         None => client.end(),
@@ -106,24 +108,12 @@ pub fn certify(
             client.rest().and(Err(Trouble::Untested(reason)))
         }
     };
-    results.push(CheckResult {
-        section: String::from("STOP"),
-        name: String::from("the last STOP"),
-        expected: String::from("ACK 0"),
-        outcome: outcome_of(&ended),
-        came: came_of(&ended),
-        device_ms: 0,
-    });
+    results.push(result(["STOP", "the last STOP", "ACK 0"], &ended, 0));
     Certificate::new(&client.caps, trial.extent == Extent::Full, results)
 }
 
-/// What a check gave, and whether nothing more can be tried.
-struct Tried {
-    result: CheckResult,
-    ends: bool,
-}
-
-fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
+/// The verdict of a check, and how long it took, ms of the device's clock.
+fn try_check(client: &mut Client<'_>, check: &Check) -> (Verdict, u64) {
     let from_ms = client.device_ms();
     let mut verdict = Err(Trouble::Late);
     for _ in 0..N_TRIES {
@@ -135,7 +125,9 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
         match tried {
             // A device that was wrong once is not right because host and link were late later.
             Err(Trouble::Late) => {}
-            Err(Trouble::Wrong(what)) if client.is_late() => verdict = Err(Trouble::Wrong(what)),
+            Err(Trouble::Wrong(what)) if client.times.is_late => {
+                verdict = Err(Trouble::Wrong(what));
+            }
             done => {
                 verdict = done;
                 break;
@@ -144,45 +136,21 @@ fn try_check(client: &mut Client<'_>, check: &Check) -> Tried {
     }
     let came = came_of(&verdict);
     client.line.check(&format!("{}: {came}", check.name));
-    Tried {
-        // No host would go on with a device that is refused by its CAPS.
-        ends: matches!(verdict, Err(Trouble::Over(_)))
-            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_)))),
-        result: CheckResult {
-            outcome: outcome_of(&verdict),
-            came,
-            device_ms: client.device_ms().saturating_sub(from_ms),
-            ..blank(check)
-        },
-    }
+    (verdict, client.device_ms().saturating_sub(from_ms))
 }
 
-fn not_tested(check: &Check, reason: &str) -> Tried {
-    Tried {
-        ends: false,
-        result: CheckResult {
-            came: reason.to_owned(),
-            ..blank(check)
-        },
-    }
-}
-
-fn blank(check: &Check) -> CheckResult {
+fn result([section, name, expected]: [&str; 3], verdict: &Verdict, device_ms: u64) -> CheckResult {
     CheckResult {
-        section: check.section.to_owned(),
-        name: check.name.to_owned(),
-        expected: check.expects.to_owned(),
-        outcome: CheckOutcome::NotTested,
-        came: String::new(),
-        device_ms: 0,
-    }
-}
-
-fn outcome_of(verdict: &Verdict) -> CheckOutcome {
-    match verdict {
-        Ok(()) => CheckOutcome::Passed,
-        Err(Trouble::Wrong(_)) => CheckOutcome::Failed,
-        Err(_) => CheckOutcome::NotTested,
+        section: section.to_owned(),
+        name: name.to_owned(),
+        outcome: match verdict {
+            Ok(()) => CheckOutcome::Passed,
+            Err(Trouble::Wrong(_)) => CheckOutcome::Failed,
+            Err(_) => CheckOutcome::NotTested,
+        },
+        expected: expected.to_owned(),
+        came: came_of(verdict),
+        device_ms,
     }
 }
 

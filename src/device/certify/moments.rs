@@ -40,12 +40,7 @@ impl Client<'_> {
         says: &[Say],
     ) -> Result<Between, Trouble> {
         self.reach(tick, phase_us)?;
-        let between = self.tell(says)?;
-        if between.is_in(tick) {
-            Ok(between)
-        } else {
-            Err(Trouble::Late)
-        }
+        self.tell(says)?.within(tick)
     }
 
     /// Says these so that the tick is told: `says` is made for the tick in which they are heard.
@@ -55,12 +50,7 @@ impl Client<'_> {
     ) -> Result<(u32, Between), Trouble> {
         let tick = self.aim(6000)?;
         let says = says(self, tick);
-        let between = self.tell(&says)?;
-        if between.is_in(tick) {
-            Ok((tick, between))
-        } else {
-            Err(Trouble::Late)
-        }
+        Ok((tick, self.tell(&says)?.within(tick)?))
     }
 
     /// Lets `us` of the host's time pass.

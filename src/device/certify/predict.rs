@@ -2,6 +2,7 @@
 //!
 //! Written from the protocol's text, not from the emulator's code, so that the two can disagree.
 
+use super::verdict::Trouble;
 use crate::message::{Caps, ChannelMask, Config, DeviceState, TICK_US};
 
 const MS_US: u64 = 1000;
@@ -89,9 +90,12 @@ pub(super) struct Between {
 }
 
 impl Between {
-    /// Whether all of it lies in one tick.
-    pub(super) fn is_in(self, tick: u32) -> bool {
-        [self.from_us, self.to_us].map(|us| us / u64::from(TICK_US)) == [u64::from(tick); 2]
+    /// It, if all of it lies in this tick.
+    pub(super) fn within(self, tick: u32) -> Result<Self, Trouble> {
+        let ticks = [self.from_us, self.to_us].map(|us| us / u64::from(TICK_US));
+        (ticks == [u64::from(tick); 2])
+            .then_some(self)
+            .ok_or(Trouble::Late)
     }
 
     /// Whole steps of the 1 ms clock that lie more than `delay_ms` after it, up to `at_us`.

@@ -10,28 +10,22 @@ use crate::array::DeviceUid;
 use crate::message::Caps;
 use selvedge_foundation::PROGRAM;
 use selvedge_foundation::files::{FileError, from_json_str, to_json_string};
+use selvedge_foundation::named;
 use selvedge_foundation::quantity::rfc3339;
 
-/// What became of a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CheckOutcome {
-    /// The device did what it must.
-    Passed,
-    /// It did something else.
-    Failed,
-    /// It could not be told.
-    NotTested,
-}
-
-impl CheckOutcome {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Passed => "passed",
-            Self::Failed => "failed",
-            Self::NotTested => "not tested",
-        }
+named! {
+    /// What became of a check.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum CheckOutcome {
+        /// The device did what it must.
+        Passed = "passed",
+        /// It did something else.
+        Failed = "failed",
+        /// It could not be told.
+        NotTested = "not tested",
     }
+    fn name;
 }
 
 /// One check.

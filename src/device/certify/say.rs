@@ -7,19 +7,9 @@ use crate::message::{Config, kind};
 
 /// A packet's type, for people.
 pub(super) fn kind_name(packet_kind: u8) -> String {
-    let name = match packet_kind {
-        kind::HELLO => "HELLO",
-        kind::CONFIG => "CONFIG",
-        kind::ARM => "ARM",
-        kind::FRAME => "FRAME",
-        kind::STOP => "STOP",
-        kind::PING => "PING",
-        kind::CLEAR => "CLEAR",
-        kind::SAMPLES => "SAMPLES",
-        kind::IDENT => "IDENT",
-        _ => return format!("type {packet_kind:02X}"),
-    };
-    name.to_owned()
+    let of_host = Some(packet_kind).filter(|kind| *kind < kind::FIRST_DEVICE);
+    let name = of_host.and_then(kind::name);
+    name.map_or_else(|| format!("type {packet_kind:02X}"), str::to_owned)
 }
 
 /// What a device must answer to one packet.

@@ -22,7 +22,7 @@ fn tried(model: DeviceModel, faults: &Faults, extent: Extent, at_us: u64) -> Cer
         "{} ms",
         line.now_us() / 1000
     );
-    let is_at_rest = !line.device().state().is_live();
+    let is_at_rest = !line.device().core().state().is_live();
     assert!(is_at_rest || !certificate.passed(), "it ends at rest");
     certificate
 }

@@ -34,12 +34,7 @@ pub struct PtyEmulator {
 impl PtyEmulator {
     /// Makes a pseudo-terminal and the link to it. A link that a killed emulator left is replaced;
     /// one of a running emulator, and anything else, is refused.
-    pub fn new(model: DeviceModel, link: &Path, log: Option<&Path>) -> Result<Self, BridgeError> {
-        Self::with_faults(model, &Faults::default(), link, log)
-    }
-
-    /// The same for a device and a link that have these faults.
-    pub fn with_faults(
+    pub fn new(
         model: DeviceModel,
         faults: &Faults,
         link: &Path,
@@ -61,7 +56,7 @@ impl PtyEmulator {
 
     /// Gives the device contactors of this kind, and a way to look at them while it runs.
     pub fn watch(&mut self, model: ContactorModel) -> ActuatorWatch {
-        let (feed, watch) = actuator_watch(model, self.device.output().len());
+        let (feed, watch) = actuator_watch(model, self.device.core().output().len());
         self.device.set_load(feed.load());
         self.actuators = Some(feed);
         watch
@@ -73,14 +68,9 @@ impl PtyEmulator {
     }
 
     /// Boots the device and runs it on this thread until `stop` is set; then the link is removed
-    /// and the log complete.
-    pub fn run(self, stop: &AtomicBool) -> Result<(), BridgeError> {
-        self.run_telling(stop, |_, _| {})
-    }
-
-    /// The same. A pulled cable takes terminal and link away; when it is in again there is another
-    /// terminal under another name, `PATH-2` after `PATH`, and `moved` hears of it.
-    pub fn run_telling(
+    /// and the log complete. A pulled cable takes terminal and link away; when it is in again there
+    /// is another terminal under another name, `PATH-2` after `PATH`, and `moved` hears of it.
+    pub fn run(
         self,
         stop: &AtomicBool,
         mut moved: impl FnMut(&Path, &str),

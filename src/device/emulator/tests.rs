@@ -87,7 +87,9 @@ mod behind_a_pty {
     fn run(emulator: PtyEmulator) -> Running {
         let stop = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&stop);
-        let thread = Builder::new().spawn(move || emulator.run(&seen)).unwrap();
+        let thread = Builder::new()
+            .spawn(move || emulator.run(&seen, |_, _| {}))
+            .unwrap();
         (stop, thread)
     }
 
@@ -95,7 +97,13 @@ mod behind_a_pty {
     fn a_host_finds_it_by_its_link_and_may_come_again() {
         let folder = ScratchFolder::made("again");
         let (link, log) = (folder.join("array"), folder.join("log.csv"));
-        let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
+        let emulator = PtyEmulator::new(
+            DeviceModel::default(),
+            &Faults::default(),
+            &link,
+            Some(&log),
+        )
+        .unwrap();
         let (stop, thread) = run(emulator);
         for session in [7, 8] {
             let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
@@ -126,7 +134,7 @@ mod behind_a_pty {
             ..Faults::default()
         };
         let model = DeviceModel::default();
-        let emulator = PtyEmulator::with_faults(model, &faults, &link, Some(&log)).unwrap();
+        let emulator = PtyEmulator::new(model, &faults, &link, Some(&log)).unwrap();
         let mut port = SerialLink::open(&link.display().to_string(), BAUD).unwrap();
         let (stop, thread) = run(emulator);
         let mut buffer = [0; 256];
@@ -155,7 +163,7 @@ mod behind_a_pty {
     }
 
     fn refused(path: &std::path::Path) -> String {
-        let made = PtyEmulator::new(DeviceModel::default(), path, None);
+        let made = PtyEmulator::new(DeviceModel::default(), &Faults::default(), path, None);
         let words = made.unwrap_err().to_string();
         assert_eq!(words.lines().count(), 1, "{words}");
         words
@@ -212,7 +220,8 @@ mod behind_a_pty {
             if let Some(record) = record {
                 fs::write(lock_of(&link), record).unwrap();
             }
-            let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+            let emulator =
+                PtyEmulator::new(DeviceModel::default(), &Faults::default(), &link, None).unwrap();
             let path = emulator.device_path().to_owned();
             assert_eq!(fs::read_link(&link).unwrap(), PathBuf::from(&path));
             let line = fs::read_to_string(lock_of(&link)).unwrap();
@@ -231,7 +240,8 @@ mod behind_a_pty {
     fn a_name_is_held_by_one_emulator_at_a_time() {
         let folder = ScratchFolder::made("held");
         let link = folder.join("link");
-        let first = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+        let first =
+            PtyEmulator::new(DeviceModel::default(), &Faults::default(), &link, None).unwrap();
         let words = refused(&link);
         let id = std::process::id();
         let wanted = format!(
@@ -244,6 +254,6 @@ mod behind_a_pty {
         assert!(refused(&link).contains("held by another emulator"));
         assert!(fs::symlink_metadata(&link).is_err());
         drop(first);
-        drop(PtyEmulator::new(DeviceModel::default(), &link, None).unwrap());
+        drop(PtyEmulator::new(DeviceModel::default(), &Faults::default(), &link, None).unwrap());
     }
 }

@@ -10,6 +10,7 @@ use super::*;
 use crate::Coder;
 use crate::device::DeviceModel;
 use crate::message::{DeviceState, Status};
+use crate::wire::Faults;
 use selvedge_scratch::ScratchFolder;
 
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -204,11 +205,17 @@ fn every_frame_that_the_device_logged_holds_the_codes_of_its_amplitudes() {
 
     let folder = ScratchFolder::made("stream");
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
-    let emulator = PtyEmulator::new(DeviceModel::default(), &link, Some(&log)).unwrap();
+    let emulator = PtyEmulator::new(
+        DeviceModel::default(),
+        &Faults::default(),
+        &link,
+        Some(&log),
+    )
+    .unwrap();
     let ended = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&ended);
     let device = std::thread::Builder::new()
-        .spawn(move || emulator.run(&seen))
+        .spawn(move || emulator.run(&seen, |_, _| {}))
         .unwrap();
 
     let mut bridge = Bridge::open(Target::Port(link), ArrayProfile::default(), 24, || {});
@@ -246,11 +253,12 @@ fn a_port_can_be_opened_again_at_once() {
 
     let folder = ScratchFolder::made("again");
     let link = folder.join("array");
-    let emulator = PtyEmulator::new(DeviceModel::default(), &link, None).unwrap();
+    let emulator =
+        PtyEmulator::new(DeviceModel::default(), &Faults::default(), &link, None).unwrap();
     let ended = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&ended);
     let device = std::thread::Builder::new()
-        .spawn(move || emulator.run(&seen))
+        .spawn(move || emulator.run(&seen, |_, _| {}))
         .unwrap();
     for _ in 0..3 {
         let target = Target::Port(link.clone());

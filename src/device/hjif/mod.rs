@@ -145,82 +145,49 @@ struct Text<'a> {
 }
 
 impl Text<'_> {
-    fn push(&mut self, text: &str) {
-        self.gathered.push_str(text);
-    }
-
-    fn number(&mut self, value: impl std::fmt::Display) {
-        push_number(&mut self.gathered, value);
-    }
-
-    /// Text in quotes. Control characters do not stand in names of ours.
-    fn quoted(&mut self, text: &str) {
-        self.gathered.push('"');
-        for character in text.chars() {
-            match character {
-                '"' | '\\' => self.gathered.extend(['\\', character]),
-                character if character.is_control() => self.gathered.push(' '),
-                character => self.gathered.push(character),
-            }
-        }
-        self.gathered.push('"');
+    fn push(&mut self, text: impl std::fmt::Display) {
+        push_number(&mut self.gathered, text);
     }
 
     fn open(&mut self, spec: &HjifSpec) {
-        let level = if spec.n_channels > MAX_AT_LEVEL_1 {
-            2
-        } else {
-            1
-        };
+        let level = 1 + u8::from(spec.n_channels > MAX_AT_LEVEL_1);
         let [full_40, full_320] = spec.full_scale_um;
-        self.push("{\"version\":\"2023\",\"profile\":\"Main\",\"level\":");
-        self.number(level);
-        self.push(",\"date\":\"1970-01-01\",\"description\":");
-        self.quoted(&format!("{}: drive of a fingertip array", spec.title));
-        self.push(",\"timescale\":1000,\"avatars\":[{\"id\":1,\"lod\":0,\"type\":\"Vibration\"}],");
-        self.push("\"perceptions\":[{\"id\":1,\"avatar_id\":1,\"description\":");
-        self.quoted(&format!(
-            "amplitude 1 at gain 1 is {full_40} um peak displacement at 40 Hz and {full_320} um \
-             at 320 Hz; one channel per contactor, row by row"
+        let title = quoted(&format!("{}: drive of a fingertip array", spec.title));
+        self.push(format_args!(
+            "{{\"version\":\"2023\",\"profile\":\"Main\",\"level\":{level},\
+             \"date\":\"1970-01-01\",\"description\":{title},\"timescale\":1000,\
+             \"avatars\":[{{\"id\":1,\"lod\":0,\"type\":\"Vibration\"}}],\
+             \"perceptions\":[{{\"id\":1,\"avatar_id\":1,\"description\":\"amplitude 1 at gain 1 \
+             is {full_40} um peak displacement at 40 Hz and {full_320} um at 320 Hz; one channel \
+             per contactor, row by row\",\"perception_modality\":\"Vibrotactile\",\
+             \"reference_devices\":[],\"effect_library\":[],\"channels\":["
         ));
-        self.push(",\"perception_modality\":\"Vibrotactile\",\"reference_devices\":[],");
-        self.push("\"effect_library\":[],\"channels\":[");
     }
 
     fn begin_channel(&mut self, channel: usize, gain: f64) {
-        self.push(if channel == 0 {
-            "\n{\"id\":"
-        } else {
-            ",\n{\"id\":"
-        });
-        self.number(channel);
-        self.push(",\"description\":");
-        self.quoted(&format!("contactor {channel}"));
-        self.push(",\"gain\":");
-        self.number(gain);
-        self.push(",\"mixing_coefficient\":1,\"body_part_mask\":0,\"bands\":[");
+        let comma = if channel == 0 { "" } else { "," };
+        self.push(format_args!(
+            "{comma}\n{{\"id\":{channel},\"description\":\"contactor {channel}\",\"gain\":{gain},\
+             \"mixing_coefficient\":1,\"body_part_mask\":0,\"bands\":["
+        ));
     }
 
     fn begin_band(&mut self, number: usize, band: &Band) {
-        self.push(if number == 0 { "" } else { "," });
-        self.push("{\"band_type\":\"VectorialWave\",\"lower_frequency_limit\":");
+        let comma = if number == 0 { "" } else { "," };
         let [lower_hz, upper_hz] = band.limits_hz;
-        self.number(lower_hz);
-        self.push(",\"upper_frequency_limit\":");
-        self.number(upper_hz);
-        self.push(",\"effects\":[{\"effect_type\":\"Basis\",\"position\":0,\"phase\":0,");
-        self.push("\"base_signal\":\"Sine\",\"keyframes\":[");
+        self.push(format_args!(
+            "{comma}{{\"band_type\":\"VectorialWave\",\"lower_frequency_limit\":{lower_hz},\
+             \"upper_frequency_limit\":{upper_hz},\"effects\":[{{\"effect_type\":\"Basis\",\
+             \"position\":0,\"phase\":0,\"base_signal\":\"Sine\",\"keyframes\":["
+        ));
     }
 
     fn keyframe(&mut self, at_ms: u64, amplitude: f64, hz: u32) -> Result<(), SinkError> {
-        self.push(if at_ms == 0 { "" } else { "," });
-        self.push("{\"relative_position\":");
-        self.number(at_ms);
-        self.push(",\"amplitude_modulation\":");
-        self.number(single(amplitude));
-        self.push(",\"frequency_modulation\":");
-        self.number(hz);
-        self.push("}");
+        let (comma, amplitude) = (if at_ms == 0 { "" } else { "," }, single(amplitude));
+        self.push(format_args!(
+            "{comma}{{\"relative_position\":{at_ms},\"amplitude_modulation\":{amplitude},\
+             \"frequency_modulation\":{hz}}}"
+        ));
         if self.gathered.len() >= CHUNK {
             self.write()?;
         }
@@ -232,6 +199,20 @@ impl Text<'_> {
         self.gathered.clear();
         written.map_err(SinkError::write(self.path))
     }
+}
+
+/// Text in quotes. Control characters do not stand in names of ours.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from('"');
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            character if character.is_control() => quoted.push(' '),
+            character => quoted.push(character),
+        }
+    }
+    quoted.push('"');
+    quoted
 }
 
 /// No more digits than an amplitude has.

@@ -5,52 +5,40 @@ use std::time::{Duration, Instant};
 
 use crate::codes::CodeCounters;
 use crate::message::{Caps, Config, DeviceCounters, Fault};
+use selvedge_foundation::named;
 
-/// Where a session stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BridgeState {
-    /// The port is being opened.
-    Opening,
-    /// HELLO was sent; no answer yet.
-    Greeting,
-    /// CONFIG was sent; no answer yet.
-    Configuring,
-    /// Connected, no output.
-    Ready,
-    /// ARM was sent; no answer yet.
-    Arming,
-    /// Output is enabled; no frame was sent yet.
-    Armed,
-    /// Frames are being sent.
-    Streaming,
-    /// STOP was sent; the device has not come to rest yet.
-    Stopping,
-    /// The device has latched a fault.
-    Faulted,
-    /// The device cannot be driven by this program.
-    Refused,
-    /// The link is gone, or the device does not answer.
-    Lost,
+named! {
+    /// Where a session stands.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum BridgeState {
+        /// The port is being opened.
+        Opening = "opening",
+        /// HELLO was sent; no answer yet.
+        Greeting = "waiting for the device",
+        /// CONFIG was sent; no answer yet.
+        Configuring = "configuring",
+        /// Connected, no output.
+        Ready = "ready",
+        /// ARM was sent; no answer yet.
+        Arming = "arming",
+        /// Output is enabled; no frame was sent yet.
+        Armed = "armed",
+        /// Frames are being sent.
+        Streaming = "streaming",
+        /// STOP was sent; the device has not come to rest yet.
+        Stopping = "stopping",
+        /// The device has latched a fault.
+        Faulted = "fault",
+        /// The device cannot be driven by this program.
+        Refused = "refused",
+        /// The link is gone, or the device does not answer.
+        Lost = "lost",
+    }
+    /// A word or two for people.
+    pub fn label;
 }
 
 impl BridgeState {
-    /// A word or two for people.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Opening => "opening",
-            Self::Greeting => "waiting for the device",
-            Self::Configuring => "configuring",
-            Self::Ready => "ready",
-            Self::Arming => "arming",
-            Self::Armed => "armed",
-            Self::Streaming => "streaming",
-            Self::Stopping => "stopping",
-            Self::Faulted => "fault",
-            Self::Refused => "refused",
-            Self::Lost => "lost",
-        }
-    }
-
     /// Whether a device is, or may become, connected.
     pub fn is_open(self) -> bool {
         !matches!(self, Self::Refused | Self::Lost)

@@ -127,10 +127,10 @@ impl Message for Caps {
     fn decode(payload: &[u8]) -> Option<Self> {
         let mut f = FieldReader::new(payload);
         let mut caps = Self::default();
-        head!(read_fields, &mut f, caps);
+        head!(read_fields, f, caps);
         if caps.n_comp == 2 {
-            tail!(read_fields, &mut f, caps);
-            let name_len = usize::from(f.u8());
+            tail!(read_fields, f, caps);
+            let name_len = usize::from(f.take::<u8>());
             let name = f.rest().get(..name_len)?;
             for (slot, &byte) in caps.name.iter_mut().zip(name) {
                 *slot = byte;
@@ -142,9 +142,9 @@ impl Message for Caps {
     fn packet(&self, seq: u16) -> Option<Packet> {
         let name = self.name().as_bytes();
         let mut f = FieldWriter::new();
-        head!(write_fields, &mut f, self);
-        tail!(write_fields, &mut f, self);
-        f.u8(u8::try_from(name.len()).unwrap_or(0)).bytes(name);
+        head!(write_fields, f, self);
+        tail!(write_fields, f, self);
+        f.put(u8::try_from(name.len()).unwrap_or(0)).bytes(name);
         Packet::encode(Self::KIND, seq, f.finish()?)
     }
 }

@@ -90,12 +90,12 @@ impl Config {
     pub fn decode(payload: &[u8], n_channels: usize) -> Option<Self> {
         let mut fields = FieldReader::new(payload);
         let mut config = Self::default();
-        read_fields! { &mut fields, config {
+        read_fields! { fields, config {
             mode flags hold_ms ramp_ms slew hv_dv comp_limit
         } }
-        fields.u16();
+        let _reserved: u16 = fields.take();
         for word in config.mask.words.iter_mut().take(mask_words(n_channels)) {
-            *word = fields.u32();
+            *word = fields.take();
         }
         fields.finish(config)
     }
@@ -112,12 +112,12 @@ impl Config {
 
     fn packet(&self, kind: u8, seq: u16, n_channels: usize) -> Option<Packet> {
         let mut fields = FieldWriter::new();
-        write_fields! { &mut fields, self {
+        write_fields! { fields, self {
             mode flags hold_ms ramp_ms slew hv_dv comp_limit
         } }
-        fields.u16(0);
+        fields.put(0_u16);
         for &word in self.mask.words.iter().take(mask_words(n_channels)) {
-            fields.u32(word);
+            fields.put(word);
         }
         Packet::encode(kind, seq, fields.finish()?)
     }

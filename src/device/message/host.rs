@@ -86,7 +86,7 @@ pub enum StopHow {
 
 impl Field for StopHow {
     fn read(fields: &mut FieldReader<'_>) -> Self {
-        if fields.u8() == 0 {
+        if fields.take::<u8>() == 0 {
             Self::Ramp
         } else {
             Self::Now
@@ -94,7 +94,7 @@ impl Field for StopHow {
     }
 
     fn write(self, fields: &mut FieldWriter) {
-        fields.u8(u8::from(self == Self::Now));
+        fields.put(u8::from(self == Self::Now));
     }
 }
 
@@ -170,9 +170,9 @@ pub mod frame {
     /// The framed packet; `None` beyond the largest body (253 channels).
     pub fn packet(seq: u16, apply_tick: u32, codes: &[[u16; 2]]) -> Option<Packet> {
         let mut fields = FieldWriter::new();
-        fields.u32(apply_tick);
-        for [code_40, code_320] in codes {
-            fields.u16(*code_40).u16(*code_320);
+        fields.put(apply_tick);
+        for code in codes {
+            fields.put(*code);
         }
         Packet::encode(kind::FRAME, seq, fields.finish()?)
     }
@@ -183,9 +183,9 @@ pub mod frame {
             return None;
         }
         let mut fields = FieldReader::new(payload);
-        let apply_tick = fields.u32();
+        let apply_tick = fields.take();
         for code in codes {
-            *code = [fields.u16(), fields.u16()];
+            *code = fields.take();
         }
         Some(apply_tick)
     }

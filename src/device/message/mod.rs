@@ -30,42 +30,63 @@ pub(crate) const VERSION: u8 = 1;
 /// periods.
 pub const TICK_US: u32 = 25_000;
 
-/// Message types, as on the wire. Host to device below `80`, device to host from there on.
-pub mod kind {
+macro_rules! kinds {
+    ($($(#[doc = $doc:literal])+ $kind:ident = $code:literal;)+) => {
+        /// Message types, as on the wire. Host to device below `80`, device to host from there on.
+        pub mod kind {
+            $($(#[doc = $doc])+ pub const $kind: u8 = $code;)+
+            /// Types from here on travel from the device to the host.
+            pub(crate) const FIRST_DEVICE: u8 = 0x80;
+            const NAMES: &[(u8, &str)] = &[$(($code, stringify!($kind))),+];
+
+            /// The name of a type, if it is one.
+            pub(crate) fn name(kind: u8) -> Option<&'static str> {
+                let known = NAMES.iter().find(|(known, _)| *known == kind);
+                known.map(|(_, name)| *name)
+            }
+
+            /// The type of a name.
+            pub(crate) fn of_name(name: &str) -> Option<u8> {
+                let known = NAMES.iter().find(|(_, known)| *known == name);
+                known.map(|(kind, _)| *kind)
+            }
+        }
+    };
+}
+
+kinds! {
     /// Opens a session.
-    pub const HELLO: u8 = 0x01;
+    HELLO = 0x01;
     /// Asks for hold, ramp, limits and channels.
-    pub const CONFIG: u8 = 0x02;
+    CONFIG = 0x02;
     /// Enables output.
-    pub const ARM: u8 = 0x03;
+    ARM = 0x03;
     /// Amplitude codes of all channels for one tick.
-    pub const FRAME: u8 = 0x04;
+    FRAME = 0x04;
     /// Ends output.
-    pub const STOP: u8 = 0x05;
+    STOP = 0x05;
     /// Asks for a sign of life.
-    pub const PING: u8 = 0x06;
+    PING = 0x06;
     /// Clears latched faults.
-    pub const CLEAR: u8 = 0x07;
+    CLEAR = 0x07;
     /// Reserved: samples that a host would make; no device plays them.
-    pub const SAMPLES: u8 = 0x08;
+    SAMPLES = 0x08;
     /// Drives one contactor.
-    pub const IDENT: u8 = 0x09;
-    /// Types from here on travel from the device to the host.
-    pub(crate) const FIRST_DEVICE: u8 = 0x80;
+    IDENT = 0x09;
     /// Answers HELLO.
-    pub const CAPS: u8 = 0x81;
+    CAPS = 0x81;
     /// Answers CONFIG with the effective values.
-    pub const CFG: u8 = 0x82;
+    CFG = 0x82;
     /// Answers requests that carry no data back.
-    pub const ACK: u8 = 0x83;
+    ACK = 0x83;
     /// Sent at every tick of a session.
-    pub const STATUS: u8 = 0x84;
+    STATUS = 0x84;
     /// Sent every 100 ms while a fault lasts.
-    pub const FAULT: u8 = 0x85;
+    FAULT = 0x85;
     /// Answers PING.
-    pub const PONG: u8 = 0x86;
+    PONG = 0x86;
     /// Text for people.
-    pub const LOG: u8 = 0x8f;
+    LOG = 0x8f;
 }
 
 /// A message with a fixed type and a payload of named fields.
@@ -95,16 +116,16 @@ macro_rules! message {
             fn decode(payload: &[u8]) -> Option<Self> {
                 let mut fields = $crate::fields::FieldReader::new(payload);
                 let message = Self {
-                    $($field: $crate::fields::Field::read(&mut fields),)+
+                    $($field: fields.take(),)+
                 };
-                $(let _: $reserved = $crate::fields::Field::read(&mut fields);)?
+                $(let _: $reserved = fields.take();)?
                 fields.finish(message)
             }
 
             fn packet(&self, seq: u16) -> Option<$crate::framing::Packet> {
                 let mut fields = $crate::fields::FieldWriter::new();
-                $($crate::fields::Field::write(self.$field, &mut fields);)+
-                $($crate::fields::Field::write(<$reserved>::default(), &mut fields);)?
+                $(fields.put(self.$field);)+
+                $(fields.put(<$reserved>::default());)?
                 $crate::framing::Packet::encode($kind, seq, fields.finish()?)
             }
         }

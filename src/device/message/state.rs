@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::fields::{Field, FieldReader, FieldWriter};
+use selvedge_foundation::named;
 
 /// Bits of a fault word.
 pub mod fault_bit {
@@ -43,37 +44,30 @@ pub mod fault_bit {
     }
 }
 
-/// Where a device is on the way to output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DeviceState {
-    /// No session.
-    Idle,
-    /// A session, no output.
-    Ready,
-    /// Output enabled, no frame yet.
-    Armed,
-    /// Frames arrive and are applied.
-    Run,
-    /// A tick had no frame; the last one stays.
-    Hold,
-    /// The gain falls to zero.
-    Ramp,
-    /// A latched fault: no output.
-    Fault,
+named! {
+    /// Where a device is on the way to output.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum DeviceState {
+        /// No session.
+        Idle = "IDLE",
+        /// A session, no output.
+        Ready = "READY",
+        /// Output enabled, no frame yet.
+        Armed = "ARMED",
+        /// Frames arrive and are applied.
+        Run = "RUN",
+        /// A tick had no frame; the last one stays.
+        Hold = "HOLD",
+        /// The gain falls to zero.
+        Ramp = "RAMP",
+        /// A latched fault: no output.
+        Fault = "FAULT",
+    }
+    /// The name in capitals, as the protocol writes it.
+    pub fn name;
 }
 
 impl DeviceState {
-    /// In the order of their codes.
-    const ALL: [Self; 7] = [
-        Self::Idle,
-        Self::Ready,
-        Self::Armed,
-        Self::Run,
-        Self::Hold,
-        Self::Ramp,
-        Self::Fault,
-    ];
-
     /// The code in STATUS.
     pub fn code(self) -> u8 {
         self as u8
@@ -82,19 +76,6 @@ impl DeviceState {
     /// The state of a code, if v1 knows it.
     pub(crate) fn from_code(code: u8) -> Option<Self> {
         Self::ALL.get(usize::from(code)).copied()
-    }
-
-    /// The name in capitals, as the protocol writes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Idle => "IDLE",
-            Self::Ready => "READY",
-            Self::Armed => "ARMED",
-            Self::Run => "RUN",
-            Self::Hold => "HOLD",
-            Self::Ramp => "RAMP",
-            Self::Fault => "FAULT",
-        }
     }
 
     /// ARMED, RUN, HOLD or RAMP: output is enabled or on its way down.
@@ -172,10 +153,10 @@ impl AckCode {
 
 impl Field for AckCode {
     fn read(fields: &mut FieldReader<'_>) -> Self {
-        Self::from_code(fields.u8())
+        Self::from_code(fields.take())
     }
 
     fn write(self, fields: &mut FieldWriter) {
-        fields.u8(self.code());
+        fields.put(self.code());
     }
 }

@@ -6,38 +6,16 @@ use super::tap::Body;
 use crate::framing::Received;
 use crate::message::kind;
 
-/// The types of packets with their names.
-const KINDS: [(u8, &str); 16] = [
-    (kind::HELLO, "HELLO"),
-    (kind::CONFIG, "CONFIG"),
-    (kind::ARM, "ARM"),
-    (kind::FRAME, "FRAME"),
-    (kind::STOP, "STOP"),
-    (kind::PING, "PING"),
-    (kind::CLEAR, "CLEAR"),
-    (kind::SAMPLES, "SAMPLES"),
-    (kind::IDENT, "IDENT"),
-    (kind::CAPS, "CAPS"),
-    (kind::CFG, "CFG"),
-    (kind::ACK, "ACK"),
-    (kind::STATUS, "STATUS"),
-    (kind::FAULT, "FAULT"),
-    (kind::PONG, "PONG"),
-    (kind::LOG, "LOG"),
-];
-
 /// The name of a type of packet; its number where it has none.
 pub(super) fn kind_name(kind: u8) -> String {
-    let known = KINDS.iter().find(|(known, _)| *known == kind);
-    known.map_or_else(|| format!("{kind:#04x}"), |(_, name)| (*name).to_owned())
+    kind::name(kind).map_or_else(|| format!("{kind:#04x}"), str::to_owned)
 }
 
 fn kind_of(name: &str) -> Option<u8> {
     if let Some(digits) = name.strip_prefix("0x") {
         return u8::from_str_radix(digits, 16).ok();
     }
-    let known = KINDS.iter().find(|(_, known)| *known == name);
-    known.map(|(kind, _)| *kind)
+    kind::of_name(name)
 }
 
 /// The words of any packet.

@@ -14,7 +14,7 @@ const BASE: u32 = 91;
 /// Bits of a pair of digits.
 const PAIR_BITS: u32 = 13;
 /// Low bits beyond which nothing is gained.
-const MAX_LOW_BITS: u32 = 15;
+pub(super) const MAX_LOW_BITS: u32 = 15;
 /// Ways to expect a code.
 const N_WAYS: u32 = 16;
 
@@ -99,11 +99,7 @@ pub(super) fn pack(codes: &[[u16; 2]], before: &[[u16; 2]], text: &mut String) {
 /// nothing, when it is not that.
 pub(super) fn unpack(text: &str, codes: &mut [[u16; 2]]) -> Option<()> {
     let before = codes.to_vec();
-    let mut from = Unpacking {
-        digits: text.bytes(),
-        bits: 0,
-        n_bits: 0,
-    };
+    let mut from = Unpacking::new(pairs(text), PAIR_BITS);
     for band in 0..2 {
         let shape = Shape {
             way: from.take(4)?,
@@ -167,25 +163,43 @@ impl Packing<'_> {
     }
 }
 
-struct Unpacking<I> {
-    digits: I,
+/// The digits two by two.
+fn pairs(text: &str) -> impl Iterator<Item = Option<u32>> {
+    text.as_bytes().chunks(2).map(|pair| {
+        let &[high, low] = pair else { return None };
+        let pair = value_of(high, DIGITS)? * BASE + value_of(low, DIGITS)?;
+        (pair >> PAIR_BITS == 0).then_some(pair)
+    })
+}
+
+pub(super) fn value_of(digit: u8, digits: &[u8]) -> Option<u32> {
+    let place = digits.iter().position(|known| *known == digit)?;
+    u32::try_from(place).ok()
+}
+
+/// Bits out of groups of them, the highest first.
+pub(super) struct Unpacking<I> {
+    groups: I,
+    group_bits: u32,
     bits: u32,
     n_bits: u32,
 }
 
-impl<I: Iterator<Item = u8>> Unpacking<I> {
-    fn take(&mut self, n_bits: u32) -> Option<u32> {
+impl<I: Iterator<Item = Option<u32>>> Unpacking<I> {
+    pub(super) fn new(groups: I, group_bits: u32) -> Self {
+        Self {
+            groups,
+            group_bits,
+            bits: 0,
+            n_bits: 0,
+        }
+    }
+
+    pub(super) fn take(&mut self, n_bits: u32) -> Option<u32> {
         while self.n_bits < n_bits {
-            let pair = [
-                value_of(self.digits.next()?)?,
-                value_of(self.digits.next()?)?,
-            ];
-            let pair = pair[0] * BASE + pair[1];
-            if pair >> PAIR_BITS > 0 {
-                return None;
-            }
-            self.bits = (self.bits & ((1 << self.n_bits) - 1)) << PAIR_BITS | pair;
-            self.n_bits += PAIR_BITS;
+            let group = self.groups.next()??;
+            self.bits = (self.bits & ((1 << self.n_bits) - 1)) << self.group_bits | group;
+            self.n_bits += self.group_bits;
         }
         self.n_bits -= n_bits;
         Some(self.bits >> self.n_bits & ((1 << n_bits) - 1))
@@ -203,16 +217,11 @@ impl<I: Iterator<Item = u8>> Unpacking<I> {
         high.checked_mul(1 << low_bits)?.checked_add(low)
     }
 
-    /// Whether nothing is left but the padding of the last pair.
-    fn has_ended(mut self) -> bool {
-        let is_padding = self.n_bits < PAIR_BITS && self.bits & ((1 << self.n_bits) - 1) == 0;
-        is_padding && self.digits.next().is_none()
+    /// Whether nothing is left but the padding of the last group.
+    pub(super) fn has_ended(mut self) -> bool {
+        let is_padding = self.n_bits < self.group_bits && self.bits & ((1 << self.n_bits) - 1) == 0;
+        is_padding && self.groups.next().is_none()
     }
-}
-
-fn value_of(digit: u8) -> Option<u32> {
-    let place = DIGITS.iter().position(|known| *known == digit)?;
-    u32::try_from(place).ok()
 }
 
 #[cfg(test)]

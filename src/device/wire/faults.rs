@@ -7,6 +7,7 @@
 use std::fmt;
 
 use crate::device::{FirmwareLie, Miswiring};
+use selvedge_foundation::named;
 
 /// Everything that is to go wrong with one emulated device and its link. The default: nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -149,59 +150,37 @@ pub struct OneOff {
     pub kind: OneOffKind,
 }
 
-/// What can happen once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OneOffKind {
-    /// The device reads nothing; up to 4 kB wait.
-    StallReading,
-    /// Nothing that the device writes arrives; up to 4 kB wait.
-    StallWriting,
-    /// The cable is out; what was under way is lost, and the device notices the hang-up.
-    Unplug,
-    /// The device starts anew.
-    Reboot,
-    /// The device starts anew and reports a watchdog reset.
-    Watchdog,
-    /// It gets too hot.
-    OverTemperature,
-    /// The amplifier takes too much current.
-    OverCurrent,
-    /// The high voltage breaks down to 60 %.
-    HvSag,
+named! {
+    /// What can happen once.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum OneOffKind {
+        /// The device reads nothing; up to 4 kB wait.
+        StallReading = "stall reading",
+        /// Nothing that the device writes arrives; up to 4 kB wait.
+        StallWriting = "stall writing",
+        /// The cable is out; what was under way is lost, and the device notices the hang-up.
+        Unplug = "unplug",
+        /// The device starts anew.
+        Reboot = "reboot",
+        /// The device starts anew and reports a watchdog reset.
+        Watchdog = "watchdog reset",
+        /// It gets too hot.
+        OverTemperature = "over-temperature",
+        /// The amplifier takes too much current.
+        OverCurrent = "over-current",
+        /// The high voltage breaks down to 60 %.
+        HvSag = "HV sag",
+    }
+    /// A word or two for people and logs.
+    pub fn name;
 }
 
 impl OneOffKind {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::StallReading,
-        Self::StallWriting,
-        Self::Unplug,
-        Self::Reboot,
-        Self::Watchdog,
-        Self::OverTemperature,
-        Self::OverCurrent,
-        Self::HvSag,
-    ];
-
     /// How long it lasts when nothing is said, µs.
     pub fn usual_us(self) -> u64 {
         match self {
             Self::StallReading | Self::StallWriting | Self::Reboot | Self::Watchdog => 300_000,
             Self::Unplug | Self::OverTemperature | Self::OverCurrent | Self::HvSag => 2_000_000,
-        }
-    }
-
-    /// A word or two for people and logs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::StallReading => "stall reading",
-            Self::StallWriting => "stall writing",
-            Self::Unplug => "unplug",
-            Self::Reboot => "reboot",
-            Self::Watchdog => "watchdog reset",
-            Self::OverTemperature => "over-temperature",
-            Self::OverCurrent => "over-current",
-            Self::HvSag => "HV sag",
         }
     }
 }

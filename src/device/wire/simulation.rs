@@ -237,7 +237,11 @@ impl Simulation {
 
     /// Whether any contactor is driven.
     pub fn is_loud(&self) -> bool {
-        self.device.output().iter().any(|codes| *codes != [0; 2])
+        self.device
+            .core()
+            .output()
+            .iter()
+            .any(|codes| *codes != [0; 2])
     }
 
     /// Device and host at this moment.
@@ -344,7 +348,7 @@ impl Simulation {
 
     /// Whether the device is at rest: output neither there nor enabled.
     pub fn is_at_rest(&self) -> bool {
-        !self.device.state().is_live() && !self.is_loud()
+        !self.device.core().state().is_live() && !self.is_loud()
     }
 }
 

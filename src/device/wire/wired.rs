@@ -7,7 +7,7 @@ use crate::actuator_model::ContactorModel;
 use crate::device::{
     AppliedFrame, CoreCounters, DeviceCore, DeviceModel, DeviceSink, Load, Moment, Sense,
 };
-use crate::message::{DeviceState, fault_bit};
+use crate::message::fault_bit;
 
 const HOT_CDEG: i16 = 8500;
 const OVER_CURRENT_MA: u16 = 900;
@@ -152,21 +152,6 @@ impl WiredDevice {
     pub(crate) fn set_load(&mut self, load: Load) {
         self.model.load = Some(load);
         self.core.set_load(load);
-    }
-
-    /// Channels of the device.
-    pub fn n_channels(&self) -> usize {
-        self.model.n_channels()
-    }
-
-    /// Where the device is.
-    pub fn state(&self) -> DeviceState {
-        self.core.state()
-    }
-
-    /// Output codes at this moment, `[40 Hz, 320 Hz]` per contactor.
-    pub fn output(&self) -> Vec<[u16; 2]> {
-        self.core.output()
     }
 
     /// Event counts of every boot, the present one last.

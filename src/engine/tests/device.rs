@@ -11,7 +11,7 @@ use crate::input::PointerInput;
 use crate::ready::{CoreCommand, ReadyCommand};
 use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
 #[cfg(unix)]
-use selvedge_device::{DeviceModel, PtyEmulator};
+use selvedge_device::{DeviceModel, Faults, PtyEmulator};
 use selvedge_scratch::ScratchFolder;
 
 /// Waits for what must come, for as long as a busy machine may take.
@@ -274,10 +274,10 @@ fn with_device<T>(
 ) -> (T, String) {
     let folder = ScratchFolder::made(name);
     let (link, log) = (folder.join("array"), folder.join("log.csv"));
-    let emulator = PtyEmulator::new(model, &link, Some(&log)).unwrap();
+    let emulator = PtyEmulator::new(model, &Faults::default(), &link, Some(&log)).unwrap();
     let is_over = AtomicBool::new(false);
     let done = thread::scope(|scope| {
-        let emulation = scope.spawn(|| emulator.run(&is_over));
+        let emulation = scope.spawn(|| emulator.run(&is_over, |_, _| {}));
         let done = work(&link, &is_over);
         is_over.store(true, Ordering::SeqCst);
         emulation.join().unwrap().unwrap();

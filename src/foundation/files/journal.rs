@@ -44,7 +44,7 @@ impl Journal {
         }
         let header = TableWriter::new(Vec::new(), path, columns)?.finish()?;
         write_atomic(path, &header)?;
-        sync_folder(path).map_err(|source| failed(path, source))?;
+        sync_folder(path).map_err(FileError::write(path))?;
         let file = locked(path)?;
         Ok(Self {
             len: header.len() as u64,
@@ -77,7 +77,7 @@ impl Journal {
             write_atomic(&aside, piece)?;
             file.set_len(complete.len() as u64)
                 .and_then(|()| file.sync_all())
-                .map_err(|source| failed(path, source))?;
+                .map_err(FileError::write(path))?;
             Some(aside)
         };
         let journal = Self {
@@ -118,7 +118,7 @@ impl Journal {
         if let Err(source) = written {
             // If this fails too, opening the table again sets the piece aside.
             drop(self.file.set_len(self.len));
-            return Err(failed(&self.path, source));
+            return Err(FileError::write(&self.path)(source));
         }
         self.len += lines.len() as u64;
         Ok(())
@@ -151,23 +151,16 @@ pub fn row_line<T: AsRef<str>>(cells: &[T], path: &Path) -> Result<Vec<u8>, File
     writer.finish()
 }
 
-fn failed(path: &Path, source: io::Error) -> FileError {
-    FileError::Write {
-        path: path.to_owned(),
-        source,
-    }
-}
-
 /// Opens a file to add to it, for this process alone.
 fn locked(path: &Path) -> Result<File, FileError> {
     let file = OpenOptions::new().append(true).open(path);
-    let file = file.map_err(|source| failed(path, source))?;
+    let file = file.map_err(FileError::write(path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(FileError::Busy {
             path: path.to_owned(),
         }),
-        Err(TryLockError::Error(source)) => Err(failed(path, source)),
+        Err(TryLockError::Error(source)) => Err(FileError::write(path)(source)),
     }
 }
 

@@ -131,25 +131,12 @@ fn damage(error: &ImageError) -> &'static str {
 
 /// Encodes a picture as PNG.
 pub fn encode_png(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError> {
-    let bytes: Vec<u8> = picture.pixels.iter().flatten().copied().collect();
-    encode(
-        &bytes,
-        picture.width,
-        picture.height,
-        ExtendedColorType::Rgb8,
-        path,
-    )
+    encode_rgb(picture, Packing::default(), path)
 }
 
 /// Encodes a picture of few colours as PNG, slowly and small: the best compression, no filter.
 pub fn encode_png_small(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError> {
-    let bytes: Vec<u8> = picture.pixels.iter().flatten().copied().collect();
-    let mut png = Vec::new();
-    let (compression, filter) = (CompressionType::Best, FilterType::NoFilter);
-    let encoder = PngEncoder::new_with_quality(&mut png, compression, filter);
-    let size = [picture.width, picture.height];
-    write_image(encoder, &bytes, size, ExtendedColorType::Rgb8, path)?;
-    Ok(png)
+    encode_rgb(picture, (CompressionType::Best, FilterType::NoFilter), path)
 }
 
 /// Encodes rows of 8-bit red, green, blue and alpha (not premultiplied) as PNG.
@@ -159,47 +146,38 @@ pub fn encode_png_rgba(
     height: usize,
     path: &Path,
 ) -> Result<Vec<u8>, FileError> {
-    encode(rgba, width, height, ExtendedColorType::Rgba8, path)
+    let colour = ExtendedColorType::Rgba8;
+    encode(rgba, ([width, height], colour), Packing::default(), path)
+}
+
+type Packing = (CompressionType, FilterType);
+
+fn encode_rgb(picture: &Rgb8Image, packing: Packing, path: &Path) -> Result<Vec<u8>, FileError> {
+    let layout = ([picture.width, picture.height], ExtendedColorType::Rgb8);
+    encode(picture.pixels.as_flattened(), layout, packing, path)
 }
 
 fn encode(
     bytes: &[u8],
-    width: usize,
-    height: usize,
-    colour: ExtendedColorType,
+    ([width, height], colour): ([usize; 2], ExtendedColorType),
+    (compression, filter): Packing,
     path: &Path,
 ) -> Result<Vec<u8>, FileError> {
-    let mut png = Vec::new();
-    write_image(
-        PngEncoder::new(&mut png),
-        bytes,
-        [width, height],
-        colour,
-        path,
-    )?;
-    Ok(png)
-}
-
-fn write_image(
-    encoder: PngEncoder<&mut Vec<u8>>,
-    bytes: &[u8],
-    [width, height]: [usize; 2],
-    colour: ExtendedColorType,
-    path: &Path,
-) -> Result<(), FileError> {
     let failed = |what: String| FileError::content(path, 1, what, "this cannot be saved as PNG");
     let size = |n: usize| u32::try_from(n).map_err(|error| failed(error.to_string()));
     let (columns, rows) = (size(width)?, size(height)?);
     let expected = width * height * usize::from(colour.bits_per_pixel() / 8);
     if bytes.len() != expected {
+        let n_bytes = bytes.len();
         return Err(failed(format!(
-            "{} bytes for {width} × {height} pixels",
-            bytes.len()
+            "{n_bytes} bytes for {width} × {height} pixels"
         )));
     }
-    encoder
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, compression, filter)
         .write_image(bytes, columns, rows, colour)
-        .map_err(|error| failed(error.to_string()))
+        .map_err(|error| failed(error.to_string()))?;
+    Ok(png)
 }
 
 fn pixels(picture: DynamicImage) -> Vec<[u16; 3]> {

@@ -65,10 +65,7 @@ impl Staged {
                 fs::rename(staged, path)
             }
         });
-        moved.map_err(|source| FileError::Write {
-            path: path.to_owned(),
-            source,
-        })?;
+        moved.map_err(FileError::write(path))?;
         self.staged = None;
         Ok(())
     }

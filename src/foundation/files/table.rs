@@ -86,16 +86,12 @@ impl Table {
         };
         let parse = |(row, cell): (usize, &str)| match cell.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(FileError::content(
-                &self.path,
-                self.line_of(row),
-                format!(
-                    "{column} is \"{cell}\" (row {} of {})",
-                    row + 1,
-                    self.rows.len()
-                ),
-                "write a finite decimal number with a point",
-            )),
+            _ => {
+                let (row, line) = (row + 1, self.line_of(row));
+                let what = format!("{column} is \"{cell}\" (row {row} of {})", self.rows.len());
+                let mend = "write a finite decimal number with a point";
+                Err(FileError::content(&self.path, line, what, mend))
+            }
         };
         cells
             .into_iter()
@@ -107,14 +103,8 @@ impl Table {
 
     /// The numbers of a column that the header was checked to hold.
     pub fn required_numbers(&self, column: &str) -> Result<Vec<f64>, FileError> {
-        let missing = || {
-            FileError::content(
-                &self.path,
-                1,
-                format!("no column {column}"),
-                "add the column",
-            )
-        };
+        let what = || format!("no column {column}");
+        let missing = || FileError::content(&self.path, 1, what(), "add the column");
         self.numbers(column)?.ok_or_else(missing)
     }
 }
@@ -165,37 +155,19 @@ fn check_header(
             _ => all.join(","),
         }
     };
-    let mend = || format!("the header is {}", expected());
+    let wrong =
+        |what: String| FileError::content(path, 1, what, format!("the header is {}", expected()));
     for (index, name) in header.iter().enumerate() {
         if !required.contains(&name.as_str()) && !optional.contains(&name.as_str()) {
-            return Err(FileError::content(
-                path,
-                1,
-                format!("unknown column \"{name}\""),
-                mend(),
-            ));
+            return Err(wrong(format!("unknown column \"{name}\"")));
         }
         if header[..index].contains(name) {
-            return Err(FileError::content(
-                path,
-                1,
-                format!("column {name} twice"),
-                mend(),
-            ));
+            return Err(wrong(format!("column {name} twice")));
         }
     }
-    match required
-        .iter()
-        .find(|&&name| !header.iter().any(|h| h == name))
-    {
-        Some(name) => Err(FileError::content(
-            path,
-            1,
-            format!("no column {name}"),
-            mend(),
-        )),
-        None => Ok(()),
-    }
+    let is_missing = |name: &&&str| !header.iter().any(|known| known == **name);
+    let missing = required.iter().find(is_missing);
+    missing.map_or(Ok(()), |name| Err(wrong(format!("no column {name}"))))
 }
 
 /// Writes rows of cells as CSV, numbers with their shortest round-trip digits.
@@ -254,19 +226,12 @@ impl<W: Write> TableWriter<W> {
         let written = self.out.write_all(self.line.as_bytes());
         self.line.clear();
         self.n_cells = 0;
-        written.map_err(|source| FileError::Write {
-            path: self.path.clone(),
-            source,
-        })
+        written.map_err(FileError::write(&self.path))
     }
 
     /// Writes what is still buffered and returns the stream.
     pub fn finish(mut self) -> Result<W, FileError> {
-        let flushed = self.out.flush();
-        flushed.map_err(|source| FileError::Write {
-            path: self.path.clone(),
-            source,
-        })?;
+        self.out.flush().map_err(FileError::write(&self.path))?;
         Ok(self.out)
     }
 

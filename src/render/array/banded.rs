@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
-use crate::plan::{Axis, Component, Contacts, Counters, Feel, Motion, ScenePlan};
+use crate::plan::{Axis, Contacts, Counters, Feel, Motion, ScenePlan};
 use selvedge_foundation::numerics::to_index;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins};
@@ -115,19 +115,13 @@ impl BandedEvaluator {
         let n_contactors = contacts.n_contactors as u64;
         contacts.for_each_owned(amplitudes_um, |_, sums| *sums = [0.0; 2]);
         for axis in Axis::BOTH {
-            let component = contacts.component(axis, 0);
-            let Component::Felt {
-                speed_mm_per_s,
-                is_reverse,
-            } = component
-            else {
-                counters.left_out(component, n_contactors);
+            let felt = contacts.felt(axis, 0, n_contactors, counters);
+            let Some((d, speed_mm_per_s)) = felt else {
                 continue;
             };
             let row = &mut self.rows[axis as usize];
             row.move_to(speed_mm_per_s, &self.filters, counters);
             counters.speeds_repeated += n_contactors - 1;
-            let d = axis.direction(is_reverse).index();
             let (grid, memo) = (textile.points[d], &mut self.pool[textile.spectra[d]]);
             let (tick, row) = (self.tick, &*row);
             let mut n_anew = 0;

@@ -5,39 +5,31 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::RenderError;
+use selvedge_foundation::named;
 
-/// How amplitudes are computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// f64, every bin, no shortcut.
-    Reference,
-    /// f64, only the bins that a filter can hear at this speed, nothing twice in a tick.
-    Banded,
-    /// Powers tabulated over log speed when preparing, interpolated in f32.
-    Table,
-    /// The cheapest of these within the error budget.
-    #[default]
-    Auto,
+named! {
+    /// How amplitudes are computed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Method {
+        /// f64, every bin, no shortcut.
+        Reference = "reference",
+        /// f64, only the bins that a filter can hear at this speed, nothing twice in a tick.
+        Banded = "banded",
+        /// Powers tabulated over log speed when preparing, interpolated in f32.
+        Table = "table",
+        /// The cheapest of these within the error budget.
+        #[default]
+        Auto = "auto",
+    }
+    /// Its name on the command line and in files.
+    pub fn name;
 }
 
 impl Method {
-    /// All, `auto` last.
-    pub const ALL: [Self; 4] = [Self::Reference, Self::Banded, Self::Table, Self::Auto];
-
     /// Whether it tabulates, or may choose to.
     pub(super) fn may_tabulate(self) -> bool {
         matches!(self, Self::Table | Self::Auto)
-    }
-
-    /// Its name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reference => "reference",
-            Self::Banded => "banded",
-            Self::Table => "table",
-            Self::Auto => "auto",
-        }
     }
 }
 

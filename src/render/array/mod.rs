@@ -175,21 +175,11 @@ impl ArrayRenderer {
         frame.begin();
         frame.position = pose.position;
         frame.rotation = display.begin(pose.angle_deg, counters);
-        for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
-            let Some(placing) = display.placing(textile, pose.position) else {
-                counters.textiles_out_of_reach += 1;
-                continue;
-            };
-            let factors = self.gains.factors(number);
-            if let Some(contacts) = display.claim((textile, number), &placing, pose, counters) {
-                self.evaluator
-                    .evaluate(&self.plan, &contacts, factors, frame, counters);
-            }
-            if display.is_taken() {
-                counters.touches_beneath += (number * display.n_contactors()) as u64;
-                break;
-            }
-        }
+        let (plan, evaluator) = (&self.plan, &mut self.evaluator);
+        plan.for_each_touched(display, pose, counters, |contacts, counters| {
+            let factors = self.gains.factors(contacts.textile);
+            evaluator.evaluate(plan, contacts, factors, frame, counters);
+        });
         frame.owners.copy_from_slice(&display.owners);
         frame.round();
     }

@@ -85,15 +85,11 @@ impl ContactInspector {
                 reading: None,
             }
         }));
-        for (number, textile) in self.plan.textiles.iter().enumerate().rev() {
-            let Some(placing) = array.placing(textile, pose.position) else {
-                continue;
-            };
-            if let Some(contacts) = array.claim((textile, number), &placing, &pose, &mut counters) {
-                contacts.for_each_owned(readings, |contactor, reading| {
-                    reading.reading = Some(Reading::of(&self.plan, &contacts, contactor));
-                });
-            }
-        }
+        let plan = &self.plan;
+        plan.for_each_touched(array, &pose, &mut counters, |contacts, _| {
+            contacts.for_each_owned(readings, |contactor, reading| {
+                reading.reading = Some(Reading::of(plan, contacts, contactor));
+            });
+        });
     }
 }

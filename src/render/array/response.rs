@@ -87,26 +87,14 @@ impl PointSpread {
 }
 
 /// Squared amplitudes along one axis, µm², before gains.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct Powers {
     at_place: [f64; 2],
     mean: [f64; 2],
-    least: [f64; 2],
-    most: [f64; 2],
+    min: [f64; 2],
+    max: [f64; 2],
     /// Of every point, where they vary across the axis.
     all: Option<Row>,
-}
-
-impl Powers {
-    fn silent() -> Self {
-        Self {
-            at_place: [0.0; 2],
-            mean: [0.0; 2],
-            least: [0.0; 2],
-            most: [0.0; 2],
-            all: None,
-        }
-    }
 }
 
 impl ContactInspector {
@@ -185,43 +173,45 @@ impl TextileResponse {
 
     /// The amplitudes over all points at a velocity in the textile's frame.
     pub fn map(&self, velocity: Velocity) -> VelocityMap {
-        let components = [velocity.x_mm_per_s, velocity.y_mm_per_s];
+        let row = |(direction, response)| self.row(direction, &response);
         VelocityMap {
-            rows: Axis::BOTH.map(|axis| self.row(axis, components[axis as usize])),
+            rows: Axis::BOTH.map(|axis| self.felt(axis, velocity).map_or_else(Row::silent, row)),
             factors: self.factors,
         }
     }
 
-    fn row(&self, axis: Axis, component_mm_per_s: f64) -> Row {
-        let Component::Felt {
-            speed_mm_per_s,
-            is_reverse,
-        } = Component::of(component_mm_per_s)
-        else {
-            return Row::silent();
-        };
-        let d = axis.direction(is_reverse).index();
-        let response = SpeedResponse::at(speed_mm_per_s, &self.filters);
+    /// The direction of a movement along an axis, and the filters at its speed; `None` where it is
+    /// not felt.
+    fn felt(&self, axis: Axis, velocity: Velocity) -> Option<(Direction, SpeedResponse)> {
+        let components = [velocity.x_mm_per_s, velocity.y_mm_per_s];
+        match Component::of(components[axis as usize]) {
+            Component::Felt {
+                speed_mm_per_s,
+                is_reverse,
+            } => {
+                let response = SpeedResponse::at(speed_mm_per_s, &self.filters);
+                Some((axis.direction(is_reverse), response))
+            }
+            Component::AtRest | Component::TooFast => None,
+        }
+    }
+
+    fn row(&self, direction: Direction, response: &SpeedResponse) -> Row {
+        let d = direction.index();
         Row {
             grid: self.points[d],
-            squared_um2: squared_um2(&self.spectra[d], &response).collect(),
+            squared_um2: squared_um2(&self.spectra[d], response).collect(),
         }
     }
 
     /// The amplitudes at a velocity in the textile's frame; `points` are those of a place, one for
     /// each direction.
     pub fn at(&self, velocity: Velocity, points: Option<[usize; 4]>) -> PointSpread {
-        let components = [velocity.x_mm_per_s, velocity.y_mm_per_s];
         let [warp, weft] = Axis::BOTH.map(|axis| {
-            let Component::Felt {
-                speed_mm_per_s,
-                is_reverse,
-            } = Component::of(components[axis as usize])
-            else {
-                return Powers::silent();
-            };
-            let response = SpeedResponse::at(speed_mm_per_s, &self.filters);
-            self.powers(axis.direction(is_reverse), &response, points)
+            let felt = self.felt(axis, velocity);
+            felt.map_or_else(Powers::default, |(direction, response)| {
+                self.powers(direction, &response, points)
+            })
         });
         self.spread([&warp, &weft], points.is_some())
     }
@@ -262,36 +252,30 @@ impl TextileResponse {
         response: &SpeedResponse,
         points: Option<[usize; 4]>,
     ) -> Powers {
-        let d = direction.index();
-        let spectra = &self.spectra[d];
-        let grid = self.points[d];
+        let row = self.row(direction, response);
         let mut powers = Powers {
-            least: [f64::INFINITY; 2],
-            ..Powers::silent()
+            min: [f64::INFINITY; 2],
+            ..Powers::default()
         };
-        let squared_um2: Vec<[f64; 2]> = squared_um2(spectra, response).collect();
-        for squared in &squared_um2 {
+        for squared in &row.squared_um2 {
             for (b, &squared) in squared.iter().enumerate() {
                 powers.mean[b] += squared;
-                powers.least[b] = powers.least[b].min(squared);
-                powers.most[b] = powers.most[b].max(squared);
+                powers.min[b] = powers.min[b].min(squared);
+                powers.max[b] = powers.max[b].max(squared);
             }
         }
-        let n_points = spectra.n_points() as f64;
+        let n_points = row.squared_um2.len() as f64;
         powers.mean = powers.mean.map(|sum| sum / n_points);
-        let point = points.map(|points| points[d]);
-        if let Some(point) = point.filter(|point| *point < spectra.n_points()) {
-            powers.at_place = response.squared_amplitudes_um2(spectra.powers_um2(point));
-        }
-        powers.all = (grid.n_points()[1] > 1).then_some(Row { grid, squared_um2 });
+        let point = points.map(|points| points[direction.index()]);
+        let at_place = point.and_then(|point| row.squared_um2.get(point));
+        powers.at_place = at_place.copied().unwrap_or_default();
+        powers.all = (row.grid.n_points()[1] > 1).then_some(row);
         powers
     }
 
     fn spread(&self, [warp, weft]: [&Powers; 2], has_place: bool) -> PointSpread {
-        let together = |pick: fn(&Powers) -> [f64; 2]| {
-            let (warp, weft) = (pick(warp), pick(weft));
-            [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
-        };
+        let together =
+            |pick: fn(&Powers) -> [f64; 2]| amplitudes(pick(warp), pick(weft), self.factors);
         let [min_um, max_um] = self.ends_um([warp, weft]);
         PointSpread {
             at_place_um: has_place.then(|| together(|powers| powers.at_place)),
@@ -303,28 +287,29 @@ impl TextileResponse {
 
     /// The smallest and the largest amplitudes of any place, µm.
     fn ends_um(&self, [warp, weft]: [&Powers; 2]) -> [[f64; 2]; 2] {
-        let scaled = |squared: [f64; 2]| [0, 1].map(|b| squared[b].sqrt() * self.factors[b]);
-        let sum = |warp: [f64; 2], weft: [f64; 2]| [0, 1].map(|b| warp[b] + weft[b]);
         let (Some(along_warp), Some(along_weft)) = (&warp.all, &weft.all) else {
             // Every warp point meets every weft point.
-            return [
-                scaled(sum(warp.least, weft.least)),
-                scaled(sum(warp.most, weft.most)),
-            ];
+            return [(warp.min, weft.min), (warp.max, weft.max)]
+                .map(|(warp, weft)| amplitudes(warp, weft, self.factors));
         };
         let [n_warp, n_weft] = along_warp.grid.n_points();
-        let (mut least, mut most) = ([f64::INFINITY; 2], [0.0_f64; 2]);
+        let (mut min, mut max) = ([f64::INFINITY; 2], [0.0_f64; 2]);
         for w in 0..n_weft {
             for u in 0..n_warp {
-                let squared = sum(along_warp.at(u, w), along_weft.at(w, u));
+                let (warp, weft) = (along_warp.at(u, w), along_weft.at(w, u));
                 for b in 0..2 {
-                    least[b] = least[b].min(squared[b]);
-                    most[b] = most[b].max(squared[b]);
+                    min[b] = min[b].min(warp[b] + weft[b]);
+                    max[b] = max[b].max(warp[b] + weft[b]);
                 }
             }
         }
-        [scaled(least), scaled(most)]
+        [min, max].map(|squared| amplitudes(squared, [0.0; 2], self.factors))
     }
+}
+
+/// The amplitudes of squared ones along either axis.
+fn amplitudes(warp_um2: [f64; 2], weft_um2: [f64; 2], factors: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|b| (warp_um2[b] + weft_um2[b]).sqrt() * factors[b])
 }
 
 /// The component that a movement `step` of `n` steps of a quarter turn away from an axis has along
@@ -354,18 +339,15 @@ impl VelocityMap {
     /// When there are no such points.
     pub fn at_points_um(&self, points: [usize; 2]) -> [f64; 2] {
         let [u, w] = points;
-        let (warp, weft) = (self.rows[0].at(u, w), self.rows[1].at(w, u));
-        [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
+        amplitudes(self.rows[0].at(u, w), self.rows[1].at(w, u), self.factors)
     }
 
     /// `[A40, A320]` at a place along warp and weft, mm, µm peak, after gains.
     pub fn amplitudes_um(&self, place_mm: [f64; 2]) -> [f64; 2] {
         let [u_mm, w_mm] = place_mm;
-        let squared = [(u_mm, w_mm), (w_mm, u_mm)];
-        let [warp, weft] = [0, 1].map(|axis| {
-            let (row, (along_mm, across_mm)) = (&self.rows[axis], squared[axis]);
-            row.squared_um2[row.grid.nearest(along_mm, across_mm)]
-        });
-        [0, 1].map(|b| (warp[b] + weft[b]).sqrt() * self.factors[b])
+        let [warp, weft] = &self.rows;
+        let warp_um2 = warp.squared_um2[warp.grid.nearest(u_mm, w_mm)];
+        let weft_um2 = weft.squared_um2[weft.grid.nearest(w_mm, u_mm)];
+        amplitudes(warp_um2, weft_um2, self.factors)
     }
 }

@@ -169,19 +169,15 @@ fn at_contact<T>(
     display: &mut DisplayPlan,
     contactor: usize,
     pose: &Pose,
-    explain: impl FnOnce(&Contacts<'_>) -> T,
+    mut explain: impl FnMut(&Contacts<'_>) -> T,
 ) -> Option<T> {
-    let mut counters = Counters::default();
-    for (number, textile) in plan.textiles.iter().enumerate().rev() {
-        let Some(placing) = display.placing(textile, pose.position) else {
-            continue;
-        };
-        let contacts = display.claim((textile, number), &placing, pose, &mut counters);
-        if let Some(contacts) = contacts.filter(|contacts| contacts.owns(contactor)) {
-            return Some(explain(&contacts));
+    let (mut counters, mut explained) = (Counters::default(), None);
+    plan.for_each_touched(display, pose, &mut counters, |contacts, _| {
+        if contacts.owns(contactor) {
+            explained = Some(explain(contacts));
         }
-    }
-    None
+    });
+    explained
 }
 
 impl ContactTrace {

@@ -70,43 +70,38 @@ impl Contacts<'_> {
         contactor: usize,
         counters: &mut Counters,
     ) -> Option<Feel> {
-        let component = self.component(axis, contactor);
-        let Component::Felt {
-            speed_mm_per_s,
-            is_reverse,
-        } = component
-        else {
-            counters.left_out(component, 1);
-            return None;
+        let (d, speed_mm_per_s) = self.felt(axis, contactor, 1, counters)?;
+        let [u_mm, w_mm] = self.places_mm.map(|places_mm| places_mm[contactor]);
+        let point = match axis {
+            Axis::Warp => textile.points[d].nearest(u_mm, w_mm),
+            Axis::Weft => textile.points[d].nearest(w_mm, u_mm),
         };
-        Some(self.feel_at(textile, (axis, is_reverse), contactor, speed_mm_per_s))
-    }
-
-    #[inline]
-    fn feel_at(
-        &self,
-        textile: &TextilePlan,
-        (axis, is_reverse): (Axis, bool),
-        contactor: usize,
-        speed_mm_per_s: f64,
-    ) -> Feel {
-        let d = axis.direction(is_reverse).index();
-        let [along, across] = self.along_and_across_mm(axis);
-        Feel {
+        Some(Feel {
             spectra: textile.spectra[d],
-            point: textile.points[d].nearest(along[contactor], across[contactor]),
+            point,
             speed_mm_per_s,
-        }
+        })
     }
 
-    /// Places of all contactors along and across an axis, mm.
+    /// The direction, by its number, in which a contactor is felt to move along an axis, and how
+    /// fast, mm/s; `None`, counted for `n` contactors, where it does not move along it or too fast.
     #[inline]
-    pub(crate) fn along_and_across_mm(&self, axis: Axis) -> [&[f64]; 2] {
-        let [u_mm, w_mm] = self.places_mm;
-        match axis {
-            Axis::Warp => [u_mm, w_mm],
-            Axis::Weft => [w_mm, u_mm],
+    pub(crate) fn felt(
+        &self,
+        axis: Axis,
+        contactor: usize,
+        n: u64,
+        counters: &mut Counters,
+    ) -> Option<(usize, f64)> {
+        match self.component(axis, contactor) {
+            Component::Felt {
+                speed_mm_per_s,
+                is_reverse,
+            } => return Some((axis.direction(is_reverse).index(), speed_mm_per_s)),
+            Component::AtRest => counters.directions_at_rest += n,
+            Component::TooFast => counters.directions_over_speed += n,
         }
+        None
     }
 
     /// Whether a contactor lies on this textile.

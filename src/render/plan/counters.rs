@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use super::motion::Component;
-
 /// Sums since the last reset. A "direction" is one contactor's warp or weft in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Counters {
@@ -49,145 +47,70 @@ pub struct Counters {
     pub(crate) poses_missing: u64,
 }
 
-impl Counters {
-    /// Counts `n` directions of one component that is not felt.
-    pub(crate) fn left_out(&mut self, component: Component, n: u64) {
-        match component {
-            Component::AtRest => self.directions_at_rest += n,
-            Component::TooFast => self.directions_over_speed += n,
-            Component::Felt { .. } => {}
+/// The savings from the coarsest to the finest, a row each: variant, name in tables, what its
+/// counter counts, the counter, and what it leaves out in one sentence.
+macro_rules! rules {
+    ($($rule:ident $name:literal, $unit:literal $counter:ident: $what:literal;)+) => {
+        /// A saving.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Rule {
+            $(#[doc = $what] $rule,)+
         }
-    }
+
+        impl Rule {
+            /// All, from the coarsest to the finest.
+            pub const ALL: [Self; 12] = [$(Self::$rule),+];
+
+            /// Its name in tables.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$rule => $name),+ }
+            }
+
+            /// What it leaves out, one sentence.
+            pub fn what(self) -> &'static str {
+                match self { $(Self::$rule => $what),+ }
+            }
+
+            /// What its counter counts.
+            pub fn unit(self) -> &'static str {
+                match self { $(Self::$rule => $unit),+ }
+            }
+
+            /// How much it left out.
+            pub fn left_out(self, counters: &Counters) -> u64 {
+                match self { $(Self::$rule => counters.$counter),+ }
+            }
+        }
+    };
 }
 
-/// A saving.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rule {
-    /// Displays at rest where they stood the tick before.
-    Standing,
-    /// Sine and cosine of an angle that did not change.
-    SameAngle,
-    /// Textiles whose rectangle no contactor can reach.
-    OutOfReach,
-    /// Contactors of a display that lies wholly on a textile.
-    Covered,
-    /// Contactors off a textile.
-    Outside,
-    /// Contactors already on a textile above.
-    Beneath,
-    /// Components below 0.01 mm/s.
-    AtRest,
-    /// Components at which every bin sounds at or above 1 kHz.
-    TooFast,
-    /// Bins at or above 1 kHz.
-    AboveBand,
-    /// Bins below a filter's floor.
-    BelowFloor,
-    /// Points evaluated already in this tick.
-    SamePoint,
-    /// Speeds looked up already in this tick.
-    SameSpeed,
-}
-
-impl Rule {
-    /// All, from the coarsest to the finest.
-    pub const ALL: [Self; 12] = [
-        Self::Standing,
-        Self::SameAngle,
-        Self::OutOfReach,
-        Self::Covered,
-        Self::Outside,
-        Self::Beneath,
-        Self::AtRest,
-        Self::TooFast,
-        Self::AboveBand,
-        Self::BelowFloor,
-        Self::SamePoint,
-        Self::SameSpeed,
-    ];
-
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Standing => "standing",
-            Self::SameAngle => "same angle",
-            Self::OutOfReach => "out of reach",
-            Self::Covered => "covered",
-            Self::Outside => "outside",
-            Self::Beneath => "beneath",
-            Self::AtRest => "at rest",
-            Self::TooFast => "too fast",
-            Self::AboveBand => "above the band",
-            Self::BelowFloor => "below the floor",
-            Self::SamePoint => "same point",
-            Self::SameSpeed => "same speed",
-        }
-    }
-
-    /// What it leaves out, one sentence.
-    pub fn what(self) -> &'static str {
-        match self {
-            Self::Standing => {
-                "A display that rests where it rested one tick before stays silent as it is."
-            }
-            Self::SameAngle => "Sine and cosine are taken only of an angle that changed.",
-            Self::OutOfReach => {
-                "No contactor is placed on a textile whose rectangle the display cannot reach."
-            }
-            Self::Covered => {
-                "A display that lies wholly on a textile is not asked contactor by contactor."
-            }
-            Self::Outside => "A contactor that is off a textile is not evaluated against it.",
-            Self::Beneath => "A contactor that lies on a textile feels none of those beneath.",
-            Self::AtRest => "A direction that moves at less than 0.01 mm/s is not evaluated.",
-            Self::TooFast => {
-                "A direction so fast that every bin sounds at 1 kHz or above is not evaluated."
-            }
-            Self::AboveBand => "A bin that sounds at 1 kHz or above is not summed.",
-            Self::BelowFloor => {
-                "A bin that the filter lets less than its floor through is not summed (banded)."
-            }
-            Self::SamePoint => {
-                "The same spectra, point and speed are evaluated once in a tick \
-                 (banded), or once for all contactors of a velocity (table)."
-            }
-            Self::SameSpeed => {
-                "A speed's filter gains (banded), or its place in the tables (table), are \
-                 found once for all contactors that share it."
-            }
-        }
-    }
-
-    /// What its counter counts.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Standing => "displays",
-            Self::SameAngle => "angles",
-            Self::OutOfReach => "textiles",
-            Self::Covered | Self::Outside | Self::Beneath => "touches",
-            Self::AtRest | Self::TooFast | Self::SamePoint => "directions",
-            Self::AboveBand | Self::BelowFloor => "bins",
-            Self::SameSpeed => "speeds",
-        }
-    }
-
-    /// How much it left out.
-    pub fn left_out(self, counters: &Counters) -> u64 {
-        match self {
-            Self::Standing => counters.displays_standing,
-            Self::SameAngle => counters.angles_repeated,
-            Self::OutOfReach => counters.textiles_out_of_reach,
-            Self::Covered => counters.touches_covered,
-            Self::Outside => counters.touches_outside,
-            Self::Beneath => counters.touches_beneath,
-            Self::AtRest => counters.directions_at_rest,
-            Self::TooFast => counters.directions_over_speed,
-            Self::AboveBand => counters.bins_above_1_khz,
-            Self::BelowFloor => counters.bins_below_floor,
-            Self::SamePoint => counters.directions_repeated,
-            Self::SameSpeed => counters.speeds_repeated,
-        }
-    }
+rules! {
+    Standing "standing", "displays" displays_standing:
+        "A display that rests where it rested one tick before stays silent as it is.";
+    SameAngle "same angle", "angles" angles_repeated:
+        "Sine and cosine are taken only of an angle that changed.";
+    OutOfReach "out of reach", "textiles" textiles_out_of_reach:
+        "No contactor is placed on a textile whose rectangle the display cannot reach.";
+    Covered "covered", "touches" touches_covered:
+        "A display that lies wholly on a textile is not asked contactor by contactor.";
+    Outside "outside", "touches" touches_outside:
+        "A contactor that is off a textile is not evaluated against it.";
+    Beneath "beneath", "touches" touches_beneath:
+        "A contactor that lies on a textile feels none of those beneath.";
+    AtRest "at rest", "directions" directions_at_rest:
+        "A direction that moves at less than 0.01 mm/s is not evaluated.";
+    TooFast "too fast", "directions" directions_over_speed:
+        "A direction so fast that every bin sounds at 1 kHz or above is not evaluated.";
+    AboveBand "above the band", "bins" bins_above_1_khz:
+        "A bin that sounds at 1 kHz or above is not summed.";
+    BelowFloor "below the floor", "bins" bins_below_floor:
+        "A bin that the filter lets less than its floor through is not summed (banded).";
+    SamePoint "same point", "directions" directions_repeated:
+        "The same spectra, point and speed are evaluated once in a tick (banded), or once for all \
+         contactors of a velocity (table).";
+    SameSpeed "same speed", "speeds" speeds_repeated:
+        "A speed's filter gains (banded), or its place in the tables (table), are found once for \
+         all contactors that share it.";
 }
 
 #[cfg(test)]

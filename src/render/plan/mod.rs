@@ -21,6 +21,7 @@ pub(super) use point::{PointGrid, PointIndex, nearest_mm, whole_part};
 use std::sync::Arc;
 
 use super::RenderScene;
+use super::scene::Pose;
 use selvedge_textile::surface::{Direction, LocalSpectra};
 
 /// The textiles of a scene, and every set of spectra they use, once.
@@ -47,5 +48,30 @@ impl ScenePlan {
             textiles.push(TextilePlan::new(placed, spectra));
         }
         Self { textiles, pool }
+    }
+
+    /// Does something with the contacts of a display that began a tick, on one textile after the
+    /// other from the topmost down, until every contactor lies on one.
+    #[inline]
+    pub(super) fn for_each_touched(
+        &self,
+        display: &mut DisplayPlan,
+        pose: &Pose,
+        counters: &mut Counters,
+        mut act: impl FnMut(&Contacts<'_>, &mut Counters),
+    ) {
+        for (number, textile) in self.textiles.iter().enumerate().rev() {
+            let Some(placing) = display.placing(textile, pose.position) else {
+                counters.textiles_out_of_reach += 1;
+                continue;
+            };
+            if let Some(contacts) = display.claim((textile, number), &placing, pose, counters) {
+                act(&contacts, counters);
+            }
+            if display.is_taken() {
+                counters.touches_beneath += (number * display.n_contactors()) as u64;
+                break;
+            }
+        }
     }
 }

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use selvedge_foundation::geometry::Displacement;
+use selvedge_foundation::named;
 
 /// Most contactors that a display may have.
 pub const MAX_CONTACTORS: usize = 16_384;
@@ -19,33 +20,25 @@ pub enum Geometry {
     Contactors(Vec<Displacement>),
 }
 
-/// The named arrays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ArrayLayout {
-    /// 6 rows × 4 columns at 2 mm: the stimulator of the HAPTEX project.
-    #[serde(rename = "exeter-24")]
-    Exeter24,
-    /// 5 × 5 at 2 mm, as in the first of Brady's devices (2010).
-    #[serde(rename = "5x5")]
-    Square5,
-    /// 10 × 10 at 1 mm, as in the array of Summers and Chanter (2002).
-    #[serde(rename = "10x10")]
-    Square10,
+named! {
+    /// The named arrays.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum ArrayLayout {
+        /// 6 rows × 4 columns at 2 mm: the stimulator of the HAPTEX project.
+        #[serde(rename = "exeter-24")]
+        Exeter24 = "exeter-24",
+        /// 5 × 5 at 2 mm, as in the first of Brady's devices (2010).
+        #[serde(rename = "5x5")]
+        Square5 = "5x5",
+        /// 10 × 10 at 1 mm, as in the array of Summers and Chanter (2002).
+        #[serde(rename = "10x10")]
+        Square10 = "10x10",
+    }
+    /// The name in scene files.
+    pub fn name;
 }
 
 impl ArrayLayout {
-    /// Every named array.
-    pub const ALL: [Self; 3] = [Self::Exeter24, Self::Square5, Self::Square10];
-
-    /// The name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exeter24 => "exeter-24",
-            Self::Square5 => "5x5",
-            Self::Square10 => "10x10",
-        }
-    }
-
     /// The array of this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|layout| layout.name() == name)

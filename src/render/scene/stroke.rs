@@ -48,24 +48,19 @@ pub enum Stroke {
 impl Stroke {
     /// Refuses numbers that draw nothing: not finite, a negative speed, no extent.
     pub fn check(&self) -> Result<(), SceneError> {
-        let (speed, place, extents) = match *self {
-            Self::Line {
-                start,
-                end,
-                speed_mm_per_s,
-            } => (speed_mm_per_s, [start, end], [(end - start).length_mm(); 3]),
+        let (place, extents) = match *self {
+            Self::Line { start, end, .. } => ([start, end], [(end - start).length_mm(); 3]),
             Self::Circle {
-                centre,
-                radius_mm,
-                speed_mm_per_s,
-            } => (speed_mm_per_s, [centre; 2], [radius_mm; 3]),
+                centre, radius_mm, ..
+            } => ([centre; 2], [radius_mm; 3]),
             Self::Raster {
                 corner,
                 size_mm: [width, height],
                 spacing_mm,
-                speed_mm_per_s,
-            } => (speed_mm_per_s, [corner; 2], [width, height, spacing_mm]),
+                ..
+            } => ([corner; 2], [width, height, spacing_mm]),
         };
+        let speed = self.speed_mm_per_s();
         let wrong = |what: String, mend: &str| SceneError::Value {
             what,
             mend: mend.to_owned(),
@@ -93,24 +88,23 @@ impl Stroke {
 
     /// How long it takes until the stroke begins again, s; infinite for one that stands still.
     pub fn period_s(&self) -> f64 {
-        match *self {
-            Self::Line {
-                start,
-                end,
-                speed_mm_per_s,
-            } => 2.0 * (end - start).length_mm() / speed_mm_per_s,
-            Self::Circle {
-                radius_mm,
-                speed_mm_per_s,
-                ..
-            } => std::f64::consts::TAU * radius_mm / speed_mm_per_s,
+        let round_mm = match *self {
+            Self::Line { start, end, .. } => 2.0 * (end - start).length_mm(),
+            Self::Circle { radius_mm, .. } => std::f64::consts::TAU * radius_mm,
             Self::Raster {
                 size_mm,
                 spacing_mm,
-                speed_mm_per_s,
                 ..
-            } => 2.0 * raster_length_mm(size_mm, spacing_mm) / speed_mm_per_s,
-        }
+            } => 2.0 * raster_length_mm(size_mm, spacing_mm),
+        };
+        round_mm / self.speed_mm_per_s()
+    }
+
+    fn speed_mm_per_s(&self) -> f64 {
+        let (Self::Line { speed_mm_per_s, .. }
+        | Self::Circle { speed_mm_per_s, .. }
+        | Self::Raster { speed_mm_per_s, .. }) = *self;
+        speed_mm_per_s
     }
 
     /// Place and velocity at `t_s` seconds after the start.

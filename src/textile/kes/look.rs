@@ -7,6 +7,7 @@ use super::{ColumnRole, DecimalSign, KesFile, KesOptions};
 use crate::error::TextileError;
 use crate::number_table::{NoTable, RawTable, Separator, table_of};
 use selvedge_foundation::files::FileError;
+use selvedge_foundation::named;
 
 /// Lines above the numbers that are shown: the last ones.
 const MAX_ABOVE: usize = 5;
@@ -15,29 +16,21 @@ const MAX_ROWS: usize = 6;
 /// Characters of a line that are shown.
 const MAX_LETTERS: usize = 400;
 
-/// By what something is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum KesKnown {
-    /// The user said it.
-    Said,
-    /// The name above the column says it.
-    Named,
-    /// The number of columns, and how their numbers run, say it.
-    Numbered,
-    /// Nothing says it.
-    Unknown,
-}
-
-impl KesKnown {
-    /// In a few words.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Said => "as said",
-            Self::Named => "by name",
-            Self::Numbered => "by their number",
-            Self::Unknown => "not known",
-        }
+named! {
+    /// By what something is known.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum KesKnown {
+        /// The user said it.
+        Said = "as said",
+        /// The name above the column says it.
+        Named = "by name",
+        /// The number of columns, and how their numbers run, say it.
+        Numbered = "by their number",
+        /// Nothing says it.
+        Unknown = "not known",
     }
+    /// In a few words.
+    pub fn label;
 }
 
 /// A column as it was found.

@@ -10,6 +10,7 @@
 //! by more than eight spreads of that difference, and by more than the spread of all heights.
 
 use crate::surface::{Direction, mean_deviation};
+use selvedge_foundation::named;
 use selvedge_foundation::numerics::{median, to_index};
 
 /// The length of a piece, mm.
@@ -21,15 +22,19 @@ const MAX_SPIKE: f64 = 8.0;
 /// Smaller spikes than this are never marked, µm.
 const MIN_SPIKE_UM: f64 = 1.0;
 
-/// What a mark says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MarkKind {
-    /// The tester starts.
-    RunIn,
-    /// The tester turns round.
-    TurnRound,
-    /// Samples that stand off their neighbours.
-    Outlier,
+named! {
+    /// What a mark says.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum MarkKind {
+        /// The tester starts.
+        RunIn = "run-in",
+        /// The tester turns round.
+        TurnRound = "turn-round",
+        /// Samples that stand off their neighbours.
+        Outlier = "outlier",
+    }
+    /// What it is called.
+    pub fn label;
 }
 
 /// Samples that do not look like the rest, in the order of travel.
@@ -39,17 +44,6 @@ pub struct Mark {
     pub kind: MarkKind,
     /// Which samples.
     pub samples: std::ops::Range<usize>,
-}
-
-impl MarkKind {
-    /// What it is called.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::RunIn => "run-in",
-            Self::TurnRound => "turn-round",
-            Self::Outlier => "outlier",
-        }
-    }
 }
 
 /// The marks of a stroke: heights in µm in the order of travel.

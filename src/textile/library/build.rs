@@ -53,15 +53,7 @@ pub(crate) fn index_of(
     let measure = |id: &str| {
         let store = library.files_of(id)?;
         let textile = Textile::load(&store, id)?;
-        let [a40_um, a320_um] = means_um(textile.surface());
-        let id = id.to_owned();
-        let content = content_of(&store, &id)?;
-        let entry = IndexEntry {
-            id,
-            a40_um,
-            a320_um,
-        };
-        Ok((entry, content))
+        Ok((entry_of(id, textile.surface()), content_of(&store, id)?))
     };
     let measured = unheard(|progress| for_each(library.ids(), n_threads, progress, measure));
     let (textiles, content): (Vec<IndexEntry>, Vec<_>) = measured?.into_iter().unzip();
@@ -75,10 +67,15 @@ pub(crate) fn index_of(
     })
 }
 
-/// Mean amplitude of both bands as an index states it, to six digits, µm.
-pub(crate) fn means_um(surface: &Surface) -> [f64; 2] {
+/// What an index states of a textile: mean amplitudes of both bands to six digits, µm.
+pub(crate) fn entry_of(id: &str, surface: &Surface) -> IndexEntry {
     let levels = Levels::of(surface, &Filters::default());
-    levels.mean_um.map(six_digits)
+    let [a40_um, a320_um] = levels.mean_um.map(six_digits);
+    IndexEntry {
+        id: id.to_owned(),
+        a40_um,
+        a320_um,
+    }
 }
 
 /// A number to six significant digits: what rounding hides cannot differ between machines.

@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::Library;
-use super::build::{hash_of, means_um};
+use super::build::{entry_of, hash_of};
 use super::id::id_of;
-use super::index::{INDEX, Index, IndexEntry};
+use super::index::{INDEX, Index};
 use crate::build::{BuiltFile, write};
 use crate::error::TextileError;
 use crate::manifest::{MANIFEST, Manifest};
@@ -180,12 +180,7 @@ impl LibraryFolder {
         let place = index.textiles.iter().position(|entry| entry.id == id);
         if self.path.join(id).join(MANIFEST).is_file() {
             let own = Library::of_folder(&self.path, &[id.to_owned()]);
-            let [a40_um, a320_um] = means_um(own.load(id)?.surface());
-            let entry = IndexEntry {
-                id: id.to_owned(),
-                a40_um,
-                a320_um,
-            };
+            let entry = entry_of(id, own.load(id)?.surface());
             match place {
                 Some(place) => index.textiles[place] = entry,
                 None => index.textiles.push(entry),

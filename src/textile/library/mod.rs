@@ -100,13 +100,18 @@ impl Library {
         }
     }
 
-    fn of_recipes(recipes: Recipes) -> Self {
+    fn new(place: Place, ids: Vec<String>, index: Option<Index>) -> Self {
         Self {
+            place,
+            ids,
+            index,
             cache: None,
-            ids: recipes.ids(),
-            index: recipes.index().cloned(),
-            place: Place::Recipes(Arc::new(recipes)),
         }
+    }
+
+    fn of_recipes(recipes: Recipes) -> Self {
+        let (ids, index) = (recipes.ids(), recipes.index().cloned());
+        Self::new(Place::Recipes(Arc::new(recipes)), ids, index)
     }
 
     /// A folder with textiles. Without a `library.toml` its textiles are the sub-folders that hold
@@ -114,13 +119,10 @@ impl Library {
     pub fn open(folder: &Path) -> Result<Self, TextileError> {
         let failed = FileError::read(folder);
         let entries = fs::read_dir(folder).map_err(&failed)?;
-        let store = Store::Folder(folder.to_owned());
         let path = folder.join(INDEX);
         if path.exists() {
-            return Ok(Self::with_index(
-                store,
-                Index::from_toml(&read_text(&path)?, &path)?,
-            ));
+            let index = Index::from_toml(&read_text(&path)?, &path)?;
+            return Ok(Self::with_index(Store::Folder(folder.to_owned()), index));
         }
         let mut ids = Vec::new();
         for entry in entries {
@@ -133,49 +135,24 @@ impl Library {
             }
         }
         ids.sort();
-        Ok(Self {
-            place: Place::Files(store),
-            ids,
-            index: None,
-            cache: None,
-        })
+        Ok(Self::of_folder(folder, &ids))
     }
 
     /// One textile whose files are at hand and lie in no folder yet.
     pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
-        Self {
-            place: Place::Files(Store::Built(
-                Arc::new(files),
-                PathBuf::from("the new textile"),
-            )),
-            ids: vec![id.to_owned()],
-            index: None,
-            cache: None,
-        }
+        let store = Store::Built(Arc::new(files), PathBuf::from("the new textile"));
+        Self::new(Place::Files(store), vec![id.to_owned()], None)
     }
 
     /// The textiles with these ids of a folder, whatever index it has.
     pub(crate) fn of_folder(folder: &Path, ids: &[String]) -> Self {
-        Self {
-            place: Place::Files(Store::Folder(folder.to_owned())),
-            ids: ids.to_vec(),
-            index: None,
-            cache: None,
-        }
+        let store = Store::Folder(folder.to_owned());
+        Self::new(Place::Files(store), ids.to_vec(), None)
     }
 
     fn with_index(store: Store, index: Index) -> Self {
-        let ids = index
-            .textiles
-            .iter()
-            .map(|entry| entry.id.clone())
-            .collect();
-        Self {
-            place: Place::Files(store),
-            ids,
-            index: Some(index),
-            cache: None,
-        }
+        let ids = index.textiles.iter().map(|entry| entry.id.clone());
+        Self::new(Place::Files(store), ids.collect(), Some(index))
     }
 
     /// The ids of the textiles, in order.

@@ -78,6 +78,9 @@ const UNITS: [&str; 22] = [
     "_mn", "_pa", "_kpa", "_per_mm", "_per_cm", "_per_cm2", "_per_m", "_per_m2", "_tex",
 ];
 
+/// The whole, and its directions.
+const SIDES: [&str; 3] = ["", "warp", "weft"];
+
 /// A figure for people.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -92,7 +95,7 @@ pub struct Figure {
 }
 
 /// A figure that may be entered.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct KnownFigure {
     /// Its key in a manifest, such as `smd_warp_um`.
     pub key: String,
@@ -102,23 +105,22 @@ pub struct KnownFigure {
     pub what: &'static str,
     /// Its unit for people; may be empty.
     pub unit: &'static str,
+    /// The largest that is taken.
+    pub max: f64,
 }
 
 /// Every known figure in the testers' order, with those of one direction after it.
 pub fn all_known() -> impl Iterator<Item = KnownFigure> {
     KNOWN.iter().flat_map(|known| {
-        let sides: &[&str] = if known.has_directions {
-            &["", "warp", "weft"]
-        } else {
-            &[""]
-        };
-        sides.iter().map(|side| {
+        let n_sides = if known.has_directions { SIDES.len() } else { 1 };
+        SIDES[..n_sides].iter().map(|side| {
             let between = if side.is_empty() { "" } else { "_" };
             KnownFigure {
                 key: [known.symbol, between, side, known.suffix].concat(),
                 name: [known.name, side].join(" ").trim_end().to_owned(),
                 what: known.what,
                 unit: known.unit,
+                max: known.max,
             }
         })
     })
@@ -127,51 +129,30 @@ pub fn all_known() -> impl Iterator<Item = KnownFigure> {
 /// The figures of a manifest for people: the known ones in the testers' order, then the others by
 /// their keys.
 pub fn figures(measured: &BTreeMap<String, f64>) -> Vec<Figure> {
-    let mut known: Vec<(usize, &str, Figure)> = Vec::new();
-    let mut others = Vec::new();
-    for (key, value) in measured {
-        match find(key) {
-            Some((place, direction)) => {
-                let of = KNOWN[place];
-                let name = [of.name, direction].join(" ").trim_end().to_owned();
-                let figure = Figure {
-                    name,
-                    what: of.what,
-                    value: *value,
-                    unit: of.unit,
-                };
-                known.push((place, direction, figure));
-            }
-            None => others.push(Figure {
-                name: key.clone(),
-                what: "",
-                value: *value,
-                unit: "",
-            }),
-        }
-    }
-    known.sort_by_key(|(place, direction, _)| (*place, *direction));
-    let known = known.into_iter().map(|(_, _, figure)| figure);
-    known.chain(others).collect()
-}
-
-/// The figure that a key means: its place among the known ones, and its direction or nothing.
-fn find(key: &str) -> Option<(usize, &'static str)> {
-    KNOWN.iter().enumerate().find_map(|(place, known)| {
-        let between = key.strip_prefix(known.symbol)?.strip_suffix(known.suffix)?;
-        match between {
-            "" => Some((place, "")),
-            "_warp" if known.has_directions => Some((place, "warp")),
-            "_weft" if known.has_directions => Some((place, "weft")),
-            _ => None,
-        }
-    })
+    let known: Vec<KnownFigure> = all_known().collect();
+    let is_other = |key: &&String| known.iter().all(|figure| figure.key != **key);
+    let others: Vec<&String> = measured.keys().filter(is_other).collect();
+    let others = others.into_iter().map(|key| Figure {
+        name: key.clone(),
+        what: "",
+        value: measured[key],
+        unit: "",
+    });
+    let found = known.iter().filter_map(|figure| {
+        Some(Figure {
+            name: figure.name.clone(),
+            what: figure.what,
+            value: *measured.get(&figure.key)?,
+            unit: figure.unit,
+        })
+    });
+    found.chain(others).collect()
 }
 
 /// Refuses a figure out of its range, and a key that says no unit.
 pub(super) fn check(checker: &Checker<'_>, key: &str, value: f64) -> Result<(), TextileError> {
-    if let Some((place, _)) = find(key) {
-        return checker.within("measured", key, value, 0.0..=KNOWN[place].max);
+    if let Some(known) = all_known().find(|known| known.key == key) {
+        return checker.within("measured", key, value, 0.0..=known.max);
     }
     checker.within("measured", key, value, -1e12..=1e12)?;
     let has_unit = |unit: &str| key.len() > unit.len() && key.ends_with(unit);
@@ -201,34 +182,28 @@ mod tests {
 
     #[test]
     fn every_known_figure_takes_its_range_and_nothing_beyond() {
-        for (place, known) in KNOWN.iter().enumerate() {
-            let key = [known.symbol, known.suffix].concat();
-            assert_eq!(find(&key), Some((place, "")), "{key}");
-            checked(&key, known.max).unwrap();
+        for known in all_known() {
+            checked(&known.key, known.max).unwrap();
             for value in [f64::NAN, -0.1, known.max * 1.01] {
-                let error = checked(&key, value).unwrap_err();
-                assert!(
-                    error.starts_with(&format!("t.toml:2: {key} is ")),
-                    "{error}"
-                );
+                let error = checked(&known.key, value).unwrap_err();
+                let start = format!("t.toml:2: {} is ", known.key);
+                assert!(error.starts_with(&start), "{error}");
             }
         }
     }
 
     #[test]
-    fn every_figure_that_may_be_entered_is_known_by_its_key() {
-        let known: Vec<KnownFigure> = all_known().collect();
-        assert!(known.len() > KNOWN.len());
-        for figure in known {
-            assert!(find(&figure.key).is_some(), "{}", figure.key);
-        }
-    }
-
-    #[test]
     fn directions_are_for_figures_that_have_one() {
-        assert_eq!(find("smd_warp_um").map(|found| found.1), Some("warp"));
-        assert_eq!(find("mmd_official_weft").map(|found| found.1), Some("weft"));
-        assert_eq!(find("rc_warp_percent"), None);
+        let keys: Vec<String> = all_known().map(|known| known.key).collect();
+        let is_known = |key: &str| keys.iter().any(|known| known == key);
+        assert!(is_known("smd_warp_um") && is_known("mmd_official_weft"));
+        assert!(!is_known("rc_warp_percent"));
+        assert!(keys.len() > KNOWN.len());
+        assert!(
+            KNOWN
+                .iter()
+                .all(|known| is_known(&[known.symbol, known.suffix].concat()))
+        );
     }
 
     #[test]

@@ -20,6 +20,7 @@ use crate::recipe::Checker;
 use crate::sources::{self, KINDS, ReadKind, Source};
 use crate::tactile::check_gain;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string};
+use selvedge_foundation::named;
 
 /// The name of a manifest in its textile's folder.
 pub(crate) const MANIFEST: &str = "textile.toml";
@@ -59,31 +60,23 @@ pub struct Manifest<S = Source> {
     pub provenance: Option<Provenance>,
 }
 
-/// How a textile is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Construction {
-    /// Two sets of yarns that cross.
-    Woven,
-    /// Loops.
-    Knitted,
-    /// Bonded fibres.
-    Nonwoven,
-    /// Anything else.
-    #[default]
-    Other,
-}
-
-impl Construction {
-    /// The word that files use.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Woven => "woven",
-            Self::Knitted => "knitted",
-            Self::Nonwoven => "nonwoven",
-            Self::Other => "other",
-        }
+named! {
+    /// How a textile is made.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Construction {
+        /// Two sets of yarns that cross.
+        Woven = "woven",
+        /// Loops.
+        Knitted = "knitted",
+        /// Bonded fibres.
+        Nonwoven = "nonwoven",
+        /// Anything else.
+        #[default]
+        Other = "other",
     }
+    /// The word that files use.
+    pub fn word;
 }
 
 /// The picture of a textile.

@@ -7,46 +7,18 @@ use super::field::{FieldKeys, field_reading};
 use super::reading::Stated;
 use super::{HeightOptions, LengthUnit, Measured, Reading};
 use crate::surface::MAX_POINTS;
-use selvedge_foundation::files::{
-    FileError, GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff,
-};
+use selvedge_foundation::files::{FileError, GrayImage, decode_gray_png, decode_gray_tiff};
 
+pub(super) const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PREFIX: &str = "Gwy::";
 
-/// Reads a PNG.
-pub(super) fn read_png(
-    bytes: &[u8],
-    path: &Path,
-    asked: &HeightOptions,
-) -> Result<Reading, FileError> {
-    reading(
-        &decode_gray_png(bytes, path, MAX_POINTS)?,
-        "PNG",
-        path,
-        asked,
-    )
-}
-
-/// Reads a TIFF.
-pub(super) fn read_tiff(
-    bytes: &[u8],
-    path: &Path,
-    asked: &HeightOptions,
-) -> Result<Reading, FileError> {
-    reading(
-        &decode_gray_tiff(bytes, path, MAX_POINTS)?,
-        "TIFF",
-        path,
-        asked,
-    )
-}
-
-fn reading(
-    picture: &GrayImage,
-    format: &'static str,
-    path: &Path,
-    asked: &HeightOptions,
-) -> Result<Reading, FileError> {
+/// Reads a PNG or a TIFF.
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
+    let (picture, format) = if bytes.starts_with(PNG_MAGIC) {
+        (decode_gray_png(bytes, path, MAX_POINTS)?, "PNG")
+    } else {
+        (decode_gray_tiff(bytes, path, MAX_POINTS)?, "TIFF")
+    };
     let mut keys = FieldKeys::default();
     for (key, value) in &picture.texts {
         keys.set(key.strip_prefix(PREFIX).unwrap_or(""), value);
@@ -79,25 +51,13 @@ fn reading(
     Ok(reading)
 }
 
-/// Writes a map as PNG.
-pub(super) fn write_png(measured: &Measured, path: &Path) -> Result<Vec<u8>, FileError> {
-    encode_gray_png(&picture(measured, path)?, path)
-}
-
-/// Writes a map as TIFF.
-pub(super) fn write_tiff(measured: &Measured, path: &Path) -> Result<Vec<u8>, FileError> {
-    encode_gray_tiff(&picture(measured, path)?, path)
-}
-
-fn picture(measured: &Measured, path: &Path) -> Result<GrayImage, FileError> {
+/// A map as a picture.
+pub(super) fn picture(measured: &Measured, path: &Path) -> Result<GrayImage, FileError> {
     let n_missing = measured.n_missing();
     if n_missing > 0 {
         let what = format!("{n_missing} points are missing, which a picture cannot show");
-        return Err(FileError::whole(
-            path,
-            what,
-            "fill them first (--fill), or write X3P",
-        ));
+        let mend = "fill them first (--fill), or write X3P";
+        return Err(FileError::whole(path, what, mend));
     }
     let grid = &measured.heights_um;
     let [low, high] = measured.range_um();

@@ -34,7 +34,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use reading::{Reading, n_points};
-use selvedge_foundation::files::{FileError, NPY_MAGIC};
+use selvedge_foundation::files::{FileError, NPY_MAGIC, encode_gray_png, encode_gray_tiff};
 
 /// What can be read, for people.
 const READABLE: &str =
@@ -61,9 +61,9 @@ const FORMATS: [(&[u8], Reader); 11] = [
     (b"GWYP", gwy::read),
     (gsf::MAGIC, |bytes, path, _| gsf::read(bytes, path)),
     (NPY_MAGIC, |bytes, path, _| npy::read(bytes, path)),
-    (b"\x89PNG\r\n\x1a\n", image16::read_png),
-    (b"II*\0", image16::read_tiff),
-    (b"MM\0*", image16::read_tiff),
+    (image16::PNG_MAGIC, image16::read),
+    (b"II*\0", image16::read),
+    (b"MM\0*", image16::read),
     (tmd::MAGIC, |bytes, path, _| tmd::read(bytes, path)),
     (frt::MAGIC, |bytes, path, _| frt::read(bytes, path)),
 ];
@@ -104,8 +104,8 @@ pub fn write(measured: &Measured, path: &Path) -> Result<Vec<u8>, TextileError> 
         "x3p" => x3p::write(measured, Coding::default(), path)?,
         "gsf" => gsf::write(measured),
         "npy" => npy::write(measured),
-        "png" => image16::write_png(measured, path)?,
-        "tif" | "tiff" => image16::write_tiff(measured, path)?,
+        "png" => encode_gray_png(&image16::picture(measured, path)?, path)?,
+        "tif" | "tiff" => encode_gray_tiff(&image16::picture(measured, path)?, path)?,
         _ => {
             let what = "heights are not written in this format";
             let mend = "name a file that ends in .x3p, .gsf, .npy, .png or .tif";

@@ -1,6 +1,6 @@
 //! Small files of every format, made byte by byte for tests.
 
-use super::{Coding, HeightOptions, LengthUnit, Measured, frt, gsf, image16, npy, tmd, x3p};
+use super::{Coding, HeightOptions, LengthUnit, Measured, frt, gsf, npy, tmd, x3p};
 use crate::metrology::About;
 use selvedge_foundation::files::{Number, deflate, pack};
 use selvedge_foundation::numerics::Grid;
@@ -39,6 +39,7 @@ pub(super) fn all() -> Vec<(&'static str, Vec<u8>, HeightOptions)> {
         ..HeightOptions::default()
     };
     let none = HeightOptions::default();
+    let written = |name| super::write(&map(0), Path::new(name)).unwrap();
     let coded = |number, is_list| x3p::write(&map(2), Coding { number, is_list }, path).unwrap();
     vec![
         ("x3p f64", coded(Number::F64, false), none.clone()),
@@ -50,16 +51,8 @@ pub(super) fn all() -> Vec<(&'static str, Vec<u8>, HeightOptions)> {
         ("gwy", gwy(), none.clone()),
         ("gsf", gsf::write(&map(2)), none.clone()),
         ("npy", npy::write(&map(2)), asked.clone()),
-        (
-            "png",
-            image16::write_png(&map(0), path).unwrap(),
-            none.clone(),
-        ),
-        (
-            "tiff",
-            image16::write_tiff(&map(0), path).unwrap(),
-            none.clone(),
-        ),
+        ("png", written("map.png"), none.clone()),
+        ("tiff", written("map.tiff"), none.clone()),
         ("tmd", tmd(), none.clone()),
         ("frt", frt(), none.clone()),
         ("two columns", two_columns().into_bytes(), none.clone()),

@@ -8,6 +8,7 @@
 use super::basis::{Basis, Place, length, mix};
 use super::maxima::Maxima;
 use super::significant::{SHORTEST_PX, Significant, SignificantMaxima};
+use selvedge_foundation::named;
 
 /// A lattice whose angle has a smaller sine than this is no lattice of threads.
 pub(super) const MIN_SINE: f64 = 0.2;
@@ -20,26 +21,19 @@ const N_NEAR: usize = 30;
 const N_LONELY: usize = 14;
 const N_HIGH: usize = 14;
 
-/// What proposed a lattice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Directions by mean concentration, lengths by histogram.
-    MeanConcentration,
-    /// Directions by Hough transform, lengths by histogram.
-    Hough,
-    /// A pair of maxima.
-    Pair,
-}
-
-impl Method {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MeanConcentration => "mean concentration",
-            Self::Hough => "hough",
-            Self::Pair => "pair of maxima",
-        }
+named! {
+    /// What proposed a lattice.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Method {
+        /// Directions by mean concentration, lengths by histogram.
+        MeanConcentration = "mean concentration",
+        /// Directions by Hough transform, lengths by histogram.
+        Hough = "hough",
+        /// A pair of maxima.
+        Pair = "pair of maxima",
     }
+    /// Its name in files.
+    pub fn name;
 }
 
 /// A lattice fitted to the maxima, and how well it explains them.

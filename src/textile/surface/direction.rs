@@ -1,29 +1,28 @@
 //! The four directions in which a textile is stroked, and whether that is all that is felt.
 
+use selvedge_foundation::named;
 use serde::{Deserialize, Serialize};
 
-/// A principal direction of a stroke over a textile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Direction {
-    /// Along the warp, u rising.
-    WarpForward,
-    /// Along the warp, u falling.
-    WarpReverse,
-    /// Along the weft, w rising.
-    WeftForward,
-    /// Along the weft, w falling.
-    WeftReverse,
+named! {
+    /// A principal direction of a stroke over a textile.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum Direction {
+        /// Along the warp, u rising.
+        WarpForward = "warp forward", "warp_forward",
+        /// Along the warp, u falling.
+        WarpReverse = "warp reverse", "warp_reverse",
+        /// Along the weft, w rising.
+        WeftForward = "weft forward", "weft_forward",
+        /// Along the weft, w falling.
+        WeftReverse = "weft reverse", "weft_reverse",
+    }
+    /// The name of the direction for people.
+    pub fn label;
+    /// The name of the direction as files spell it.
+    pub fn key;
 }
 
 impl Direction {
-    /// All four, in the order of their indices.
-    pub const ALL: [Self; 4] = [
-        Self::WarpForward,
-        Self::WarpReverse,
-        Self::WeftForward,
-        Self::WeftReverse,
-    ];
-
     /// Forward and reverse along the warp, then along the weft.
     pub(crate) const BY_AXIS: [[Self; 2]; 2] = [
         [Self::WarpForward, Self::WarpReverse],
@@ -43,26 +42,6 @@ impl Direction {
     /// Whether the stroke runs against its axis.
     pub fn is_reverse(self) -> bool {
         matches!(self, Self::WarpReverse | Self::WeftReverse)
-    }
-
-    /// The name of the direction for people.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::WarpForward => "warp forward",
-            Self::WarpReverse => "warp reverse",
-            Self::WeftForward => "weft forward",
-            Self::WeftReverse => "weft reverse",
-        }
-    }
-
-    /// The name of the direction as files spell it.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::WarpForward => "warp_forward",
-            Self::WarpReverse => "warp_reverse",
-            Self::WeftForward => "weft_forward",
-            Self::WeftReverse => "weft_reverse",
-        }
     }
 }
 

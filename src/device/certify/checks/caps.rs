@@ -58,7 +58,7 @@ fn bounds(c: &mut Client<'_>) -> Verdict {
     for (what, holds) in BOUNDS {
         ensure(holds(&c.caps), || (*what).to_owned())?;
     }
-    let payload = c.caps_payload();
+    let payload = &c.caps_payload;
     let name_len = usize::from(payload.get(63).copied().unwrap_or(0));
     ensure(name_len <= 32, || format!("name_len is {name_len}"))?;
     let name = payload.get(64..64 + name_len).unwrap_or(&[]);
@@ -68,8 +68,8 @@ fn bounds(c: &mut Client<'_>) -> Verdict {
 
 fn again(c: &mut Client<'_>) -> Verdict {
     let first = c.hello();
-    let says = [first.clone(), first, c.hello(), c.hello()];
-    c.tell(&says).map(drop)
+    c.tell_with(|c| [first.clone(), first, c.hello(), c.hello()])
+        .map(drop)
 }
 
 fn ready(c: &mut Client<'_>) -> Verdict {

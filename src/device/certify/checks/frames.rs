@@ -4,10 +4,10 @@ use super::check::checks;
 use super::session::frame_codes;
 use super::steps::{expect, status_of};
 use crate::certify::client::Client;
-use crate::certify::predict::Allowed;
+use crate::certify::predict::{Allowed, Between};
 use crate::certify::say::{Say, Want, packet};
 use crate::certify::verdict::{Trouble, Verdict, ensure};
-use crate::message::{Config, DeviceState, NEXT_TICK, kind};
+use crate::message::{Config, DeviceState, NEXT_TICK, Status, kind};
 
 checks! { "frames":
     Quick "a second of faint frames" stream, "each is played in the next tick: amp_sum as sent";
@@ -29,8 +29,7 @@ fn armed(c: &mut Client<'_>) -> Verdict {
         ramp_ms: 10,
         ..c.usual()
     };
-    let says = c.arming(&config);
-    c.tell(&says).map(drop)
+    c.tell_with(|c| c.arming(&config)).map(drop)
 }
 
 fn sum(c: &Client<'_>, codes: &[[u16; 2]]) -> u32 {
@@ -46,12 +45,11 @@ fn stream(c: &mut Client<'_>) -> Verdict {
             Ok(()) => n_right += 1,
             // Host or link were late: the device may have fallen silent.
             Err(Trouble::Late) => armed(c)?,
-            Err(Trouble::Wrong(_)) if c.take_late() => armed(c)?,
+            Err(Trouble::Wrong(_)) if std::mem::take(&mut c.times.is_late) => armed(c)?,
             wrong => return wrong,
         }
         if n_right == 40 {
-            let stop = [c.stop(0)];
-            return c.tell(&stop).map(drop);
+            return c.tell_with(|c| [c.stop(0)]).map(drop);
         }
     }
     Err(Trouble::Late)
@@ -205,16 +203,7 @@ fn duplicates(c: &mut Client<'_>) -> Verdict {
     let status = status_of(c, tick + 2)?;
     c.tally.compare(&status)?;
     expect(&status, DeviceState::Hold, expected)?;
-    let ages_ms = heard.ages_ms(u64::from(tick + 2) * 25_000);
-    ensure(
-        (ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)),
-        || {
-            format!(
-                "age_ms {} after a duplicate, {} is right",
-                status.age_ms, ages_ms[0]
-            )
-        },
-    )?;
+    age_is(&status, heard, "a duplicate")?;
     // Only a FRAME is a duplicate by its seq.
     let mut ping = c.ping();
     if let Want::Pong(token) = ping.want {
@@ -248,16 +237,16 @@ fn refused(c: &mut Client<'_>) -> Verdict {
     ensure(status.last_seq == seq, || {
         format!("last_seq {} is of a refused FRAME", status.last_seq)
     })?;
-    let ages_ms = heard.ages_ms(u64::from(tick + 2) * 25_000);
-    ensure(
-        (ages_ms[0]..=ages_ms[1]).contains(&u64::from(status.age_ms)),
-        || {
-            format!(
-                "age_ms {} after a refused FRAME, {} is right",
-                status.age_ms, ages_ms[0]
-            )
-        },
-    )
+    age_is(&status, heard, "a refused FRAME")
+}
+
+/// The age still runs from the FRAME before.
+fn age_is(status: &Status, heard: Between, after: &str) -> Verdict {
+    let ages_ms = heard.ages_ms(u64::from(status.tick) * 25_000);
+    let age_ms = u64::from(status.age_ms);
+    ensure((ages_ms[0]..=ages_ms[1]).contains(&age_ms), || {
+        format!("age_ms {age_ms} after {after}, {} is right", ages_ms[0])
+    })
 }
 
 fn missing(c: &mut Client<'_>) -> Verdict {

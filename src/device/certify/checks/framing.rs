@@ -106,8 +106,7 @@ fn flips(c: &mut Client<'_>) -> Verdict {
 
 fn flipped_arm(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let says = [c.hello(), c.config(&config)];
-    c.tell(&says)?;
+    c.tell_with(|c| [c.hello(), c.config(&config)])?;
     let arm = c.arm();
     let says = flipped(c, &arm, 1);
     tell_all(c, &says)?;
@@ -151,7 +150,7 @@ fn full_block(c: &mut Client<'_>) -> Verdict {
 }
 
 fn echoes(c: &mut Client<'_>) -> Verdict {
-    let caps = c.caps_payload().to_vec();
+    let caps = c.caps_payload.clone();
     let mut says = vec![c.say(kind::CAPS, &caps).wants(Want::Bad)];
     for kind in [
         0x80,
@@ -223,8 +222,7 @@ fn pieces(c: &mut Client<'_>) -> Verdict {
 
 fn short(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let arming = c.arming(&config);
-    c.tell(&arming)?;
+    c.tell_with(|c| c.arming(&config))?;
     let hello = Speech::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
     let arm = Speech::arm_payload(c.session);
     let config = c.config_payload(&config);

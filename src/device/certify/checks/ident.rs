@@ -60,8 +60,7 @@ fn sounds(c: &mut Client<'_>) -> Verdict {
 
 fn sound(c: &mut Client<'_>, config: &Config, channel: u16, ms: u16, sum: u32) -> Verdict {
     let amp = amp(c);
-    let says = c.arming(config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(config))?;
     let tick = c.aim(6000)?;
     let asked = ident(c, channel, ms, amp);
     let heard = c.tell_at(tick, 6000, &[asked])?;

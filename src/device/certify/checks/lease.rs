@@ -18,21 +18,18 @@ checks! { "lease":
 }
 
 fn ready(c: &mut Client<'_>) -> Verdict {
-    let hello = c.hello_with([1, 1], 1, 130, 1);
-    let heard = c.tell(&[hello])?;
+    let heard = c.tell_with(|c| [c.hello_with([1, 1], 1, 130, 1)])?;
     expires(c, heard, 130)
 }
 
 fn armed(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let says = [c.hello_with([1, 1], 1, 110, 1), c.config(&config), c.arm()];
-    let heard = c.tell(&says)?;
+    let heard = c.tell_with(|c| [c.hello_with([1, 1], 1, 110, 1), c.config(&config), c.arm()])?;
     expires(c, heard, 110)
 }
 
 fn usual(c: &mut Client<'_>) -> Verdict {
-    let hello = c.hello_with([1, 1], 1, 0, 1);
-    let heard = c.tell(&[hello])?;
+    let heard = c.tell_with(|c| [c.hello_with([1, 1], 1, 0, 1)])?;
     expires(c, heard, 1000)
 }
 
@@ -89,8 +86,7 @@ fn renewed(c: &mut Client<'_>) -> Verdict {
         // What is said alone has no PONG that tells when it was heard, so it is tried again.
         let mut verdict = Err(Trouble::Late);
         for _ in 0..3 {
-            let hello = [c.hello_with([1, 1], 1, 120, 1)];
-            c.tell(&hello)?;
+            c.tell_with(|c| [c.hello_with([1, 1], 1, 120, 1)])?;
             let say = sign(c, &config, &codes);
             verdict = renews(c, say);
             if verdict.is_ok() {
@@ -150,8 +146,7 @@ fn renews(c: &mut Client<'_>, sign: Say) -> Verdict {
 }
 
 fn not_renewed(c: &mut Client<'_>) -> Verdict {
-    let hello = c.hello_with([1, 1], 1, 130, 1);
-    let heard = c.tell(&[hello])?;
+    let heard = c.tell_with(|c| [c.hello_with([1, 1], 1, 130, 1)])?;
     c.pass(70_000)?;
     let wrong = Speech::hello_payload(0, [1, 1], 1, 0);
     for say in [

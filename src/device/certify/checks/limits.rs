@@ -4,7 +4,6 @@ use super::check::checks;
 use super::steps::{expect, status_of};
 use crate::certify::client::Client;
 use crate::certify::predict::Allowed;
-use crate::certify::say::Say;
 use crate::certify::verdict::{Trouble, Verdict, ensure};
 use crate::message::{Caps, ChannelMask, Config, DeviceState, Status};
 
@@ -44,8 +43,8 @@ fn usual(c: &mut Client<'_>) -> Verdict {
         hv_dv: 1,
         ..config
     };
-    let says = [c.config(&config), c.config(&slower), c.config(&config)];
-    c.tell(&says).map(drop)
+    c.tell_with(|c| [c.config(&config), c.config(&slower), c.config(&config)])
+        .map(drop)
 }
 
 /// A wish that CAPS and the rules bound, as what it changes of a plain one.
@@ -91,8 +90,7 @@ fn clamps(c: &mut Client<'_>) -> Verdict {
             ..c.usual()
         };
         change(&mut wish, &c.caps);
-        let says = [c.config(&wish)];
-        c.tell(&says)?;
+        c.tell_with(|c| [c.config(&wish)])?;
     }
     Ok(())
 }
@@ -103,10 +101,8 @@ fn last_config(c: &mut Client<'_>) -> Verdict {
         ..c.usual()
     };
     let usual = c.usual();
-    let says = [c.config(&silent), c.config(&usual), c.config(&silent)];
-    c.tell(&says)?;
-    let says = [c.config(&usual), c.arm()];
-    c.tell(&says)?;
+    c.tell_with(|c| [c.config(&silent), c.config(&usual), c.config(&silent)])?;
+    c.tell_with(|c| [c.config(&usual), c.arm()])?;
     let codes = c.faint(2);
     let expected = Allowed::of(&codes, &usual).sum();
     frame_is(c, &codes, expected, 0).map(drop)
@@ -133,8 +129,7 @@ fn frame_is(
 
 /// Arms with this and plays one FRAME that comes to what follows from it.
 fn play_is(c: &mut Client<'_>, config: &Config, codes: &[[u16; 2]]) -> Verdict {
-    let says: Vec<Say> = c.arming(config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(config))?;
     let allowed = Allowed::of(codes, config);
     c.tally.due.clipped = c.tally.due.clipped.wrapping_add(allowed.clipped);
     let status = frame_is(c, codes, allowed.sum(), 2 * allowed.n_scaled)?;
@@ -173,8 +168,7 @@ fn clipped(c: &mut Client<'_>) -> Verdict {
         comp_limit: [1, 1],
         ..c.usual()
     };
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
     c.tally.due.clipped = c
         .tally
@@ -221,8 +215,7 @@ fn slew(c: &mut Client<'_>) -> Verdict {
         ramp_ms: 10,
         ..c.usual()
     };
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     let [up, down] = [
         c.faint(1),
         c.faint(9).iter().map(|code| code.map(|c| c / 4)).collect(),
@@ -283,8 +276,7 @@ fn guard(c: &mut Client<'_>) -> Verdict {
     ];
     shares(c, &config)?;
     for codes in full {
-        let says = c.arming(&config);
-        c.tell(&says)?;
+        c.tell_with(|c| c.arming(&config))?;
         let allowed = Allowed::of(&codes, &config);
         let mut status = None;
         for _ in 0..n_ticks.max(1) {
@@ -311,8 +303,7 @@ fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
         ..*config
     };
     let codes = vec![[60_000, 30_000]; c.n_ch()];
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     let allowed = Allowed::of(&codes, &config);
     let n_up = allowed
         .codes

@@ -71,7 +71,6 @@ fn states(c: &mut Client<'_>) -> Verdict {
             )
         })?;
     }
-    let idle = c.hello_with([2, 2], 1, 0, 0);
-    c.tell(&[idle])?;
+    c.tell_with(|c| [c.hello_with([2, 2], 1, 0, 0)])?;
     c.tell(&[]).map(drop)
 }

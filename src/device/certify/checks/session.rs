@@ -30,18 +30,17 @@ fn arming(c: &mut Client<'_>) -> Verdict {
 
 fn wrong_hello(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     let right = Speech::hello_payload(c.session.wrapping_add(2), [1, 1], 1, 0);
     let mut other_magic = right.clone();
     other_magic[3] = b'2';
     let no_session = Speech::hello_payload(0, [1, 1], 1, 0);
-    let says = [&other_magic[..], &no_session, &right[..15], &[]]
-        .map(|payload| c.say(kind::HELLO, payload).wants(Want::Bad));
-    c.tell(&says)?;
+    c.tell_with(|c| {
+        [&other_magic[..], &no_session, &right[..15], &[]]
+            .map(|payload| c.say(kind::HELLO, payload).wants(Want::Bad))
+    })?;
     expect(&c.status()?, DeviceState::Armed, 0)?;
-    let arm = c.arm();
-    c.tell(&[arm]).map(drop)
+    c.tell_with(|c| [c.arm()]).map(drop)
 }
 
 fn wrong_arm(c: &mut Client<'_>) -> Verdict {
@@ -61,8 +60,7 @@ fn wrong_arm(c: &mut Client<'_>) -> Verdict {
     }
     c.tell(&says)?;
     expect(&c.status()?, DeviceState::Ready, 0)?;
-    let says = [c.arm()];
-    c.tell(&says).map(drop)
+    c.tell_with(|c| [c.arm()]).map(drop)
 }
 
 fn unconfigured(c: &mut Client<'_>) -> Verdict {
@@ -109,8 +107,7 @@ fn versions(c: &mut Client<'_>) -> Verdict {
     }
     silent_for(c, 4)?;
     for offered in [[0, 1], [1, 9], [0, 255], [1, 1]] {
-        let hello = c.hello_with(offered, 1, 0, 1);
-        c.tell(&[hello])?;
+        c.tell_with(|c| [c.hello_with(offered, 1, 0, 1)])?;
         expect(&c.status()?, DeviceState::Ready, 0)?;
     }
     Ok(())
@@ -140,21 +137,18 @@ fn version_running(c: &mut Client<'_>) -> Verdict {
     ];
     c.tell_at(there.tick, there.phase_us, &says)?;
     silent_for(c, 3)?;
-    let hello = c.hello();
-    c.tell(&[hello])?;
+    c.tell_with(|c| [c.hello()])?;
     expect(&c.status()?, DeviceState::Ready, 0)
 }
 
 fn unwanted(c: &mut Client<'_>) -> Verdict {
-    let hello = c.hello_with([1, 1], 0, 0, 1);
-    c.tell(&[hello])?;
+    c.tell_with(|c| [c.hello_with([1, 1], 0, 0, 1)])?;
     silent_for(c, 4)
 }
 
 fn counters(c: &mut Client<'_>) -> Verdict {
     let (config, codes) = (c.usual(), c.faint(3));
-    let arming = c.arming(&config);
-    c.tell(&arming)?;
+    c.tell_with(|c| c.arming(&config))?;
     let (_, _) = c.tell_in_tick(|c, tick| {
         let frame = c.frame(tick, &codes);
         vec![
@@ -166,8 +160,7 @@ fn counters(c: &mut Client<'_>) -> Verdict {
     c.tally.due.late += 1;
     c.tally.due.dup += 1;
     let before = c.status()?;
-    let hello = c.hello();
-    c.tell(&[hello])?;
+    c.tell_with(|c| [c.hello()])?;
     let after = c.status()?;
     c.tally.compare(&after)?;
     let n_missed = after.underrun.wrapping_sub(before.underrun);

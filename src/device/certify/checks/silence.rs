@@ -70,8 +70,7 @@ fn other_times(c: &mut Client<'_>) -> Verdict {
 fn disarmed(c: &mut Client<'_>) -> Verdict {
     silence(c, 25, 10, 6000)?;
     let codes = c.faint(1);
-    let says = [c.frame_next(&codes).wants(Want::Ack(2)), c.arm()];
-    c.tell(&says)?;
+    c.tell_with(|c| [c.frame_next(&codes).wants(Want::Ack(2)), c.arm()])?;
     super::steps::expect(&c.status()?, DeviceState::Armed, 0)
 }
 

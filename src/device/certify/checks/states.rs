@@ -74,8 +74,7 @@ fn armed(c: &mut Client<'_>) -> Verdict {
 
 fn armed_long(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     for _ in 0..8 {
         c.tell(&[])?;
         for status in c.statuses(4)? {

@@ -33,8 +33,7 @@ pub(super) fn play_at(
     codes: &[[u16; 2]],
     phase_us: u64,
 ) -> Result<Played, Trouble> {
-    let arming = c.arming(config);
-    c.tell(&arming)?;
+    c.tell_with(|c| c.arming(config))?;
     c.aim(phase_us)?;
     let frame = c.frame_next(codes);
     let seq = frame.seq;
@@ -54,11 +53,7 @@ pub(super) fn play_at(
 /// The tick in which all of it was heard.
 pub(super) fn tick_of(heard: Between) -> Result<u32, Trouble> {
     let tick = crate::fields::wrapped_u32(heard.from_us / u64::from(TICK_US));
-    if heard.is_in(tick) {
-        Ok(tick)
-    } else {
-        Err(Trouble::Late)
-    }
+    heard.within(tick).map(|_| tick)
 }
 
 /// The STATUS of this tick; those before it are passed over.

@@ -120,8 +120,7 @@ fn second(c: &mut Client<'_>) -> Verdict {
 fn queue(c: &mut Client<'_>) -> Verdict {
     let (config, codes) = (c.usual(), c.faint(3));
     let depth = u32::from(c.caps.queue.min(4));
-    let arming = c.arming(&config);
-    c.tell(&arming)?;
+    c.tell_with(|c| c.arming(&config))?;
     c.tell_in_tick(|c, tick| {
         let mut says: Vec<_> = (1..=depth)
             .map(|ahead| c.frame(tick + ahead, &codes))
@@ -140,13 +139,11 @@ fn queue(c: &mut Client<'_>) -> Verdict {
 
 fn voltage(c: &mut Client<'_>) -> Verdict {
     let config = c.usual();
-    let says = c.arming(&config);
-    c.tell(&says)?;
+    c.tell_with(|c| c.arming(&config))?;
     let wanted = u32::from(config.hv_dv);
     let least = (wanted - wanted / 10).saturating_sub(20);
     reached(c, "on", |hv_dv| hv_dv >= least)?;
-    let stop = c.stop(1);
-    c.tell(&[stop])?;
+    c.tell_with(|c| [c.stop(1)])?;
     reached(c, "off", |hv_dv| hv_dv <= 20)
 }
 
@@ -158,8 +155,7 @@ fn reached(c: &mut Client<'_>, what: &str, is_there: impl Fn(u32) -> bool) -> Ve
         if is_there(last.into()) {
             return Ok(());
         }
-        let ping = c.ping();
-        c.tell(&[ping])?;
+        c.tell_with(|c| [c.ping()])?;
     }
     ensure(false, || {
         format!("hv_dV is {last} a second after it went {what}")

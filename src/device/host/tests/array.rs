@@ -19,10 +19,10 @@ fn set(pair: &mut Pair, profile: ArrayProfile) -> Result<(), &'static str> {
 #[test]
 fn what_lowers_takes_effect_at_once_and_what_raises_waits_for_rest() {
     let mut pair = Pair::streaming(2000);
-    assert_eq!(pair.device.output(), vec![[13107, 26214]; 24]);
+    assert_eq!(pair.device.core().output(), vec![[13107, 26214]; 24]);
     assert_eq!(set(&mut pair, limited([50.0, 10.0])), Ok(()));
     pair.run(100);
-    assert_eq!(pair.device.output(), vec![[13107, 13107]; 24]);
+    assert_eq!(pair.device.core().output(), vec![[13107, 13107]; 24]);
     assert_eq!(pair.host.state(), BridgeState::Streaming, "it goes on");
     let refused = set(&mut pair, limited([50.0, 11.0]));
     assert!(
@@ -32,7 +32,7 @@ fn what_lowers_takes_effect_at_once_and_what_raises_waits_for_rest() {
     );
     pair.run(100);
     assert_eq!(
-        pair.device.output(),
+        pair.device.core().output(),
         vec![[13107, 13107]; 24],
         "nothing rose"
     );
@@ -48,7 +48,7 @@ fn what_lowers_takes_effect_at_once_and_what_raises_waits_for_rest() {
     assert_eq!(asked, [65535, 14418], "the device was configured anew");
     assert!(pair.host.arm(pair.now()));
     pair.run(1000);
-    assert_eq!(pair.device.output(), vec![[13107, 14418]; 24]);
+    assert_eq!(pair.device.core().output(), vec![[13107, 14418]; 24]);
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn run_unheard(pair: &mut Pair, ms: u64) -> Vec<BridgeEvent> {
 }
 
 fn channels(pair: &Pair) -> Vec<(usize, [u16; 2])> {
-    let output = pair.device.output();
+    let output = pair.device.core().output();
     let driven = output.into_iter().enumerate();
     driven.filter(|(_, code)| *code != [0, 0]).collect()
 }
@@ -200,7 +200,7 @@ fn calibration_and_wiring_reach_the_device() {
     pair.run(500);
     assert!(pair.host.arm(pair.now()));
     pair.run(1000);
-    let output = pair.device.output();
+    let output = pair.device.core().output();
     assert_eq!(
         output[23],
         [13107, 13107],

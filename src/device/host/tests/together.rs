@@ -29,7 +29,7 @@ fn host_and_device_stream_without_a_miss() {
             Coder::new(&ArrayProfile::default(), 24).encode(&[pair.amplitude_um; 24], gain);
         assert_eq!(*codes, expected);
     }
-    assert_eq!(pair.device.output(), vec![[13107, 26214]; 24]);
+    assert_eq!(pair.device.core().output(), vec![[13107, 26214]; 24]);
 
     pair.host.stop(pair.now(), StopHow::Ramp);
     assert!(pair.host.frame(pair.now(), &[[1.0, 1.0]; 24]).is_none());
@@ -38,7 +38,7 @@ fn host_and_device_stream_without_a_miss() {
     assert_eq!(pair.host.state(), BridgeState::Stopping, "still ramping");
     pair.run(90);
     assert_eq!(pair.host.state(), BridgeState::Ready);
-    assert_eq!(pair.device.state(), DeviceState::Ready);
+    assert_eq!(pair.device.core().state(), DeviceState::Ready);
     pair.run(3000);
     assert_eq!(
         pair.host.state(),
@@ -48,7 +48,7 @@ fn host_and_device_stream_without_a_miss() {
     assert!(pair.host.arm(pair.now()));
     pair.run(200);
     assert_eq!(
-        pair.device.state(),
+        pair.device.core().state(),
         DeviceState::Run,
         "and it can be armed again"
     );
@@ -59,7 +59,7 @@ fn an_idle_host_never_arms_and_refuses_frames() {
     let mut pair = Pair::new();
     pair.run(5000);
     assert!(pair.host.frame(pair.now(), &[[9.0, 9.0]; 24]).is_none());
-    assert_eq!(pair.device.state(), DeviceState::Ready);
+    assert_eq!(pair.device.core().state(), DeviceState::Ready);
     assert!(pair.sent.is_empty());
 }
 
@@ -84,7 +84,13 @@ fn a_cut_link_is_lost_within_500_ms_and_the_device_silent_within_100() {
     let mut pair = Pair::streaming(500);
     pair.cut = true;
     pair.run(125);
-    assert!(pair.device.output().iter().all(|codes| *codes == [0, 0]));
+    assert!(
+        pair.device
+            .core()
+            .output()
+            .iter()
+            .all(|codes| *codes == [0, 0])
+    );
     assert_eq!(pair.host.state(), BridgeState::Streaming);
     pair.run(400);
     assert_eq!(pair.host.state(), BridgeState::Lost);
@@ -106,7 +112,7 @@ fn a_device_that_disarms_itself_is_not_armed_again() {
     assert_eq!(by, DisarmedBy::Device);
     assert!(reason.contains("disarmed itself"), "{reason}");
     assert_eq!(pair.host.state(), BridgeState::Ready);
-    assert_eq!(pair.device.state(), DeviceState::Ready);
+    assert_eq!(pair.device.core().state(), DeviceState::Ready);
 }
 
 #[test]
@@ -196,6 +202,6 @@ fn a_noisy_link_costs_frames_but_never_applies_a_wrong_one() {
         );
         pair.host.stop(pair.now(), StopHow::Ramp);
         pair.run(1000);
-        assert!(!pair.device.state().is_live());
+        assert!(!pair.device.core().state().is_live());
     }
 }

@@ -10,75 +10,39 @@ use std::collections::BTreeMap;
 
 use super::Faults;
 use crate::device::FirmwareLie;
+use selvedge_foundation::named;
 use table::{OPTIONS, Spoken};
 
 /// The text that switches an option on.
 const ON: &str = "on";
 
-/// What belongs together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FaultGroup {
-    /// What holds for all of them.
-    All,
-    /// How long bytes take.
-    Latency,
-    /// What becomes of bytes.
-    Bytes,
-    /// The device's clock.
-    Clock,
-    /// What stands still at a told time.
-    Stalls,
-    /// What breaks in the device.
-    Device,
-    /// Which channel moves what.
-    Channels,
-    /// What the firmware does wrong.
-    Firmware,
-}
-
-impl FaultGroup {
-    /// All of them, in the order in which they are shown.
-    pub const ALL: [Self; 8] = [
-        Self::All,
-        Self::Latency,
-        Self::Bytes,
-        Self::Clock,
-        Self::Stalls,
-        Self::Device,
-        Self::Channels,
-        Self::Firmware,
-    ];
-
+named! {
+    /// What belongs together.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FaultGroup {
+        /// What holds for all of them.
+        All = "Faults", "Faults",
+        /// How long bytes take.
+        Latency = "Latency", "Faults: latency",
+        /// What becomes of bytes.
+        Bytes = "Bytes", "Faults: bytes",
+        /// The device's clock.
+        Clock = "Clock", "Faults: the device's clock",
+        /// What stands still at a told time.
+        Stalls = "Stalls and cable",
+            "Faults: stalls and cable (TIME since the start: 5s, or 5s+300ms for how long; \
+                 5s,20s for two)",
+        /// What breaks in the device.
+        Device = "Device troubles", "Faults: the device (TIME as above)",
+        /// Which channel moves what.
+        Channels = "Channels", "Faults: channels",
+        /// What the firmware does wrong.
+        Firmware = "Firmware", "Faults: the firmware",
+    }
     /// A word or two for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::All => "Faults",
-            Self::Latency => "Latency",
-            Self::Bytes => "Bytes",
-            Self::Clock => "Clock",
-            Self::Stalls => "Stalls and cable",
-            Self::Device => "Device troubles",
-            Self::Channels => "Channels",
-            Self::Firmware => "Firmware",
-        }
-    }
-
+    pub fn name;
     /// Its heading on the command line.
-    pub fn heading(self) -> &'static str {
-        match self {
-            Self::All => "Faults",
-            Self::Latency => "Faults: latency",
-            Self::Bytes => "Faults: bytes",
-            Self::Clock => "Faults: the device's clock",
-            Self::Stalls => {
-                "Faults: stalls and cable (TIME since the start: 5s, or 5s+300ms for how long; \
-                 5s,20s for two)"
-            }
-            Self::Device => "Faults: the device (TIME as above)",
-            Self::Channels => "Faults: channels",
-            Self::Firmware => "Faults: the firmware",
-        }
-    }
+    pub fn heading;
 }
 
 /// How often an option may be said, and whether it takes a text.

@@ -148,58 +148,7 @@ fn lies(lies: &mut Vec<FirmwareLie>, text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// An option that happens at told times.
-macro_rules! once {
-    ($name:literal, $label:literal, $group:ident, $kind:ident, $help:literal) => {
-        FaultOption {
-            name: $name,
-            label: $label,
-            group: FaultGroup::$group,
-            kind: FaultKind::Many,
-            value: "TIME",
-            usual: "",
-            example: "5s",
-            help: $help,
-            read: |said, text| said.once(OneOffKind::$kind, text),
-        }
-    };
-}
-
-/// An option with a share of something.
-macro_rules! share {
-    ($name:literal, $label:literal, $field:ident, $help:literal) => {
-        FaultOption {
-            name: $name,
-            label: $label,
-            group: FaultGroup::Bytes,
-            kind: FaultKind::One,
-            value: "RATE",
-            usual: "0",
-            example: "0.1%",
-            help: $help,
-            read: |said, text| parse::rate(text).map(|rate| said.link.$field = rate),
-        }
-    };
-}
-
-/// An option that is on or off.
-macro_rules! switch {
-    ($name:literal, $label:literal, $field:ident, $help:literal) => {
-        FaultOption {
-            name: $name,
-            label: $label,
-            group: FaultGroup::Bytes,
-            kind: FaultKind::Switch,
-            value: "",
-            usual: "",
-            example: "",
-            help: $help,
-            read: |said, text| switch(text).map(|is_on| said.$field = is_on),
-        }
-    };
-}
-
-/// An option of another kind: name, label, group, kind, value, usual text, example, help, reader.
+/// An option: name, label, group, kind, value, usual text, example, help, reader.
 macro_rules! option {
     ($name:expr, $label:literal, $group:ident, $kind:ident, $value:literal,
      $usual:literal, $example:literal, $help:literal, $read:expr) => {
@@ -214,6 +163,57 @@ macro_rules! option {
             help: $help,
             read: $read,
         }
+    };
+}
+
+/// An option that happens at told times.
+macro_rules! once {
+    ($name:literal, $label:literal, $group:ident, $kind:ident, $help:literal) => {
+        option!(
+            $name,
+            $label,
+            $group,
+            Many,
+            "TIME",
+            "",
+            "5s",
+            $help,
+            |said, text| { said.once(OneOffKind::$kind, text) }
+        )
+    };
+}
+
+/// An option with a share of something.
+macro_rules! share {
+    ($name:literal, $label:literal, $field:ident, $help:literal) => {
+        option!(
+            $name,
+            $label,
+            Bytes,
+            One,
+            "RATE",
+            "0",
+            "0.1%",
+            $help,
+            |said, text| { parse::rate(text).map(|rate| said.link.$field = rate) }
+        )
+    };
+}
+
+/// An option that is on or off.
+macro_rules! switch {
+    ($name:literal, $label:literal, $field:ident, $help:literal) => {
+        option!(
+            $name,
+            $label,
+            Bytes,
+            Switch,
+            "",
+            "",
+            "",
+            $help,
+            |said, text| { switch(text).map(|is_on| said.$field = is_on) }
+        )
     };
 }
 

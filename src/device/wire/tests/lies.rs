@@ -89,7 +89,7 @@ fn a_dead_channel_moves_nothing_and_swapped_ones_move_each_other() {
             amp: 9000,
         };
         trial.host_writes(&ident.packet(900 + channel).unwrap());
-        let output = trial.device.output();
+        let output = trial.device.core().output();
         let moving = output.iter().position(|codes| *codes != [0; 2]);
         assert_eq!(moving, moves, "channel {channel}");
         trial.run(1);

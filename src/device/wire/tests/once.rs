@@ -102,7 +102,7 @@ fn a_supply_that_is_measured_trips_on_what_the_codes_take_and_can_be_armed_softe
     };
     let trial = Simulation::streaming_over(&above(u16::MAX), 3000);
     let status = *trial.host.status().unwrap();
-    let codes = trial.device.output();
+    let codes = trial.device.core().output();
     let load = crate::actuator_model::ContactorModel::default().load();
     let ma = load.ma(codes.into_iter());
     assert!(ma > 2.0, "{ma}");
@@ -140,7 +140,7 @@ fn a_reboot_starts_tick_and_counters_anew_and_keeps_no_session() {
     let before = trial.device.core().tick();
     trial.run(700);
     assert!(trial.device.core().tick() < 40 && before > 100);
-    assert_eq!(trial.device.state(), DeviceState::Idle);
+    assert_eq!(trial.device.core().state(), DeviceState::Idle);
     assert_eq!(trial.device.counters_of_boots().len(), 2);
     trial.run(1000);
     // It answers PINGs, so that nobody is sent to look after the cable.

@@ -15,7 +15,7 @@ fn armed(faults: &Faults) -> (WiredDevice, Vec<u8>, u64) {
         at_us += 10_000;
         device.advance(at_us, &mut sink);
     }
-    assert_eq!(device.state(), DeviceState::Armed);
+    assert_eq!(device.core().state(), DeviceState::Armed);
     (device, sink, 250_000)
 }
 
@@ -41,8 +41,8 @@ fn lasts_us(faults: &Faults, phase_us: u64, depth: u32) -> u64 {
         let loud_us = device.core().loud_age_us(longest_us);
         longest_us = loud_us.unwrap_or(longest_us);
     }
-    assert_eq!(device.state(), DeviceState::Ready, "disarmed");
-    assert!(device.output().iter().all(|codes| *codes == [0; 2]));
+    assert_eq!(device.core().state(), DeviceState::Ready, "disarmed");
+    assert!(device.core().output().iter().all(|codes| *codes == [0; 2]));
     longest_us
 }
 

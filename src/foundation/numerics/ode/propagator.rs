@@ -4,6 +4,7 @@ use std::array::from_fn;
 
 use super::exponential;
 use super::matrix::{Matrix, combination, identity, norm, product, scaled, solve};
+use crate::named;
 
 /// Squarings after which the growth of a matrix's powers is known to all digits.
 const SQUARINGS: i32 = 40;
@@ -17,37 +18,21 @@ pub struct LinearSystem<const N: usize, const M: usize> {
     pub b: Matrix<N, M>,
 }
 
-/// A way to take a step. Orders and stability stand at the top of the module.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum StepMethod {
-    /// The solution itself, by the matrix exponential.
-    ExactHold,
-    /// The classical method of four stages.
-    RungeKutta4,
-    /// The trapezoidal rule (Crank–Nicolson, Tustin).
-    Trapezoid,
-    /// The implicit Euler rule.
-    BackwardEuler,
-}
-
-impl StepMethod {
-    /// All of them, the exact one first.
-    pub const ALL: [Self; 4] = [
-        Self::ExactHold,
-        Self::RungeKutta4,
-        Self::Trapezoid,
-        Self::BackwardEuler,
-    ];
-
-    /// Its name, for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ExactHold => "exact hold",
-            Self::RungeKutta4 => "Runge–Kutta 4",
-            Self::Trapezoid => "trapezoid",
-            Self::BackwardEuler => "backward Euler",
-        }
+named! {
+    /// A way to take a step. Orders and stability stand at the top of the module.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum StepMethod {
+        /// The solution itself, by the matrix exponential.
+        ExactHold = "exact hold",
+        /// The classical method of four stages.
+        RungeKutta4 = "Runge–Kutta 4",
+        /// The trapezoidal rule (Crank–Nicolson, Tustin).
+        Trapezoid = "trapezoid",
+        /// The implicit Euler rule.
+        BackwardEuler = "backward Euler",
     }
+    /// Its name, for people.
+    pub fn name;
 }
 
 /// One step: `x⁺ = P x + Q u`.

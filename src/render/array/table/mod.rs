@@ -18,9 +18,7 @@ pub(super) use touched::{MAX_TABLE_BYTES, table_bytes};
 use std::sync::Arc;
 
 use super::ErrorBound;
-use crate::plan::{
-    Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan,
-};
+use crate::plan::{Axis, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan};
 use crate::{RenderError, RenderScene, single};
 use grid::MIN_POWER_GAIN;
 use segments::{Segments, Spot};
@@ -123,16 +121,10 @@ impl TableEvaluator {
         let mut heard = [None; 2];
         for axis in Axis::BOTH {
             self.blended[axis as usize][0] = [0.0; 2];
-            let component = contacts.component(axis, 0);
-            let Component::Felt {
-                speed_mm_per_s,
-                is_reverse,
-            } = component
-            else {
-                counters.left_out(component, n as u64);
+            let felt = contacts.felt(axis, 0, n as u64, counters);
+            let Some((d, speed_mm_per_s)) = felt else {
                 continue;
             };
-            let d = axis.direction(is_reverse).index();
             let spot = self.segments.find(speed_mm_per_s);
             counters.speeds_repeated += n as u64 - 1;
             heard[axis as usize] = self.heard_areally(textile, d, spot);

@@ -3,43 +3,29 @@
 use serde::{Deserialize, Serialize};
 
 use super::light::Light;
+use selvedge_foundation::named;
 use selvedge_foundation::numerics::Grid;
 
-/// How heights are found from brightness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// Tsai & Shah's iteration as published.
-    TsaiShah,
-    /// The linear inversion of Pentland, regularised.
-    Linear,
-    /// Regularised least squares on the full reflectance.
-    #[default]
-    Variational,
+named! {
+    /// How heights are found from brightness.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Method {
+        /// Tsai & Shah's iteration as published.
+        TsaiShah = "tsai-shah", "Tsai & Shah",
+        /// The linear inversion of Pentland, regularised.
+        Linear = "linear", "linear",
+        /// Regularised least squares on the full reflectance.
+        #[default]
+        Variational = "variational", "variational",
+    }
+    /// The word that files and commands use.
+    pub fn word;
+    /// What people read.
+    pub fn label;
 }
 
 impl Method {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::TsaiShah, Self::Linear, Self::Variational];
-
-    /// The word that files and commands use.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::TsaiShah => "tsai-shah",
-            Self::Linear => "linear",
-            Self::Variational => "variational",
-        }
-    }
-
-    /// What people read.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::TsaiShah => "Tsai & Shah",
-            Self::Linear => "linear",
-            Self::Variational => "variational",
-        }
-    }
-
     /// Iterations unless stated.
     pub(crate) fn default_iterations(self) -> usize {
         match self {
