@@ -48,6 +48,13 @@ pub fn to_byte(x: f64) -> u8 {
     x as u8
 }
 
+/// The nearest number of single precision: a place or a share for the screen, an amplitude that
+/// travels.
+#[expect(clippy::cast_possible_truncation, reason = "rounds, as is said")]
+pub fn to_single(x: f64) -> f32 {
+    x as f32
+}
+
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///
 /// Sorts `values` in place.

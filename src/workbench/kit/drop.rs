@@ -6,7 +6,7 @@ use eframe::egui::{Align, Label, Layout, Rect, RichText, Stroke, StrokeKind, Ui,
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, quiet};
 
 /// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
 pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
@@ -49,7 +49,7 @@ pub(crate) fn nothing_yet(
     ui.label(RichText::new(line).color(palette.text));
     let is_pressed = button(ui, ask, "", None);
     for words in notes {
-        let words = RichText::new(words).font(theme::small()).color(palette.dim);
+        let words = quiet(words);
         ui.add(Label::new(words).wrap());
     }
     is_pressed

@@ -1,11 +1,11 @@
 //! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
 
-use eframe::egui::{
-    self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,
-};
+use eframe::egui::{self, Label, Margin, RichText, Stroke, TextEdit, Ui, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::list;
+use crate::kit::widgets::text::{line, quiet, small};
 
 /// Height of a row, points.
 pub(crate) const LINE: f32 = 22.0;
@@ -35,8 +35,7 @@ impl Need {
 /// The title of a step, and how far it is in a few words.
 pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
     let palette = Palette::in_ui(ui);
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         let nth = RichText::new(nth.to_string())
             .font(theme::number())
             .color(palette.dim);
@@ -47,7 +46,7 @@ pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
                 .strong()
                 .color(palette.text),
         );
-        let state = RichText::new(state).font(theme::small()).color(palette.dim);
+        let state = quiet(state);
         ui.add(Label::new(state).truncate());
     });
 }
@@ -68,7 +67,7 @@ pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
         Tone::Quiet => palette.dim,
         Tone::Wrong => palette.text,
     };
-    let text = RichText::new(words).font(theme::small()).color(ink);
+    let text = small(words, ink);
     let label = ui.add(Label::new(text).wrap());
     if tone == Tone::Wrong {
         let bar = label
@@ -97,20 +96,18 @@ pub(crate) fn row_of(
     (name, known): (&str, &str),
     content: impl FnOnce(&mut Ui, &egui::Response),
 ) {
-    let palette = Palette::in_ui(ui);
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE - 2.0;
-        let text = RichText::new(name).font(theme::small()).color(palette.dim);
+        let text = quiet(name);
         let width = room.min(0.4 * ui.available_width());
-        let label = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+        let label = ui.allocate_ui_with_layout(vec2(width, LINE), *ui.layout(), |ui| {
             ui.set_min_width(width);
             ui.add(Label::new(text).truncate())
         });
         content(ui, &label.inner);
         if !known.is_empty() {
-            let known = RichText::new(known).font(theme::small()).color(palette.dim);
+            let known = quiet(known);
             ui.add(Label::new(known).truncate());
         }
     });
@@ -144,18 +141,7 @@ pub(crate) fn choose(
     content: impl FnOnce(&mut Ui),
 ) {
     let width = width.min(ui.available_width());
-    let line = Layout::left_to_right(Align::Center);
-    let text = RichText::new(text).font(theme::small());
-    let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
-        ui.set_max_width(width);
-        let list = ComboBox::from_id_salt(("import", name))
-            .width(width - 8.0)
-            .truncate();
-        list.selected_text(text).show_ui(ui, content).response
-    });
-    let response = room.inner;
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    let response = list(ui, (("import", name), name), width - 8.0, text, content);
     mark_asked(ui, &response, need);
 }
 

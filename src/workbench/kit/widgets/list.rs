@@ -1,8 +1,8 @@
 //! A list to choose from that is as wide as its room, however long the name in it.
 
-use eframe::egui::{Align, AsIdSalt, ComboBox, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, AsIdSalt, ComboBox, Layout, Response, RichText, Ui, vec2};
 
-use crate::kit::theme;
+use crate::kit::widgets::text::named;
 
 /// Height of the list while it is closed, points.
 const LINE: f32 = 20.0;
@@ -15,8 +15,8 @@ pub(crate) fn list(
     width: f32,
     text: &str,
     content: impl FnOnce(&mut Ui),
-) {
-    let text = RichText::new(text).font(theme::small());
+) -> Response {
+    let text = RichText::new(text).small();
     let line = Layout::left_to_right(Align::Center);
     let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
         ui.set_max_width(width);
@@ -24,7 +24,6 @@ pub(crate) fn list(
         let list = list.width(width).truncate();
         list.selected_text(text).show_ui(ui, content).response
     });
-    let response = room.inner;
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(label));
+    named(&room.inner, label);
+    room.inner
 }

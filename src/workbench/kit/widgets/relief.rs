@@ -11,9 +11,10 @@ use eframe::egui::{
 
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
 use crate::kit::widgets::bar::colour_bar;
-use selvedge_foundation::numerics::Grid;
+use crate::kit::widgets::text::paint_quiet;
+use selvedge_foundation::numerics::{Grid, to_byte, to_index, to_single};
 use selvedge_textile::surface::HeightMap;
 
 /// Points along the longer side at most.
@@ -44,12 +45,7 @@ impl Relief {
         let cell_mm = size_mm[0].max(size_mm[1]) / MOST_POINTS;
         let n_points = [map.heights_um().width(), map.heights_um().height()];
         let n_cells = [0, 1].map(|axis| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "1 to 720"
-            )]
-            let n = (size_mm[axis] / cell_mm).round().max(1.0) as usize;
+            let n = to_index((size_mm[axis] / cell_mm).round()).max(1);
             n.min(n_points[axis])
         });
         let heights_um = pooled(map.heights_um(), n_cells);
@@ -86,15 +82,8 @@ impl Relief {
         let n = [self.heights_um.width(), self.heights_um.height()];
         let cell = |axis: usize| {
             let share = place_mm[axis] / self.size_mm[axis];
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a share of 0 to 1 of at most 720 cells"
-            )]
-            let cell = (0.0..1.0)
-                .contains(&share)
-                .then(|| (share * n[axis] as f64) as usize)?;
-            Some(cell)
+            let is_within = (0.0..1.0).contains(&share);
+            is_within.then(|| to_index(share * n[axis] as f64))
         };
         let height = self.heights_um.row(cell(1)?)[cell(0)?];
         height.is_finite().then_some(height)
@@ -103,7 +92,7 @@ impl Relief {
     /// The largest rectangle of the map's shape in the middle of a room.
     pub(crate) fn fitted(&self, room: Rect) -> Rect {
         #[expect(clippy::cast_possible_truncation, reason = "a shape, for the screen")]
-        let shape = (self.size_mm[0] / self.size_mm[1]) as f32;
+        let shape = to_single(self.size_mm[0] / self.size_mm[1]);
         let width = room.width().min(room.height() * shape);
         Rect::from_center_size(room.center(), vec2(width, width / shape))
     }
@@ -173,13 +162,7 @@ fn lit(colour: Color32, light: f64) -> Color32 {
     let towards = if light > 0.0 { 255.0 } else { 0.0 };
     let [r, g, b, _] = colour.to_array().map(|channel| {
         let channel = f64::from(channel);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between two bytes"
-        )]
-        let mixed = (channel + (towards - channel) * light.abs().min(1.0)) as u8;
-        mixed
+        to_byte(channel + (towards - channel) * light.abs().min(1.0))
     });
     Color32::from_rgb(r, g, b)
 }
@@ -223,12 +206,7 @@ fn range_of(heights: &Grid<f64>) -> [f64; 2] {
         return [0.0, 1.0];
     }
     present.sort_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a small share of a length"
-    )]
-    let beyond = (BEYOND * present.len() as f64) as usize;
+    let beyond = to_index(BEYOND * present.len() as f64);
     let range = [present[beyond], present[present.len() - 1 - beyond]];
     if range[1] > range[0] {
         range
@@ -268,15 +246,6 @@ impl ReliefPicture {
     }
 }
 
-impl std::fmt::Debug for ReliefPicture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let is_made = self.texture.is_some();
-        f.debug_struct("ReliefPicture")
-            .field("is_made", &is_made)
-            .finish()
-    }
-}
-
 /// Paints the bar of heights, its numbers on the right and the unit above.
 pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, map: ColourMap) {
     colour_bar(painter, bar, |share| map.colour(share));
@@ -284,7 +253,7 @@ pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, ma
     let axis = Axis::linear(low, high);
     let ticks = axis.ticks(bar.height(), 28.0);
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &ticks);
-    paint_unit(
+    paint_quiet(
         painter,
         bar.left_top() - vec2(0.0, 4.0),
         Align2::LEFT_BOTTOM,

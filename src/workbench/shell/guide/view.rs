@@ -7,6 +7,7 @@ use eframe::egui::{
 use crate::bench::command::{Command, Commands};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::named;
 use crate::shell::guide::markdown::{Block, Span, anchor, blocks};
 use crate::shell::guide::{GuidePage, guide_pages, page};
 
@@ -105,8 +106,7 @@ fn show_contents(ui: &mut Ui, reading: &mut Reading) {
         .desired_width(f32::INFINITY)
         .hint_text("Search the guide");
     let response = ui.add(field);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Search the guide"));
+    named(&response, "Search the guide");
     let mut goes = None;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let sought = reading.search.trim().to_lowercase();

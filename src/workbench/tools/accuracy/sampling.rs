@@ -217,13 +217,5 @@ impl Accuracy {
     }
 }
 
-impl std::fmt::Debug for Accuracy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Accuracy")
-            .field("tally", &self.tally)
-            .finish_non_exhaustive()
-    }
-}
-
 #[cfg(test)]
 mod tests;

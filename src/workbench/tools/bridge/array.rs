@@ -10,7 +10,7 @@ use crate::kit::widgets::limit_mark::{LIMIT_MARK, paint_limit_mark};
 use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
-use crate::kit::widgets::text::{button, choice, row};
+use crate::kit::widgets::text::{button, choice, row, small};
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::ArrayProfile;
 use selvedge_foundation::quantity;
@@ -90,9 +90,7 @@ fn show_waiting(ui: &mut Ui, array: &ArrayView<'_>) {
         let palette = Palette::in_ui(ui);
         let words = "The device is armed: what was changed takes effect once it is disarmed. \
                      What only lowers does so at once.";
-        let words = RichText::new(words)
-            .font(theme::small())
-            .color(palette.text);
+        let words = small(words, palette.text);
         ui.add(Label::new(words).wrap());
     }
 }

@@ -7,7 +7,7 @@ use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{button, choice, field_row, row};
+use crate::kit::widgets::text::{button, choice, field_row, row, small};
 use crate::kit::widgets::{fold, list};
 use selvedge_device::{FaultGroup, FaultKind, FaultOption, FaultWords};
 
@@ -188,7 +188,7 @@ fn show_note(ui: &mut Ui, group: FaultGroup) {
 }
 
 fn show_words(ui: &mut Ui, words: &str, ink: egui::Color32) {
-    let words = RichText::new(words).font(theme::small()).color(ink);
+    let words = small(words, ink);
     ui.add(Label::new(words).wrap());
 }
 

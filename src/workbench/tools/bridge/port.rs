@@ -12,7 +12,7 @@ use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::{button, choice};
+use crate::kit::widgets::text::{button, choice, named};
 use crate::tools::bridge::ports::{Ports, PortsView};
 use selvedge_device::FoundPort;
 
@@ -36,8 +36,7 @@ pub(crate) fn show_port(
             .font(theme::number())
             .hint_text("port, e.g. /dev/ttyACM0");
         let response = ui.add(field);
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_label("Port"));
+        named(&response, "Port");
         let is_entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();

@@ -1,12 +1,11 @@
 //! Where the surface of a tablet lies in the workspace: four lengths, kept for each kind of tablet.
 
-use eframe::egui::{self, Align2, Margin, RichText, TextEdit, Ui};
+use eframe::egui::{self, Align2, Margin, TextEdit, Ui};
 
 use crate::bench::command::Commands;
 use crate::bench::sources::{SourceCommand, SurfaceView};
 use crate::kit::theme;
-use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{button, field_row};
+use crate::kit::widgets::text::{button, field_row, quiet};
 use selvedge_foundation::quantity;
 
 /// Width of a number, points.
@@ -48,10 +47,7 @@ pub(crate) fn show(ui: &mut Ui, surface: &SurfaceView, commands: &mut Commands) 
         if button(ui, "As at first", tip, refusal) {
             commands.push(SourceCommand::Area(surface.name.clone(), None).into());
         }
-        let palette = Palette::in_ui(ui);
-        let name = RichText::new(&surface.name)
-            .font(theme::small())
-            .color(palette.dim);
+        let name = quiet(&surface.name);
         ui.add(egui::Label::new(name).truncate());
     });
 }
@@ -64,13 +60,11 @@ fn pair(
 ) -> [Option<String>; 2] {
     let mut changed = [None, None];
     field_row(ui, name, |ui| {
-        let dim = Palette::in_ui(ui).dim;
-        let small = |words: &str| RichText::new(words).font(theme::small()).color(dim);
-        ui.label(small("mm"));
+        ui.label(quiet("mm"));
         // From right to left.
         changed[1] = length(ui, fields[1]);
         if !between.is_empty() {
-            ui.label(small(between));
+            ui.label(quiet(between));
         }
         changed[0] = length(ui, fields[0]);
     })

@@ -11,10 +11,11 @@ use crate::bench::query;
 use crate::bench::view::BridgePhase;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{button, row};
+use crate::kit::widgets::text::{button, quiet, row};
 use crate::tools::bridge::view::BridgePane;
 use selvedge_device::DeviceUid;
 use selvedge_device::wiring::{Answer, WiringFound};
+use selvedge_foundation::numerics::to_single;
 
 /// Height of the picture of the array, points.
 const PICTURE: f32 = 190.0;
@@ -47,9 +48,8 @@ fn doubt(view: &BridgePane<'_>) -> Option<String> {
 
 /// Shows what is known.
 pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
     for line in lines(view) {
-        let words = RichText::new(line).font(theme::small()).color(palette.dim);
+        let words = quiet(line);
         ui.add(Label::new(words).wrap());
     }
     row(ui, "", |ui| {
@@ -250,7 +250,6 @@ impl Dot<'_> {
 }
 
 /// Places on the screen of contactors in mm, as large as fits, and the radius of their dots.
-#[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
 fn fitted(places_mm: &[[f64; 2]], rect: Rect) -> (Vec<egui::Pos2>, f32) {
     let reach = |axis: usize| {
         let along = places_mm.iter().map(|place| place[axis]);
@@ -268,10 +267,10 @@ fn fitted(places_mm: &[[f64; 2]], rect: Rect) -> (Vec<egui::Pos2>, f32) {
     let place = |mm: &[f64; 2]| {
         let x = (mm[0] - 0.5 * (left + right)) * points_per_mm;
         let y = (0.5 * (bottom + top) - mm[1]) * points_per_mm;
-        rect.center() + vec2(x as f32, y as f32)
+        rect.center() + vec2(to_single(x), to_single(y))
     };
     let nearest = nearest_mm(places_mm);
-    let radius = (0.40 * nearest * points_per_mm) as f32;
+    let radius = to_single(0.40 * nearest * points_per_mm);
     (
         places_mm.iter().map(place).collect(),
         radius.clamp(2.0, DOT),
@@ -317,12 +316,9 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, commands: &mut Com
 }
 
 fn show_found(ui: &mut Ui, wizard: &Wizard, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
     let found = wizard.walk.found();
     for line in found.iter().flat_map(WiringFound::lines) {
-        let words = RichText::new(query::capitalised(&line))
-            .font(theme::small())
-            .color(palette.dim);
+        let words = quiet(query::capitalised(&line));
         ui.add(Label::new(words).wrap());
     }
     let mut wish = |command| commands.push(ArrayCommand::Identify(command).into());

@@ -177,12 +177,3 @@ impl Import {
         }
     }
 }
-
-impl std::fmt::Debug for Import {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Import")
-            .field("draft", &self.draft)
-            .field("n_read", &self.n_read())
-            .finish_non_exhaustive()
-    }
-}

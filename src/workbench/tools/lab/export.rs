@@ -8,6 +8,7 @@ use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::curves::chart as lab_chart;
 use crate::tools::lab::view::profile::chart as profile_chart;
 use selvedge_chart::Row;
+use selvedge_foundation::numerics::to_index;
 
 /// A row of the table: a place of the profile, or a speed.
 struct Line {
@@ -66,12 +67,7 @@ fn heights(lab: &Lab, felt: &Felt, compared: Option<&Felt>) -> Vec<Line> {
         let x = index as f64 * step_mm;
         // The nearest sample of the other one, which may have another step.
         let there = other.and_then(|other| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "not negative; beyond the end is none"
-            )]
-            let nearest = (x / other.step_mm()).round() as usize;
+            let nearest = to_index((x / other.step_mm()).round());
             other.heights_um().get(nearest).copied()
         });
         Line {

@@ -10,6 +10,7 @@ use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::Axis;
 use crate::tools::lab::preview::Preview;
+use selvedge_foundation::numerics::to_index;
 use selvedge_textile::lit;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra};
 
@@ -33,14 +34,6 @@ pub(crate) struct Pictures {
 
 /// What a picture of spectra is made for.
 type Key = (Arc<LocalSpectra>, ColourMap);
-
-impl std::fmt::Debug for Pictures {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Pictures")
-            .field("n_made", &self.n_made)
-            .finish_non_exhaustive()
-    }
-}
 
 impl Pictures {
     /// The relief in shade.
@@ -116,12 +109,7 @@ fn rows_db(spectra: &LocalSpectra) -> Vec<Vec<f64>> {
     let row = |row: u8| -> Vec<f64> {
         // Bins whose middle lies in the row; where none does, the nearest one.
         let (from, to) = (edge(row), edge(row + 1));
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "wavenumbers are positive and few"
-        )]
-        let bin = |k: f64| (k as usize).clamp(1, n_bins) - 1;
+        let bin = |k: f64| to_index(k).clamp(1, n_bins) - 1;
         let least = bin((0.5 * (from + to)).round()).min(bin(from.ceil()));
         let most = bin(to.floor()).max(least);
         let at = |point: usize| {

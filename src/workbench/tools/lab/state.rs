@@ -66,7 +66,7 @@ pub(crate) struct Begun {
 }
 
 /// The lab.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Lab {
     /// The recipe; `None` before one has begun.
     pub steps: Option<Steps>,

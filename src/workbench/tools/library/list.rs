@@ -16,7 +16,7 @@ use crate::bench::library_view::LibraryItem;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{LibraryEntry, SceneView};
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{paint_focus, paint_line, paint_name};
+use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, quiet};
 use crate::kit::{swatch, theme};
 use crate::tools::library::menus::{show_chooser, show_item_menu};
 use crate::tools::library::state::{Library, Shown};
@@ -111,8 +111,7 @@ fn show_head(ui: &mut Ui, state: &mut Library, context: &mut PaneContext<'_>) {
         .margin(egui::Margin::symmetric(6, 4))
         .hint_text("Search all libraries");
     let response = ui.add(field);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Search the library"));
+    named(&response, "Search the library");
     show_chooser(ui, state, context);
 }
 
@@ -168,9 +167,7 @@ fn show_item(ui: &mut Ui, item: &LibraryEntry, state: &mut Library, context: &mu
     } else {
         "cannot be read"
     };
-    let second = RichText::new(second)
-        .font(theme::small())
-        .color(palette.dim);
+    let second = quiet(second);
     paint_line(ui, pos2(left, rect.center().y + 8.0), room, second);
     answer_item(ui, response, item, (state, context));
 }

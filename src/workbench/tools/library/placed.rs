@@ -12,7 +12,7 @@ use crate::bench::tool::PaneContext;
 use crate::bench::view::{Cloth, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{paint_focus, paint_line, paint_name, row, toggle};
+use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, row, toggle};
 use selvedge_foundation::quantity;
 
 /// Width of a letter of a label, points.
@@ -136,8 +136,7 @@ fn show_label_field(
     // A child of its own: the row is as high as the others.
     let response = ui.new_child(UiBuilder::new().max_rect(place)).add(field);
     let name = format!("Label of {}", cloth.name);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     if response.changed() {
         commands.push(Edit::Label(index, label).into());
     }

@@ -147,12 +147,3 @@ impl Picture {
         }
     }
 }
-
-impl std::fmt::Debug for Picture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Picture")
-            .field("draft", &self.draft)
-            .field("n_begun", &self.n_begun())
-            .finish_non_exhaustive()
-    }
-}

@@ -22,15 +22,6 @@ pub(crate) struct Textures {
     pub(crate) made: Option<Arc<Made>>,
 }
 
-impl std::fmt::Debug for Textures {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Textures")
-            .field("cards", &self.stages.keys())
-            .field("view", &self.view)
-            .finish_non_exhaustive()
-    }
-}
-
 impl Textures {
     /// The texture of a card, made anew for another picture.
     fn texture(&mut self, painter: &Painter, card: usize, image: &Image) -> &TextureHandle {

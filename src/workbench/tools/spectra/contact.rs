@@ -17,7 +17,8 @@ use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
     Colours, HEIGHT_PX, contactor, frequencies, on_finger, picture, sheet, show_levels,
@@ -40,7 +41,7 @@ const N_STEPS: u8 = 96;
 type Key = (u64, u64, usize);
 
 /// The spectrum that arrives: the columns that were computed and the texture that holds them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct ContactSpectrum {
     waterfall: Waterfall<Key>,
     columns: ContactColumns,
@@ -206,7 +207,7 @@ fn paint_filters(painter: &Painter, layout: &Layout, filters: &Filters) {
     paint_outer_ticks(painter, strip, (&gains, Side::Bottom), &most);
     let unit_at = pos2(strip.center().x, strip.top() - 6.0);
     if strip.width() >= STRIP {
-        paint_unit(painter, unit_at, Align2::CENTER_BOTTOM, "gain");
+        paint_quiet(painter, unit_at, Align2::CENTER_BOTTOM, "gain");
     }
 }
 

@@ -26,7 +26,7 @@ type Key = (u64, Option<u32>);
 
 /// The spectrum that drives the contactor which the newest tick watched: the columns that were
 /// computed and the texture that holds them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct DriveSpectrum {
     waterfall: Waterfall<Key>,
     spectrum: Spectrum,

@@ -20,7 +20,7 @@ use crate::tools::timeline::picture::{
 };
 use crate::tools::timeline::span::Span;
 use crate::tools::timeline::transport::TICK_MS;
-use selvedge_foundation::numerics::to_index;
+use selvedge_foundation::numerics::{to_index, to_single};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -96,8 +96,7 @@ impl Layout {
 
     /// Where a share of the width stands.
     pub(crate) fn x_at(&self, share: f64) -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = share.clamp(-1.0, 2.0) as f32;
+        let share = to_single(share.clamp(-1.0, 2.0));
         self.ruler.left() + share * self.ruler.width()
     }
 
@@ -128,7 +127,7 @@ pub(crate) struct LaneStyle {
 }
 
 /// The pictures of the lanes.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Pictures {
     spectrum: Columns,
     felt: Columns,

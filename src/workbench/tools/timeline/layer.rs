@@ -32,7 +32,6 @@ struct FeltKey {
 type SpectrumKey = ([u64; 2], usize);
 
 /// Tiles of one kind.
-#[derive(Debug)]
 struct Layer<K> {
     key: Option<K>,
     path: Option<Arc<ExplorationPath>>,
@@ -104,7 +103,7 @@ impl<K: PartialEq> Layer<K> {
 }
 
 /// All that is drawn of a recording.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct RecordedTiles {
     felt: Layer<FeltKey>,
     spectrum: Layer<SpectrumKey>,

@@ -1,7 +1,6 @@
 //! The lanes as pictures, one pixel a column: made when something about them has changed and kept
 //! on the graphics card until then. Only what is in sight is drawn, however long it is.
 
-use std::fmt;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::ops::Range;
 
@@ -103,14 +102,6 @@ impl Picture {
     #[cfg(test)]
     pub(crate) fn n_uploads(&self) -> u64 {
         self.n_uploads
-    }
-}
-
-impl fmt::Debug for Picture {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Picture")
-            .field("n_uploads", &self.n_uploads)
-            .finish_non_exhaustive()
     }
 }
 

@@ -11,9 +11,9 @@ use eframe::egui::{
 use crate::bench::command::{Commands, PlayCommand};
 use crate::kit::pane::paint_sentence;
 use crate::kit::spectrum_scale::EVENLY;
-use crate::kit::theme::{self, Palette};
+use crate::kit::theme::Palette;
 use crate::kit::widgets::level_bar;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{paint_quiet, toggle};
 use crate::tools::timeline::lanes::{self, LaneStyle, Layout, name_of};
 use crate::tools::timeline::scope::{Scope, extent};
 use crate::tools::timeline::span::Span;
@@ -290,7 +290,6 @@ fn paint_cursor(ui: &Ui, layout: &Layout, share: f64) {
 
 /// What is shown, and how far it is made.
 fn paint_title(ui: &Ui, scope: &Scope<'_>, made: Option<f32>) {
-    let palette = Palette::in_ui(ui);
     let take = scope.view.shown_take();
     let title = match (take, made) {
         (Some(_), Some(share)) => {
@@ -305,7 +304,7 @@ fn paint_title(ui: &Ui, scope: &Scope<'_>, made: Option<f32>) {
     let room = name_of(scope.layout.ruler);
     let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
     let (at, anchor) = (room.left_center(), Align2::LEFT_CENTER);
-    painter.text(at, anchor, title, theme::small(), palette.dim);
+    paint_quiet(&painter, at, anchor, title);
 }
 
 /// A line where the pointer is, and what is there.

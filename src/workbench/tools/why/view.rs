@@ -10,6 +10,7 @@ use crate::kit::plot::Setting;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, paint_limit_mark};
+use crate::kit::widgets::text::{line, small};
 use crate::tools::why::explanation::Explanation;
 use crate::tools::why::export::charts;
 use crate::tools::why::text::{LIMITS, lines};
@@ -62,7 +63,7 @@ fn show_chain(ui: &mut Ui, why: &Explanation) {
             format!("   row {row}, column {column}")
         });
         let head = format!("Contactor {}{cell}   tick {}", why.contactor, why.tick);
-        ui.label(RichText::new(head).font(theme::small()).color(palette.text));
+        ui.label(small(head, palette.text));
         ui.horizontal(|ui| {
             ui.add_space(NAMES);
             for band in Band::ALL {
@@ -81,15 +82,14 @@ fn show_chain(ui: &mut Ui, why: &Explanation) {
 
 fn show_line(ui: &mut Ui, name: &str, value: &str, limiters: Option<String>) {
     let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), LINE);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let ink = if name.starts_with(['+', '=']) {
             palette.dim
         } else {
             palette.text
         };
-        let name = RichText::new(name).font(theme::small()).color(ink);
+        let name = small(name, ink);
         let place = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(NAMES, LINE), place, |ui| {
             ui.set_min_width(NAMES);

@@ -48,7 +48,7 @@ use crate::tools::workspace::state::{Place, WorkspaceView};
 use selvedge_render::array::ContactorReading;
 
 /// The workspace: how it is looked at, and what was computed to be drawn over it.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Workspace {
     pub(crate) view: WorkspaceView,
     /// Maps of the textiles at the chosen velocity.

@@ -44,7 +44,7 @@ fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
     watch(&mut accuracy, &mut window, 100);
     assert_eq!(accuracy.method(), Some(Method::Table));
     let bound_db = accuracy.bound_db;
-    assert!(bound_db > 1e-3 && bound_db <= 0.05, "{accuracy:?}");
+    assert!(bound_db > 1e-3 && bound_db <= 0.05, "{bound_db}");
     let table_db = largest_db(&accuracy);
     assert!(
         (10.0 * ROUNDING_DB..=bound_db).contains(&table_db),

@@ -1,13 +1,12 @@
 //! What is selected, in numbers; everything that is shown where nothing is selected.
 
 use eframe::egui::{
-    self, Align2, Color32, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
-    vec2,
+    self, Align2, Color32, Rect, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::paint_line;
+use crate::kit::widgets::text::{paint_line, paint_quiet, small};
 use crate::tools::collection::listing::{Sort, SortBy, smd_um};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
@@ -94,7 +93,7 @@ fn show_heading(ui: &Ui, cell: Rect, column: usize, sort: &mut Sort) {
     let middle = cell.top() + 10.0;
     let text = painter.text(pos2(x, middle), anchor, name, theme::small(), ink);
     let below = pos2(x, middle + 13.0);
-    painter.text(below, anchor, unit, theme::small(), palette.dim);
+    paint_quiet(painter, below, anchor, unit);
     if is_sorted {
         let at = pos2(
             if decimals > 0 {
@@ -155,7 +154,7 @@ fn show_row(ui: &mut Ui, entry: &Entry<'_>, is_tuned: bool, hand: &mut Hand<'_>)
         } else {
             (palette.dim, 10.0)
         };
-        let text = RichText::new(text).font(theme::small()).color(ink);
+        let text = small(text, ink);
         let at = pos2(cell.left() + indent, cell.center().y);
         paint_line(ui, at, cell.width() - indent, text);
     }

@@ -15,6 +15,7 @@ use crate::tools::compare::comparison::Compare;
 use crate::tools::compare::export::over_time_chart;
 use crate::tools::compare::words::{band_name, decimals_of, signed_db};
 use selvedge_chart::{At, Band as Area, Chart, Extent, Ink, Rule, Weight};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity::{clock, fixed};
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::TICKS_PER_S;
@@ -156,12 +157,7 @@ fn answer(shown: Shown, found: &LevelDifference, is_recorded: bool, commands: &m
         return;
     };
     let [time_s, _] = shown.values_at(pointer);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "not below 0, and bounded next"
-    )]
-    let tick = (time_s * TICKS_PER_S).round().max(0.0) as u64;
+    let tick = to_index((time_s * TICKS_PER_S).round()) as u64;
     let tick = tick.min(found.n_ticks.saturating_sub(1));
     if shown.response.clicked() && is_recorded {
         commands.push(PlayCommand::ReplayAt(tick).into());

@@ -1,13 +1,13 @@
 //! The third step for strokes: every curve with what is marked of it, the evaluated section, and
 //! the figures of it.
 
-use eframe::egui::{Align, Align2, Layout, Margin, Rect, RichText, Ui, pos2, vec2};
+use eframe::egui::{Align2, Margin, Rect, Ui, pos2, vec2};
 
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{line, paint_quiet, quiet, toggle};
 use crate::tools::import::draft::Draft;
 use crate::tools::import::envelope::Envelope;
 use crate::tools::import::view::section;
@@ -209,12 +209,9 @@ fn show_sections(
     axes: [Option<Ends>; 2],
     import: Option<&KesImport>,
 ) {
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE - 2.0;
-        let dim = Palette::in_ui(ui).dim;
-        let quiet = |words: &str| RichText::new(words).font(theme::small()).color(dim);
         for (index, (axis, name)) in [(TextileAxis::Warp, "warp"), (TextileAxis::Weft, "weft")]
             .into_iter()
             .enumerate()
@@ -276,8 +273,7 @@ fn paint_figures(ui: &Ui, area: Rect, of: &str, figures: &[(&'static str, String
     for (name, value) in figures {
         let left = area.right() + 10.0;
         let painter = ui.painter();
-        let font = theme::small();
-        painter.text(pos2(left, y), Align2::LEFT_CENTER, name, font, palette.dim);
+        paint_quiet(painter, pos2(left, y), Align2::LEFT_CENTER, name);
         let right = pos2(right - 4.0, y);
         painter.text(
             right,

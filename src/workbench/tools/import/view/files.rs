@@ -7,7 +7,7 @@ use crate::kit::drop::nothing_yet;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, line, quiet, small, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::DraftFile;
 use crate::tools::import::work::Found;
@@ -116,7 +116,7 @@ fn show_file(ui: &mut Ui, nth: usize, file: &mut DraftFile, is_strokes: bool) ->
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let path = file.source.path().display().to_string();
-            let name = RichText::new(name).font(theme::small()).color(palette.text);
+            let name = small(name, palette.text);
             ui.add(Label::new(name).truncate()).on_hover_text(path);
         });
     });
@@ -147,13 +147,9 @@ fn show_place(ui: &mut Ui, nth: usize, file: &mut DraftFile) {
 
 /// What the files are taken for.
 fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        let palette = Palette::in_ui(ui);
-        let words = RichText::new("read as")
-            .font(theme::small())
-            .color(palette.dim);
+        let words = quiet("read as");
         ui.label(words);
         for (value, word, tip) in [
             (None, "by content", "What the files are, their content says"),

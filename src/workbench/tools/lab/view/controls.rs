@@ -7,9 +7,10 @@ use crate::bench::command::lab::Beginning;
 use crate::bench::library_view::LibraryView;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::text::{line, named, quiet, small};
 use crate::tools::lab::state::{Lab, Page};
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::{family, keep, parts, recipe};
+use crate::tools::lab::view::{family, keep, recipe};
 use selvedge_textile::RECIPES;
 
 /// Height of a list of textiles in a menu, points.
@@ -17,9 +18,7 @@ const LIST: f32 = 320.0;
 
 /// Shows the controls.
 pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
-    let line = Layout::left_to_right(Align::Center);
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, line, |ui| {
+    line(ui, ROW, |ui| {
         if let Some(beginning) = show_beginnings(ui, &bench.library.view) {
             lab.begin_with(bench, beginning);
         }
@@ -27,7 +26,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
             show_steps(ui, lab);
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, &mut lab.page));
+    line(ui, ROW, |ui| show_pages(ui, &mut lab.page));
     ui.add_space(STEP);
     if lab.steps.is_none() {
         return;
@@ -138,7 +137,7 @@ pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
     };
     let kind = manifest.source.kind();
     let words = format!("{} · {kind}", manifest.name);
-    let text = parts::small(&words, Palette::in_ui(ui).text);
+    let text = small(&words, Palette::in_ui(ui).text);
     let tip = "What the recipe began with";
     ui.label(text).on_hover_text(tip);
     ui.add_space(2.0 * STEP);
@@ -168,8 +167,7 @@ fn show_pages(ui: &mut Ui, shown: &mut Page) {
 
 /// What the recipe is compared with.
 pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
-    let palette = Palette::in_ui(ui);
-    ui.label(parts::small("compare with", palette.dim));
+    ui.label(quiet("compare with"));
     let compared = lab.compared.as_ref();
     let name = compared.map_or("nothing", |compared| compared.name.as_str());
     let combo = ComboBox::from_id_salt("lab compared")
@@ -195,8 +193,7 @@ pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     if let Some(id) = wanted {
         lab.compare_with(bench, id);
     }
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Compared with"));
+    named(&response, "Compared with");
     let tip = "A textile of the library, drawn as a thin grey curve";
     response.on_hover_text(tip);
 }

@@ -4,11 +4,9 @@ use eframe::egui::{Margin, Rect, Ui};
 
 use crate::kit::plot;
 use crate::kit::plot::{Drag, Setting, Shown};
-use crate::kit::theme::Palette;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{quiet, toggle};
 use crate::tools::lab::preview::{Felt, Preview};
 use crate::tools::lab::state::{Lab, Look};
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::within;
 use selvedge_chart::{Axis, Chart, Ink, Series, Style, Weight};
 use selvedge_textile::surface::{Direction, Profile};
@@ -113,9 +111,8 @@ pub(crate) fn chart(lab: &Lab, felt: &Felt) -> Chart {
 
 /// Which stroke, and how much of it.
 fn show_head(ui: &mut Ui, look: &mut Look) {
-    let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
-        ui.label(parts::small("profile", palette.dim));
+        ui.label(quiet("profile"));
         for (direction, letters) in
             Direction::ALL
                 .into_iter()

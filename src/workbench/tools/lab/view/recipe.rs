@@ -4,9 +4,9 @@ use eframe::egui::{CollapsingHeader, RichText, Ui};
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::text::quiet;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::complaint;
 use crate::tools::lab::view::rows;
 use selvedge_foundation::files::KeyValue;
@@ -99,8 +99,7 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<C
         || draft.has_table(parameter.place.table);
     if !is_of_table {
         if let Some(words) = rows::missing(parameter) {
-            let palette = Palette::in_ui(ui);
-            ui.label(parts::small(words, palette.dim));
+            ui.label(quiet(words));
         }
         return None;
     }

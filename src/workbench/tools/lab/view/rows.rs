@@ -1,18 +1,16 @@
 //! One parameter in a row: a slider, words to choose from, numbers to type.
 
 use eframe::egui::{
-    self, Align, Color32, ComboBox, Layout, Response, RichText, Sense, TextEdit, Ui, WidgetInfo,
-    vec2,
+    self, Align, Color32, ComboBox, Layout, Response, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, row, toggle};
+use crate::kit::widgets::text::{button, line, named, quiet, row, toggle};
 use crate::tools::lab::family::key_value;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::parts;
 use selvedge_foundation::files::{KeyValue, Keys};
 use selvedge_textile::{Draft, Parameter, Place, example_templates};
 
@@ -183,8 +181,7 @@ pub(crate) fn combo<'a>(
             }
         });
         let label = parameter.name;
-        ui.ctx()
-            .accesskit_node_builder(list.response.id, |node| node.set_label(label));
+        named(&list.response, label);
     });
     describe(&response, parameter, None);
     chosen
@@ -229,13 +226,12 @@ pub(crate) fn list(
     parameter: &Parameter,
     (unit, is_whole): (&str, bool),
 ) -> Option<KeyValue> {
-    let palette = Palette::in_ui(ui);
     let values = draft.value(parameter.place)?.as_array()?;
     let texts: Vec<String> = values.iter().map(ToString::to_string).collect();
     let text = texts.join("  ");
     let head = format!("{} ({} values)", parameter.name, values.len());
     let response = row(ui, &head, |ui| {
-        ui.label(parts::small(unit, palette.dim));
+        ui.label(quiet(unit));
     });
     describe(&response, parameter, None);
     let typed = field(ui, parameter, (&text, f32::INFINITY))?;
@@ -328,33 +324,28 @@ pub(crate) fn field(
 
 /// A name before a field of words, below each other.
 pub(crate) fn named_field(ui: &mut Ui, name: &str, text: &mut String) -> Response {
-    let palette = Palette::in_ui(ui);
-    ui.label(parts::small(name, palette.dim));
+    ui.label(quiet(name));
     let edit = TextEdit::singleline(text)
         .desired_width(f32::INFINITY)
         .margin(egui::Margin::symmetric(6, 4));
     let response = ui.add(edit);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     response
 }
 
 /// A short field with a name before it, in a row.
 pub(crate) fn short_field(ui: &mut Ui, (name, unit): (&str, &str), text: &mut String) {
-    let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, ROW, |ui| {
         ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
+            ui.label(quiet(unit));
             let edit = TextEdit::singleline(text)
                 .font(theme::number())
                 .desired_width(84.0)
                 .margin(egui::Margin::symmetric(6, 3));
             let response = ui.add(edit);
             response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, name));
-            ui.ctx()
-                .accesskit_node_builder(response.id, |node| node.set_label(name));
+            named(&response, name);
         });
     });
 }

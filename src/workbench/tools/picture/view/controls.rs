@@ -1,15 +1,14 @@
 //! The steps: what is chosen and typed, and what came of it in words.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::Ui;
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::latest::Standing;
-use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, quiet, toggle};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
 use crate::tools::picture::state::Picture;
@@ -326,10 +325,7 @@ fn show_trust(ui: &mut Ui, shaped: &Shaped) {
         .estimate
         .as_ref()
         .map_or("", |estimate| &estimate.words);
-    let palette = Palette::in_ui(ui);
     let words = format!("{} {more}", shaped.shape.reliability);
-    let words = RichText::new(words.trim())
-        .font(theme::small())
-        .color(palette.dim);
+    let words = quiet(words.trim());
     ui.add(eframe::egui::Label::new(words).wrap());
 }

@@ -20,7 +20,7 @@ use crate::bench::view::Cloth;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::kit::widgets::text::tick_box;
+use crate::kit::widgets::text::{small, tick_box};
 use crate::tools::workspace::stage::Stage;
 
 /// Height of the buttons in the row of tabs, points.
@@ -49,7 +49,7 @@ pub(crate) fn show_menu(ui: &mut Ui, overlays: &mut Overlays, points_per_mm: f64
     let palette = Palette::in_ui(ui);
     let is_any = *overlays != Overlays::default();
     let ink = if is_any { palette.text } else { palette.dim };
-    let text = RichText::new("Overlay").font(theme::small()).color(ink);
+    let text = small("Overlay", ink);
     let button = Button::selectable(is_any, text).min_size(vec2(56.0, BUTTON));
     let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let shown = *overlays;
