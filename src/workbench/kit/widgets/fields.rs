@@ -5,7 +5,7 @@ use eframe::egui::{self, Label, Margin, RichText, Stroke, TextEdit, Ui, vec2};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
-use crate::kit::widgets::text::{line, quiet, small};
+use crate::kit::widgets::text::{line, named, quiet, small};
 
 /// Height of a row, points.
 pub(crate) const LINE: f32 = 22.0;
@@ -131,6 +131,30 @@ pub(crate) fn text(
     let response = ui.add(field).labelled_by(label.id);
     mark_asked(ui, &response, need);
     response
+}
+
+/// A field that is read when it is left, where something else was typed than stood there; Esc
+/// leaves it as it was. `dressed` says how it looks.
+pub(crate) fn typed_field(
+    ui: &mut Ui,
+    id: egui::Id,
+    (label, now): (&str, &str),
+    dressed: impl FnOnce(TextEdit<'_>) -> TextEdit<'_>,
+) -> Option<String> {
+    let editing: Option<String> = ui.data(|data| data.get_temp(id));
+    let mut text = editing.unwrap_or_else(|| now.to_owned());
+    let edit = TextEdit::singleline(&mut text).id(id).font(theme::number());
+    let response = ui.add(dressed(edit));
+    named(&response, label);
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        return (!is_cancelled && text != now).then_some(text);
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+    None
 }
 
 /// A list to choose from, named.

@@ -4,11 +4,11 @@
 //! [`Relief::of`] looks at every height once and may run on any thread; what is drawn from then on
 //! has as many points as the screen can show.
 
-use eframe::egui::{
-    Align2, Color32, ColorImage, Context, Painter, Pos2, Rect, TextureFilter, TextureHandle,
-    TextureOptions, pos2, vec2,
-};
+use std::sync::Arc;
 
+use eframe::egui::{Align2, Color32, ColorImage, Painter, Pos2, Rect, TextureOptions, Theme, vec2};
+
+use crate::kit::texture::{Same, Texture, WHOLE};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
@@ -215,34 +215,25 @@ fn range_of(heights: &Grid<f64>) -> [f64; 2] {
     }
 }
 
-/// A relief as a texture, made when it is first drawn and again for other colours.
-#[derive(Default)]
-pub(crate) struct ReliefPicture {
-    texture: Option<(TextureHandle, ColourMap, bool)>,
-}
+/// The picture of a relief: in what colours, in the dark theme or the light one.
+pub(crate) type ReliefPicture = Texture<(Same<Relief>, ColourMap, bool)>;
 
 impl ReliefPicture {
     /// Paints the relief into a rectangle of its shape.
-    pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, relief: &Relief, map: ColourMap) {
-        let texture = self.texture(painter.ctx(), relief, map).id();
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        painter.image(texture, rect, whole, Color32::WHITE);
-    }
-
-    fn texture(&mut self, ctx: &Context, relief: &Relief, map: ColourMap) -> &TextureHandle {
-        let is_dark = ctx.theme() == eframe::egui::Theme::Dark;
-        let is_same = |kept: &(TextureHandle, ColourMap, bool)| (kept.1, kept.2) == (map, is_dark);
-        let kept = self.texture.take().filter(is_same);
-        let made = kept.unwrap_or_else(|| {
-            let image = relief.image(map, Palette::of(ctx.theme()));
-            let options = TextureOptions {
-                magnification: TextureFilter::Linear,
-                minification: TextureFilter::Linear,
-                ..TextureOptions::default()
-            };
-            (ctx.load_texture("relief", image, options), map, is_dark)
+    pub(crate) fn paint(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        relief: &Arc<Relief>,
+        map: ColourMap,
+    ) {
+        let theme = painter.ctx().theme();
+        let key = (Same(Arc::clone(relief)), map, theme == Theme::Dark);
+        let options = TextureOptions::LINEAR;
+        let texture = self.of(painter.ctx(), ("relief", options), key, || {
+            relief.image(map, Palette::of(theme))
         });
-        &self.texture.insert(made).0
+        painter.image(texture, rect, WHOLE, Color32::WHITE);
     }
 }
 
@@ -309,7 +300,7 @@ mod tests {
         assert!(colours.row(179)[0].is_some());
         let brightness = |column: usize| colours.row(100)[column].unwrap().r();
         assert!(brightness(700) > brightness(360) && brightness(360) > brightness(20));
-        let image = relief.image(ColourMap::Grey, Palette::of(eframe::egui::Theme::Dark));
+        let image = relief.image(ColourMap::Grey, Palette::of(Theme::Dark));
         let corner = image.pixels[(image.size[1] - 1) * image.size[0]];
         assert!(
             [0x0b, 0x6c].contains(&corner.r()),

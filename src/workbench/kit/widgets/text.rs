@@ -97,6 +97,15 @@ pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Re
     .response
 }
 
+/// Such pairs side by side: name, number, unit, and what it says when the pointer rests on it.
+pub(crate) fn quiet_pairs(ui: &mut Ui, pairs: [(&str, String, &str, &str); 2]) {
+    ui.columns_const(|columns: &mut [Ui; 2]| {
+        for (ui, (name, value, unit, tip)) in columns.iter_mut().zip(pairs) {
+            quiet_pair(ui, name, &value, unit).on_hover_text(tip);
+        }
+    });
+}
+
 /// A filled circle as wide as a letter: a lamp. Read out as `label`.
 pub(crate) fn mark(ui: &mut Ui, colour: Color32, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(10.0, ROW), Sense::hover());

@@ -7,7 +7,7 @@ use crate::bench::sources::{SourceCommand, SourcesView};
 use crate::bench::view::{EngineView, InputView, Source};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{button, choice, quiet_pair, row};
+use crate::kit::widgets::text::{button, choice, quiet_pairs, row};
 use crate::tools::bridge::surface;
 use selvedge_foundation::quantity;
 
@@ -156,11 +156,7 @@ fn show_rate(ui: &mut Ui, input: &InputView) {
         ],
     ];
     for row in rows {
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            for (ui, (name, value, unit, tip)) in columns.iter_mut().zip(row) {
-                quiet_pair(ui, name, &value, unit).on_hover_text(tip);
-            }
-        });
+        quiet_pairs(ui, row);
     }
 }
 

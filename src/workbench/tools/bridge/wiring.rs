@@ -15,7 +15,7 @@ use crate::kit::widgets::text::{button, quiet, row};
 use crate::tools::bridge::view::BridgePane;
 use selvedge_device::DeviceUid;
 use selvedge_device::wiring::{Answer, WiringFound};
-use selvedge_foundation::numerics::to_single;
+use selvedge_foundation::numerics::{extent, to_single};
 
 /// Height of the picture of the array, points.
 const PICTURE: f32 = 190.0;
@@ -252,15 +252,14 @@ impl Dot<'_> {
 /// Places on the screen of contactors in mm, as large as fits, and the radius of their dots.
 fn fitted(places_mm: &[[f64; 2]], rect: Rect) -> (Vec<egui::Pos2>, f32) {
     let reach = |axis: usize| {
-        let along = places_mm.iter().map(|place| place[axis]);
-        let (least, most) = along.fold((f64::MAX, f64::MIN), |(a, b), mm| (a.min(mm), b.max(mm)));
+        let [least, most] = extent(places_mm.iter().map(|place| place[axis]));
         if most < least {
-            (0.0, 0.0)
+            [0.0; 2]
         } else {
-            (least, most)
+            [least, most]
         }
     };
-    let [(left, right), (bottom, top)] = [reach(0), reach(1)];
+    let [[left, right], [bottom, top]] = [reach(0), reach(1)];
     let across = f64::from(rect.width()) / (right - left).max(1e-6);
     let up = f64::from(rect.height()) / (top - bottom).max(1e-6);
     let points_per_mm = across.min(up).min(22.0);

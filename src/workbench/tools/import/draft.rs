@@ -1,10 +1,8 @@
 //! What the user has chosen and typed so far, and what the readers are told of it.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
-use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use crate::tools::import::failure::{Failure, Step};
@@ -16,30 +14,14 @@ use selvedge_textile::{
 };
 
 /// A file and what was said of it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DraftFile {
     /// The file.
-    #[serde(serialize_with = "as_path", deserialize_with = "at_path")]
-    pub source: Arc<SourceFile>,
+    pub source: SourceFile,
     /// What it holds; `None`: by its columns and its name.
     pub place: Option<KesPlace>,
     /// Whether it is a trace of friction alone.
     pub is_friction: bool,
-}
-
-impl PartialEq for DraftFile {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.source, &other.source)
-            && (self.place, self.is_friction) == (other.place, other.is_friction)
-    }
-}
-
-fn as_path<S: Serializer>(source: &SourceFile, to: S) -> Result<S::Ok, S::Error> {
-    source.path().serialize(to)
-}
-
-fn at_path<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<SourceFile>, D::Error> {
-    PathBuf::deserialize(from).map(|path| Arc::new(SourceFile::new(path)))
 }
 
 /// What the tester's files do not say.

@@ -2,6 +2,7 @@
 //! relief of a map with the strokes over it.
 
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::bench::export::{Exported, Sheet, bar};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::import::view::curves::profile_chart;
@@ -210,11 +211,7 @@ fn profile_of(found: &Heights) -> (Sheet, Row) {
     let places: Vec<f64> = (0..heights_um.len()).map(|i| i as f64 * step_mm).collect();
     let panel = found.profile.as_deref();
     let panel = panel.map_or_else(Chart::default, |envelope| profile_chart(map, envelope));
-    let row = Row {
-        panels: vec![panel],
-        height_px: 240.0,
-        bar: None,
-    };
+    let row = row(panel, 240.0);
     let sheet = Sheet::default()
         .with("place_mm", places)
         .with("height_um", heights_um);

@@ -2,6 +2,7 @@
 
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
+use crate::bench::source_file::SourceFile;
 use crate::tools::picture::found::Found;
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style};
 use selvedge_foundation::numerics::to_index;
@@ -82,11 +83,7 @@ fn marked(measured: &Measured) -> Vec<usize> {
 fn origin(found: &Found) -> Origin {
     let program = selvedge_foundation::PROGRAM;
     let mut origin = Origin::default().and("program", program, program);
-    let name = found
-        .inputs
-        .source
-        .as_ref()
-        .map(|chosen| chosen.file().name());
+    let name = found.inputs.source.as_ref().map(SourceFile::name);
     if let (Some(name), Some(sha256)) = (name, found.sha256()) {
         let line = format!("{name}: {sha256}");
         origin = origin.and("file", &line, &name);

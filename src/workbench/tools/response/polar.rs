@@ -8,7 +8,7 @@ use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::probe::{Probe, STEP_DEG};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
 use crate::kit::widgets::text::paint_quiet;
 use crate::tools::response::shown::{
@@ -25,17 +25,7 @@ const BESIDE: f32 = 31.0;
 /// From one ring to the next, dB.
 const RING_DB: f64 = 20.0;
 /// Angles that assistive tools may ask for, degrees.
-const SCALE: Scale = Scale {
-    least: 0.0,
-    most: 360.0,
-    resting: 0.0,
-    step: STEP_DEG,
-    decimals: 0,
-    unit: "°",
-    factor: 1.0,
-    noticed: None,
-    curve: Curve::Even,
-};
+const SCALE: Scale = Scale::even([0.0, 360.0], 0.0, STEP_DEG, (0, "°"));
 
 /// Shows the plot; a drag chooses the direction.
 pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut Commands) {

@@ -10,6 +10,7 @@ use crate::bench::recording::tiles::Tiles;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::SpectrumScale;
+use crate::kit::texture::{WHOLE, paint};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{self, Palette};
 use crate::tools::timeline::axes::{self, LEVELS_DB, round_above};
@@ -159,8 +160,8 @@ impl Pictures {
                 Lane::Raster(_) | Lane::Lines => &self.felt,
             };
             ui.painter().rect_filled(rect, 0, palette.floor);
-            picture.follow((ui.ctx(), "timeline"), (columns, height), &drawing);
-            picture.paint(ui.painter(), rect);
+            let texture = picture.follow(ui.ctx(), (columns, height), &drawing);
+            paint(ui.painter(), rect, WHOLE, texture);
         }
         self.veil(ui.painter(), layout, palette);
         top
@@ -189,7 +190,7 @@ impl Pictures {
     /// How often pictures were made.
     #[cfg(test)]
     pub(crate) fn n_uploads(&self) -> u64 {
-        self.lanes.iter().map(Picture::n_uploads).sum()
+        self.lanes.iter().map(|lane| lane.n_made).sum()
     }
 }
 

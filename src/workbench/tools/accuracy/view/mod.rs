@@ -122,16 +122,10 @@ fn show_controls(ui: &mut Ui, accuracy: &Accuracy, context: &mut PaneContext<'_>
     let row = ui.horizontal(|ui| {
         show_method(ui, &mut wanted.method);
         ui.add_space(STEP);
+        let resting = Rendering::default().budget_db;
         let scale = Scale {
-            least: 0.0,
-            most: MOST_BUDGET_DB,
-            resting: Rendering::default().budget_db,
-            step: 0.01,
-            decimals: 4,
-            unit: "dB",
-            factor: 1.0,
-            noticed: None,
             curve: Curve::Decades(DECADES),
+            ..Scale::even([0.0, MOST_BUDGET_DB], resting, 0.01, (4, "dB"))
         };
         let slider = ui.add_enabled_ui(rendering.has_budget(), |ui| {
             let ink = Palette::in_ui(ui).text;

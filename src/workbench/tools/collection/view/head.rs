@@ -141,14 +141,7 @@ fn show_axes(ui: &mut Ui, choice: &mut Choice, view: &CollectionView<'_>) {
 fn speed_scale() -> Scale {
     let [least, most] = SPEEDS_MM_PER_S;
     Scale {
-        least,
-        most,
-        resting: LEVEL_SPEED_MM_PER_S,
-        step: 1.0,
-        decimals: 0,
-        unit: "mm/s",
-        factor: 1.0,
-        noticed: None,
         curve: Curve::Decades((most / least).log10()),
+        ..Scale::even(SPEEDS_MM_PER_S, LEVEL_SPEED_MM_PER_S, 1.0, (0, "mm/s"))
     }
 }

@@ -40,7 +40,7 @@ const NEXT: [[f64; 2]; 5] = [
 
 /// Shows the step.
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: ColourMap) {
-    let Some(relief) = heights.relief.as_deref() else {
+    let Some(relief) = &heights.relief else {
         return;
     };
     let whole = ui.available_rect_before_wrap().intersect(ui.clip_rect());

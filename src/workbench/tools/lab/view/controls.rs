@@ -102,7 +102,7 @@ fn list(ui: &mut Ui, salt: &str, libraries: &LibraryView) -> Option<String> {
 fn show_steps(ui: &mut Ui, lab: &mut Lab) {
     let steps = lab.steps.as_ref();
     let list = steps.map(Steps::list).unwrap_or_default();
-    let is_changed = steps.is_some_and(|steps| steps.now() != steps.first());
+    let is_changed = steps.is_some_and(|steps| steps.recipe.draft != steps.recipe.first);
     // From the right.
     let start = is_changed.then(|| "Back to the start".to_owned());
     let redo = list.redo().map(|step| format!("Redo in the lab: {step}"));
@@ -132,7 +132,7 @@ fn show_steps(ui: &mut Ui, lab: &mut Lab) {
 
 /// What is edited: the name of the recipe and its kind.
 pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
-    let Some(manifest) = steps.and_then(|steps| steps.first().read().ok()) else {
+    let Some(manifest) = steps.and_then(|steps| steps.recipe.first.read().ok()) else {
         return;
     };
     let kind = manifest.source.kind();

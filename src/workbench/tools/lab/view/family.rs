@@ -78,7 +78,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
 
 /// The parameter that varies; says its unit.
 fn show_parameters(ui: &mut Ui, steps: &Steps, plan: &mut FamilyFields) -> &'static str {
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let groups = groups(draft.kind());
     let numbers: Vec<(String, Parameter)> = groups
         .iter()

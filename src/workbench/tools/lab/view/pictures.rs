@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{
-    self, Align2, Color32, Mesh, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{self, Align2, Painter, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
+use crate::kit::texture::{WHOLE, paint};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, round_step};
@@ -16,7 +15,7 @@ use crate::tools::lab::pictures::wavenumbers;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::parts::title;
-use selvedge_foundation::numerics::{to_index, to_single};
+use selvedge_foundation::numerics::{extent, to_index, to_single};
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra};
 
@@ -56,16 +55,10 @@ pub(crate) fn show_relief(ui: &Ui, rect: Rect, lab: &mut Lab, preview: &Arc<Prev
         pos2(share(from, size_mm[0]), 1.0 - share(across, size_mm[1])),
         pos2(share(from + along, size_mm[0]), 1.0),
     );
-    let mut mesh = Mesh::with_texture(texture.id());
-    mesh.add_rect_with_uv(picture, uv, Color32::WHITE);
-    ui.painter().add(Shape::mesh(mesh));
+    paint(ui.painter(), picture, uv, texture);
     paint_ruler(ui.painter(), picture, along);
     let heights = preview.relief.heights_um().values();
-    let (least, most) = heights
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(least, most), height| {
-            (least.min(*height), most.max(*height))
-        });
+    let [least, most] = extent(heights.iter().copied());
     response.on_hover_text(format!(
         "Heights from {} to {}; warp to the right, weft upwards",
         quantity::with_unit(least, 0, "µm"),
@@ -119,12 +112,9 @@ pub(crate) fn show_spectra(
     }
     let spectra = preview.felt.surface.spectra(direction);
     let texture = lab.pictures.spectra(ui.ctx(), spectra, map);
-    let mut mesh = Mesh::with_texture(texture.id());
-    let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let floor = Palette::in_ui(ui).floor;
     ui.painter().rect_filled(area, 0, floor);
-    mesh.add_rect_with_uv(area, all, Color32::WHITE);
-    ui.painter().add(Shape::mesh(mesh));
+    paint(ui.painter(), area, WHOLE, texture);
     paint_axes(ui.painter(), area, spectra);
     paint_bar(ui.painter(), (area, below), map);
     describe(response, area, direction, spectra);

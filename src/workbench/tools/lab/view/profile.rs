@@ -1,6 +1,7 @@
 //! The heights along one stroke, in travel order: what a probe reads.
 
 use eframe::egui::{Margin, Rect, Ui};
+use selvedge_foundation::numerics::extent;
 
 use crate::kit::plot;
 use crate::kit::plot::{Drag, Setting, Shown};
@@ -60,9 +61,7 @@ fn held_um(lab: &Lab, felt: &Felt) -> Option<[f64; 2]> {
     let felt = std::iter::once(felt).chain(compared);
     let profiles = felt.filter_map(|felt| felt.profile(lab.look.direction));
     let heights = profiles.flat_map(|profile| profile.heights_um().iter().copied());
-    let ends = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
-        [low.min(height), high.max(height)]
-    });
+    let ends = extent(heights);
     let span = ends[1] - ends[0];
     if !span.is_finite() {
         return lab.heights_um;

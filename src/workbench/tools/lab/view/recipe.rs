@@ -25,7 +25,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
     let Some(steps) = &lab.steps else {
         return changes;
     };
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let fault = steps.fault();
     if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
         complaint(ui, &fault.message);
@@ -94,7 +94,7 @@ fn is_short(group: &Group) -> bool {
 }
 
 fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<Change> {
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let is_of_table = matches!(parameter.kind, ParameterKind::Template { .. })
         || draft.has_table(parameter.place.table);
     if !is_of_table {

@@ -6,6 +6,7 @@ use eframe::egui::{
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
+use crate::kit::widgets::fields::typed_field;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, line, named, quiet, row, toggle};
@@ -45,8 +46,8 @@ pub(crate) fn number(
     parameter: &Parameter,
     range: Range,
 ) -> Option<KeyValue> {
-    let value = steps.now().number(parameter.place)?;
-    let first = steps.first().number(parameter.place).unwrap_or(value);
+    let value = steps.recipe.draft.number(parameter.place)?;
+    let first = steps.recipe.first.number(parameter.place).unwrap_or(value);
     let scale = scale(range, first, value);
     let palette = Palette::in_ui(ui);
     let is_changed = (value - first).abs() > 1e-12;
@@ -127,7 +128,7 @@ pub(crate) fn optional(
     parameter: &Parameter,
     (range, instead_of): (Range, &'static str),
 ) -> Option<Option<KeyValue>> {
-    if steps.now().value(parameter.place).is_some() {
+    if steps.recipe.draft.value(parameter.place).is_some() {
         let new = number(ui, steps, parameter, range);
         if new.is_some() || !instead_of.is_empty() {
             return new.map(Some);
@@ -147,7 +148,12 @@ pub(crate) fn optional(
         ..parameter.place
     };
     let [least, most] = range.ends;
-    let begin = steps.now().number(other).unwrap_or(1.0).clamp(least, most);
+    let begin = steps
+        .recipe
+        .draft
+        .number(other)
+        .unwrap_or(1.0)
+        .clamp(least, most);
     is_wanted.then(|| Some(key_value(begin, range.is_whole)))
 }
 
@@ -300,26 +306,10 @@ pub(crate) fn field(
     (now, width): (&str, f32),
 ) -> Option<String> {
     let id = ui.scope_id().with(("field", parameter.place));
-    let editing: Option<String> = ui.data(|data| data.get_temp(id));
-    let mut text = editing.unwrap_or_else(|| now.to_owned());
-    let edit = TextEdit::singleline(&mut text)
-        .id(id)
-        .font(theme::number())
-        .desired_width(width)
-        .margin(egui::Margin::symmetric(6, 3));
-    let response = ui.add(edit);
-    let label = parameter.name;
-    ui.ctx()
-        .accesskit_node_builder(id, |node| node.set_label(label));
-    if response.lost_focus() {
-        ui.data_mut(|data| data.remove::<String>(id));
-        let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
-        return (!is_cancelled && text != now).then_some(text);
-    }
-    if response.has_focus() {
-        ui.data_mut(|data| data.insert_temp(id, text));
-    }
-    None
+    typed_field(ui, id, (parameter.name, now), |edit| {
+        edit.desired_width(width)
+            .margin(egui::Margin::symmetric(6, 3))
+    })
 }
 
 /// A name before a field of words, below each other.
