@@ -1,6 +1,6 @@
 //! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
 
-use eframe::egui::{self, Label, Margin, RichText, Stroke, TextEdit, Ui, vec2};
+use eframe::egui::{self, InnerResponse, Label, Margin, RichText, Stroke, TextEdit, Ui, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
@@ -78,6 +78,15 @@ pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
     }
 }
 
+/// A line of a form: its parts a step apart, from left to right.
+pub(crate) fn form_line<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
+    line(ui, LINE, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.spacing_mut().interact_size.y = LINE - 2.0;
+        content(ui)
+    })
+}
+
 /// A row: a name, `content` with the name's response to be labelled by, and behind it in small
 /// words how it is known.
 pub(crate) fn row(
@@ -96,9 +105,7 @@ pub(crate) fn row_of(
     (name, known): (&str, &str),
     content: impl FnOnce(&mut Ui, &egui::Response),
 ) {
-    line(ui, LINE, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
+    form_line(ui, |ui| {
         let text = quiet(name);
         let width = room.min(0.4 * ui.available_width());
         let label = ui.allocate_ui_with_layout(vec2(width, LINE), *ui.layout(), |ui| {

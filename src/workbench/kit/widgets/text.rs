@@ -24,6 +24,11 @@ pub(crate) fn quiet(words: impl Into<String>) -> RichText {
     RichText::new(words).small().weak()
 }
 
+/// Words over as many lines as they need.
+pub(crate) fn paragraph(ui: &mut Ui, words: RichText) -> Response {
+    ui.add(egui::Label::new(words).wrap())
+}
+
 /// Paints small and dim words; says where they stand.
 pub(crate) fn paint_quiet(
     painter: &Painter,

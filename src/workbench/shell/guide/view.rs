@@ -7,7 +7,7 @@ use eframe::egui::{
 use crate::bench::command::{Command, Commands};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::named;
+use crate::kit::widgets::text::{named, paragraph, quiet};
 use crate::shell::guide::markdown::{Block, Span, anchor, blocks};
 use crate::shell::guide::{GuidePage, guide_pages, page};
 
@@ -134,8 +134,7 @@ fn show_contents(ui: &mut Ui, reading: &mut Reading) {
             if ui.selectable_label(false, title).clicked() {
                 goes = Some(format!("{}#{}", hit.page.name, anchor(&hit.heading)));
             }
-            let words = RichText::new(hit.words).font(theme::small());
-            ui.add(egui::Label::new(words.color(Palette::in_ui(ui).dim)).wrap());
+            paragraph(ui, quiet(hit.words));
         }
     });
     if let Some(target) = goes {

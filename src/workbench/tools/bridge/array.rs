@@ -1,6 +1,6 @@
 //! The array profile in force: which, its scale and limits, how the device falls silent.
 
-use eframe::egui::{self, Label, RichText, TextEdit, Ui};
+use eframe::egui::{self, RichText, TextEdit, Ui};
 
 use crate::bench::command::Commands;
 use crate::bench::command::array::ArrayCommand;
@@ -10,7 +10,7 @@ use crate::kit::widgets::limit_mark::{LIMIT_MARK, paint_limit_mark};
 use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
-use crate::kit::widgets::text::{button, choice, row, small};
+use crate::kit::widgets::text::{button, choice, named, paragraph, row, small};
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::ArrayProfile;
 use selvedge_foundation::quantity;
@@ -90,8 +90,7 @@ fn show_waiting(ui: &mut Ui, array: &ArrayView<'_>) {
         let palette = Palette::in_ui(ui);
         let words = "The device is armed: what was changed takes effect once it is disarmed. \
                      What only lowers does so at once.";
-        let words = small(words, palette.text);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, small(words, palette.text));
     }
 }
 
@@ -223,7 +222,6 @@ fn show_copying(
             .desired_width(ui.available_width())
             .hint_text("name of a copy");
         let response = ui.add(field);
-        let name = |node: &mut egui::accesskit::Node| node.set_label("Name of a copy");
-        ui.ctx().accesskit_node_builder(response.id, name);
+        named(&response, "Name of a copy");
     });
 }

@@ -1,14 +1,13 @@
 //! What the emulator's contactors are told and what a model says they do, number by number.
 
 use eframe::egui::{
-    self, Align2, Label, Painter, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, pos2,
-    vec2,
+    self, Align2, Painter, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fold::described_fold;
-use crate::kit::widgets::text::{paint_quiet, row, small};
+use crate::kit::widgets::text::{paint_quiet, paragraph, quiet, row, small};
 use crate::tools::bridge::actuators::{ActuatorPeek, PlantCell, PlantView};
 use selvedge_device::Skin;
 use selvedge_foundation::quantity;
@@ -48,13 +47,13 @@ fn show_open(ui: &mut Ui, view: &PlantView, skin: &mut Skin) {
         ui.label(RichText::new(words).color(palette.dim));
     } else {
         show_grids(ui, view);
-        ui.add(Label::new(small(&troubles(&view.contactors), palette.text)).wrap());
+        paragraph(ui, small(&troubles(&view.contactors), palette.text));
     }
     let words = format!(
         "A model estimate, no measurement: design-sheet values of beams of {}; skin {}.",
         view.beams, view.skin
     );
-    ui.add(Label::new(small(&words, palette.dim)).wrap());
+    paragraph(ui, quiet(&words));
 }
 
 /// The finger: one of those that have a name.

@@ -6,7 +6,7 @@ use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgePhase, BridgeView};
 use crate::kit::theme::{Palette, ROW};
-use crate::kit::widgets::text::{mark, small};
+use crate::kit::widgets::text::{mark, paragraph, small};
 
 pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
     let palette = Palette::in_ui(ui);
@@ -37,8 +37,7 @@ pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Optio
 pub(crate) fn show_trouble(ui: &mut Ui, trouble: Option<&str>) {
     let Some(trouble) = trouble else { return };
     let ink = Palette::in_ui(ui).danger;
-    let words = small(trouble, ink);
-    ui.add(egui::Label::new(words).wrap());
+    paragraph(ui, small(trouble, ink));
 }
 
 pub(crate) fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, commands: &mut Commands) {

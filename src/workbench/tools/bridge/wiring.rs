@@ -1,8 +1,6 @@
 //! Which channel drives which contactor: what is known of it, and the walk that finds it out.
 
-use eframe::egui::{
-    self, Align2, Label, Painter, Rect, RichText, Sense, Stroke, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{self, Align2, Painter, Rect, RichText, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
@@ -11,7 +9,7 @@ use crate::bench::query;
 use crate::bench::view::BridgePhase;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{button, quiet, row};
+use crate::kit::widgets::text::{button, paragraph, quiet, row};
 use crate::tools::bridge::view::BridgePane;
 use selvedge_device::DeviceUid;
 use selvedge_device::wiring::{Answer, WiringFound};
@@ -49,8 +47,7 @@ fn doubt(view: &BridgePane<'_>) -> Option<String> {
 /// Shows what is known.
 pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
     for line in lines(view) {
-        let words = quiet(line);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, quiet(line));
     }
     row(ui, "", |ui| {
         let tip = "Drive one channel after the other, and click the contactor that moves";
@@ -117,7 +114,7 @@ pub(crate) fn show_wizard(
     });
     let is_armed = view.live.takes_ident();
     for words in instructions(wizard, is_armed) {
-        ui.add(Label::new(RichText::new(words).color(palette.text)).wrap());
+        paragraph(ui, RichText::new(words).color(palette.text));
     }
     if wizard.walk.channel().is_some() {
         show_array(ui, wizard, view, commands);
@@ -317,8 +314,7 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, commands: &mut Com
 fn show_found(ui: &mut Ui, wizard: &Wizard, commands: &mut Commands) {
     let found = wizard.walk.found();
     for line in found.iter().flat_map(WiringFound::lines) {
-        let words = quiet(query::capitalised(&line));
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, quiet(query::capitalised(&line)));
     }
     let mut wish = |command| commands.push(ArrayCommand::Identify(command).into());
     row(ui, "", |ui| {

@@ -15,9 +15,9 @@ use crate::bench::library_shelf::{OWN, plain_id};
 use crate::bench::library_view::LibraryItem;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{LibraryEntry, SceneView};
+use crate::kit::swatch;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, quiet};
-use crate::kit::{swatch, theme};
 use crate::tools::library::menus::{show_chooser, show_item_menu};
 use crate::tools::library::state::{Library, Shown};
 use selvedge_foundation::geometry::Point;
@@ -121,9 +121,9 @@ fn show_title(ui: &mut Ui, group: &Group) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let words = format!("{} · {}", group.title, group.items.len());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &words));
-    let text = RichText::new(&words).font(theme::small());
+    let text = quiet(&words);
     let at = pos2(rect.left() + 2.0, rect.bottom() - 9.0);
-    paint_line(ui, at, rect.width(), text.color(Palette::in_ui(ui).dim));
+    paint_line(ui, at, rect.width(), text);
 }
 
 /// One textile of the library: dragged into the workspace, or added by a double click.

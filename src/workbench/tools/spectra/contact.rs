@@ -21,11 +21,11 @@ use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks};
 use crate::kit::widgets::text::paint_quiet;
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
-    Colours, HEIGHT_PX, contactor, frequencies, on_finger, picture, sheet, show_levels,
+    Colours, contactor, exported, frequencies, on_finger, picture, show_levels,
     show_spectrogram_corner, waterfall,
 };
 use selvedge_chart as chart;
-use selvedge_chart::{Chart, Row, Series, Style, Upright};
+use selvedge_chart::{Chart, Series, Style, Upright};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -141,19 +141,19 @@ impl Tool for ContactSpectrum {
             })
         };
         let filters = filters(&bench.document.scene().filters, is_linear);
-        let row = Row {
-            panels: vec![picture, filters],
-            height_px: HEIGHT_PX,
-            bar: Some(colours.bar()),
-        };
         let title = format!("Vibration that arrives at contactor {contactor}");
         let note = "Peak amplitude at the surface, before filters and gains, in rows 4.9 % of the \
                     frequency wide; each column is a tick of 25 ms, white where nothing arrived. \
                     Right: amplitude gain of the filters.";
-        let ticks = columns.iter().map(|column| column.tick);
-        let origin = bench.origin().of_contactor(contactor).in_ticks(ticks);
-        let sheet = sheet(&columns, "level_db");
-        Ok(Exported::new(title, sheet, vec![row], note, origin))
+        let origin = bench.origin().of_contactor(contactor);
+        let panels = (vec![picture, filters], colours.bar());
+        Ok(exported(
+            &columns,
+            "level_db",
+            panels,
+            (title, note),
+            origin,
+        ))
     }
 }
 

@@ -68,8 +68,7 @@ fn show_chain(ui: &mut Ui, why: &Explanation) {
             ui.add_space(NAMES);
             for band in Band::ALL {
                 let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-                let name = RichText::new(name).font(theme::small());
-                ui.label(name.color(palette.band(band)));
+                ui.label(small(name, palette.band(band)));
             }
         });
         for (name, value) in lines {

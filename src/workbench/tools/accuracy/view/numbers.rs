@@ -4,8 +4,7 @@ use eframe::egui::{Align2, Color32, Label, Margin, Sense, Ui, pos2, vec2};
 
 use crate::kit::plot::{Drag, Setting};
 use crate::kit::theme;
-use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{paint_quiet, small};
+use crate::kit::widgets::text::{paint_quiet, quiet};
 use selvedge_foundation::quantity;
 
 /// Height of a line, points.
@@ -63,8 +62,7 @@ pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: 
 
 /// A line of dim words that is cut where there is no room for all.
 pub(crate) fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
-    let ink = Palette::in_ui(ui).dim;
-    let words = small(words, ink);
+    let words = quiet(words);
     let label = ui.add(Label::new(words).truncate());
     if !tip.is_empty() {
         label.on_hover_text(tip);

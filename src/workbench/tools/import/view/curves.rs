@@ -7,7 +7,8 @@ use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{line, paint_quiet, quiet, toggle};
+use crate::kit::widgets::fields::form_line;
+use crate::kit::widgets::text::{paint_quiet, quiet, toggle};
 use crate::tools::import::draft::Draft;
 use crate::tools::import::envelope::Envelope;
 use crate::tools::import::view::section;
@@ -209,9 +210,7 @@ fn show_sections(
     axes: [Option<Ends>; 2],
     import: Option<&KesImport>,
 ) {
-    line(ui, LINE, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
+    form_line(ui, |ui| {
         for (index, (axis, name)) in [(TextileAxis::Warp, "warp"), (TextileAxis::Weft, "weft")]
             .into_iter()
             .enumerate()

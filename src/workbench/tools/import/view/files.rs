@@ -1,10 +1,9 @@
 //! The first step: which files, and what each of them holds.
 
-use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, Label, Layout, Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::drop::nothing_yet;
-use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
 use crate::kit::widgets::text::{button, line, quiet, small, toggle};
@@ -111,8 +110,7 @@ fn show_file(ui: &mut Ui, nth: usize, file: &mut DraftFile, is_strokes: bool) ->
         if is_strokes {
             show_place(ui, nth, file);
         } else if let Some(n_bytes) = file.source.n_bytes() {
-            let size = RichText::new(size_words(n_bytes)).font(theme::small());
-            ui.label(size.color(palette.dim));
+            ui.label(quiet(size_words(n_bytes)));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let path = file.source.path().display().to_string();

@@ -9,8 +9,9 @@ use crate::kit::theme;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
+use crate::kit::widgets::fields::form_line;
 use crate::kit::widgets::relief::{BAR_ROOM, Relief, paint_height_bar};
-use crate::kit::widgets::text::{button, line, named, paint_quiet, quiet, toggle};
+use crate::kit::widgets::text::{button, named, paint_quiet, quiet, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::Looked;
 use crate::tools::import::work::Heights;
@@ -289,9 +290,7 @@ fn show_place(
     ),
 ) -> bool {
     let mut is_gone = false;
-    line(ui, LINE, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
+    form_line(ui, |ui| {
         ui.label(quiet(if n > 1 {
             format!("place {}", nth + 1)
         } else {

@@ -1,9 +1,7 @@
 //! The parameters of a recipe, group by group.
 
-use eframe::egui::{CollapsingHeader, RichText, Ui};
+use eframe::egui::{CollapsingHeader, Ui};
 
-use crate::kit::theme;
-use crate::kit::theme::Palette;
 use crate::kit::widgets::text::quiet;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
@@ -34,10 +32,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
         let is_faulty =
             |parameter: &Parameter| fault.is_some_and(|fault| fault.place == Some(parameter.place));
         let has_fault = group.parameters.iter().any(is_faulty);
-        let palette = Palette::in_ui(ui);
         let mark = if has_fault { " ·  wrong value" } else { "" };
-        let title = RichText::new(format!("{}{mark}", group.title));
-        let title = title.font(theme::small()).color(palette.dim);
+        let title = quiet(format!("{}{mark}", group.title));
         let header = CollapsingHeader::new(title)
             .id_salt((draft.kind().to_owned(), group.title))
             .default_open(is_short(&group));

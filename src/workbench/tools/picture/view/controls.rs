@@ -9,7 +9,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, quiet, toggle};
+use crate::kit::widgets::text::{button, paragraph, quiet, toggle};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
 use crate::tools::picture::state::Picture;
@@ -308,6 +308,5 @@ fn show_trust(ui: &mut Ui, shaped: &Shaped) {
         .as_ref()
         .map_or("", |estimate| &estimate.words);
     let words = format!("{} {more}", shaped.shape.reliability);
-    let words = quiet(words.trim());
-    ui.add(eframe::egui::Label::new(words).wrap());
+    paragraph(ui, quiet(words.trim()));
 }
