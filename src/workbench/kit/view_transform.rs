@@ -11,11 +11,11 @@ use selvedge_foundation::numerics::to_single;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ViewTransform {
     /// The rectangle, points.
-    rect: Rect,
+    pub(crate) rect: Rect,
     /// The place in the workspace shown at the middle of the rectangle.
-    centre: Point,
+    pub(crate) centre: Point,
     /// Points per millimetre.
-    points_per_mm: f64,
+    pub(crate) points_per_mm: f64,
 }
 
 impl ViewTransform {
@@ -38,21 +38,6 @@ impl ViewTransform {
             Point::new(width_mm / 2.0, height_mm / 2.0),
             points_per_mm,
         )
-    }
-
-    /// Points per millimetre.
-    pub(crate) fn points_per_mm(&self) -> f64 {
-        self.points_per_mm
-    }
-
-    /// The rectangle, points.
-    pub(crate) fn rect(&self) -> Rect {
-        self.rect
-    }
-
-    /// The place in the workspace shown at the middle of the rectangle.
-    pub(crate) fn centre(&self) -> Point {
-        self.centre
     }
 
     /// How long a length in the workspace is on the screen, points.

@@ -19,7 +19,8 @@ const LETTER_GAP: f32 = 5.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Axis {
     least: f64,
-    most: f64,
+    /// Its upper end.
+    pub(crate) most: f64,
     is_log: bool,
 }
 
@@ -92,11 +93,6 @@ impl Axis {
             most,
             is_log,
         }
-    }
-
-    /// Its upper end.
-    pub(crate) fn most(&self) -> f64 {
-        self.most
     }
 
     /// Where a number lies: 0 at the lower end, 1 at the upper, beyond them below 0 and above 1.

@@ -32,9 +32,12 @@ pub(crate) const BAR_ROOM: f32 = 58.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Relief {
     heights_um: Grid<f64>,
-    size_mm: [f64; 2],
-    range_um: [f64; 2],
-    n_missing: usize,
+    /// Extent along u and w, mm.
+    pub(crate) size_mm: [f64; 2],
+    /// The heights at the ends of the colours, µm: all but 0.5 % at either end lie between.
+    pub(crate) range_um: [f64; 2],
+    /// Points of the map without a height.
+    pub(crate) n_missing: usize,
 }
 
 impl Relief {
@@ -55,21 +58,6 @@ impl Relief {
             size_mm,
             n_missing: map.n_missing(),
         }
-    }
-
-    /// Extent along u and w, mm.
-    pub(crate) fn size_mm(&self) -> [f64; 2] {
-        self.size_mm
-    }
-
-    /// The heights at the ends of the colours, µm: all but 0.5 % at either end lie between.
-    pub(crate) fn range_um(&self) -> [f64; 2] {
-        self.range_um
-    }
-
-    /// Points of the map without a height.
-    pub(crate) fn n_missing(&self) -> usize {
-        self.n_missing
     }
 
     /// The cells that are drawn, µm, rows in the order of rising w; NaN where missing.
@@ -240,7 +228,7 @@ impl ReliefPicture {
 /// Paints the bar of heights, its numbers on the right and the unit above.
 pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, map: ColourMap) {
     colour_bar(painter, bar, |share| map.colour(share));
-    let [low, high] = relief.range_um();
+    let [low, high] = relief.range_um;
     let axis = Axis::linear(low, high);
     let ticks = axis.ticks(bar.height(), 28.0);
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &ticks);
@@ -278,14 +266,14 @@ mod tests {
             (relief.heights_um.width(), relief.heights_um.height()),
             (720, 180)
         );
-        assert_eq!(relief.n_missing(), 200 * 100);
+        assert_eq!(relief.n_missing, 200 * 100);
         assert_eq!(relief.height_at([0.5, 0.5]), None, "the hole");
         let found = relief.height_at([10.0, 4.0]).unwrap();
         assert!((found - 10.0).abs() < 0.05, "{found}");
         assert_eq!(relief.height_at([20.5, 1.0]), None, "off the map");
         let fitted = relief.fitted(Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0)));
         assert_eq!(fitted.size(), vec2(400.0, 100.0));
-        let [low, high] = relief.range_um();
+        let [low, high] = relief.range_um;
         assert!(
             low > 0.0 && low < 0.4 && high > 19.5 && high < 20.0,
             "{low} {high}"
@@ -312,7 +300,7 @@ mod tests {
     fn a_level_map_has_one_colour_and_a_bar_with_two_ends() {
         let grid = Grid::filled(30, 20, 7.0);
         let relief = Relief::of(&HeightMap::new(grid, [0.1, 0.1]).unwrap());
-        assert_eq!(relief.range_um(), [6.5, 7.5]);
+        assert_eq!(relief.range_um, [6.5, 7.5]);
         let colours = relief.colours(ColourMap::Viridis);
         assert!(
             colours

@@ -63,7 +63,7 @@ impl ContactSpectrum {
     fn catch_up(&mut self, bench: &mut Bench) -> bool {
         let (contactor, colours) = (contactor(bench), Colours::in_force(bench));
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
-        let key = (history.n_clears(), inspection.n_scenes, contactor);
+        let key = (history.n_clears, inspection.n_scenes, contactor);
         let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
         let name = (&bench.ctx, "contact spectrogram");
         let fill = |entry: &Entry, levels_db: &mut Rows| {

@@ -48,7 +48,7 @@ impl DriveSpectrum {
     fn catch_up(&mut self, bench: &Bench) -> bool {
         let history = &bench.past.history;
         let watched = history.newest().map(|entry| entry.tick_sample.watched);
-        let key = (history.n_clears(), watched);
+        let key = (history.n_clears, watched);
         let spectrum = &mut self.spectrum;
         let name = (&bench.ctx, "drive spectrogram");
         let fill = |entry: &Entry, rows_um: &mut Rows| {

@@ -185,7 +185,7 @@ impl<K: PartialEq> Waterfall<K> {
 
     /// The columns that are shown, old to new, without pauses and what was not computed.
     pub(crate) fn shown(&self, history: &History) -> Vec<ShownColumn> {
-        let next = self.ring.next();
+        let next = self.ring.next;
         let first = next.saturating_sub(N_COLUMNS as u64);
         let of = |column: u64| {
             let rows = *self.ring.column(column)?;
@@ -270,7 +270,7 @@ pub(crate) fn paint(
     let picture = layout.picture;
     painter.rect_filled(picture, 0, palette.floor);
     let presence = on_finger.map(OnFinger::presence);
-    image.paint(painter, layout, ring.next(), presence[0].max(presence[1]));
+    image.paint(painter, layout, ring.next, presence[0].max(presence[1]));
     paint_label(painter, picture, on_finger);
     let axis = layout.frequencies;
     let ticks = axis.ticks(picture.height(), 18.0);
@@ -330,7 +330,7 @@ fn read(layout: &Layout, ring: &ColumnRing, at: Pos2) -> Option<Under> {
     let n_columns = N_COLUMNS as f32;
     let from_right = ((picture.right() - at.x) / picture.width()).clamp(0.0, 1.0) * n_columns;
     let back = to_index(f64::from(from_right.floor().min(n_columns - 1.0))) as u64;
-    let rows = (ring.next().checked_sub(back + 1)).and_then(|column| ring.column(column));
+    let rows = (ring.next.checked_sub(back + 1)).and_then(|column| ring.column(column));
     let value = rows.map(|rows| rows[row_at(frequency_hz)]);
     Some(Under {
         ago_s: back as f64 / TICKS_PER_S,

@@ -151,7 +151,7 @@ impl Pictures {
         let fastest = self.felt.each().filter_map(|rows| speed_of(*rows.first()?));
         let top = round_above(fastest.fold(0.0, f64::max));
         let palette = Palette::in_ui(ui);
-        let n_contactors = felt.n_rows().saturating_sub(N_LINES) / 2;
+        let n_contactors = felt.n_rows.saturating_sub(N_LINES) / 2;
         for ((lane, rect), picture) in LANES.into_iter().zip(layout.lanes).zip(&mut self.lanes) {
             let height = n_pixels(rect.height() * scale);
             let drawing = drawing(lane, style, palette, (height, n_contactors, top));

@@ -64,7 +64,7 @@ impl<K: PartialEq> Layer<K> {
             .path
             .as_ref()
             .is_some_and(|known| Arc::ptr_eq(known, path));
-        if !is_same_path || self.tiles.n_rows() != n_rows {
+        if !is_same_path || self.tiles.n_rows != n_rows {
             self.tiles = Tiles::new(n_rows, path.n_ticks());
             self.key = None;
         }

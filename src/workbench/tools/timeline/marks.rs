@@ -8,6 +8,7 @@ use eframe::egui::{
 use crate::bench::command::{Commands, PlayCommand, RecordingCommand};
 use crate::bench::recording::Marker;
 use crate::kit::theme::{self, Palette};
+use crate::kit::widgets::text::named;
 use crate::tools::timeline::scope::Scope;
 
 /// Width of the field that a name is typed into, points.

@@ -35,13 +35,13 @@ impl Columns {
     /// Reads what tiles hold of a span in `n` columns, if anything has changed; `of` says which
     /// exploration the tiles are of.
     pub(crate) fn follow(&mut self, tiles: &Tiles, of: u64, (span, n): (Span, usize)) {
-        let key = (of, span, n, tiles.version());
-        if self.key == Some(key) && self.n_rows == tiles.n_rows() {
+        let key = (of, span, n, tiles.version);
+        if self.key == Some(key) && self.n_rows == tiles.n_rows {
             return;
         }
         self.key = Some(key);
         self.stamp += 1;
-        self.n_rows = tiles.n_rows();
+        self.n_rows = tiles.n_rows;
         self.bytes.resize(n * self.n_rows, 0);
         if self.n_rows > 0 {
             for (x, rows) in self.bytes.chunks_exact_mut(self.n_rows).enumerate() {

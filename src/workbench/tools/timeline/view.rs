@@ -77,7 +77,7 @@ pub(crate) fn show(
         None => (live.felt(), live.spectrum()),
     };
     let tiles = (felt, spectrum);
-    let top = pictures.paint(ui, (&layout, &*style), tiles, (sight.of(), span));
+    let top = pictures.paint(ui, (&layout, &*style), tiles, (sight.of, span));
     let scope = Scope {
         view,
         layout,
@@ -154,7 +154,7 @@ fn navigate(ui: &Ui, response: &Response, (layout, all): (&Layout, Span), state:
         if (factor - 1.0).abs() > 1e-6 {
             let share = layout.share_at(at.x).clamp(0.0, 1.0);
             // What ends with the newest goes on to do so.
-            let ends_with_newest = state.sight.of() == 0 && span.end >= all.end;
+            let ends_with_newest = state.sight.of == 0 && span.end >= all.end;
             let share = if ends_with_newest { 1.0 } else { share };
             state.sight.set(span.zoomed(factor, share, all), all);
         }

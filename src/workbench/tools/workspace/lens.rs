@@ -170,7 +170,7 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Comm
 
 /// Whether a map of the cloth is shown, which needs a legend.
 fn has_legend(stage: &Stage<'_>) -> bool {
-    stage.state.overlays.map().is_some()
+    stage.state.overlays.map.is_some()
 }
 
 /// Where a map's legend stands below the lens; `None` where there is little room.

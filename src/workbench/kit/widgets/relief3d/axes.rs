@@ -116,7 +116,7 @@ impl Edge {
         let mut ticks = axis.ticks(length, APART.min(0.9 * length));
         if self.unit == "µm" && ticks.len() < 3 {
             // Too short for round numbers: the relief itself.
-            ticks = vec![Tick::named(axis.most(), &quantity::fixed(axis.most(), 0))];
+            ticks = vec![Tick::named(axis.most, &quantity::fixed(axis.most, 0))];
         }
         let is_shared = |tick: &Tick| {
             let share = axis.share(tick.value);

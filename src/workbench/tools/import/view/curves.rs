@@ -19,8 +19,6 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::surface::{Direction, HeightMap};
 use selvedge_textile::{KesImport, KesReading, KesStroke, Mark, MarkKind, TextileAxis};
 
-/// Height of the row of sections, points.
-const LINE: f32 = 22.0;
 /// Room around the curves: for numbers and names, and on the right for figures.
 const MARGIN: Margin = Margin {
     left: 44,

@@ -79,7 +79,7 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: 
 
 /// The places of the map and of the list: side by side where the map leaves room.
 fn split(whole: Rect, relief: &Relief, n_places: usize) -> (Rect, Rect) {
-    let [u_mm, w_mm] = relief.size_mm();
+    let [u_mm, w_mm] = relief.size_mm;
     let width = to_single(u_mm / w_mm) * (whole.height() - BELOW) + LEFT + BAR_ROOM + 24.0;
     if width + LIST <= whole.width() {
         return whole.split_left_right_at_x(whole.left() + width);
@@ -90,7 +90,7 @@ fn split(whole: Rect, relief: &Relief, n_places: usize) -> (Rect, Rect) {
 }
 
 fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
-    let [u_mm, w_mm] = relief.size_mm();
+    let [u_mm, w_mm] = relief.size_mm;
     let painter = ui.painter();
     let (u, w) = (Axis::linear(0.0, u_mm), Axis::linear(0.0, w_mm));
     paint_outer_ticks(
@@ -108,7 +108,7 @@ fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
     let words = "warp, mm; weft upwards";
     let at = pos2(rect.right(), rect.bottom() + 16.0);
     paint_quiet(painter, at, Align2::RIGHT_TOP, words);
-    let n_missing = relief.n_missing();
+    let n_missing = relief.n_missing;
     if n_missing > 0 {
         let words = format!("hatched: {n_missing} points missing");
         let at = pos2(rect.left(), rect.bottom() + 16.0);
@@ -131,7 +131,7 @@ fn within(place_mm: [f64; 2], size_mm: [f64; 2]) -> [f64; 2] {
 
 /// The strokes on the map: crosses that are dragged; a double click adds one.
 fn show_places(ui: &Ui, rect: Rect, relief: &Relief, looked: &mut Looked, is_felt_along: bool) {
-    let size_mm = relief.size_mm();
+    let size_mm = relief.size_mm;
     let mm_at = |at: eframe::egui::Pos2| {
         let share = (at - rect.min) / rect.size();
         let place = [
@@ -240,7 +240,7 @@ fn show_list(
         let words = "Felt at every point of the map; the cross only says where SMD is read.";
         ui.label(quiet(words));
     }
-    let size_mm = relief.size_mm();
+    let size_mm = relief.size_mm;
     let mut places = places_of(looked, size_mm);
     let before = places.clone();
     let mut gone = None;

@@ -51,7 +51,7 @@ impl Lattice {
     /// Draws the points of a textile, if there is room for them.
     pub(crate) fn paint(&self, painter: &Painter, view: &ViewTransform, cloth: &Cloth) {
         let bounds = screen_bounds(view, cloth);
-        if !has_room(view.points_per_mm()) || !painter.clip_rect().intersects(bounds) {
+        if !has_room(view.points_per_mm) || !painter.clip_rect().intersects(bounds) {
             return;
         }
         let step = view.length(1.0) * painter.ctx().pixels_per_point();

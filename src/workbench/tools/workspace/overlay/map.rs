@@ -119,7 +119,7 @@ pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Po
         .layers
         .maps
         .amplitude_um(index, [own.x_mm, own.y_mm]);
-    let Some((band, amplitude_um)) = stage.state.overlays.map().zip(found) else {
+    let Some((band, amplitude_um)) = stage.state.overlays.map.zip(found) else {
         return String::new();
     };
     format!(

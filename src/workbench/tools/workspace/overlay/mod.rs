@@ -33,7 +33,7 @@ pub(crate) fn paint_on_cloth(
     (index, cloth): (usize, &Cloth),
 ) {
     let overlays = stage.state.overlays;
-    if overlays.map().is_some()
+    if overlays.map.is_some()
         && let Some(picture) = stage.sight.layers.maps.picture(index)
     {
         map::paint(painter, view, cloth, picture);
