@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Align2, Color32, ColorImage, Painter, Pos2, Rect, TextureOptions, Theme, vec2};
+use eframe::egui::{Align2, Color32, ColorImage, Painter, Rect, TextureOptions, Theme, vec2};
 
 use crate::kit::texture::{Same, Texture, WHOLE};
 use crate::kit::theme::Palette;
@@ -79,7 +79,6 @@ impl Relief {
 
     /// The largest rectangle of the map's shape in the middle of a room.
     pub(crate) fn fitted(&self, room: Rect) -> Rect {
-        #[expect(clippy::cast_possible_truncation, reason = "a shape, for the screen")]
         let shape = to_single(self.size_mm[0] / self.size_mm[1]);
         let width = room.width().min(room.height() * shape);
         Rect::from_center_size(room.center(), vec2(width, width / shape))
@@ -242,6 +241,8 @@ pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, ma
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui::Pos2;
+
     use super::*;
 
     /// A ramp along u with a hole, 2000 × 500 points of 0.01 mm.

@@ -47,7 +47,7 @@ fn show_open(ui: &mut Ui, view: &PlantView, skin: &mut Skin) {
         ui.label(RichText::new(words).color(palette.dim));
     } else {
         show_grids(ui, view);
-        paragraph(ui, small(&troubles(&view.contactors), palette.text));
+        paragraph(ui, small(troubles(&view.contactors), palette.text));
     }
     let words = format!(
         "A model estimate, no measurement: design-sheet values of beams of {}; skin {}.",

@@ -70,7 +70,7 @@ pub(crate) struct HeightsDraft {
 
 /// Everything that the readers are told.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Told {
+pub(crate) struct ReaderDraft {
     /// The files.
     pub files: Vec<DraftFile>,
     /// What they are; `None`: by their content.
@@ -83,7 +83,7 @@ pub(crate) struct Told {
 
 /// What is looked at of what was read.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Looked {
+pub(crate) struct EvaluationDraft {
     /// The evaluated sections of warp and weft, mm; `None`: the one suggested.
     pub sections: [Option<[f64; 2]>; 2],
     /// Whether figures against the official band are asked for.
@@ -115,9 +115,9 @@ pub(crate) struct WordsDraft {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Draft {
     /// What the readers are told.
-    pub described: Told,
+    pub described: ReaderDraft,
     /// What is looked at.
-    pub looked: Looked,
+    pub looked: EvaluationDraft,
     /// What is said of the textile.
     pub words: WordsDraft,
 }
@@ -125,9 +125,9 @@ pub(crate) struct Draft {
 impl Draft {
     /// Whether more was chosen and typed than which files there are.
     pub(crate) fn is_begun(&self) -> bool {
-        let described = Told {
+        let described = ReaderDraft {
             files: self.described.files.clone(),
-            ..Told::default()
+            ..ReaderDraft::default()
         };
         let fresh = Self {
             described,
@@ -158,7 +158,7 @@ pub(crate) fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
     number.map(Some).ok_or_else(wrong)
 }
 
-impl Told {
+impl ReaderDraft {
     /// The tester's options.
     pub(crate) fn kes_options(&self) -> Result<KesOptions, Failure> {
         let typed = &self.strokes;

@@ -12,7 +12,7 @@ use crate::bench::keep::NewTextile;
 use crate::bench::latest::{Latest, Standing};
 use crate::bench::pane::Pane;
 use crate::kit::widgets::relief::ReliefPicture;
-use crate::tools::import::draft::{Draft, DraftFile, HeightsDraft, Looked, StrokesDraft};
+use crate::tools::import::draft::{Draft, DraftFile, EvaluationDraft, HeightsDraft, StrokesDraft};
 use crate::tools::import::failure::Failure;
 use crate::tools::import::work::{Found, Inputs};
 
@@ -96,9 +96,9 @@ impl Import {
             draft.described.strokes = StrokesDraft::default();
             draft.described.heights = HeightsDraft::default();
         }
-        draft.looked = Looked {
+        draft.looked = EvaluationDraft {
             is_official: draft.looked.is_official,
-            ..Looked::default()
+            ..EvaluationDraft::default()
         };
         self.take_draft(draft);
         Ok(())

@@ -65,7 +65,7 @@ impl Output {
         (gain, scale): (Option<f64>, Option<LinkScale>),
         on_finger: [OnFinger; 2],
     ) -> Self {
-        let single = amplitudes_um.map(|um| to_single(um));
+        let single = amplitudes_um.map(to_single);
         let played = |band: usize| !on_finger[band].is_silence();
         let felt = [0, 1].map(|band| if played(band) { single[band] } else { 0.0 });
         let mut coder = Coder::of_contactor(profile, contactor);

@@ -216,7 +216,7 @@ fn show_sections(
             let Some(ends) = axes[index] else {
                 continue;
             };
-            ui.label(quiet(&format!("{name}, mm")));
+            ui.label(quiet(format!("{name}, mm")));
             let section = import.and_then(|import| import.section(axis));
             if let Some(wanted) = section::numbers(ui, name, ends, section) {
                 draft.looked.sections[index] = match wanted {

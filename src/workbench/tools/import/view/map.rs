@@ -13,7 +13,7 @@ use crate::kit::widgets::fields::form_line;
 use crate::kit::widgets::relief::{BAR_ROOM, Relief, paint_height_bar};
 use crate::kit::widgets::text::{button, named, paint_quiet, quiet, toggle};
 use crate::tools::import::Import;
-use crate::tools::import::draft::Looked;
+use crate::tools::import::draft::EvaluationDraft;
 use crate::tools::import::work::Heights;
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{fixed, with_unit};
@@ -117,7 +117,7 @@ fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
 }
 
 /// The places in mm; the middle if none was said.
-fn places_of(looked: &Looked, size_mm: [f64; 2]) -> Vec<[f64; 2]> {
+fn places_of(looked: &EvaluationDraft, size_mm: [f64; 2]) -> Vec<[f64; 2]> {
     if looked.places.is_empty() {
         return vec![size_mm.map(|mm| 0.5 * mm)];
     }
@@ -130,7 +130,13 @@ fn within(place_mm: [f64; 2], size_mm: [f64; 2]) -> [f64; 2] {
 }
 
 /// The strokes on the map: crosses that are dragged; a double click adds one.
-fn show_places(ui: &Ui, rect: Rect, relief: &Relief, looked: &mut Looked, is_felt_along: bool) {
+fn show_places(
+    ui: &Ui,
+    rect: Rect,
+    relief: &Relief,
+    looked: &mut EvaluationDraft,
+    is_felt_along: bool,
+) {
     let size_mm = relief.size_mm;
     let mm_at = |at: eframe::egui::Pos2| {
         let share = (at - rect.min) / rect.size();
@@ -233,7 +239,7 @@ fn show_list(
     ui: &mut Ui,
     relief: &Relief,
     (heights, is_felt_along): (&Heights, bool),
-    looked: &mut Looked,
+    looked: &mut EvaluationDraft,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
     if !is_felt_along {
