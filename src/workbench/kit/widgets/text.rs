@@ -168,6 +168,19 @@ pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> boo
     response.on_hover_text(label).clicked()
 }
 
+/// A toggle for each of some values, of which one is chosen: the value, its name and its tip.
+pub(crate) fn toggles<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    chosen: &mut T,
+    values: &[(T, &str, &str)],
+) {
+    for (value, name, tip) in values {
+        if toggle(ui, name, *chosen == *value, tip) {
+            *chosen = *value;
+        }
+    }
+}
+
 /// One of a list to choose from, as wide as the list: its name, and dimmer as much of `detail` as
 /// there is room for. Says whether it was chosen.
 pub(crate) fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {

@@ -5,6 +5,7 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Command, Commands};
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{named, paragraph, quiet};
@@ -80,9 +81,7 @@ pub(crate) fn show(ui: &Ui, reading: &mut Reading, commands: &mut Commands) {
             ui.separator();
             ui.vertical(|ui| {
                 let goes_to = reading.goes_to.take();
-                let scrolled = ScrollArea::vertical()
-                    .id_salt(reading.page.name)
-                    .auto_shrink(false);
+                let scrolled = scroll_area(reading.page.name);
                 let scrolled = if goes_to.as_deref() == Some("") {
                     scrolled.vertical_scroll_offset(0.0)
                 } else {

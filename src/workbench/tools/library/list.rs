@@ -4,8 +4,7 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, DragAndDrop, Rect, Response, RichText, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2,
-    vec2,
+    self, DragAndDrop, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::edit::Edit;
@@ -15,6 +14,7 @@ use crate::bench::library_shelf::{OWN, plain_id};
 use crate::bench::library_view::LibraryItem;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{LibraryEntry, SceneView};
+use crate::kit::pane::scroll_area;
 use crate::kit::swatch;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, quiet};
@@ -60,7 +60,7 @@ pub(crate) fn show(ui: &mut Ui, state: &mut Library, context: &mut PaneContext<'
         let words = nothing(state, context);
         ui.label(RichText::new(words).color(Palette::in_ui(ui).dim));
     }
-    let area = ScrollArea::vertical().id_salt("shelf").auto_shrink(false);
+    let area = scroll_area("shelf");
     let height = ROW - ui.spacing().item_spacing.y;
     area.show_rows(ui, height, rows.len(), |ui, range| {
         for (group, place) in &rows[range] {

@@ -1,8 +1,7 @@
 //! The textiles of the scene, to mute, choose, label and remove.
 
 use eframe::egui::{
-    self, Align, Layout, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, WidgetInfo,
-    pos2, vec2,
+    self, Align, Layout, Rect, RichText, Sense, TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::edit::Edit;
@@ -10,6 +9,7 @@ use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{Cloth, SceneView};
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, row, toggle};
@@ -38,8 +38,7 @@ pub(crate) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     }
     let labels = label_width(scene);
-    let rows = ScrollArea::vertical().id_salt("placed").auto_shrink(false);
-    rows.show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
+    scroll_area("placed").show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
         for index in range {
             if let Some(cloth) = scene.cloths.get(index) {
                 let marks = [selected == Some(index), scene.is_marked(index)];

@@ -7,7 +7,7 @@
 pub(crate) mod details;
 
 use eframe::egui::{
-    self, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    self, Rect, Response, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::{FileCommand, PlayCommand, Purpose, RecordingCommand};
@@ -15,7 +15,7 @@ use crate::bench::keys::hint;
 use crate::bench::pane::Pane;
 use crate::bench::recording::{About, Entry, Place};
 use crate::bench::tool::{PaneContext, Tool};
-use crate::kit::pane::framed;
+use crate::kit::pane::{framed, scroll_area};
 use crate::kit::theme::{self, Palette, STEP};
 use crate::kit::widgets::text::{button, mark, paint_line, quiet};
 use selvedge_foundation::quantity;
@@ -54,9 +54,7 @@ impl RecordingList {
         self.show_head(ui, context);
         let room = if self.chosen.is_some() { DETAILS } else { 0.0 };
         let height = (ui.available_height() - room).max(2.0 * ROW);
-        let list = ScrollArea::vertical()
-            .id_salt("recordings")
-            .auto_shrink(false);
+        let list = scroll_area("recordings");
         let row = ROW - ui.spacing().item_spacing.y;
         list.max_height(height)
             .show_rows(ui, row, entries.len(), |ui, range| {

@@ -1,10 +1,9 @@
 //! Why the chosen contactor does what it does: the chain of numbers, and the energy by bin.
 
-use eframe::egui::{
-    self, Align, Layout, Margin, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{self, Align, Layout, Margin, Rect, RichText, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::perceptual_level::SOURCE;
+use crate::kit::pane::scroll_area;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::theme;
@@ -56,8 +55,7 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Explanation>, filters: &Filters) {
 fn show_chain(ui: &mut Ui, why: &Explanation) {
     let palette = Palette::in_ui(ui);
     let lines = lines(why);
-    let area = ScrollArea::vertical().id_salt("why").auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("why").show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let cell = why.cell.map_or_else(String::new, |(row, column)| {
             format!("   row {row}, column {column}")

@@ -1,8 +1,9 @@
 //! Larger pieces of cloth to look through; only those in sight are read and drawn.
 
-use eframe::egui::{self, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::view::ClothPicture;
+use crate::kit::pane::scroll_area;
 use crate::kit::swatch;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{paint_line, quiet, small};
@@ -25,8 +26,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
     let n_columns = to_index(f64::from((room + GAP) / (SIDE + GAP))).max(1);
     let rows: Vec<&[Entry<'_>]> = view.entries.chunks(n_columns).collect();
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    let area = ScrollArea::vertical().id_salt("cloths").auto_shrink(false);
-    area.show_rows(ui, SIDE + WORDS, rows.len(), |ui, range| {
+    scroll_area("cloths").show_rows(ui, SIDE + WORDS, rows.len(), |ui, range| {
         for row in &rows[range] {
             ui.horizontal(|ui| {
                 for entry in *row {

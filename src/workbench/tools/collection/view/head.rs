@@ -7,7 +7,7 @@ use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
-use crate::kit::widgets::text::{line, named, quiet, toggle};
+use crate::kit::widgets::text::{line, named, quiet, toggle, toggles};
 use crate::tools::collection::listing::{Only, Sort, SortBy};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{Choice, CollectionView, Mode, SPEEDS_MM_PER_S};
@@ -54,14 +54,11 @@ fn head_line(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 }
 
 fn show_modes(ui: &mut Ui, choice: &mut Choice) {
-    for (mode, name, tip) in [
+    let modes = [
         (Mode::Plot, "plot", "The library as points of a plot"),
         (Mode::Cloths, "cloths", "The library as pieces of cloth"),
-    ] {
-        if toggle(ui, name, choice.mode == mode, tip) {
-            choice.mode = mode;
-        }
-    }
+    ];
+    toggles(ui, &mut choice.mode, &modes);
     ui.add_space(STEP);
 }
 

@@ -1,9 +1,8 @@
 //! What is selected, in numbers; everything that is shown where nothing is selected.
 
-use eframe::egui::{
-    self, Align2, Color32, Rect, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{self, Align2, Color32, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{paint_line, paint_quiet, small};
@@ -42,10 +41,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
     ui.painter().hline(head.x_range(), head.bottom(), line);
     ui.spacing_mut().item_spacing.y = 0.0;
     let listed = view.listed();
-    let rows = ScrollArea::vertical()
-        .id_salt("collected")
-        .auto_shrink(false);
-    rows.show_rows(ui, LINE, listed.len(), |ui, range| {
+    scroll_area("collected").show_rows(ui, LINE, listed.len(), |ui, range| {
         for entry in &listed[range] {
             show_row(ui, entry, view.choice.is_tuned, hand);
         }

@@ -7,7 +7,7 @@ use crate::bench::recording::Recording;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
-use crate::kit::widgets::text::{line, paint_quiet, small, toggle};
+use crate::kit::widgets::text::{line, paint_quiet, small, toggle, toggles};
 use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
 use crate::tools::compare::comparison::{Compare, Standing};
 use selvedge_foundation::quantity::fixed;
@@ -80,11 +80,7 @@ pub(crate) fn show(
     let choice = &mut compare.choice;
     line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        for (what, name, tip) in KINDS {
-            if toggle(ui, name, before.what == what, tip) {
-                choice.what = what;
-            }
-        }
+        toggles(ui, &mut choice.what, &KINDS);
         ui.add_space(STEP);
         let take = context
             .bench

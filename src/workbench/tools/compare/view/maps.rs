@@ -24,9 +24,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, found: &LevelDifference, context: &mut P
     let Some(grid) = context.scene.grid else {
         let at = rect.left_top();
         let words = "The contactors of this display form no grid";
-        let ink = Palette::in_ui(ui).dim;
-        let font = theme::small();
-        ui.painter().text(at, Align2::LEFT_TOP, words, font, ink);
+        paint_quiet(ui.painter(), at, Align2::LEFT_TOP, words);
         return;
     };
     let cells = &found.by_contactor;

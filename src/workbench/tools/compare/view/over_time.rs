@@ -8,8 +8,8 @@ use crate::bench::tool::PaneContext;
 use crate::bench::view::Source;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
-use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::compare::choice::Route;
 use crate::tools::compare::comparison::Compare;
 use crate::tools::compare::export::over_time_chart;
@@ -57,12 +57,8 @@ pub(crate) fn show(
     let just_noticed = noticed_db(found).map(|(_, db)| db).reduce(f64::min);
     if let Some(db) = just_noticed {
         let words = format!("JND ±{} (model)", fixed(db, 1));
-        let (at, ink) = (
-            shown.area().right_top() + vec2(-4.0, 1.0),
-            Palette::in_ui(ui).dim,
-        );
-        ui.painter()
-            .text(at, Align2::RIGHT_TOP, words, theme::small(), ink);
+        let at = shown.area().right_top() + vec2(-4.0, 1.0);
+        paint_quiet(ui.painter(), at, Align2::RIGHT_TOP, words);
     }
     let is_recorded = is_at_hand && matches!(route, Route::Recording(_));
     let play = context.bench.live.play;

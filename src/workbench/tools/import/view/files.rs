@@ -6,7 +6,7 @@ use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::drop::nothing_yet;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
-use crate::kit::widgets::text::{button, line, quiet, small, toggle};
+use crate::kit::widgets::text::{button, line, quiet, small, toggle, toggles};
 use crate::tools::import::Import;
 use crate::tools::import::draft::DraftFile;
 use crate::tools::import::work::Found;
@@ -149,7 +149,7 @@ fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
         ui.spacing_mut().item_spacing.x = STEP;
         let words = quiet("read as");
         ui.label(words);
-        for (value, word, tip) in [
+        let choices = [
             (None, "by content", "What the files are, their content says"),
             (
                 Some(Measurement::Strokes),
@@ -161,11 +161,8 @@ fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
                 "heights",
                 "Read as a height map or a profile",
             ),
-        ] {
-            if toggle(ui, word, *kind == value, tip) {
-                *kind = value;
-            }
-        }
+        ];
+        toggles(ui, kind, &choices);
     });
 }
 

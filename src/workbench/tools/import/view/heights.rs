@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
-use crate::kit::widgets::text::{line, toggle};
+use crate::kit::widgets::text::{line, toggles};
 use crate::tools::import::Import;
 use crate::tools::import::draft::HeightsDraft;
 use crate::tools::import::failure::Failure;
@@ -165,7 +165,7 @@ fn show_layer(ui: &mut Ui, typed: &mut HeightsDraft, heights: Option<&Heights>) 
 /// Repeats, and how it is felt.
 fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
     row(ui, "felt", "", |ui, _| {
-        for (value, word, tip) in [
+        let choices = [
             (
                 Representation::Economical,
                 "along strokes",
@@ -176,11 +176,8 @@ fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
                 "at every point",
                 "Spectra at every point of the map, which becomes a part of the textile",
             ),
-        ] {
-            if toggle(ui, word, typed.representation == value, tip) {
-                typed.representation = value;
-            }
-        }
+        ];
+        toggles(ui, &mut typed.representation, &choices);
     });
     line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;

@@ -5,6 +5,7 @@ use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, Widg
 use crate::bench::Bench;
 use crate::bench::command::lab::Beginning;
 use crate::bench::library_view::LibraryView;
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{line, named, quiet, small};
@@ -31,10 +32,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     if lab.steps.is_none() {
         return;
     }
-    let area = ScrollArea::vertical()
-        .id_salt(("lab controls", lab.page as usize))
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area(("lab controls", lab.page as usize)).show(ui, |ui| {
         // The bar of the scroll has room of its own: nothing lies under it.
         ui.set_max_width(ui.available_width() - 10.0);
         match lab.page {

@@ -1,7 +1,8 @@
 //! Figures of a surface, beside them those of what it is compared with.
 
-use eframe::egui::{Align, Layout, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{Align, Layout, RichText, Ui, vec2};
 
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{line, named, quiet};
@@ -26,10 +27,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
     );
     ui.add(eframe::egui::Label::new(quiet(&head)).truncate());
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::vertical()
-        .id_salt("lab figures")
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("lab figures").show(ui, |ui| {
         ui.set_max_width(ui.available_width().min(380.0));
         for shown in preview.figures() {
             let others = others.unwrap_or_default();

@@ -17,11 +17,11 @@ pub(crate) mod weave;
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
+use eframe::egui::{self, Align, Layout, ProgressBar, Rect, Stroke, Ui, vec2};
 
 use crate::bench::Bench;
 use crate::bench::latest::Standing;
-use crate::kit::pane::paint_sentence;
+use crate::kit::pane::{paint_sentence, scroll_area};
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, line, quiet, small};
 use crate::tools::lab::preview::Preview;
@@ -121,10 +121,7 @@ fn show_plots(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     } else {
         room.y.max(LEAST)
     };
-    let area = ScrollArea::vertical()
-        .id_salt("lab plots")
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("lab plots").show(ui, |ui| {
         let size = vec2(ui.available_width(), height - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
         if lab.standing() != Standing::Fresh {

@@ -9,7 +9,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, paragraph, quiet, toggle};
+use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
 use crate::tools::picture::state::Picture;
@@ -79,14 +79,11 @@ fn show_picture(
     row_of(ui, NAME, ("scale", ""), |ui, label| {
         let need = Need::of(draft.px_per_mm().is_none());
         text(ui, label, &mut draft.scale, ("600", NUMBER, need));
-        for (unit, word, tip) in [
+        let choices = [
             (ScaleUnit::Dpi, "dpi", "Dots to an inch, as scanners count"),
             (ScaleUnit::PxPerMm, "px/mm", "Pixels to a millimetre"),
-        ] {
-            if toggle(ui, word, draft.unit == unit, tip) {
-                draft.unit = unit;
-            }
-        }
+        ];
+        toggles(ui, &mut draft.unit, &choices);
     });
     let size = found
         .and_then(|found| found.loaded.as_deref())
