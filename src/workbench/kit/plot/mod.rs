@@ -18,6 +18,7 @@ pub(crate) mod setting;
 mod tests;
 pub(crate) mod view;
 
+use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{Id, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2};
 use egui_plot::{PlotBounds, PlotTransform};
 
@@ -87,8 +88,10 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
     let bounds = PlotBounds::from_min_max([ends[0][0], ends[1][0]], [ends[0][1], ends[1][1]]);
     let transform = PlotTransform::new(area, bounds, false);
     around::paint_ticks(ui.painter(), chart, &transform, (scales, setting.margin));
-    let within = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
-    within.extend(layers::shapes(ui, chart, &transform, scales));
+    let frame = area.round_ui();
+    let within = PlotTransform::new(frame, bounds, false);
+    let painter = ui.painter().with_clip_rect(frame.intersect(ui.clip_rect()));
+    painter.extend(layers::shapes(ui, chart, &within, scales));
     around::paint_titles(ui.painter(), chart, &transform, (scales, setting.margin));
     around::paint_marks(ui.painter(), chart, &transform, scales[0]);
     if setting.has_legend {

@@ -4,7 +4,7 @@ use eframe::egui::{self, InnerResponse, Label, Margin, RichText, Stroke, TextEdi
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::list;
+use crate::kit::widgets::list::list_within;
 use crate::kit::widgets::text::{line, named, quiet, small};
 
 /// Height of a row, points.
@@ -172,7 +172,8 @@ pub(crate) fn choose(
     content: impl FnOnce(&mut Ui),
 ) {
     let width = width.min(ui.available_width());
-    let response = list(ui, (("import", name), name), width - 8.0, text, content);
+    let name_of = (("import", name), name);
+    let response = list_within(ui, name_of, [width, width - 8.0], text, content);
     mark_asked(ui, &response, need);
 }
 
