@@ -48,6 +48,20 @@ pub fn to_byte(x: f64) -> u8 {
     x as u8
 }
 
+/// The nearest number of single precision: a place or a share for the screen, an amplitude that
+/// travels.
+#[expect(clippy::cast_possible_truncation, reason = "rounds, as is said")]
+pub fn to_single(x: f64) -> f32 {
+    x as f32
+}
+
+/// The lowest and the highest of some values; +∞ and −∞ of none. NaN counts as none.
+pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    let values = values.into_iter();
+    values.fold(none, |[low, high], value| [low.min(value), high.max(value)])
+}
+
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///
 /// Sorts `values` in place.

@@ -4,12 +4,13 @@
 //! Dropping a task lets its thread end by itself; nobody waits for it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
 use eframe::egui;
+use selvedge_foundation::numerics::to_index;
 
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -63,20 +64,15 @@ impl Executor {
 #[derive(Debug, Clone, Default)]
 struct Watch {
     cancel: CancelFlag,
-    done_permille: Arc<AtomicU32>,
+    done_permille: Arc<AtomicUsize>,
 }
 
 impl Watch {
     /// Does `work`, which says how far it is; `ctx` is woken as it goes on.
     fn over<T>(&self, ctx: &egui::Context, work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
         let mut heard = |share: f64, _: &str| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a share of 1000"
-            )]
             self.done_permille
-                .store((1000.0 * share) as u32, Ordering::Relaxed);
+                .store(to_index(1000.0 * share), Ordering::Relaxed);
             ctx.request_repaint_after(NEWS);
         };
         work(&mut Progress::new(&mut heard, self.cancel.clone()))

@@ -15,6 +15,7 @@ use crate::bench::library_shelf::{OWN, SHIPPED, Shelf, plain_id};
 use crate::bench::settings::build_cache;
 use crate::bench::view::{ClothPicture, LibraryEntry};
 use crate::kit::tile::{TILED, tile};
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Appearance, Library, elsewhere};
 
@@ -263,8 +264,7 @@ fn image(appearance: &Appearance) -> (ColorImage, Vec2) {
         .map(|&[r, g, b]| Color32::from_rgb(r, g, b))
         .collect();
     let [width, height] = [image.width, image.height].map(|n| n as f32);
-    #[expect(clippy::cast_possible_truncation, reason = "a scale, for the screen")]
-    let px_per_mm = appearance.px_per_mm.max(1e-3) as f32;
+    let px_per_mm = to_single(appearance.px_per_mm.max(1e-3));
     let tile_mm = vec2(width, height) / px_per_mm;
     let picture = ColorImage::new([image.width, image.height], pixels);
     (tile(&picture), tile_mm)

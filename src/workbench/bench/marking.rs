@@ -112,7 +112,7 @@ impl Bench {
                     .collect()
             })
             .collect();
-        let n_contactors = history.n_contactors();
+        let n_contactors = history.n_contactors;
         self.make_recording(about.name.clone(), move || {
             let mut file = RecordingFile::create(&root, about, n_contactors)?;
             let ticks = entries.iter().zip(&felt_um);

@@ -21,7 +21,8 @@ pub(crate) struct Overlays {
     points: bool,
     chosen_points: bool,
     motion: bool,
-    map: Option<Band>,
+    /// The band whose map is drawn.
+    pub(crate) map: Option<Band>,
 }
 
 /// What settings call each overlay, in the order of [`Overlays::ALL`].
@@ -69,11 +70,6 @@ impl Overlays {
         self.chosen_points || self.motion
     }
 
-    /// The band whose map is drawn.
-    pub(crate) fn map(self) -> Option<Band> {
-        self.map
-    }
-
     /// What settings keep.
     pub(crate) fn words(self) -> Vec<String> {
         let named = Self::ALL.into_iter().zip(WORDS);
@@ -108,8 +104,8 @@ mod tests {
             overlays = overlays.toggled(overlay);
             assert!(overlays.shows(overlay), "{overlay:?}");
         }
-        assert_eq!(overlays.map(), Some(Band::High), "the last one chosen");
-        assert_eq!(overlays.toggled(Overlay::Map(Band::High)).map(), None);
+        assert_eq!(overlays.map, Some(Band::High), "the last one chosen");
+        assert_eq!(overlays.toggled(Overlay::Map(Band::High)).map, None);
     }
 
     #[test]

@@ -127,14 +127,6 @@ pub(crate) fn differs(before: &Scene, after: &Scene) -> bool {
     !is_same
 }
 
-impl std::fmt::Debug for Preparing {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Preparing")
-            .field("is_busy", &self.is_busy())
-            .finish_non_exhaustive()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,26 +1,40 @@
 //! A file that a tool makes textiles of.
 
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use selvedge_textile::read_measurement;
+use serde::{Deserialize, Serialize};
 
-/// A file that was chosen, read once.
-#[derive(Debug)]
+/// A file that was chosen, read once; saved as where it lies. Equal are only clones of one another:
+/// the same file read anew may hold something else.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(from = "PathBuf", into = "PathBuf")]
 pub(crate) struct SourceFile {
     path: PathBuf,
-    bytes: OnceLock<Result<Vec<u8>, String>>,
+    bytes: Arc<OnceLock<Result<Vec<u8>, String>>>,
+}
+
+impl PartialEq for SourceFile {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.bytes, &other.bytes)
+    }
+}
+
+impl From<PathBuf> for SourceFile {
+    fn from(path: PathBuf) -> Self {
+        let bytes = Arc::default();
+        Self { path, bytes }
+    }
+}
+
+impl From<SourceFile> for PathBuf {
+    fn from(file: SourceFile) -> Self {
+        file.path
+    }
 }
 
 impl SourceFile {
-    /// A file that is not read yet.
-    pub(crate) fn new(path: PathBuf) -> Self {
-        Self {
-            path,
-            bytes: OnceLock::new(),
-        }
-    }
-
     /// Where it lies.
     pub(crate) fn path(&self) -> &Path {
         &self.path

@@ -23,11 +23,13 @@ const MOST_TOP_UM: f64 = 5e6;
 
 /// The scale of amplitudes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(from = "AmplitudeKeys", into = "AmplitudeKeys")]
+#[serde(from = "AmplitudeKeys")]
 pub(crate) struct AmplitudeScale {
     /// Its upper end, µm.
+    #[serde(rename = "amplitude_top_um")]
     most_um: f64,
     /// Whether it stays whatever comes.
+    #[serde(rename = "amplitude_locked")]
     is_locked: bool,
 }
 
@@ -42,7 +44,7 @@ impl Default for AmplitudeScale {
 }
 
 /// The same as a file states it.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(default)]
 struct AmplitudeKeys {
     amplitude_top_um: f64,
@@ -51,12 +53,7 @@ struct AmplitudeKeys {
 
 impl Default for AmplitudeKeys {
     fn default() -> Self {
-        AmplitudeScale::default().into()
-    }
-}
-
-impl From<AmplitudeScale> for AmplitudeKeys {
-    fn from(scale: AmplitudeScale) -> Self {
+        let scale = AmplitudeScale::default();
         Self {
             amplitude_top_um: scale.most_um,
             amplitude_locked: scale.is_locked,

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{Align, Label, Layout, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+use eframe::egui::{Align, Layout, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, paragraph, quiet};
 
 /// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
 pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
@@ -49,8 +49,7 @@ pub(crate) fn nothing_yet(
     ui.label(RichText::new(line).color(palette.text));
     let is_pressed = button(ui, ask, "", None);
     for words in notes {
-        let words = RichText::new(words).font(theme::small()).color(palette.dim);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, quiet(words));
     }
     is_pressed
 }

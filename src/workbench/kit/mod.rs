@@ -9,6 +9,7 @@ pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod spectrum_scale;
 pub(crate) mod swatch;
+pub(crate) mod texture;
 pub(crate) mod theme;
 pub(crate) mod tile;
 pub(crate) mod view_transform;

@@ -1,8 +1,8 @@
 //! The space around what a pane shows, its parts, and the frame around a whole window.
 
 use eframe::egui::{
-    Context, Frame, Id, LayerId, Margin, Order, Painter, Rect, ScrollArea, Stroke, StrokeKind, Ui,
-    UiBuilder, vec2,
+    AsIdSalt, Context, Frame, Id, LayerId, Margin, Order, Painter, Rect, ScrollArea, Stroke,
+    StrokeKind, Ui, UiBuilder, vec2,
 };
 
 use crate::kit::theme;
@@ -26,12 +26,14 @@ pub(crate) fn framed(ui: &mut Ui, across: i8, content: impl FnOnce(&mut Ui)) {
     Frame::new().inner_margin(margin).show(ui, content);
 }
 
+/// What scrolls up and down over all the room that there is.
+pub(crate) fn scroll_area(salt: impl AsIdSalt) -> ScrollArea {
+    ScrollArea::vertical().id_salt(salt).auto_shrink(false)
+}
+
 /// A pane that may be longer than it is high.
 pub(crate) fn scrolled(ui: &mut Ui, pane: &str, content: impl FnOnce(&mut Ui)) {
-    let area = ScrollArea::vertical()
-        .id_salt(("pane", pane))
-        .auto_shrink(false);
-    area.show(ui, |ui| framed(ui, 12, content));
+    scroll_area(("pane", pane)).show(ui, |ui| framed(ui, 12, content));
 }
 
 /// A part of a pane.
@@ -43,15 +45,12 @@ pub(crate) fn inside(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
 
 /// A column of fields that may be longer than it is high.
 pub(crate) fn scrolled_column(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical()
-        .id_salt(id)
-        .auto_shrink(false)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = STEP;
-            // Room for the edge of a field that is asked for.
-            let margin = Margin::symmetric(4, 0);
-            Frame::new().inner_margin(margin).show(ui, content);
-        });
+    scroll_area(id).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = STEP;
+        // Room for the edge of a field that is asked for.
+        let margin = Margin::symmetric(4, 0);
+        Frame::new().inner_margin(margin).show(ui, content);
+    });
 }
 
 /// Frames the whole window in red while high voltage is on: to be seen from across the room,

@@ -9,6 +9,7 @@ use eframe::epaint::Vertex;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use selvedge_foundation::geometry::Point;
+use selvedge_foundation::numerics::to_single;
 
 /// How far a shadow reaches beyond its textile, points.
 pub(crate) const SHADOW: f32 = 16.0;
@@ -121,7 +122,7 @@ pub(crate) fn is_in_sight(painter: &Painter, rect: Rect) -> bool {
 }
 
 fn textured(corners: [Pos2; 4], size_mm: [f64; 2], picture: ClothPicture, tint: Color32) -> Mesh {
-    let [width, height] = size_mm.map(narrow);
+    let [width, height] = size_mm.map(to_single);
     let n_across = width / picture.tile_mm.x.max(1e-3);
     let n_up = height / picture.tile_mm.y.max(1e-3);
     // Row 0 of a picture is its top, and the textile's origin is at the picture's lower left.
@@ -151,15 +152,6 @@ pub(crate) fn tiled(corners: [Pos2; 4], uv: Rect, texture_id: TextureId, tint: C
         vertices: corners.into_iter().zip(places).map(vertex).collect(),
         texture_id,
     }
-}
-
-/// A number as the screen draws it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the screen is drawn in single precision"
-)]
-pub(crate) fn narrow(value: f64) -> f32 {
-    value as f32
 }
 
 /// Paints `shown_mm` millimetres of cloth along both sides of a square; an empty field until the

@@ -5,6 +5,7 @@
 //! fine weave seen from afar shows that as dark arcs that its cloth does not have.
 
 use eframe::egui::{Color32, ColorImage, TextureFilter, TextureOptions};
+use selvedge_foundation::numerics::to_byte;
 
 /// How a repeating picture is read: blended between pixels and between its halved copies.
 pub(crate) const TILED: TextureOptions = TextureOptions {
@@ -81,13 +82,8 @@ fn channels(colour: Color32) -> [f32; 4] {
     colour.to_array().map(f32::from)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "means of bytes lie between 0 and 255"
-)]
 fn pixel(channels: [f32; 4]) -> Color32 {
-    let [r, g, b, a] = channels.map(|value| (value + 0.5) as u8);
+    let [r, g, b, a] = channels.map(|value| to_byte(f64::from(value) + 0.5));
     Color32::from_rgba_premultiplied(r, g, b, a)
 }
 

@@ -5,16 +5,17 @@
 use eframe::egui::{Pos2, Rect, pos2};
 
 use selvedge_foundation::geometry::Point;
+use selvedge_foundation::numerics::to_single;
 
 /// How a part of the workspace is laid on a rectangle of the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ViewTransform {
     /// The rectangle, points.
-    rect: Rect,
+    pub(crate) rect: Rect,
     /// The place in the workspace shown at the middle of the rectangle.
-    centre: Point,
+    pub(crate) centre: Point,
     /// Points per millimetre.
-    points_per_mm: f64,
+    pub(crate) points_per_mm: f64,
 }
 
 impl ViewTransform {
@@ -39,24 +40,9 @@ impl ViewTransform {
         )
     }
 
-    /// Points per millimetre.
-    pub(crate) fn points_per_mm(&self) -> f64 {
-        self.points_per_mm
-    }
-
-    /// The rectangle, points.
-    pub(crate) fn rect(&self) -> Rect {
-        self.rect
-    }
-
-    /// The place in the workspace shown at the middle of the rectangle.
-    pub(crate) fn centre(&self) -> Point {
-        self.centre
-    }
-
     /// How long a length in the workspace is on the screen, points.
     pub(crate) fn length(&self, length_mm: f64) -> f32 {
-        narrow(length_mm * self.points_per_mm)
+        to_single(length_mm * self.points_per_mm)
     }
 
     /// The screen's place of a place in the workspace.
@@ -64,8 +50,8 @@ impl ViewTransform {
         let off = place - self.centre;
         let middle = self.rect.center();
         pos2(
-            narrow(f64::from(middle.x) + off.x_mm * self.points_per_mm),
-            narrow(f64::from(middle.y) - off.y_mm * self.points_per_mm),
+            to_single(f64::from(middle.x) + off.x_mm * self.points_per_mm),
+            to_single(f64::from(middle.y) - off.y_mm * self.points_per_mm),
         )
     }
 
@@ -111,14 +97,6 @@ pub(crate) fn is_near(place: Point, size_mm: [f64; 2]) -> bool {
     let reach_mm = 20.0;
     let within = |at: f64, size: f64| (-reach_mm..=size + reach_mm).contains(&at);
     within(place.x_mm, size_mm[0]) && within(place.y_mm, size_mm[1])
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the screen is drawn in single precision"
-)]
-fn narrow(value: f64) -> f32 {
-    value as f32
 }
 
 #[cfg(test)]

@@ -14,10 +14,10 @@ use eframe::egui::{
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
 use crate::kit::theme;
-use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::card;
 use crate::kit::widgets::card::{DROP as CARD_DROP, MARGIN as CARD_MARGIN};
-use crate::kit::widgets::text::{button, choice, section};
+use crate::kit::widgets::text::{button, choice, quiet, section};
 use crate::shell::completion::complete;
 use selvedge_engine::ClipKind;
 
@@ -237,7 +237,6 @@ fn show_buttons(
     is_entered: bool,
     commands: &mut Commands,
 ) {
-    let palette = Palette::in_ui(ui);
     let size = vec2(ui.available_width(), ROW);
     let layout = Layout::right_to_left(Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
@@ -253,7 +252,7 @@ fn show_buttons(
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let hint = "Tab completes the path";
-            ui.label(RichText::new(hint).font(theme::small()).color(palette.dim));
+            ui.label(quiet(hint));
         });
     });
 }

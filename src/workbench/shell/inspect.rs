@@ -98,7 +98,7 @@ impl Workbench {
     /// Ticks that were checked against `reference` since the statistics began, and ticks left out.
     pub fn ticks_checked(&self) -> [u64; 2] {
         let accuracy = self.tools.get::<Accuracy>();
-        let tally = accuracy.map(Accuracy::tally).unwrap_or_default();
+        let tally = accuracy.map(|accuracy| accuracy.tally).unwrap_or_default();
         [tally.sampled, tally.busy + tally.changed]
     }
 
@@ -154,7 +154,7 @@ impl Workbench {
     /// Textiles of the library measured so far, at whichever speed.
     pub fn n_textiles_measured(&self) -> u64 {
         let collection = self.tools.get::<Collection>();
-        collection.map_or(0, |collection| collection.measurements.n_measured())
+        collection.map_or(0, |collection| collection.measurements.n_measured)
     }
 
     /// The scene's name.

@@ -10,6 +10,7 @@ use eframe::egui::{Pos2, pos2};
 
 use crate::kit::view_transform::{Pointed, PointerGround, is_near};
 use selvedge_engine::{PointerSample, PointerSender};
+use selvedge_foundation::numerics::to_single;
 
 /// Takes movements and passes on those over the workspace.
 #[derive(Debug, Default)]
@@ -38,11 +39,7 @@ impl PointerTap {
         let Some(ground) = self.ground.filter(|ground| ground.window == window) else {
             return;
         };
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the screen is drawn in single precision"
-        )]
-        let point = pos2(x as f32, y as f32) / ground.pixels_per_point;
+        let point = pos2(to_single(x), to_single(y)) / ground.pixels_per_point;
         self.moved_to(stamp, point);
     }
 

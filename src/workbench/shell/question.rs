@@ -1,11 +1,11 @@
 //! The question before the window closes, or opens another scene, on everything that would be lost.
 
-use eframe::egui::{Align, Button, Label, Layout, Rect, RichText, Ui, vec2};
+use eframe::egui::{Align, Button, Layout, Rect, RichText, Ui, vec2};
 
 use crate::bench::command::{Command, Commands, FileCommand};
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, paragraph};
 use crate::shell::state::{After, Question};
 
 /// Asks at the upper edge of `over` what becomes of unsaved work, which it names.
@@ -21,7 +21,7 @@ pub(crate) fn show(ui: &Ui, over: Rect, question: &Question, commands: &mut Comm
     card(ui, over, 520.0, title, |ui, _| {
         let palette = Palette::in_ui(ui);
         for part in &question.parts {
-            ui.add(Label::new(RichText::new(&part.unsaved.name).color(palette.text)).wrap());
+            paragraph(ui, RichText::new(&part.unsaved.name).color(palette.text));
             ui.colored_label(palette.dim, &part.unsaved.what);
             ui.add_space(STEP);
         }
@@ -31,7 +31,7 @@ pub(crate) fn show(ui: &Ui, over: Rect, question: &Question, commands: &mut Comm
         } else {
             "Without saving, the changes to the scene are lost. Drafts and recordings stay."
         };
-        ui.add(Label::new(RichText::new(words).color(palette.dim)).wrap());
+        paragraph(ui, RichText::new(words).color(palette.dim));
         ui.add_space(2.0 * STEP);
         let size = vec2(ui.available_width(), ROW);
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {

@@ -216,7 +216,7 @@ mod tests {
         second.dispatch(FileCommand::Left(Left::Restored));
         let lab = second.workbench.tools.get::<Lab>().unwrap();
         let steps = lab.steps.as_ref().unwrap();
-        assert_eq!(steps.now().number(place), Some(0.3));
+        assert_eq!(steps.recipe.draft.number(place), Some(0.3));
         assert_eq!(steps.list().undo(), Some("Hurst exponent"));
     }
 

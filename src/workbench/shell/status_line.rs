@@ -15,7 +15,7 @@ use crate::bench::view::{EngineView, Source, Status};
 use crate::kit::foot;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::mark;
+use crate::kit::widgets::text::{mark, small};
 use selvedge_foundation::quantity;
 
 /// Height of what can be pressed, points.
@@ -32,7 +32,7 @@ pub(crate) fn show(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let palette = Palette::in_ui(ui);
             let mut say = |words: &str, ink| {
-                let text = RichText::new(words).font(theme::small()).color(ink);
+                let text = small(words, ink);
                 ui.add(Label::new(text).truncate());
             };
             match bench.notices.shown() {

@@ -2,6 +2,7 @@
 
 use selvedge_device::wiring::{Answer, WiringWalk};
 use selvedge_device::{BridgeEvent, DeviceUid};
+use selvedge_foundation::numerics::to_single;
 
 /// Part of the limit at 320 Hz that a channel is driven with.
 const SHARE: f64 = 0.5;
@@ -65,9 +66,8 @@ impl Wizard {
     }
 
     /// The amplitude that a channel is driven with under this limit at 320 Hz, µm.
-    #[expect(clippy::cast_possible_truncation, reason = "amplitudes travel as f32")]
     pub(crate) fn amplitude_um(limit_320_um: f64) -> f32 {
-        (SHARE * limit_320_um) as f32
+        to_single(SHARE * limit_320_um)
     }
 }
 

@@ -102,12 +102,17 @@ impl Exported {
         origin: Origin,
     ) -> Self {
         let sheet = chart.columns.clone();
-        let row = Row {
-            panels: vec![chart],
-            height_px,
-            bar: None,
-        };
-        Self::new(title.to_owned(), sheet, vec![row], note, origin)
+        let rows = vec![row(chart, height_px)];
+        Self::new(title.to_owned(), sheet, rows, note, origin)
+    }
+}
+
+/// A row of one panel, without a bar of colours.
+pub(crate) fn row(panel: Chart, height_px: f64) -> Row {
+    Row {
+        panels: vec![panel],
+        height_px,
+        bar: None,
     }
 }
 

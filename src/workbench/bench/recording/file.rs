@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::bench::recording::{Felt, Recording, missing_before};
 use selvedge_foundation::files::{self, FileError, Journal};
 use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_foundation::numerics::to_single;
 use selvedge_render::scene::{ExplorationPath, PathRow, Pose, TICKS_PER_S};
 use selvedge_textile::tactile::Tuning;
 
@@ -111,9 +112,8 @@ impl Outline {
                 });
                 self.halvings += 1;
             }
-            #[expect(clippy::cast_possible_truncation, reason = "for a small picture")]
             self.points
-                .push([position.x_mm as f32, position.y_mm as f32]);
+                .push([to_single(position.x_mm), to_single(position.y_mm)]);
         }
         self.n_seen += 1;
     }

@@ -20,6 +20,7 @@ const MOST_COLUMNS: u64 = 4 * 3600 * 40;
 /// Columns side by side, and the same ever coarser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Tile {
+    /// Bytes in a column.
     n_rows: usize,
     levels: [Vec<u8>; N_LEVELS],
 }
@@ -57,12 +58,14 @@ fn raise(bytes: &mut [u8], by: &[u8]) {
 /// Tiles one after the other, as far as they are there.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tiles {
-    n_rows: usize,
+    /// Bytes in a column.
+    pub(crate) n_rows: usize,
     ticks_per_column: u64,
     /// The number of the first tile that is held.
     first: u64,
     held: VecDeque<Option<Arc<Tile>>>,
-    version: u64,
+    /// Changes whenever anything in it does.
+    pub(crate) version: u64,
 }
 
 impl Tiles {
@@ -78,19 +81,9 @@ impl Tiles {
         }
     }
 
-    /// Bytes in a column.
-    pub(crate) fn n_rows(&self) -> usize {
-        self.n_rows
-    }
-
     /// Ticks that a column stands for: 1 in all but the longest paths.
     pub(crate) fn ticks_per_column(&self) -> u64 {
         self.ticks_per_column.max(1)
-    }
-
-    /// Changes whenever anything in it does.
-    pub(crate) fn version(&self) -> u64 {
-        self.version
     }
 
     /// Takes in a tile that was made elsewhere.
@@ -217,7 +210,7 @@ mod tests {
         assert_eq!(read(&tiles, 0..4_000), [0, 0]);
         assert_eq!(read(&tiles, 4_099..4_100), [5, 1]);
         assert_eq!(read(&tiles, 4_100..9_000), [0, 0]);
-        let before = tiles.version();
+        let before = tiles.version;
         tiles.forget_before(5_200);
         assert_eq!(read(&tiles, 0..9_000), [0, 0]);
         tiles.put(4_000, &[1, 1]);
@@ -226,7 +219,7 @@ mod tests {
             [1, 1],
             "there is room before it again"
         );
-        assert_ne!(tiles.version(), before);
+        assert_ne!(tiles.version, before);
     }
 
     #[test]

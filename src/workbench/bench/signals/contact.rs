@@ -1,6 +1,7 @@
 //! The vibration that arrives at a contactor at a tick, in rows of log frequency.
 
 use crate::bench::signals::rows::{N_ROWS, RowEdges, Rows};
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::level_db;
 use selvedge_render::array::{ContactInspector, VibrationBin};
 use selvedge_render::scene::Pose;
@@ -27,8 +28,7 @@ impl ContactColumns {
         let mut powers_um2 = [0.0; N_ROWS];
         self.edges.add(&self.bins, &mut powers_um2);
         for (level, power) in levels_db.iter_mut().zip(powers_um2) {
-            #[expect(clippy::cast_possible_truncation, reason = "a level, for the screen")]
-            let rounded = level_db((2.0 * power).sqrt()) as f32;
+            let rounded = to_single(level_db((2.0 * power).sqrt()));
             *level = rounded;
         }
     }

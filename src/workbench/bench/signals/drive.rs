@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::bench::signals::history::History;
 use crate::bench::signals::rows::{RowEdges, Rows};
-use selvedge_foundation::numerics::RealTransform;
+use selvedge_foundation::numerics::{RealTransform, to_index, to_single};
 use selvedge_textile::tactile::Band;
 
 /// Samples a second: enough for 1 kHz.
@@ -87,12 +87,7 @@ impl DriveSpectrum {
         }
         self.transform();
         for (row, [low_hz, high_hz]) in rows_um.iter_mut().zip(self.edges.each()) {
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "an amplitude, for the screen"
-            )]
-            let largest = self.largest_um(low_hz, high_hz) as f32;
-            *row = largest;
+            *row = to_single(self.largest_um(low_hz, high_hz));
         }
     }
 
@@ -112,26 +107,17 @@ impl DriveSpectrum {
         let spacing_hz = RATE_HZ / N_TRANSFORM as f64;
         let (low, high) = (low_hz / spacing_hz, high_hz / spacing_hz);
         let ends = self.between(low).max(self.between(high));
-        let inside = whole(low.ceil())..=whole(high.floor());
+        let inside = to_index(low.ceil())..=to_index(high.floor());
         let bins = self.amplitudes_um.get(inside).unwrap_or(&[]);
         bins.iter().copied().fold(ends, f64::max)
     }
 
     fn between(&self, place: f64) -> f64 {
         let at = |i: usize| self.amplitudes_um.get(i).copied().unwrap_or(0.0);
-        let below = whole(place.floor());
+        let below = to_index(place.floor());
         let share = place - place.floor();
         at(below) * (1.0 - share) + at(below + 1) * share
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a bin between 10 Hz and 1 kHz"
-)]
-fn whole(bin: f64) -> usize {
-    bin as usize
 }
 
 #[cfg(test)]

@@ -25,9 +25,11 @@ pub(crate) struct History {
     entries: VecDeque<Entry>,
     /// As many for each entry: [A40, A320] of every contactor, µm.
     felt_um: VecDeque<[f32; 2]>,
-    n_contactors: usize,
+    /// Contactors that amplitudes are known of.
+    pub(crate) n_contactors: usize,
     next_column: u64,
-    n_clears: u64,
+    /// How often it was cleared: what was made from it before is void when this changes.
+    pub(crate) n_clears: u64,
 }
 
 impl History {
@@ -75,11 +77,6 @@ impl History {
         self.n_clears += 1;
     }
 
-    /// How often it was cleared: what was made from it before is void when this changes.
-    pub(crate) fn n_clears(&self) -> u64 {
-        self.n_clears
-    }
-
     /// The ticks, old to new.
     pub(crate) fn tick_samples(
         &self,
@@ -103,11 +100,6 @@ impl History {
         self.entries
             .get(place)
             .filter(|entry| entry.column == column)
-    }
-
-    /// Contactors that amplitudes are known of.
-    pub(crate) fn n_contactors(&self) -> usize {
-        self.n_contactors
     }
 
     /// [A40, A320] of every contactor at a column, after gains and before output limits, µm.
@@ -187,7 +179,7 @@ mod tests {
         }
         assert!(history.felt_um(6).is_none(), "forgotten");
         history.take_felt(tick_sample(99_999), &[[1.0; 2]]);
-        let n_contactors = history.n_contactors();
+        let n_contactors = history.n_contactors;
         assert_eq!((history.tick_samples().len(), n_contactors), (1, 1));
     }
 
@@ -195,9 +187,9 @@ mod tests {
     fn a_tick_counts_once_and_an_earlier_one_begins_anew() {
         let mut history = of([10, 11]);
         assert!(!history.take(tick_sample(11)), "it is there already");
-        assert_eq!((history.tick_samples().len(), history.n_clears()), (2, 0));
+        assert_eq!((history.tick_samples().len(), history.n_clears), (2, 0));
         assert!(history.take(tick_sample(3)), "another engine");
-        assert_eq!((history.tick_samples().len(), history.n_clears()), (1, 1));
+        assert_eq!((history.tick_samples().len(), history.n_clears), (1, 1));
         history.clear();
         assert!(history.newest().is_none(), "nothing left");
     }

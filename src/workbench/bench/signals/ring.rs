@@ -30,7 +30,8 @@ pub(crate) struct Progress {
 #[derive(Debug, Clone)]
 pub(crate) struct ColumnRing {
     slots: Vec<Rows>,
-    next: u64,
+    /// The column after the newest one that is here.
+    pub(crate) next: u64,
     n_columns_computed: u64,
 }
 
@@ -75,11 +76,6 @@ impl ColumnRing {
             fresh: first..stop,
             is_behind: stop < end,
         }
-    }
-
-    /// The column after the newest one that is here.
-    pub(crate) fn next(&self) -> u64 {
-        self.next
     }
 
     /// The rows in a slot.
@@ -165,7 +161,7 @@ mod tests {
             progress.fresh.start <= progress.fresh.end - 320,
             "{progress:?}"
         );
-        let old = ring.column(ring.next() - 320);
+        let old = ring.column(ring.next - 320);
         assert!(
             old.is_some_and(|rows| rows[0].is_nan()),
             "not computed: not shown"

@@ -1,5 +1,6 @@
 //! The rows of spectrograms: 10 Hz to 1 kHz in even steps of log frequency.
 
+use selvedge_foundation::numerics::to_index;
 use selvedge_render::array::VibrationBin;
 
 /// Lowest frequency, Hz.
@@ -70,15 +71,10 @@ pub(crate) fn row_centre_hz(row: usize) -> f64 {
 }
 
 /// The row of a frequency, Hz; the nearest beyond the ends.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to the rows"
-)]
 pub(crate) fn row_at(frequency_hz: f64) -> usize {
     let share = (frequency_hz / LEAST_HZ).ln() / (MOST_HZ / LEAST_HZ).ln();
     let place = (share * N_ROWS as f64).floor();
-    place.clamp(0.0, (N_ROWS - 1) as f64).max(0.0) as usize
+    to_index(place).min(N_ROWS - 1)
 }
 
 #[cfg(test)]

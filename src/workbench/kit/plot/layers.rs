@@ -1,9 +1,7 @@
 //! What a chart draws within its frame, as one item of the toolkit's plot.
 
-use std::ops::RangeInclusive;
-
 use eframe::egui::{Align2, Color32, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
-use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotPoint, PlotTransform};
+use egui_plot::{PlotPoint, PlotTransform};
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
@@ -19,24 +17,6 @@ const BAR_FILL: f32 = 0.28;
 /// A dash and the gap after it, points.
 const DASH: [f32; 2] = [5.0, 4.0];
 
-/// The layers of a chart, the lowest first.
-pub(crate) struct Layers<'a> {
-    base: PlotItemBase,
-    chart: &'a Chart,
-    scales: [Scale; 2],
-}
-
-impl<'a> Layers<'a> {
-    /// Those of a chart.
-    pub(crate) fn new(chart: &'a Chart, scales: [Scale; 2]) -> Self {
-        Self {
-            base: PlotItemBase::new(chart.title.clone()),
-            chart,
-            scales,
-        }
-    }
-}
-
 /// The colour of an ink on the screen.
 pub(crate) fn colour(ink: Ink, palette: &Palette) -> Color32 {
     match ink {
@@ -49,59 +29,43 @@ pub(crate) fn colour(ink: Ink, palette: &Palette) -> Color32 {
     }
 }
 
-impl PlotItem for Layers<'_> {
-    fn shapes(&self, ui: &Ui, transform: &PlotTransform, shapes: &mut Vec<Shape>) {
-        let pen = Pen {
-            ui,
-            palette: Palette::in_ui(ui),
-            transform,
-            scales: self.scales,
-        };
-        for band in &self.chart.bands {
-            shapes.push(pen.band(band));
+/// What a chart shows within its frame, in the order in which it is painted.
+pub(crate) fn shapes(
+    ui: &Ui,
+    chart: &Chart,
+    transform: &PlotTransform,
+    scales: [Scale; 2],
+) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    let pen = Pen {
+        ui,
+        palette: Palette::in_ui(ui),
+        transform,
+        scales,
+    };
+    for band in &chart.bands {
+        shapes.push(pen.band(band));
+    }
+    for bars in &chart.bars {
+        pen.push_bars(bars, &mut shapes);
+    }
+    for rule in &chart.rules {
+        pen.push_rule(rule, &mut shapes);
+    }
+    for series in &chart.series {
+        pen.push_series(series, &mut shapes);
+    }
+    for words in &chart.words {
+        if let Some(at) = pen.at(words.at) {
+            let (by, anchor, ink) = match words.tone {
+                Tone::Dark => (vec2(0.0, 0.0), Align2::CENTER_CENTER, pen.palette.text),
+                Tone::Light => (vec2(0.0, 0.0), Align2::CENTER_CENTER, Color32::WHITE),
+                Tone::Aside => (vec2(8.0, 6.0), Align2::LEFT_TOP, pen.palette.dim),
+            };
+            shapes.push(pen.text(at + by, anchor, &words.text, ink));
         }
-        for bars in &self.chart.bars {
-            pen.push_bars(bars, shapes);
-        }
-        for rule in &self.chart.rules {
-            pen.push_rule(rule, shapes);
-        }
-        for series in &self.chart.series {
-            pen.push_series(series, shapes);
-        }
-        for words in &self.chart.words {
-            if let Some(at) = pen.at(words.at) {
-                let (by, anchor, ink) = match words.tone {
-                    Tone::Dark => (vec2(0.0, 0.0), Align2::CENTER_CENTER, pen.palette.text),
-                    Tone::Light => (vec2(0.0, 0.0), Align2::CENTER_CENTER, Color32::WHITE),
-                    Tone::Aside => (vec2(8.0, 6.0), Align2::LEFT_TOP, pen.palette.dim),
-                };
-                shapes.push(pen.text(at + by, anchor, &words.text, ink));
-            }
-        }
     }
-
-    fn initialize(&mut self, _: RangeInclusive<f64>) {}
-
-    fn color(&self) -> Color32 {
-        Color32::TRANSPARENT
-    }
-
-    fn geometry(&self) -> PlotGeometry<'_> {
-        PlotGeometry::None
-    }
-
-    fn bounds(&self) -> PlotBounds {
-        PlotBounds::NOTHING
-    }
-
-    fn base(&self) -> &PlotItemBase {
-        &self.base
-    }
-
-    fn base_mut(&mut self) -> &mut PlotItemBase {
-        &mut self.base
-    }
+    shapes
 }
 
 /// What shapes are made with.

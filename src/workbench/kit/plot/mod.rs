@@ -2,7 +2,7 @@
 //!
 //! A pane makes a [`Chart`] in a pure function and calls [`show`]. Ticks come from the chart's own
 //! engine, since the toolkit's know no decades; the toolkit (`egui_plot`, named in this folder
-//! alone) places and cuts off what is drawn.
+//! alone) says where a place of a chart stands.
 //!
 //! # Navigation
 //! The wheel zooms about the pointer, or Ctrl with the wheel where the pane scrolls; dragging
@@ -18,12 +18,13 @@ pub(crate) mod setting;
 mod tests;
 pub(crate) mod view;
 
+use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{Id, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2};
-use egui_plot::{Plot, PlotBounds, PlotTransform};
+use egui_plot::{PlotBounds, PlotTransform};
 
 pub(crate) use crate::kit::plot::setting::{Drag, Setting};
 
-use crate::kit::plot::layers::{Layers, position};
+use crate::kit::plot::layers::position;
 use crate::kit::plot::view::View;
 use selvedge_chart::{Chart, Scale};
 
@@ -87,7 +88,10 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
     let bounds = PlotBounds::from_min_max([ends[0][0], ends[1][0]], [ends[0][1], ends[1][1]]);
     let transform = PlotTransform::new(area, bounds, false);
     around::paint_ticks(ui.painter(), chart, &transform, (scales, setting.margin));
-    paint(ui, chart, (area, bounds, scales), id);
+    let frame = area.round_ui();
+    let within = PlotTransform::new(frame, bounds, false);
+    let painter = ui.painter().with_clip_rect(frame.intersect(ui.clip_rect()));
+    painter.extend(layers::shapes(ui, chart, &within, scales));
     around::paint_titles(ui.painter(), chart, &transform, (scales, setting.margin));
     around::paint_marks(ui.painter(), chart, &transform, scales[0]);
     if setting.has_legend {
@@ -101,39 +105,4 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
     };
     hover::show(ui, chart, &shown, setting);
     Some(shown)
-}
-
-/// What is within the frame, cut off at its edge.
-fn paint(ui: &Ui, chart: &Chart, (area, bounds, scales): (Rect, PlotBounds, [Scale; 2]), id: Id) {
-    let builder = eframe::egui::UiBuilder::new().max_rect(area);
-    let mut within = Ui::new(
-        ui.ctx().clone(),
-        id.with("frame"),
-        builder.layer_id(ui.layer_id()),
-    );
-    within.set_opacity(ui.opacity());
-    within.set_clip_rect(area.expand(1.0).intersect(ui.clip_rect()));
-    let plot = Plot::new(id)
-        .id(id.with("plot"))
-        .sense(Sense::hover())
-        .width(area.width())
-        .height(area.height())
-        .min_size(area.size())
-        .show_axes(false)
-        .show_grid(false)
-        .show_background(false)
-        .show_x(false)
-        .show_y(false)
-        .show_crosshair(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_drag(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .allow_axis_zoom_drag(false);
-    let layers = Layers::new(chart, scales);
-    plot.show(&mut within, move |plot| {
-        plot.set_plot_bounds(bounds);
-        plot.add(layers);
-    });
 }

@@ -5,6 +5,7 @@
 //! van der Walt 2015 (viridis); Nuñez, Anderton and Renslow 2018 (cividis, for any colour vision).
 
 use eframe::egui::Color32;
+use selvedge_foundation::numerics::to_byte;
 use serde::{Deserialize, Serialize};
 
 /// Which colours stand for numbers.
@@ -141,11 +142,6 @@ fn channels(rgb: u32) -> [u8; 3] {
     [r, g, b]
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between two bytes, and rounded"
-)]
 fn mixed(from: u8, to: u8, share: f64) -> u8 {
-    (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as u8
+    to_byte((f64::from(from) + (f64::from(to) - f64::from(from)) * share).round())
 }

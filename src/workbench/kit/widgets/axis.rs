@@ -3,10 +3,11 @@
 //!
 //! It knows nothing of what is plotted.
 
-use eframe::egui::{Align2, Color32, Painter, Pos2, Rangef, Rect, Stroke, pos2, vec2};
+use eframe::egui::{Color32, Painter, Pos2, Rangef, Rect, Stroke, pos2, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Most ticks that an axis ever has.
@@ -18,7 +19,8 @@ const LETTER_GAP: f32 = 5.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Axis {
     least: f64,
-    most: f64,
+    /// Its upper end.
+    pub(crate) most: f64,
     is_log: bool,
 }
 
@@ -93,11 +95,6 @@ impl Axis {
         }
     }
 
-    /// Its upper end.
-    pub(crate) fn most(&self) -> f64 {
-        self.most
-    }
-
     /// Where a number lies: 0 at the lower end, 1 at the upper, beyond them below 0 and above 1.
     /// What lies nowhere (NaN; 0 on a logarithmic axis) is far below the lower end.
     pub(crate) fn share(&self, value: f64) -> f64 {
@@ -123,12 +120,12 @@ impl Axis {
 
     /// The number's place in a horizontal range, points.
     pub(crate) fn x(&self, range: Rangef, value: f64) -> f32 {
-        range.min + single(self.share(value)) * range.span()
+        range.min + to_single(self.share(value)) * range.span()
     }
 
     /// The number's place in a vertical range (the lower end of the axis at the bottom), points.
     pub(crate) fn y(&self, range: Rangef, value: f64) -> f32 {
-        range.max - single(self.share(value)) * range.span()
+        range.max - to_single(self.share(value)) * range.span()
     }
 
     /// The number at a horizontal place.
@@ -252,23 +249,12 @@ fn paint_label(painter: &Painter, plot: Rect, (at, side): (Pos2, Side), label: &
     painter.galley(centre - half, text, ink);
 }
 
-/// Writes a unit, small and dim.
-pub(crate) fn paint_unit(painter: &Painter, at: Pos2, anchor: Align2, unit: &str) {
-    let palette = Palette::of(painter.ctx().theme());
-    painter.text(at, anchor, unit, theme::small(), palette.dim);
-}
-
 fn place_of(plot: Rect, axis: &Axis, side: Side, value: f64) -> Pos2 {
     match side {
         Side::Left => pos2(plot.left(), axis.y(plot.y_range(), value)),
         Side::Right => pos2(plot.right(), axis.y(plot.y_range(), value)),
         Side::Bottom => pos2(axis.x(plot.x_range(), value), plot.bottom()),
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-fn single(share: f64) -> f32 {
-    share as f32
 }
 
 #[cfg(test)]

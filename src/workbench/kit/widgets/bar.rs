@@ -6,6 +6,8 @@ use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::text::paint_quiet;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Height of a number beside the bar, points.
@@ -39,8 +41,7 @@ pub(crate) fn amplitude_bar(painter: &Painter, bar: Rect, map: ColourMap, scale:
         marks.insert(1.min(marks.len()), least);
     }
     for amplitude_um in marks {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = scale.share(amplitude_um) as f32;
+        let share = to_single(scale.share(amplitude_um));
         let y = bar.bottom() - bar.height() * share;
         let decimals = if amplitude_um < 0.1 {
             2
@@ -60,6 +61,5 @@ pub(crate) fn amplitude_bar(painter: &Painter, bar: Rect, map: ColourMap, scale:
         painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);
     }
     let unit_at = pos2(bar.left(), bar.top() - 11.0);
-    let font = theme::small();
-    painter.text(unit_at, Align2::LEFT_CENTER, "µm", font, palette.dim);
+    paint_quiet(painter, unit_at, Align2::LEFT_CENTER, "µm");
 }

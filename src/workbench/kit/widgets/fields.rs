@@ -1,11 +1,11 @@
 //! Fields of a form: a name on the left, what is typed or chosen on the right; notes below them.
 
-use eframe::egui::{
-    self, Align, ComboBox, Label, Layout, Margin, RichText, Stroke, TextEdit, Ui, vec2,
-};
+use eframe::egui::{self, InnerResponse, Label, Margin, RichText, Stroke, TextEdit, Ui, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::list::list_within;
+use crate::kit::widgets::text::{line, named, quiet, small};
 
 /// Height of a row, points.
 pub(crate) const LINE: f32 = 22.0;
@@ -35,8 +35,7 @@ impl Need {
 /// The title of a step, and how far it is in a few words.
 pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
     let palette = Palette::in_ui(ui);
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         let nth = RichText::new(nth.to_string())
             .font(theme::number())
             .color(palette.dim);
@@ -47,7 +46,7 @@ pub(crate) fn step_title(ui: &mut Ui, nth: u8, title: &str, state: &str) {
                 .strong()
                 .color(palette.text),
         );
-        let state = RichText::new(state).font(theme::small()).color(palette.dim);
+        let state = quiet(state);
         ui.add(Label::new(state).truncate());
     });
 }
@@ -68,7 +67,7 @@ pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
         Tone::Quiet => palette.dim,
         Tone::Wrong => palette.text,
     };
-    let text = RichText::new(words).font(theme::small()).color(ink);
+    let text = small(words, ink);
     let label = ui.add(Label::new(text).wrap());
     if tone == Tone::Wrong {
         let bar = label
@@ -77,6 +76,15 @@ pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
             .with_max_x(label.rect.left() - 4.0);
         ui.painter().rect_filled(bar, 0, palette.selection);
     }
+}
+
+/// A line of a form: its parts a step apart, from left to right.
+pub(crate) fn form_line<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
+    line(ui, LINE, |ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        ui.spacing_mut().interact_size.y = LINE - 2.0;
+        content(ui)
+    })
 }
 
 /// A row: a name, `content` with the name's response to be labelled by, and behind it in small
@@ -97,20 +105,16 @@ pub(crate) fn row_of(
     (name, known): (&str, &str),
     content: impl FnOnce(&mut Ui, &egui::Response),
 ) {
-    let palette = Palette::in_ui(ui);
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
-        let text = RichText::new(name).font(theme::small()).color(palette.dim);
+    form_line(ui, |ui| {
+        let text = quiet(name);
         let width = room.min(0.4 * ui.available_width());
-        let label = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+        let label = ui.allocate_ui_with_layout(vec2(width, LINE), *ui.layout(), |ui| {
             ui.set_min_width(width);
             ui.add(Label::new(text).truncate())
         });
         content(ui, &label.inner);
         if !known.is_empty() {
-            let known = RichText::new(known).font(theme::small()).color(palette.dim);
+            let known = quiet(known);
             ui.add(Label::new(known).truncate());
         }
     });
@@ -136,6 +140,30 @@ pub(crate) fn text(
     response
 }
 
+/// A field that is read when it is left, where something else was typed than stood there; Esc
+/// leaves it as it was. `dressed` says how it looks.
+pub(crate) fn typed_field(
+    ui: &mut Ui,
+    id: egui::Id,
+    (label, now): (&str, &str),
+    dressed: impl FnOnce(TextEdit<'_>) -> TextEdit<'_>,
+) -> Option<String> {
+    let editing: Option<String> = ui.data(|data| data.get_temp(id));
+    let mut text = editing.unwrap_or_else(|| now.to_owned());
+    let edit = TextEdit::singleline(&mut text).id(id).font(theme::number());
+    let response = ui.add(dressed(edit));
+    named(&response, label);
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        return (!is_cancelled && text != now).then_some(text);
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+    None
+}
+
 /// A list to choose from, named.
 pub(crate) fn choose(
     ui: &mut Ui,
@@ -144,18 +172,8 @@ pub(crate) fn choose(
     content: impl FnOnce(&mut Ui),
 ) {
     let width = width.min(ui.available_width());
-    let line = Layout::left_to_right(Align::Center);
-    let text = RichText::new(text).font(theme::small());
-    let room = ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
-        ui.set_max_width(width);
-        let list = ComboBox::from_id_salt(("import", name))
-            .width(width - 8.0)
-            .truncate();
-        list.selected_text(text).show_ui(ui, content).response
-    });
-    let response = room.inner;
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    let name_of = (("import", name), name);
+    let response = list_within(ui, name_of, [width, width - 8.0], text, content);
     mark_asked(ui, &response, need);
 }
 

@@ -4,16 +4,17 @@
 //! [`Relief::of`] looks at every height once and may run on any thread; what is drawn from then on
 //! has as many points as the screen can show.
 
-use eframe::egui::{
-    Align2, Color32, ColorImage, Context, Painter, Pos2, Rect, TextureFilter, TextureHandle,
-    TextureOptions, pos2, vec2,
-};
+use std::sync::Arc;
 
+use eframe::egui::{Align2, Color32, ColorImage, Painter, Rect, TextureOptions, Theme, vec2};
+
+use crate::kit::texture::{Same, Texture, WHOLE};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
 use crate::kit::widgets::bar::colour_bar;
-use selvedge_foundation::numerics::Grid;
+use crate::kit::widgets::text::paint_quiet;
+use selvedge_foundation::numerics::{Grid, to_byte, to_index, to_single};
 use selvedge_textile::surface::HeightMap;
 
 /// Points along the longer side at most.
@@ -31,9 +32,12 @@ pub(crate) const BAR_ROOM: f32 = 58.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Relief {
     heights_um: Grid<f64>,
-    size_mm: [f64; 2],
-    range_um: [f64; 2],
-    n_missing: usize,
+    /// Extent along u and w, mm.
+    pub(crate) size_mm: [f64; 2],
+    /// The heights at the ends of the colours, µm: all but 0.5 % at either end lie between.
+    pub(crate) range_um: [f64; 2],
+    /// Points of the map without a height.
+    pub(crate) n_missing: usize,
 }
 
 impl Relief {
@@ -44,12 +48,7 @@ impl Relief {
         let cell_mm = size_mm[0].max(size_mm[1]) / MOST_POINTS;
         let n_points = [map.heights_um().width(), map.heights_um().height()];
         let n_cells = [0, 1].map(|axis| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "1 to 720"
-            )]
-            let n = (size_mm[axis] / cell_mm).round().max(1.0) as usize;
+            let n = to_index((size_mm[axis] / cell_mm).round()).max(1);
             n.min(n_points[axis])
         });
         let heights_um = pooled(map.heights_um(), n_cells);
@@ -59,21 +58,6 @@ impl Relief {
             size_mm,
             n_missing: map.n_missing(),
         }
-    }
-
-    /// Extent along u and w, mm.
-    pub(crate) fn size_mm(&self) -> [f64; 2] {
-        self.size_mm
-    }
-
-    /// The heights at the ends of the colours, µm: all but 0.5 % at either end lie between.
-    pub(crate) fn range_um(&self) -> [f64; 2] {
-        self.range_um
-    }
-
-    /// Points of the map without a height.
-    pub(crate) fn n_missing(&self) -> usize {
-        self.n_missing
     }
 
     /// The cells that are drawn, µm, rows in the order of rising w; NaN where missing.
@@ -86,15 +70,8 @@ impl Relief {
         let n = [self.heights_um.width(), self.heights_um.height()];
         let cell = |axis: usize| {
             let share = place_mm[axis] / self.size_mm[axis];
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a share of 0 to 1 of at most 720 cells"
-            )]
-            let cell = (0.0..1.0)
-                .contains(&share)
-                .then(|| (share * n[axis] as f64) as usize)?;
-            Some(cell)
+            let is_within = (0.0..1.0).contains(&share);
+            is_within.then(|| to_index(share * n[axis] as f64))
         };
         let height = self.heights_um.row(cell(1)?)[cell(0)?];
         height.is_finite().then_some(height)
@@ -102,8 +79,7 @@ impl Relief {
 
     /// The largest rectangle of the map's shape in the middle of a room.
     pub(crate) fn fitted(&self, room: Rect) -> Rect {
-        #[expect(clippy::cast_possible_truncation, reason = "a shape, for the screen")]
-        let shape = (self.size_mm[0] / self.size_mm[1]) as f32;
+        let shape = to_single(self.size_mm[0] / self.size_mm[1]);
         let width = room.width().min(room.height() * shape);
         Rect::from_center_size(room.center(), vec2(width, width / shape))
     }
@@ -173,13 +149,7 @@ fn lit(colour: Color32, light: f64) -> Color32 {
     let towards = if light > 0.0 { 255.0 } else { 0.0 };
     let [r, g, b, _] = colour.to_array().map(|channel| {
         let channel = f64::from(channel);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between two bytes"
-        )]
-        let mixed = (channel + (towards - channel) * light.abs().min(1.0)) as u8;
-        mixed
+        to_byte(channel + (towards - channel) * light.abs().min(1.0))
     });
     Color32::from_rgb(r, g, b)
 }
@@ -223,12 +193,7 @@ fn range_of(heights: &Grid<f64>) -> [f64; 2] {
         return [0.0, 1.0];
     }
     present.sort_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a small share of a length"
-    )]
-    let beyond = (BEYOND * present.len() as f64) as usize;
+    let beyond = to_index(BEYOND * present.len() as f64);
     let range = [present[beyond], present[present.len() - 1 - beyond]];
     if range[1] > range[0] {
         range
@@ -237,54 +202,36 @@ fn range_of(heights: &Grid<f64>) -> [f64; 2] {
     }
 }
 
-/// A relief as a texture, made when it is first drawn and again for other colours.
-#[derive(Default)]
-pub(crate) struct ReliefPicture {
-    texture: Option<(TextureHandle, ColourMap, bool)>,
-}
+/// The picture of a relief: in what colours, in the dark theme or the light one.
+pub(crate) type ReliefPicture = Texture<(Same<Relief>, ColourMap, bool)>;
 
 impl ReliefPicture {
     /// Paints the relief into a rectangle of its shape.
-    pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, relief: &Relief, map: ColourMap) {
-        let texture = self.texture(painter.ctx(), relief, map).id();
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        painter.image(texture, rect, whole, Color32::WHITE);
-    }
-
-    fn texture(&mut self, ctx: &Context, relief: &Relief, map: ColourMap) -> &TextureHandle {
-        let is_dark = ctx.theme() == eframe::egui::Theme::Dark;
-        let is_same = |kept: &(TextureHandle, ColourMap, bool)| (kept.1, kept.2) == (map, is_dark);
-        let kept = self.texture.take().filter(is_same);
-        let made = kept.unwrap_or_else(|| {
-            let image = relief.image(map, Palette::of(ctx.theme()));
-            let options = TextureOptions {
-                magnification: TextureFilter::Linear,
-                minification: TextureFilter::Linear,
-                ..TextureOptions::default()
-            };
-            (ctx.load_texture("relief", image, options), map, is_dark)
+    pub(crate) fn paint(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        relief: &Arc<Relief>,
+        map: ColourMap,
+    ) {
+        let theme = painter.ctx().theme();
+        let key = (Same(Arc::clone(relief)), map, theme == Theme::Dark);
+        let options = TextureOptions::LINEAR;
+        let texture = self.of(painter.ctx(), ("relief", options), key, || {
+            relief.image(map, Palette::of(theme))
         });
-        &self.texture.insert(made).0
-    }
-}
-
-impl std::fmt::Debug for ReliefPicture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let is_made = self.texture.is_some();
-        f.debug_struct("ReliefPicture")
-            .field("is_made", &is_made)
-            .finish()
+        painter.image(texture, rect, WHOLE, Color32::WHITE);
     }
 }
 
 /// Paints the bar of heights, its numbers on the right and the unit above.
 pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, map: ColourMap) {
     colour_bar(painter, bar, |share| map.colour(share));
-    let [low, high] = relief.range_um();
+    let [low, high] = relief.range_um;
     let axis = Axis::linear(low, high);
     let ticks = axis.ticks(bar.height(), 28.0);
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &ticks);
-    paint_unit(
+    paint_quiet(
         painter,
         bar.left_top() - vec2(0.0, 4.0),
         Align2::LEFT_BOTTOM,
@@ -294,6 +241,8 @@ pub(crate) fn paint_height_bar(painter: &Painter, bar: Rect, relief: &Relief, ma
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui::Pos2;
+
     use super::*;
 
     /// A ramp along u with a hole, 2000 × 500 points of 0.01 mm.
@@ -318,14 +267,14 @@ mod tests {
             (relief.heights_um.width(), relief.heights_um.height()),
             (720, 180)
         );
-        assert_eq!(relief.n_missing(), 200 * 100);
+        assert_eq!(relief.n_missing, 200 * 100);
         assert_eq!(relief.height_at([0.5, 0.5]), None, "the hole");
         let found = relief.height_at([10.0, 4.0]).unwrap();
         assert!((found - 10.0).abs() < 0.05, "{found}");
         assert_eq!(relief.height_at([20.5, 1.0]), None, "off the map");
         let fitted = relief.fitted(Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0)));
         assert_eq!(fitted.size(), vec2(400.0, 100.0));
-        let [low, high] = relief.range_um();
+        let [low, high] = relief.range_um;
         assert!(
             low > 0.0 && low < 0.4 && high > 19.5 && high < 20.0,
             "{low} {high}"
@@ -340,7 +289,7 @@ mod tests {
         assert!(colours.row(179)[0].is_some());
         let brightness = |column: usize| colours.row(100)[column].unwrap().r();
         assert!(brightness(700) > brightness(360) && brightness(360) > brightness(20));
-        let image = relief.image(ColourMap::Grey, Palette::of(eframe::egui::Theme::Dark));
+        let image = relief.image(ColourMap::Grey, Palette::of(Theme::Dark));
         let corner = image.pixels[(image.size[1] - 1) * image.size[0]];
         assert!(
             [0x0b, 0x6c].contains(&corner.r()),
@@ -352,7 +301,7 @@ mod tests {
     fn a_level_map_has_one_colour_and_a_bar_with_two_ends() {
         let grid = Grid::filled(30, 20, 7.0);
         let relief = Relief::of(&HeightMap::new(grid, [0.1, 0.1]).unwrap());
-        assert_eq!(relief.range_um(), [6.5, 7.5]);
+        assert_eq!(relief.range_um, [6.5, 7.5]);
         let colours = relief.colours(ColourMap::Viridis);
         assert!(
             colours

@@ -38,20 +38,29 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// Gains from −30 to +30 dB.
-    pub(crate) fn gain(resting: f64) -> Self {
-        let (least, most) = (-30.0, 30.0);
+    /// Even steps between two ends, shown with so many decimals and a unit.
+    pub(crate) const fn even(
+        [least, most]: [f64; 2],
+        resting: f64,
+        step: f64,
+        (decimals, unit): (usize, &'static str),
+    ) -> Self {
         Self {
             least,
             most,
             resting,
-            step: 0.1,
-            decimals: 1,
-            unit: "dB",
+            step,
+            decimals,
+            unit,
             factor: 1.0,
             noticed: None,
             curve: Curve::Even,
         }
+    }
+
+    /// Gains from −30 to +30 dB.
+    pub(crate) fn gain(resting: f64) -> Self {
+        Self::even([-30.0, 30.0], resting, 0.1, (1, "dB"))
     }
 
     /// The same with the change that is just noticed.
@@ -62,15 +71,8 @@ impl Scale {
     /// Shares from 0 to 100 %.
     pub(crate) fn share(resting: f64) -> Self {
         Self {
-            least: 0.0,
-            most: 1.0,
-            resting,
-            step: 0.01,
-            decimals: 0,
-            unit: "%",
             factor: 100.0,
-            noticed: None,
-            curve: Curve::Even,
+            ..Self::even([0.0, 1.0], resting, 0.01, (0, "%"))
         }
     }
 

@@ -12,6 +12,7 @@ use crate::kit::foot;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::scale::Scale;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Width of the name, points.
@@ -232,8 +233,7 @@ fn span(rail: Rect) -> Rect {
 }
 
 fn x_of(rail: Rect, scale: &Scale, value: f64) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-    let share = scale.share_of(value) as f32;
+    let share = to_single(scale.share_of(value));
     span(rail).left() + share * span(rail).width()
 }
 

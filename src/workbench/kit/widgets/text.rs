@@ -1,8 +1,8 @@
 //! Small pieces of text: titles of sections, rows of a name and a value, buttons.
 
 use eframe::egui::{
-    self, Align, Align2, AtomExt as _, Color32, Layout, Pos2, Rect, Response, RichText, Sense, Ui,
-    pos2, vec2,
+    self, Align, Align2, AtomExt as _, Color32, InnerResponse, Layout, Painter, Pos2, Rect,
+    Response, RichText, Sense, Ui, pos2, vec2,
 };
 
 use crate::kit::theme;
@@ -14,11 +14,52 @@ const SIDE: usize = 12;
 /// Letters at the end of any other name that stay.
 const END: usize = 4;
 
+/// Small words.
+pub(crate) fn small(words: impl Into<String>, ink: Color32) -> RichText {
+    RichText::new(words).small().color(ink)
+}
+
+/// Small and dim words.
+pub(crate) fn quiet(words: impl Into<String>) -> RichText {
+    RichText::new(words).small().weak()
+}
+
+/// Words over as many lines as they need.
+pub(crate) fn paragraph(ui: &mut Ui, words: RichText) -> Response {
+    ui.add(egui::Label::new(words).wrap())
+}
+
+/// Paints small and dim words; says where they stand.
+pub(crate) fn paint_quiet(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    words: impl ToString,
+) -> Rect {
+    let palette = Palette::of(painter.ctx().theme());
+    painter.text(at, anchor, words, theme::small(), palette.dim)
+}
+
+/// Has a widget read out as `label`.
+pub(crate) fn named(response: &Response, label: impl Into<String>) {
+    let ctx = &response.ctx;
+    ctx.accesskit_node_builder(response.id, |node| node.set_label(label));
+}
+
+/// Widgets side by side, as wide as there is room.
+pub(crate) fn line<R>(
+    ui: &mut Ui,
+    height: f32,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<R> {
+    let size = vec2(ui.available_width(), height);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), content)
+}
+
 /// The quiet title of a section.
 pub(crate) fn section(ui: &mut Ui, title: &str) {
-    let palette = Palette::in_ui(ui);
     ui.add_space(STEP);
-    ui.label(RichText::new(title).font(theme::small()).color(palette.dim));
+    ui.label(quiet(title));
 }
 
 /// A row with a name on the left and whatever `content` adds on the right, right-aligned.
@@ -40,8 +81,7 @@ fn row_of<R>(
     (name, height): (&str, f32),
     content: impl FnOnce(&mut Ui) -> R,
 ) -> Response {
-    let size = vec2(ui.available_width(), height);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, height, |ui| {
         ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), content);
     })
@@ -50,18 +90,25 @@ fn row_of<R>(
 
 /// A number in fixed digits with its unit after a small, dim name.
 pub(crate) fn quiet_pair(ui: &mut Ui, name: &str, value: &str, unit: &str) -> Response {
-    let palette = Palette::in_ui(ui);
-    let name = RichText::new(name).font(theme::small()).color(palette.dim);
-    let size = vec2(ui.available_width(), 20.0);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    let name = quiet(name);
+    line(ui, 20.0, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
+            ui.label(quiet(unit));
             ui.label(RichText::new(value).font(theme::number()));
         });
     })
     .response
+}
+
+/// Such pairs side by side: name, number, unit, and what it says when the pointer rests on it.
+pub(crate) fn quiet_pairs(ui: &mut Ui, pairs: [(&str, String, &str, &str); 2]) {
+    ui.columns_const(|columns: &mut [Ui; 2]| {
+        for (ui, (name, value, unit, tip)) in columns.iter_mut().zip(pairs) {
+            quiet_pair(ui, name, &value, unit).on_hover_text(tip);
+        }
+    });
 }
 
 /// A filled circle as wide as a letter: a lamp. Read out as `label`.
@@ -121,13 +168,24 @@ pub(crate) fn toggle(ui: &mut Ui, letter: &str, is_on: bool, label: &str) -> boo
     response.on_hover_text(label).clicked()
 }
 
+/// A toggle for each of some values, of which one is chosen: the value, its name and its tip.
+pub(crate) fn toggles<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    chosen: &mut T,
+    values: &[(T, &str, &str)],
+) {
+    for (value, name, tip) in values {
+        if toggle(ui, name, *chosen == *value, tip) {
+            *chosen = *value;
+        }
+    }
+}
+
 /// One of a list to choose from, as wide as the list: its name, and dimmer as much of `detail` as
 /// there is room for. Says whether it was chosen.
 pub(crate) fn choice(ui: &mut Ui, name: RichText, detail: &str, tip: &str) -> bool {
     let palette = Palette::in_ui(ui);
-    let detail = RichText::new(detail)
-        .font(theme::small())
-        .color(palette.dim);
+    let detail = quiet(detail);
     let name = name.color(palette.text).atom_shrink(false);
     let line = egui::Button::new((name, detail.atom_shrink(true)))
         .gap(2.0 * STEP)
@@ -203,13 +261,7 @@ pub(crate) fn paint_number(ui: &Ui, rect: Rect, value: f64, decimals: usize, uni
     let palette = Palette::in_ui(ui);
     let right = pos2(rect.right(), rect.center().y);
     let painter = ui.painter();
-    let unit_at = painter.text(
-        right,
-        Align2::RIGHT_CENTER,
-        unit,
-        theme::small(),
-        palette.dim,
-    );
+    let unit_at = paint_quiet(painter, right, Align2::RIGHT_CENTER, unit);
     // Units are two letters wide at most: the number keeps its place whatever the unit.
     let number_right = pos2(right.x - unit_at.width().max(14.0) - 4.0, right.y);
     let digits = quantity::fixed(value, decimals);

@@ -5,8 +5,10 @@ use eframe::egui::{
 };
 
 use crate::bench::command::{Command, Commands};
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::{named, paragraph, quiet};
 use crate::shell::guide::markdown::{Block, Span, anchor, blocks};
 use crate::shell::guide::{GuidePage, guide_pages, page};
 
@@ -79,9 +81,7 @@ pub(crate) fn show(ui: &Ui, reading: &mut Reading, commands: &mut Commands) {
             ui.separator();
             ui.vertical(|ui| {
                 let goes_to = reading.goes_to.take();
-                let scrolled = ScrollArea::vertical()
-                    .id_salt(reading.page.name)
-                    .auto_shrink(false);
+                let scrolled = scroll_area(reading.page.name);
                 let scrolled = if goes_to.as_deref() == Some("") {
                     scrolled.vertical_scroll_offset(0.0)
                 } else {
@@ -105,8 +105,7 @@ fn show_contents(ui: &mut Ui, reading: &mut Reading) {
         .desired_width(f32::INFINITY)
         .hint_text("Search the guide");
     let response = ui.add(field);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Search the guide"));
+    named(&response, "Search the guide");
     let mut goes = None;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let sought = reading.search.trim().to_lowercase();
@@ -134,8 +133,7 @@ fn show_contents(ui: &mut Ui, reading: &mut Reading) {
             if ui.selectable_label(false, title).clicked() {
                 goes = Some(format!("{}#{}", hit.page.name, anchor(&hit.heading)));
             }
-            let words = RichText::new(hit.words).font(theme::small());
-            ui.add(egui::Label::new(words.color(Palette::in_ui(ui).dim)).wrap());
+            paragraph(ui, quiet(hit.words));
         }
     });
     if let Some(target) = goes {

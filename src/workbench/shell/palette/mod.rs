@@ -13,6 +13,7 @@ use crate::bench::command::{Command, Commands};
 use crate::kit::theme;
 use crate::kit::theme::{Palette as Colours, ROW, STEP};
 use crate::kit::widgets::card;
+use crate::kit::widgets::text::quiet;
 use crate::shell::palette::found::{Found, found};
 
 /// Width of the card, points.
@@ -118,8 +119,7 @@ fn show_line(ui: &mut Ui, one: &Found, is_chosen: bool) -> egui::Response {
     let mut ui = ui.new_child(inside.layout(Layout::right_to_left(Align::Center)));
     let key = RichText::new(&one.keys).font(theme::small_number());
     ui.label(key.color(colours.text));
-    let kind = RichText::new(&one.kind).font(theme::small());
-    ui.label(kind.color(colours.dim));
+    ui.label(quiet(&one.kind));
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
         let what = RichText::new(&one.what).color(colours.text);
         ui.add(egui::Label::new(what).truncate().selectable(false));

@@ -4,13 +4,14 @@
 
 pub(crate) mod tiles;
 
-use eframe::egui::{Label, RichText, Ui};
+use eframe::egui::{RichText, Ui};
 
 use crate::bench::export::Exportable;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tools};
 use crate::kit::pane::framed;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::paragraph;
 use crate::shell::state::PaneFocus;
 use crate::shell::tab_row::TabRow;
 
@@ -52,7 +53,7 @@ fn show_veil(ui: &mut Ui) {
     let words = "Hidden while a session is held: what lies under the finger is not to be seen.";
     let ink = Palette::in_ui(ui).dim;
     ui.add_space(2.0 * STEP);
-    ui.add(Label::new(RichText::new(words).color(ink)).wrap());
+    paragraph(ui, RichText::new(words).color(ink));
 }
 
 /// The right end of a row of tabs: what belongs to the pane in front.

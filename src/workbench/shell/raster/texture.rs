@@ -4,6 +4,7 @@ use eframe::egui::{
     Color32, ImageData, Pos2, TextureFilter, TextureOptions, TextureWrapMode, Vec2,
 };
 use eframe::epaint::ImageDelta;
+use selvedge_foundation::numerics::to_byte;
 
 /// A texture and, when it asks for them, its halved copies down to one pixel.
 #[derive(Debug)]
@@ -193,11 +194,6 @@ fn floor(at: f32) -> i64 {
 }
 
 /// The nearest byte.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates to 0…255, which is what is wanted"
-)]
 pub(crate) fn byte(value: f32) -> u8 {
-    (value + 0.5) as u8
+    to_byte(f64::from(value) + 0.5)
 }

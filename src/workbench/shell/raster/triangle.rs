@@ -4,6 +4,7 @@
 //! that share an edge cover every pixel along it exactly once.
 
 use eframe::egui::{Color32, Pos2, Vec2, pos2, vec2};
+use selvedge_foundation::numerics::to_single;
 
 /// Sub-pixel steps in a pixel.
 const SUB: i64 = 256;
@@ -191,12 +192,8 @@ impl Interpolated {
 }
 
 /// A part of the whole.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "weights are used in single precision"
-)]
 fn share(part: i64, whole: i64) -> f32 {
-    (part as f64 / whole as f64) as f32
+    to_single(part as f64 / whole as f64)
 }
 
 /// A pixel coordinate in sub-pixel steps, bounded so that edges cannot overflow.

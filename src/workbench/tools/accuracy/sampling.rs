@@ -48,7 +48,8 @@ pub(crate) struct Accuracy {
     run: (u64, Option<Run>),
     /// The last tick that was looked at: scene, gains, pose.
     last: Option<(u64, u64, Pose)>,
-    tally: Tally,
+    /// Ticks that were seen.
+    pub(crate) tally: Tally,
     found: ErrorView,
     clock: ClockView,
     before: ClockView,
@@ -71,11 +72,6 @@ impl Accuracy {
         self.last = None;
         self.tally = Tally::default();
         self.before = self.clock;
-    }
-
-    /// Ticks that were seen.
-    pub(crate) fn tally(&self) -> Tally {
-        self.tally
     }
 
     /// Takes the errors found in this run; none of those before.
@@ -214,14 +210,6 @@ impl Accuracy {
             }
             None => {}
         }
-    }
-}
-
-impl std::fmt::Debug for Accuracy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Accuracy")
-            .field("tally", &self.tally)
-            .finish_non_exhaustive()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The array profile in force: which, its scale and limits, how the device falls silent.
 
-use eframe::egui::{self, Label, RichText, TextEdit, Ui};
+use eframe::egui::{self, RichText, TextEdit, Ui};
 
 use crate::bench::command::Commands;
 use crate::bench::command::array::ArrayCommand;
@@ -10,7 +10,7 @@ use crate::kit::widgets::limit_mark::{LIMIT_MARK, paint_limit_mark};
 use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
-use crate::kit::widgets::text::{button, choice, row};
+use crate::kit::widgets::text::{button, choice, named, paragraph, row, small};
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::ArrayProfile;
 use selvedge_foundation::quantity;
@@ -90,10 +90,7 @@ fn show_waiting(ui: &mut Ui, array: &ArrayView<'_>) {
         let palette = Palette::in_ui(ui);
         let words = "The device is armed: what was changed takes effect once it is disarmed. \
                      What only lowers does so at once.";
-        let words = RichText::new(words)
-            .font(theme::small())
-            .color(palette.text);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, small(words, palette.text));
     }
 }
 
@@ -103,7 +100,7 @@ fn show_limits(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
         let (index, ink) = (band.index(), palette.band(band));
         let full_um = profile.full_scale_um[index];
         let name = format!("Limit {} Hz", quantity::fixed(band.carrier_hz(), 0));
-        let scale = even(0.0, full_um, (full_um, 0.1), (1, "µm"));
+        let scale = Scale::even([0.0, full_um], full_um, 0.1, (1, "µm"));
         let (new, response) = slider_row(ui, &name, ink, scale, profile.limit_um[index]);
         response.on_hover_text(
             "Largest amplitude of any contactor, µm peak; up to full scale. While armed, only \
@@ -116,13 +113,13 @@ fn show_limits(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
     for band in Band::ALL {
         let (index, ink) = (band.index(), palette.band(band));
         let name = format!("Full {} Hz", quantity::fixed(band.carrier_hz(), 0));
-        let [least, most] = [
+        let ends = [
             ArrayProfile::SMALLEST_SCALE_UM,
             ArrayProfile::LARGEST_SCALE_UM,
         ];
         let scale = Scale {
             curve: Curve::Decades(4.0),
-            ..even(least, most, (50.0, 0.1), (1, "µm"))
+            ..Scale::even(ends, 50.0, 0.1, (1, "µm"))
         };
         let (new, response) = slider_row(ui, &name, ink, scale, profile.full_scale_um[index]);
         response.on_hover_text(
@@ -135,31 +132,11 @@ fn show_limits(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
     }
 }
 
-/// A scale with even steps: its ends, where it rests and its step, its decimals and unit.
-fn even(
-    least: f64,
-    most: f64,
-    (resting, step): (f64, f64),
-    (decimals, unit): (usize, &'static str),
-) -> Scale {
-    Scale {
-        least,
-        most,
-        resting,
-        step,
-        decimals,
-        unit,
-        factor: 1.0,
-        noticed: None,
-        curve: Curve::Even,
-    }
-}
-
 fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) {
     let ink = Palette::in_ui(ui).text;
     let most_ms = f64::from(ArrayProfile::LONGEST_SILENCING_MS);
     let hold_ms = f64::from(profile.hold_ms);
-    let hold = even(0.0, most_ms, (60.0, 1.0), (0, "ms"));
+    let hold = Scale::even([0.0, most_ms], 60.0, 1.0, (0, "ms"));
     let (new, response) = slider_row(ui, "Hold", ink, hold, hold_ms);
     response.on_hover_text(
         "How long the device goes on without a frame before it ramps to silence; hold and ramp \
@@ -167,17 +144,13 @@ fn show_silencing(ui: &mut Ui, profile: &ArrayProfile, commands: &mut Commands) 
     );
     commands.extend(new.map(|ms| ArrayCommand::Hold(ms).into()));
     let most_ramp_ms = (most_ms - hold_ms).max(1.0);
-    let ramp = even(
-        0.0,
-        most_ramp_ms,
-        (40.0_f64.min(most_ramp_ms), 1.0),
-        (0, "ms"),
-    );
+    let usual_ms = most_ramp_ms.min(40.0);
+    let ramp = Scale::even([0.0, most_ramp_ms], usual_ms, 1.0, (0, "ms"));
     let (new, response) = slider_row(ui, "Ramp", ink, ramp, f64::from(profile.ramp_ms));
     response.on_hover_text("How long the device's ramp to silence takes");
     commands.extend(new.map(|ms| ArrayCommand::Ramp(ms).into()));
     let most_v = f64::from(ArrayProfile::LARGEST_HV_DV) / 10.0;
-    let volts = even(0.0, most_v, (60.0, 0.1), (1, "V"));
+    let volts = Scale::even([0.0, most_v], 60.0, 0.1, (1, "V"));
     let asked_v = f64::from(profile.hv_dv.unwrap_or(ArrayProfile::LARGEST_HV_DV)) / 10.0;
     let (new, response) = slider_row(ui, "Voltage", ink, volts, asked_v);
     response.on_hover_text("High voltage to ask the device for, which allows it or less");
@@ -249,7 +222,6 @@ fn show_copying(
             .desired_width(ui.available_width())
             .hint_text("name of a copy");
         let response = ui.add(field);
-        let name = |node: &mut egui::accesskit::Node| node.set_label("Name of a copy");
-        ui.ctx().accesskit_node_builder(response.id, name);
+        named(&response, "Name of a copy");
     });
 }

@@ -9,7 +9,7 @@ use crate::bench::command::array::ArrayCommand;
 use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::{button, row, toggle};
+use crate::kit::widgets::text::{button, named, row, toggle};
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::Calibration;
 use selvedge_foundation::quantity;
@@ -145,8 +145,7 @@ fn show_cell(
         ui.painter().rect_stroke(cell, 3, edge, StrokeKind::Inside);
     }
     let name = format!("Drive gain of contactor {contactor}");
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     if response.changed() {
         let mut changed = calibration;
         changed.drive_gain[band.index()] = gain;
@@ -238,8 +237,7 @@ fn show_moved(
         )
         .inner;
     let name = format!("Amplitude at full drive, {carrier} Hz");
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     if response.changed() {
         let mut changed = calibration;
         changed.drive_gain[index] = full_um / moved_um;

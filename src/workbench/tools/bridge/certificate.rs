@@ -5,12 +5,12 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{self, Label, RichText, Ui};
+use eframe::egui::{self, Ui};
 
 use crate::bench::background::Executor;
 use crate::bench::latest::{Computed, Latest};
-use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::text::{paragraph, small};
 use selvedge_device::{Caps, CertificateFolder, DeviceUid};
 use selvedge_foundation::progress::{Cancelled, Progress};
 
@@ -99,8 +99,7 @@ pub(crate) fn show(ui: &mut Ui, state: Option<([u8; 3], bool)>) {
             palette.danger,
         )
     };
-    let words = RichText::new(words).font(theme::small()).color(ink);
-    ui.add(Label::new(words).wrap());
+    paragraph(ui, small(words, ink));
 }
 
 #[cfg(test)]

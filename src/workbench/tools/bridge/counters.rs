@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText, Ui};
 
 use crate::bench::view::BridgeView;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{quiet_pair, row};
+use crate::kit::widgets::text::{quiet_pair, quiet_pairs, row};
 use selvedge_foundation::quantity;
 
 /// What matters of the link while its part is folded away.
@@ -65,11 +65,7 @@ pub(crate) fn show_counters(ui: &mut Ui, bridge: Option<&BridgeView>, felt_age_s
         ],
     ];
     for row in rows {
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            for (ui, (name, value, unit, tip)) in columns.iter_mut().zip(row) {
-                quiet_pair(ui, name, &value, unit).on_hover_text(tip);
-            }
-        });
+        quiet_pairs(ui, row);
     }
     quiet_pair(ui, "Frames sent", &sent, "");
     show_troubles(ui, bridge.map_or(&[], |bridge| &bridge.troubles));

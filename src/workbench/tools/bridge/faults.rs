@@ -1,13 +1,13 @@
 //! What is to go wrong with the emulator: every option of the command line as a row, and the button
 //! that starts it anew.
 
-use eframe::egui::{self, Align, Label, Layout, Margin, RichText, TextEdit, Ui};
+use eframe::egui::{self, Align, Layout, Margin, RichText, TextEdit, Ui};
 
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{button, choice, field_row, row};
+use crate::kit::widgets::text::{button, choice, field_row, named, paragraph, quiet, row, small};
 use crate::kit::widgets::{fold, list};
 use selvedge_device::{FaultGroup, FaultKind, FaultOption, FaultWords};
 
@@ -163,8 +163,7 @@ fn show_field(ui: &mut Ui, option: &FaultOption, chosen: &mut FaultWords) {
             .hint_text(hint)
             .align(egui::Align2::RIGHT_CENTER);
         let response = ui.add(field);
-        let name = |node: &mut egui::accesskit::Node| node.set_label(option.label);
-        ui.ctx().accesskit_node_builder(response.id, name);
+        named(&response, option.label);
         if response.on_hover_text(&tip).changed() {
             chosen.say(option, &text);
         }
@@ -174,7 +173,7 @@ fn show_field(ui: &mut Ui, option: &FaultOption, chosen: &mut FaultWords) {
     if !said.is_empty()
         && let Err(why) = option.check(said)
     {
-        show_words(ui, &why, palette.text);
+        paragraph(ui, small(&why, palette.text));
     }
 }
 
@@ -183,13 +182,8 @@ fn show_note(ui: &mut Ui, group: FaultGroup) {
     if group == FaultGroup::Stalls {
         let words = "Times count from the start: 5s, 5s+300ms for how long, 5s,20s for two. A \
                      cable that is pulled here ends the link: start again.";
-        show_words(ui, words, Palette::in_ui(ui).dim);
+        paragraph(ui, quiet(words));
     }
-}
-
-fn show_words(ui: &mut Ui, words: &str, ink: egui::Color32) {
-    let words = RichText::new(words).font(theme::small()).color(ink);
-    ui.add(Label::new(words).wrap());
 }
 
 fn show_start(ui: &mut Ui, chosen: &FaultWords, commands: &mut Commands) {

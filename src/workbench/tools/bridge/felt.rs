@@ -1,14 +1,13 @@
 //! What the emulator's contactors are told and what a model says they do, number by number.
 
 use eframe::egui::{
-    self, Align2, Label, Painter, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, pos2,
-    vec2,
+    self, Align2, Painter, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fold::described_fold;
-use crate::kit::widgets::text::row;
+use crate::kit::widgets::text::{paint_quiet, paragraph, quiet, row, small};
 use crate::tools::bridge::actuators::{ActuatorPeek, PlantCell, PlantView};
 use selvedge_device::Skin;
 use selvedge_foundation::quantity;
@@ -48,17 +47,13 @@ fn show_open(ui: &mut Ui, view: &PlantView, skin: &mut Skin) {
         ui.label(RichText::new(words).color(palette.dim));
     } else {
         show_grids(ui, view);
-        ui.add(Label::new(small(&troubles(&view.contactors), palette.text)).wrap());
+        paragraph(ui, small(troubles(&view.contactors), palette.text));
     }
     let words = format!(
         "A model estimate, no measurement: design-sheet values of beams of {}; skin {}.",
         view.beams, view.skin
     );
-    ui.add(Label::new(small(&words, palette.dim)).wrap());
-}
-
-fn small(words: &str, ink: egui::Color32) -> RichText {
-    RichText::new(words).font(theme::small()).color(ink)
+    paragraph(ui, quiet(&words));
 }
 
 /// The finger: one of those that have a name.
@@ -151,13 +146,7 @@ fn paint_title(painter: &Painter, at: Rect, title: &str, unit: &str, ink: egui::
     let middle = at.top() + 0.5 * TITLE - 1.0;
     let (left, right) = (pos2(at.left(), middle), pos2(at.right(), middle));
     painter.text(left, Align2::LEFT_CENTER, title, theme::small(), ink);
-    painter.text(
-        right,
-        Align2::RIGHT_CENTER,
-        unit,
-        theme::small(),
-        palette.dim,
-    );
+    paint_quiet(painter, right, Align2::RIGHT_CENTER, unit);
     let line = at.top() + TITLE - 2.0;
     painter.hline(at.x_range(), line, Stroke::new(1.0, palette.line));
 }

@@ -7,7 +7,7 @@ use crate::bench::sources::{SourceCommand, SourcesView};
 use crate::bench::view::{EngineView, InputView, Source};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{button, choice, quiet_pair, row};
+use crate::kit::widgets::text::{button, choice, paragraph, quiet_pairs, row};
 use crate::tools::bridge::surface;
 use selvedge_foundation::quantity;
 
@@ -69,7 +69,7 @@ fn show_devices(ui: &mut Ui, sources: &SourcesView, commands: &mut Commands) {
     if let Some(words) = sources.complaint.clone().or(nothing) {
         let ink = Palette::in_ui(ui).dim;
         ui.with_layout(Layout::top_down(Align::Min), |ui| {
-            ui.add(Label::new(RichText::new(words).color(ink)).wrap());
+            paragraph(ui, RichText::new(words).color(ink));
         });
     }
 }
@@ -156,11 +156,7 @@ fn show_rate(ui: &mut Ui, input: &InputView) {
         ],
     ];
     for row in rows {
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            for (ui, (name, value, unit, tip)) in columns.iter_mut().zip(row) {
-                quiet_pair(ui, name, &value, unit).on_hover_text(tip);
-            }
-        });
+        quiet_pairs(ui, row);
     }
 }
 

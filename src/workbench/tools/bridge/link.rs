@@ -5,9 +5,8 @@ use eframe::egui::{self, Align, Button, Layout, RichText, Stroke, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::bench::view::{BridgePhase, BridgeView};
-use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
-use crate::kit::widgets::text::mark;
+use crate::kit::widgets::text::{mark, paragraph, small};
 
 pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
     let palette = Palette::in_ui(ui);
@@ -38,8 +37,7 @@ pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Optio
 pub(crate) fn show_trouble(ui: &mut Ui, trouble: Option<&str>) {
     let Some(trouble) = trouble else { return };
     let ink = Palette::in_ui(ui).danger;
-    let words = RichText::new(trouble).font(theme::small()).color(ink);
-    ui.add(egui::Label::new(words).wrap());
+    paragraph(ui, small(trouble, ink));
 }
 
 pub(crate) fn show_arming(ui: &mut Ui, bridge: Option<&BridgeView>, commands: &mut Commands) {

@@ -12,7 +12,7 @@ use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::{button, choice};
+use crate::kit::widgets::text::{button, choice, named, paragraph};
 use crate::tools::bridge::ports::{Ports, PortsView};
 use selvedge_device::FoundPort;
 
@@ -36,8 +36,7 @@ pub(crate) fn show_port(
             .font(theme::number())
             .hint_text("port, e.g. /dev/ttyACM0");
         let response = ui.add(field);
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_label("Port"));
+        named(&response, "Port");
         let is_entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();
@@ -72,7 +71,7 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &mut Ports, commands: &mut C
         if let Some(words) = empty_words(ports.view()) {
             let palette = Palette::in_ui(ui);
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
-                ui.add(egui::Label::new(RichText::new(words).color(palette.dim)).wrap());
+                paragraph(ui, RichText::new(words).color(palette.dim));
             });
         }
         ui.separator();

@@ -1,12 +1,11 @@
 //! Where the surface of a tablet lies in the workspace: four lengths, kept for each kind of tablet.
 
-use eframe::egui::{self, Align2, Margin, RichText, TextEdit, Ui};
+use eframe::egui::{self, Align2, Margin, Ui};
 
 use crate::bench::command::Commands;
 use crate::bench::sources::{SourceCommand, SurfaceView};
-use crate::kit::theme;
-use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{button, field_row};
+use crate::kit::widgets::fields::typed_field;
+use crate::kit::widgets::text::{button, field_row, quiet};
 use selvedge_foundation::quantity;
 
 /// Width of a number, points.
@@ -48,10 +47,7 @@ pub(crate) fn show(ui: &mut Ui, surface: &SurfaceView, commands: &mut Commands) 
         if button(ui, "As at first", tip, refusal) {
             commands.push(SourceCommand::Area(surface.name.clone(), None).into());
         }
-        let palette = Palette::in_ui(ui);
-        let name = RichText::new(&surface.name)
-            .font(theme::small())
-            .color(palette.dim);
+        let name = quiet(&surface.name);
         ui.add(egui::Label::new(name).truncate());
     });
 }
@@ -64,13 +60,11 @@ fn pair(
 ) -> [Option<String>; 2] {
     let mut changed = [None, None];
     field_row(ui, name, |ui| {
-        let dim = Palette::in_ui(ui).dim;
-        let small = |words: &str| RichText::new(words).font(theme::small()).color(dim);
-        ui.label(small("mm"));
+        ui.label(quiet("mm"));
         // From right to left.
         changed[1] = length(ui, fields[1]);
         if !between.is_empty() {
-            ui.label(small(between));
+            ui.label(quiet(between));
         }
         changed[0] = length(ui, fields[0]);
     })
@@ -82,26 +76,12 @@ fn pair(
 fn length(ui: &mut Ui, (name, mm): (&str, f64)) -> Option<String> {
     let id = ui.scope_id().with(("surface", name));
     let now = quantity::fixed(mm, 1);
-    let editing: Option<String> = ui.data(|data| data.get_temp(id));
-    let mut text = editing.unwrap_or_else(|| now.clone());
-    let edit = TextEdit::singleline(&mut text)
-        .id(id)
-        .font(theme::number())
-        .desired_width(FIELD)
-        .margin(Margin::symmetric(6, 2))
-        .align(Align2::RIGHT_CENTER);
-    let response = ui.add(edit);
-    ui.ctx()
-        .accesskit_node_builder(id, |node| node.set_label(name));
-    if response.lost_focus() {
-        ui.data_mut(|data| data.remove::<String>(id));
-        let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
-        return (!is_cancelled && text != now).then(|| text.replace('−', "-"));
-    }
-    if response.has_focus() {
-        ui.data_mut(|data| data.insert_temp(id, text));
-    }
-    None
+    let typed = typed_field(ui, id, (name, &now), |edit| {
+        edit.desired_width(FIELD)
+            .margin(Margin::symmetric(6, 2))
+            .align(Align2::RIGHT_CENTER)
+    });
+    typed.map(|text| text.replace('−', "-"))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use eframe::egui::{Rect, Role, Sense, Ui, WidgetInfo, vec2};
 use crate::bench::view::{BridgeView, Telemetry};
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::quiet_pair;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Height of the bar of output, points.
@@ -69,9 +70,8 @@ fn show_bar(ui: &mut Ui, telemetry: Option<&Telemetry>) {
 }
 
 /// Output over what is allowed; `None` where nothing is.
-#[expect(clippy::cast_possible_truncation, reason = "a part of a bar")]
 fn part(now: &Telemetry) -> Option<f32> {
-    (now.most_codes > 0.0).then(|| (f64::from(now.codes) / now.most_codes) as f32)
+    (now.most_codes > 0.0).then(|| to_single(f64::from(now.codes) / now.most_codes))
 }
 
 #[cfg(test)]

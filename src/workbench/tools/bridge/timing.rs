@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use eframe::egui::{Label, Margin, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{Label, Margin, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
@@ -11,9 +11,8 @@ use crate::bench::view::{BridgeView, LinkTiming};
 use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
-use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{button, field_row, quiet_pair};
+use crate::kit::widgets::text::{button, field_row, quiet, quiet_pair, small};
 use crate::tools::bridge::export::chart;
 use selvedge_device::{BridgeState, Distribution, Spread};
 use selvedge_foundation::quantity;
@@ -84,8 +83,7 @@ fn milliseconds(time: Duration) -> String {
 }
 
 fn show_distribution(ui: &mut Ui, name: &str, distribution: &Distribution, tip: &str) {
-    let palette = Palette::in_ui(ui);
-    let title = RichText::new(name).font(theme::small()).color(palette.dim);
+    let title = quiet(name);
     ui.label(title).on_hover_text(tip);
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -156,7 +154,7 @@ fn show_log(ui: &mut Ui, timing: &LinkTiming, commands: &mut Commands) {
         Some(why) => (format!("not written: {why}"), palette.danger),
         None => (path.clone(), palette.dim),
     };
-    let label = Label::new(RichText::new(&words).font(theme::small()).color(ink));
+    let label = Label::new(small(&words, ink));
     ui.add(label.truncate()).on_hover_text(words);
 }
 

@@ -1,8 +1,6 @@
 //! Which channel drives which contactor: what is known of it, and the walk that finds it out.
 
-use eframe::egui::{
-    self, Align2, Label, Painter, Rect, RichText, Sense, Stroke, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{self, Align2, Painter, Rect, RichText, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use crate::bench::arrays::wizard::{Wizard, WizardCommand};
 use crate::bench::command::array::ArrayCommand;
@@ -11,10 +9,11 @@ use crate::bench::query;
 use crate::bench::view::BridgePhase;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{button, row};
+use crate::kit::widgets::text::{button, paragraph, quiet, row};
 use crate::tools::bridge::view::BridgePane;
 use selvedge_device::DeviceUid;
 use selvedge_device::wiring::{Answer, WiringFound};
+use selvedge_foundation::numerics::{extent, to_single};
 
 /// Height of the picture of the array, points.
 const PICTURE: f32 = 190.0;
@@ -47,10 +46,8 @@ fn doubt(view: &BridgePane<'_>) -> Option<String> {
 
 /// Shows what is known.
 pub(crate) fn show(ui: &mut Ui, view: &BridgePane<'_>, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
     for line in lines(view) {
-        let words = RichText::new(line).font(theme::small()).color(palette.dim);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, quiet(line));
     }
     row(ui, "", |ui| {
         let tip = "Drive one channel after the other, and click the contactor that moves";
@@ -117,7 +114,7 @@ pub(crate) fn show_wizard(
     });
     let is_armed = view.live.takes_ident();
     for words in instructions(wizard, is_armed) {
-        ui.add(Label::new(RichText::new(words).color(palette.text)).wrap());
+        paragraph(ui, RichText::new(words).color(palette.text));
     }
     if wizard.walk.channel().is_some() {
         show_array(ui, wizard, view, commands);
@@ -250,28 +247,26 @@ impl Dot<'_> {
 }
 
 /// Places on the screen of contactors in mm, as large as fits, and the radius of their dots.
-#[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
 fn fitted(places_mm: &[[f64; 2]], rect: Rect) -> (Vec<egui::Pos2>, f32) {
     let reach = |axis: usize| {
-        let along = places_mm.iter().map(|place| place[axis]);
-        let (least, most) = along.fold((f64::MAX, f64::MIN), |(a, b), mm| (a.min(mm), b.max(mm)));
+        let [least, most] = extent(places_mm.iter().map(|place| place[axis]));
         if most < least {
-            (0.0, 0.0)
+            [0.0; 2]
         } else {
-            (least, most)
+            [least, most]
         }
     };
-    let [(left, right), (bottom, top)] = [reach(0), reach(1)];
+    let [[left, right], [bottom, top]] = [reach(0), reach(1)];
     let across = f64::from(rect.width()) / (right - left).max(1e-6);
     let up = f64::from(rect.height()) / (top - bottom).max(1e-6);
     let points_per_mm = across.min(up).min(22.0);
     let place = |mm: &[f64; 2]| {
         let x = (mm[0] - 0.5 * (left + right)) * points_per_mm;
         let y = (0.5 * (bottom + top) - mm[1]) * points_per_mm;
-        rect.center() + vec2(x as f32, y as f32)
+        rect.center() + vec2(to_single(x), to_single(y))
     };
     let nearest = nearest_mm(places_mm);
-    let radius = (0.40 * nearest * points_per_mm) as f32;
+    let radius = to_single(0.40 * nearest * points_per_mm);
     (
         places_mm.iter().map(place).collect(),
         radius.clamp(2.0, DOT),
@@ -317,13 +312,9 @@ fn show_answers(ui: &mut Ui, wizard: &Wizard, is_armed: bool, commands: &mut Com
 }
 
 fn show_found(ui: &mut Ui, wizard: &Wizard, commands: &mut Commands) {
-    let palette = Palette::in_ui(ui);
     let found = wizard.walk.found();
     for line in found.iter().flat_map(WiringFound::lines) {
-        let words = RichText::new(query::capitalised(&line))
-            .font(theme::small())
-            .color(palette.dim);
-        ui.add(Label::new(words).wrap());
+        paragraph(ui, quiet(query::capitalised(&line)));
     }
     let mut wish = |command| commands.push(ArrayCommand::Identify(command).into());
     row(ui, "", |ui| {

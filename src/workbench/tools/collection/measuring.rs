@@ -53,7 +53,8 @@ pub(crate) struct Measurements {
     n_bytes: usize,
     work: Option<Work>,
     halted: Option<Asked>,
-    n_measured: u64,
+    /// Textiles measured so far: it stands still while nothing changes or nobody looks.
+    pub(crate) n_measured: u64,
     /// What could not be read, in words, and which of it was told.
     flaws: Vec<String>,
     flawed: BTreeSet<String>,
@@ -169,11 +170,6 @@ impl Measurements {
     /// What was found of a textile.
     pub(crate) fn figures(&self, asked: &Asked, id: &str) -> Option<&Figures> {
         self.of(asked)?.get(id)?.as_ref()
-    }
-
-    /// Textiles measured so far: it stands still while nothing changes or nobody looks.
-    pub(crate) fn n_measured(&self) -> u64 {
-        self.n_measured
     }
 
     fn of(&self, asked: &Asked) -> Option<&Found> {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::bench::Bench;
 use crate::bench::play::resting_stroke;
 use crate::bench::recording::Recording;
+use selvedge_foundation::numerics::to_index;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Scene, Stroke, TICKS_PER_S};
 use selvedge_textile::tactile::{Filters, Tuning};
@@ -132,12 +133,7 @@ impl Route {
         let n_ticks = (stroke.period_s() * TICKS_PER_S)
             .ceil()
             .clamp(1.0, MOST_STROKE_TICKS);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 1 and ten minutes"
-        )]
-        Self::Stroke(stroke, n_ticks as u64)
+        Self::Stroke(stroke, to_index(n_ticks) as u64)
     }
 
     /// Its ticks.

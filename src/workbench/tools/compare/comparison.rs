@@ -291,14 +291,5 @@ fn compare(
     Ok(end.is_continue().then(|| meter.finish()))
 }
 
-impl std::fmt::Debug for Compare {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Compare")
-            .field("choice", &self.choice)
-            .field("n_begun", &self.n_begun)
-            .finish_non_exhaustive()
-    }
-}
-
 #[cfg(test)]
 mod tests;

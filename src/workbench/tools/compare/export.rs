@@ -2,6 +2,7 @@
 
 use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::bench::export::{Exported, N_COLOURS, Sheet, cells};
 use crate::kit::theme::colour_map::Diverging;
 use crate::tools::compare::choice::Side;
@@ -45,11 +46,7 @@ pub(crate) fn differences(
         height_px: 260.0,
         bar: Some(bar(map, most_db)),
     };
-    let time = Row {
-        panels: vec![over_time_chart(difference)],
-        height_px: 220.0,
-        bar: None,
-    };
+    let time = row(over_time_chart(difference), 220.0);
     let [a, b] = [&sides[0], &sides[1]].map(describe);
     let origin = origin
         .and("a", &a, &format!("A: {a}"))

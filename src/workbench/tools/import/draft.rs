@@ -1,10 +1,8 @@
 //! What the user has chosen and typed so far, and what the readers are told of it.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
-use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use crate::tools::import::failure::{Failure, Step};
@@ -16,30 +14,14 @@ use selvedge_textile::{
 };
 
 /// A file and what was said of it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DraftFile {
     /// The file.
-    #[serde(serialize_with = "as_path", deserialize_with = "at_path")]
-    pub source: Arc<SourceFile>,
+    pub source: SourceFile,
     /// What it holds; `None`: by its columns and its name.
     pub place: Option<KesPlace>,
     /// Whether it is a trace of friction alone.
     pub is_friction: bool,
-}
-
-impl PartialEq for DraftFile {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.source, &other.source)
-            && (self.place, self.is_friction) == (other.place, other.is_friction)
-    }
-}
-
-fn as_path<S: Serializer>(source: &SourceFile, to: S) -> Result<S::Ok, S::Error> {
-    source.path().serialize(to)
-}
-
-fn at_path<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<SourceFile>, D::Error> {
-    PathBuf::deserialize(from).map(|path| Arc::new(SourceFile::new(path)))
 }
 
 /// What the tester's files do not say.
@@ -88,7 +70,7 @@ pub(crate) struct HeightsDraft {
 
 /// Everything that the readers are told.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Told {
+pub(crate) struct ReaderDraft {
     /// The files.
     pub files: Vec<DraftFile>,
     /// What they are; `None`: by their content.
@@ -101,7 +83,7 @@ pub(crate) struct Told {
 
 /// What is looked at of what was read.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Looked {
+pub(crate) struct EvaluationDraft {
     /// The evaluated sections of warp and weft, mm; `None`: the one suggested.
     pub sections: [Option<[f64; 2]>; 2],
     /// Whether figures against the official band are asked for.
@@ -133,9 +115,9 @@ pub(crate) struct WordsDraft {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Draft {
     /// What the readers are told.
-    pub described: Told,
+    pub described: ReaderDraft,
     /// What is looked at.
-    pub looked: Looked,
+    pub looked: EvaluationDraft,
     /// What is said of the textile.
     pub words: WordsDraft,
 }
@@ -143,9 +125,9 @@ pub(crate) struct Draft {
 impl Draft {
     /// Whether more was chosen and typed than which files there are.
     pub(crate) fn is_begun(&self) -> bool {
-        let described = Told {
+        let described = ReaderDraft {
             files: self.described.files.clone(),
-            ..Told::default()
+            ..ReaderDraft::default()
         };
         let fresh = Self {
             described,
@@ -176,7 +158,7 @@ pub(crate) fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
     number.map(Some).ok_or_else(wrong)
 }
 
-impl Told {
+impl ReaderDraft {
     /// The tester's options.
     pub(crate) fn kes_options(&self) -> Result<KesOptions, Failure> {
         let typed = &self.strokes;

@@ -1,6 +1,8 @@
 //! A long curve as it is drawn: in so many pieces that no screen shows more, each with its lowest
 //! and its highest value.
 
+use selvedge_foundation::numerics::extent;
+
 /// Pieces of a curve: as many as a wide pane has pixels.
 const MOST_PIECES: usize = 1500;
 
@@ -51,10 +53,7 @@ impl Envelope {
 
     /// Lowest and highest value.
     pub(crate) fn range(&self) -> [f64; 2] {
-        let all = self.pieces.iter().flatten();
-        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-            [low.min(*value), high.max(*value)]
-        })
+        extent(self.pieces.iter().flatten().copied())
     }
 }
 

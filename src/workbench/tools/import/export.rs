@@ -2,6 +2,7 @@
 //! relief of a map with the strokes over it.
 
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::bench::export::{Exported, Sheet, bar};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::import::view::curves::profile_chart;
@@ -136,7 +137,7 @@ fn heights(found: &Heights, name: &str, map: ColourMap) -> Exported {
 }
 
 fn relief_sheet(relief: &crate::kit::widgets::relief::Relief) -> Sheet {
-    let (grid, size_mm) = (relief.heights_um(), relief.size_mm());
+    let (grid, size_mm) = (relief.heights_um(), relief.size_mm);
     let n = [grid.width(), grid.height()];
     let place = |axis: usize, cell: usize| (cell as f64 + 0.5) * size_mm[axis] / n[axis] as f64;
     let cells = || (0..n[1]).flat_map(|row| (0..n[0]).map(move |column| (column, row)));
@@ -159,7 +160,7 @@ fn relief_row(
     relief: &crate::kit::widgets::relief::Relief,
     map: ColourMap,
 ) -> Row {
-    let size_mm = relief.size_mm();
+    let size_mm = relief.size_mm;
     let colours = relief.colours(map);
     let rows = (0..colours.height()).rev();
     let cell = |colour: &Option<eframe::egui::Color32>| {
@@ -196,10 +197,7 @@ fn relief_row(
     Row {
         panels: vec![panel],
         height_px: (WIDTH_PX * size_mm[1] / size_mm[0]).clamp(80.0, MOST_HIGH_PX),
-        bar: Some(bar(
-            map,
-            Axis::linear("height, µm").within(relief.range_um()),
-        )),
+        bar: Some(bar(map, Axis::linear("height, µm").within(relief.range_um))),
     }
 }
 
@@ -210,11 +208,7 @@ fn profile_of(found: &Heights) -> (Sheet, Row) {
     let places: Vec<f64> = (0..heights_um.len()).map(|i| i as f64 * step_mm).collect();
     let panel = found.profile.as_deref();
     let panel = panel.map_or_else(Chart::default, |envelope| profile_chart(map, envelope));
-    let row = Row {
-        panels: vec![panel],
-        height_px: 240.0,
-        bar: None,
-    };
+    let row = row(panel, 240.0);
     let sheet = Sheet::default()
         .with("place_mm", places)
         .with("height_um", heights_um);

@@ -11,9 +11,8 @@ use crate::bench::command::ShowCommand;
 use crate::bench::keep::NewTextile;
 use crate::bench::latest::{Latest, Standing};
 use crate::bench::pane::Pane;
-use crate::bench::source_file::SourceFile;
-use crate::kit::widgets::relief::{Relief, ReliefPicture};
-use crate::tools::import::draft::{Draft, DraftFile, HeightsDraft, Looked, StrokesDraft};
+use crate::kit::widgets::relief::ReliefPicture;
+use crate::tools::import::draft::{Draft, DraftFile, EvaluationDraft, HeightsDraft, StrokesDraft};
 use crate::tools::import::failure::Failure;
 use crate::tools::import::work::{Found, Inputs};
 
@@ -80,7 +79,7 @@ impl Import {
             let is_there = |file: &DraftFile| file.source.path() == path;
             if !draft.described.files.iter().any(is_there) {
                 draft.described.files.push(DraftFile {
-                    source: Arc::new(SourceFile::new(path)),
+                    source: path.into(),
                     place: None,
                     is_friction: false,
                 });
@@ -97,9 +96,9 @@ impl Import {
             draft.described.strokes = StrokesDraft::default();
             draft.described.heights = HeightsDraft::default();
         }
-        draft.looked = Looked {
+        draft.looked = EvaluationDraft {
             is_official: draft.looked.is_official,
-            ..Looked::default()
+            ..EvaluationDraft::default()
         };
         self.take_draft(draft);
         Ok(())
@@ -125,17 +124,15 @@ impl Import {
     pub(super) fn forget_after(&mut self, before: &Draft) {
         if before.described != self.draft.described {
             self.kept = None;
-            self.picture = ReliefPicture::default();
         }
     }
 
     /// Reads the files anew from the disk.
     pub(crate) fn read_again(&mut self) {
         for file in &mut self.draft.described.files {
-            file.source = Arc::new(SourceFile::new(file.source.path().to_owned()));
+            file.source = file.source.path().to_owned().into();
         }
         self.reading.go_on();
-        self.picture = ReliefPicture::default();
     }
 
     /// Stops reading until something else is chosen.
@@ -145,44 +142,14 @@ impl Import {
 
     /// Takes what a thread has read, if it is done.
     pub(crate) fn poll(&mut self) {
-        let before = self.relief();
         self.reading.poll();
-        self.renew_picture(before.as_ref());
     }
 
     /// Lets the reading follow what was chosen.
     pub(crate) fn follow(&mut self, ctx: &egui::Context, executor: &Executor) {
-        if self.standing() == Standing::Empty {
-            return;
+        if self.standing() != Standing::Empty {
+            let inputs = self.inputs();
+            self.reading.follow(ctx, executor, &inputs);
         }
-        let before = self.relief();
-        let inputs = self.inputs();
-        self.reading.follow(ctx, executor, &inputs);
-        self.renew_picture(before.as_ref());
-    }
-
-    fn relief(&self) -> Option<Arc<Relief>> {
-        self.found()?.heights()?.relief.clone()
-    }
-
-    /// Forgets the picture of another relief.
-    fn renew_picture(&mut self, before: Option<&Arc<Relief>>) {
-        let now = self.relief();
-        let is_same = match (before, &now) {
-            (Some(before), Some(now)) => Arc::ptr_eq(before, now),
-            _ => before.is_none() && now.is_none(),
-        };
-        if !is_same {
-            self.picture = ReliefPicture::default();
-        }
-    }
-}
-
-impl std::fmt::Debug for Import {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Import")
-            .field("draft", &self.draft)
-            .field("n_read", &self.n_read())
-            .finish_non_exhaustive()
     }
 }

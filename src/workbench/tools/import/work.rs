@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::bench::latest::Computed;
 use crate::kit::widgets::relief::Relief;
-use crate::tools::import::draft::{DraftFile, Looked, Told};
+use crate::tools::import::draft::{DraftFile, EvaluationDraft, ReaderDraft};
 use crate::tools::import::envelope::Envelope;
 use crate::tools::import::failure::{Failure, Step};
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -21,9 +21,9 @@ use selvedge_textile::{
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Inputs {
     /// What the readers are told.
-    pub described: Told,
+    pub described: ReaderDraft,
     /// What is looked at.
-    pub looked: Looked,
+    pub looked: EvaluationDraft,
 }
 
 /// What was read.
@@ -353,7 +353,7 @@ fn heights(
 }
 
 fn read_heights(
-    described: &Told,
+    described: &ReaderDraft,
     progress: &mut Progress<'_>,
 ) -> Result<Result<Heights, Failure>, Cancelled> {
     let options = match described.height_options() {

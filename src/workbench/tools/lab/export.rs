@@ -1,13 +1,14 @@
 //! The textile lab: the profile that is looked at and the amplitudes over speed along it.
 
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::bench::export::{Exported, Sheet};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::tools::lab::preview::{Felt, Preview, speeds_mm_per_s};
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::curves::chart as lab_chart;
 use crate::tools::lab::view::profile::chart as profile_chart;
-use selvedge_chart::Row;
+use selvedge_foundation::numerics::to_index;
 
 /// A row of the table: a place of the profile, or a speed.
 struct Line {
@@ -30,16 +31,8 @@ pub(crate) fn curves(
     lines.extend(amplitudes(lab, &preview.felt, compared));
     let direction = lab.look.direction.label();
     let rows = vec![
-        Row {
-            panels: vec![profile_chart(lab, &preview.felt)],
-            height_px: 220.0,
-            bar: None,
-        },
-        Row {
-            panels: vec![lab_chart(lab, preview, scale)],
-            height_px: 360.0,
-            bar: None,
-        },
+        row(profile_chart(lab, &preview.felt), 220.0),
+        row(lab_chart(lab, preview, scale), 360.0),
     ];
     let kind = preview.manifest.source.kind();
     let mut origin = origin
@@ -66,12 +59,7 @@ fn heights(lab: &Lab, felt: &Felt, compared: Option<&Felt>) -> Vec<Line> {
         let x = index as f64 * step_mm;
         // The nearest sample of the other one, which may have another step.
         let there = other.and_then(|other| {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "not negative; beyond the end is none"
-            )]
-            let nearest = (x / other.step_mm()).round() as usize;
+            let nearest = to_index((x / other.step_mm()).round());
             other.heights_um().get(nearest).copied()
         });
         Line {

@@ -2,11 +2,12 @@
 
 use crate::kit::widgets::axis::round_step;
 use crate::tools::lab::preview::{Felt, Preview};
+use crate::tools::lab::steps::parameter_at;
 use selvedge_foundation::files::KeyValue;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Filters;
-use selvedge_textile::{Draft, Manifest, Parameter, ParameterKind, Place, groups};
+use selvedge_textile::{Draft, Manifest, Parameter, ParameterKind, Place};
 
 /// What is typed and chosen where a family is planned.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -129,9 +130,7 @@ impl Family {
         filters: &Filters,
         progress: &mut Progress<'_>,
     ) -> Result<Self, String> {
-        let groups = groups(draft.kind());
-        let mut all = groups.iter().flat_map(|group| &group.parameters);
-        let parameter = all.find(|parameter| parameter.place == plan.place);
+        let parameter = parameter_at(draft, plan.place);
         let parameter = parameter.ok_or("this recipe has no such parameter")?;
         let (unit, is_whole) = match parameter.kind {
             ParameterKind::Number { unit, is_whole, .. } => (unit, is_whole),

@@ -4,12 +4,14 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Color32, ColorImage, TextureFilter, TextureHandle, TextureOptions};
+use eframe::egui::{self, Color32, ColorImage, TextureFilter, TextureId, TextureOptions};
 
 use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
+use crate::kit::texture::{Same, Texture};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::axis::Axis;
 use crate::tools::lab::preview::Preview;
+use selvedge_foundation::numerics::to_index;
 use selvedge_textile::lit;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra};
 
@@ -26,40 +28,20 @@ const READ: TextureOptions = TextureOptions {
 /// The pictures as they were drawn last.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    relief: Option<(Arc<Preview>, TextureHandle)>,
-    spectra: Option<(Key, TextureHandle)>,
-    n_made: u64,
-}
-
-/// What a picture of spectra is made for.
-type Key = (Arc<LocalSpectra>, ColourMap);
-
-impl std::fmt::Debug for Pictures {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Pictures")
-            .field("n_made", &self.n_made)
-            .finish_non_exhaustive()
-    }
+    relief: Texture<Same<Preview>>,
+    spectra: Texture<(Same<LocalSpectra>, ColourMap)>,
 }
 
 impl Pictures {
     /// The relief in shade.
-    pub(crate) fn relief(&mut self, ctx: &egui::Context, preview: &Arc<Preview>) -> TextureHandle {
-        if let Some((of, texture)) = &self.relief
-            && Arc::ptr_eq(of, preview)
-        {
-            return texture.clone();
-        }
-        let picture = lit(preview.relief.heights_um());
-        let pixels = picture
-            .pixels
-            .iter()
-            .map(|&[r, g, b]| Color32::from_rgb(r, g, b));
-        let image = ColorImage::new([picture.width, picture.height], pixels.collect());
-        let texture = ctx.load_texture("lab relief", image, READ);
-        self.n_made += 1;
-        self.relief = Some((Arc::clone(preview), texture.clone()));
-        texture
+    pub(crate) fn relief(&mut self, ctx: &egui::Context, preview: &Arc<Preview>) -> TextureId {
+        let key = Same(Arc::clone(preview));
+        self.relief.of(ctx, ("lab relief", READ), key, || {
+            let picture = lit(preview.relief.heights_um());
+            let pixels = picture.pixels.iter();
+            let pixels = pixels.map(|&[r, g, b]| Color32::from_rgb(r, g, b));
+            ColorImage::new([picture.width, picture.height], pixels.collect())
+        })
     }
 
     /// Local spectra over place and wavenumber.
@@ -68,15 +50,7 @@ impl Pictures {
         ctx: &egui::Context,
         spectra: &Arc<LocalSpectra>,
         map: ColourMap,
-    ) -> TextureHandle {
-        if let Some(((of, own), texture)) = &self.spectra
-            && Arc::ptr_eq(of, spectra)
-            && *own == map
-        {
-            return texture.clone();
-        }
-        let rows = rows_db(spectra);
-        let n_points = rows.first().map_or(0, Vec::len);
+    ) -> TextureId {
         let colour = |db: &f64| {
             if db.is_finite() {
                 map.colour(share(*db))
@@ -85,13 +59,15 @@ impl Pictures {
                 Color32::TRANSPARENT
             }
         };
-        // The top row of a picture holds the highest wavenumbers.
-        let pixels = rows.iter().rev().flat_map(|row| row.iter().map(colour));
-        let image = ColorImage::new([n_points, rows.len()], pixels.collect());
-        let texture = ctx.load_texture("lab spectra", image, TextureOptions::NEAREST);
-        self.n_made += 1;
-        self.spectra = Some(((Arc::clone(spectra), map), texture.clone()));
-        texture
+        let key = (Same(Arc::clone(spectra)), map);
+        let how = ("lab spectra", TextureOptions::NEAREST);
+        self.spectra.of(ctx, how, key, || {
+            let rows = rows_db(spectra);
+            let n_points = rows.first().map_or(0, Vec::len);
+            // The top row of a picture holds the highest wavenumbers.
+            let pixels = rows.iter().rev().flat_map(|row| row.iter().map(colour));
+            ColorImage::new([n_points, rows.len()], pixels.collect())
+        })
     }
 }
 
@@ -116,12 +92,7 @@ fn rows_db(spectra: &LocalSpectra) -> Vec<Vec<f64>> {
     let row = |row: u8| -> Vec<f64> {
         // Bins whose middle lies in the row; where none does, the nearest one.
         let (from, to) = (edge(row), edge(row + 1));
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "wavenumbers are positive and few"
-        )]
-        let bin = |k: f64| (k as usize).clamp(1, n_bins) - 1;
+        let bin = |k: f64| to_index(k).clamp(1, n_bins) - 1;
         let least = bin((0.5 * (from + to)).round()).min(bin(from.ceil()));
         let most = bin(to.floor()).max(least);
         let at = |point: usize| {

@@ -66,7 +66,7 @@ pub(crate) struct Begun {
 }
 
 /// The lab.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Lab {
     /// The recipe; `None` before one has begun.
     pub steps: Option<Steps>,
@@ -99,7 +99,7 @@ pub(crate) struct Lab {
 impl Lab {
     /// What a preview is wanted of; `None` while the recipe makes no sense.
     pub(crate) fn asked(&self) -> Option<PreviewAsked> {
-        let manifest = self.steps.as_ref()?.read().as_ref().ok()?.clone();
+        let manifest = self.steps.as_ref()?.read.as_ref().ok()?.clone();
         let filters = self.filters;
         Some(PreviewAsked { manifest, filters })
     }
@@ -165,9 +165,9 @@ impl Lab {
     /// Takes steps back or brings them again until so many are done.
     pub(crate) fn go_to(&mut self, n_done: usize) {
         let Some(steps) = &mut self.steps else { return };
-        let first = steps.first().clone();
+        let first = steps.recipe.first.clone();
         steps.step_to(n_done);
-        if *steps.first() != first {
+        if steps.recipe.first != first {
             self.heights_um = None;
             self.family = None;
             self.plan = FamilyFields::default();
@@ -178,7 +178,7 @@ impl Lab {
     /// What is typed where the textile is named, and what it is made from.
     pub(crate) fn recipe(&self) -> Result<&Recipe, String> {
         let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
-        Ok(steps.recipe())
+        Ok(&steps.recipe)
     }
 
     /// The recipe as it would be kept.
@@ -187,15 +187,12 @@ impl Lab {
     /// What is wrong with the recipe or with how it is called, in one line.
     pub(crate) fn to_keep(&self) -> Result<(String, Manifest), String> {
         let steps = self.steps.as_ref().ok_or("there is no recipe yet")?;
-        let manifest = steps
-            .read()
-            .as_ref()
-            .map_err(|fault| fault.message.clone())?;
-        let fields = &steps.recipe().fields;
+        let manifest = steps.read.as_ref().map_err(|fault| fault.message.clone())?;
+        let fields = &steps.recipe.fields;
         if let Some(words) = fields.refusal() {
             return Err(words);
         }
-        let kept = named(steps.recipe(), manifest, fields.name.trim());
+        let kept = named(&steps.recipe, manifest, fields.name.trim());
         Ok((fields.id.trim().to_owned(), kept))
     }
 

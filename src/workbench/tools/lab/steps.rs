@@ -10,14 +10,14 @@ use crate::bench::history::{History, Moment, StepList};
 use crate::bench::recovery::Unsaved;
 use crate::tools::lab::fields::KeepFields;
 use selvedge_foundation::files::KeyValue;
-use selvedge_textile::{Draft, Fault, Manifest, ParameterKind, Parent, Place, groups};
+use selvedge_textile::{Draft, Fault, Manifest, Parameter, ParameterKind, Parent, Place, groups};
 
 /// A recipe with all that belongs to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Recipe {
-    draft: Draft,
+    pub(crate) draft: Draft,
     /// The draft that it began with.
-    first: Draft,
+    pub(crate) first: Draft,
     /// The textile of the library that it is made from.
     pub(crate) parent: Option<Parent>,
     /// What is typed where the textile is named.
@@ -44,9 +44,9 @@ pub(crate) struct Work {
 pub(crate) struct Steps {
     /// The draft that was kept last as a textile.
     kept: Option<Draft>,
-    recipe: Recipe,
+    pub(crate) recipe: Recipe,
     history: History<Recipe, Target>,
-    read: Result<Manifest, Fault>,
+    pub(crate) read: Result<Manifest, Fault>,
 }
 
 impl Recipe {
@@ -82,8 +82,8 @@ impl Steps {
 
     /// A recipe that was changed and not kept, with every step.
     pub(crate) fn unsaved(&self) -> Option<Unsaved> {
-        let draft = self.now();
-        if draft == self.first() || self.kept.as_ref() == Some(draft) {
+        let draft = &self.recipe.draft;
+        if *draft == self.recipe.first || self.kept.as_ref() == Some(draft) {
             return None;
         }
         let last = self.list();
@@ -106,26 +106,6 @@ impl Steps {
             history: work.history,
             ..Self::new(work.recipe)
         }
-    }
-
-    /// The recipe with all that belongs to it.
-    pub(crate) fn recipe(&self) -> &Recipe {
-        &self.recipe
-    }
-
-    /// The draft as it is.
-    pub(crate) fn now(&self) -> &Draft {
-        &self.recipe.draft
-    }
-
-    /// The draft that it began with.
-    pub(crate) fn first(&self) -> &Draft {
-        &self.recipe.first
-    }
-
-    /// The recipe, or what is wrong with it.
-    pub(crate) fn read(&self) -> &Result<Manifest, Fault> {
-        &self.read
     }
 
     /// What is wrong with the recipe.
@@ -153,14 +133,12 @@ impl Steps {
     /// Sets a parameter, or leaves it out.
     pub(crate) fn set(&mut self, place: Place, value: Option<KeyValue>, now: Moment) {
         let mut recipe = self.recipe.clone();
-        let stands_in = value.is_some().then(|| excluded(self.now(), place));
+        let stands_in = value.is_some().then(|| excluded(&self.recipe.draft, place));
         recipe.draft.set(place, value);
         if let Some(other) = stands_in.flatten() {
             recipe.draft.set(other, None);
         }
-        let groups = groups(self.now().kind());
-        let mut all = groups.iter().flat_map(|group| &group.parameters);
-        let own = all.find(|parameter| parameter.place == place);
+        let own = parameter_at(&self.recipe.draft, place);
         let name = own.map_or(place.key, |parameter| parameter.name);
         self.change(recipe, Target::Parameter(place), name, now);
     }
@@ -177,7 +155,7 @@ impl Steps {
     /// Back to what it began with: a step of its own, which can be taken back.
     pub(crate) fn restart(&mut self) {
         let recipe = Recipe {
-            draft: self.first().clone(),
+            draft: self.recipe.first.clone(),
             ..self.recipe.clone()
         };
         self.change(recipe, Target::All, "back to the start", Moment::default());
@@ -196,12 +174,17 @@ impl Steps {
     }
 }
 
+/// The parameter at a place of a draft.
+pub(crate) fn parameter_at(draft: &Draft, place: Place) -> Option<Parameter> {
+    let mut all = groups(draft.kind())
+        .into_iter()
+        .flat_map(|group| group.parameters);
+    all.find(|parameter| parameter.place == place)
+}
+
 /// The parameter that is left out when this one is stated.
 fn excluded(draft: &Draft, place: Place) -> Option<Place> {
-    let groups = groups(draft.kind());
-    let mut all = groups.iter().flat_map(|group| &group.parameters);
-    let own = all.find(|parameter| parameter.place == place)?;
-    match own.kind {
+    match parameter_at(draft, place)?.kind {
         ParameterKind::Optional { instead_of, .. } if !instead_of.is_empty() => Some(Place {
             table: place.table,
             key: instead_of,
@@ -237,22 +220,22 @@ mod tests {
     #[test]
     fn changes_of_one_gesture_are_one_step_with_the_name_of_the_parameter() {
         let mut steps = steps();
-        let before = steps.now().clone();
+        let before = steps.recipe.draft.clone();
         for hurst in [0.6, 0.7, 0.8] {
             steps.set(HURST, Some(hurst.into()), at(1));
         }
-        assert_eq!(steps.now().number(HURST), Some(0.8));
+        assert_eq!(steps.recipe.draft.number(HURST), Some(0.8));
         assert_eq!(steps.list().names, ["Hurst exponent"]);
         steps.step_to(0);
-        assert_eq!((steps.now(), steps.list().n_done), (&before, 0));
+        assert_eq!((&steps.recipe.draft, steps.list().n_done), (&before, 0));
         steps.step_to(1);
-        assert_eq!(steps.now().number(HURST), Some(0.8));
+        assert_eq!(steps.recipe.draft.number(HURST), Some(0.8));
         steps.set(HURST, Some(0.2.into()), at(2));
         steps.restart();
-        assert_eq!(steps.now(), steps.first());
+        assert_eq!(steps.recipe.draft, steps.recipe.first);
         assert_eq!(steps.list().undo(), Some("back to the start"));
         steps.step_to(2);
-        assert_eq!(steps.now().number(HURST), Some(0.2));
+        assert_eq!(steps.recipe.draft.number(HURST), Some(0.2));
     }
 
     #[test]
@@ -263,7 +246,7 @@ mod tests {
         assert_eq!(fault.place, Some(HURST));
         assert_eq!(fault.message, "hurst is 7; give a number from 0.01 to 0.99");
         steps.step_to(0);
-        assert!(steps.fault().is_none() && steps.read().is_ok());
+        assert!(steps.fault().is_none() && steps.read.is_ok());
     }
 
     #[test]
@@ -274,19 +257,19 @@ mod tests {
             key,
         };
         steps.set(place("rise_um"), Some(3.0.into()), at(1));
-        assert_eq!(steps.now().value(place("smd_um")), None);
-        assert!(steps.read().is_ok(), "{:?}", steps.fault());
+        assert_eq!(steps.recipe.draft.value(place("smd_um")), None);
+        assert!(steps.read.is_ok(), "{:?}", steps.fault());
     }
 
     #[test]
     fn of_very_many_steps_the_start_is_still_known() {
         let mut steps = steps();
-        let first = steps.first().clone();
+        let first = steps.recipe.first.clone();
         for n in 0..300_u32 {
             let hurst = 0.1 + 0.002 * f64::from(n);
             steps.set(HURST, Some(hurst.into()), at(n.into()));
         }
         steps.restart();
-        assert_eq!(steps.now(), &first);
+        assert_eq!(steps.recipe.draft, first);
     }
 }

@@ -125,7 +125,7 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
         ends: [0.2, 0.8],
         n: 3,
     };
-    let draft = lab.steps.as_ref().unwrap().now().clone();
+    let draft = lab.steps.as_ref().unwrap().recipe.draft.clone();
     let filters = Filters::default();
     let family = unheard(|progress| Family::of(&draft, &plan, &filters, progress)).unwrap();
     let labels: Vec<&str> = family

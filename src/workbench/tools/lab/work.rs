@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::egui;
 
 use crate::bench::Bench;
-use crate::bench::background::{Executor, finished};
+use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::lab::Beginning;
 use crate::bench::history::Moment;
 use crate::bench::keep::{Keep, NewTextile};
@@ -79,7 +79,7 @@ impl Lab {
     /// Tries a family.
     pub(crate) fn try_family(&mut self, bench: &Bench, plan: Plan) {
         let Some(steps) = &self.steps else { return };
-        let (draft, filters) = (steps.now().clone(), bench.document.scene().filters);
+        let (draft, filters) = (steps.recipe.draft.clone(), bench.document.scene().filters);
         let work = move |progress: &mut Progress<'_>| Family::of(&draft, &plan, &filters, progress);
         self.refusal = None;
         self.trying = Some(bench.executor.start("selvedge-lab-family", work));
@@ -150,22 +150,22 @@ impl Lab {
 
     /// Takes what threads bring.
     fn take(&mut self) {
-        match finished(&mut self.beginning) {
-            Some(Ok(begun)) => self.begin(begun),
-            Some(Err(words)) => self.refusal = Some(words),
-            None => {}
+        if let Some(begun) = taken(&mut self.beginning, &mut self.refusal) {
+            self.begin(begun);
         }
-        match finished(&mut self.comparing) {
-            Some(Ok(compared)) => self.compared = Some(compared),
-            Some(Err(words)) => self.refusal = Some(words),
-            None => {}
+        if let Some(compared) = taken(&mut self.comparing, &mut self.refusal) {
+            self.compared = Some(compared);
         }
-        match finished(&mut self.trying) {
-            Some(Ok(family)) => self.family = Some(family),
-            Some(Err(words)) => self.refusal = Some(words),
-            None => {}
+        if let Some(family) = taken(&mut self.trying, &mut self.refusal) {
+            self.family = Some(family);
         }
     }
+}
+
+/// What came of work that is over; why nothing came of it is a refusal.
+fn taken<T>(task: &mut Option<Task<T>>, refusal: &mut Option<String>) -> Option<T> {
+    let outcome = finished(task)?;
+    outcome.map_err(|words| *refusal = Some(words)).ok()
 }
 
 /// Finds what a recipe begins with.

@@ -8,7 +8,7 @@ use crate::bench::library_acts::LibraryCommand;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, named};
 use crate::tools::library::state::Library;
 
 /// Width of a question, points.
@@ -44,8 +44,7 @@ fn show_renaming(ui: &mut Ui, (key, name): (&str, &mut String), commands: &mut C
     ui.label(RichText::new("Rename the textile").font(theme::title()));
     ui.add_space(STEP);
     let field = ui.add(TextEdit::singleline(name).desired_width(f32::INFINITY));
-    ui.ctx()
-        .accesskit_node_builder(field.id, |node| node.set_label("New name"));
+    named(&field, "New name");
     let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if !field.has_focus() && !is_entered {
         field.request_focus();

@@ -4,8 +4,7 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, DragAndDrop, Rect, Response, RichText, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2,
-    vec2,
+    self, DragAndDrop, Rect, Response, RichText, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::edit::Edit;
@@ -15,9 +14,10 @@ use crate::bench::library_shelf::{OWN, plain_id};
 use crate::bench::library_view::LibraryItem;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{LibraryEntry, SceneView};
+use crate::kit::pane::scroll_area;
+use crate::kit::swatch;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::{paint_focus, paint_line, paint_name};
-use crate::kit::{swatch, theme};
+use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, quiet};
 use crate::tools::library::menus::{show_chooser, show_item_menu};
 use crate::tools::library::state::{Library, Shown};
 use selvedge_foundation::geometry::Point;
@@ -60,7 +60,7 @@ pub(crate) fn show(ui: &mut Ui, state: &mut Library, context: &mut PaneContext<'
         let words = nothing(state, context);
         ui.label(RichText::new(words).color(Palette::in_ui(ui).dim));
     }
-    let area = ScrollArea::vertical().id_salt("shelf").auto_shrink(false);
+    let area = scroll_area("shelf");
     let height = ROW - ui.spacing().item_spacing.y;
     area.show_rows(ui, height, rows.len(), |ui, range| {
         for (group, place) in &rows[range] {
@@ -111,8 +111,7 @@ fn show_head(ui: &mut Ui, state: &mut Library, context: &mut PaneContext<'_>) {
         .margin(egui::Margin::symmetric(6, 4))
         .hint_text("Search all libraries");
     let response = ui.add(field);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Search the library"));
+    named(&response, "Search the library");
     show_chooser(ui, state, context);
 }
 
@@ -122,9 +121,9 @@ fn show_title(ui: &mut Ui, group: &Group) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let words = format!("{} · {}", group.title, group.items.len());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &words));
-    let text = RichText::new(&words).font(theme::small());
+    let text = quiet(&words);
     let at = pos2(rect.left() + 2.0, rect.bottom() - 9.0);
-    paint_line(ui, at, rect.width(), text.color(Palette::in_ui(ui).dim));
+    paint_line(ui, at, rect.width(), text);
 }
 
 /// One textile of the library: dragged into the workspace, or added by a double click.
@@ -168,9 +167,7 @@ fn show_item(ui: &mut Ui, item: &LibraryEntry, state: &mut Library, context: &mu
     } else {
         "cannot be read"
     };
-    let second = RichText::new(second)
-        .font(theme::small())
-        .color(palette.dim);
+    let second = quiet(second);
     paint_line(ui, pos2(left, rect.center().y + 8.0), room, second);
     answer_item(ui, response, item, (state, context));
 }

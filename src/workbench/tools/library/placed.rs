@@ -1,8 +1,7 @@
 //! The textiles of the scene, to mute, choose, label and remove.
 
 use eframe::egui::{
-    self, Align, Layout, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, WidgetInfo,
-    pos2, vec2,
+    self, Align, Layout, Rect, RichText, Sense, TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::edit::Edit;
@@ -10,9 +9,10 @@ use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::{Cloth, SceneView};
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::{paint_focus, paint_line, paint_name, row, toggle};
+use crate::kit::widgets::text::{named, paint_focus, paint_line, paint_name, row, toggle};
 use selvedge_foundation::quantity;
 
 /// Width of a letter of a label, points.
@@ -38,8 +38,7 @@ pub(crate) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         return;
     }
     let labels = label_width(scene);
-    let rows = ScrollArea::vertical().id_salt("placed").auto_shrink(false);
-    rows.show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
+    scroll_area("placed").show_rows(ui, theme::ROW, scene.cloths.len(), |ui, range| {
         for index in range {
             if let Some(cloth) = scene.cloths.get(index) {
                 let marks = [selected == Some(index), scene.is_marked(index)];
@@ -136,8 +135,7 @@ fn show_label_field(
     // A child of its own: the row is as high as the others.
     let response = ui.new_child(UiBuilder::new().max_rect(place)).add(field);
     let name = format!("Label of {}", cloth.name);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     if response.changed() {
         commands.push(Edit::Label(index, label).into());
     }

@@ -1,8 +1,5 @@
 //! What the user has chosen and typed of a picture so far.
 
-use std::path::PathBuf;
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
@@ -12,41 +9,6 @@ use selvedge_textile::{HeightScale, id_of};
 
 /// Millimetres to an inch.
 const MM_PER_INCH: f64 = 25.4;
-
-/// The chosen file; the same only if it was read at the same time.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(from = "PathBuf", into = "PathBuf")]
-pub(crate) struct Chosen(Arc<SourceFile>);
-
-impl Chosen {
-    /// A file that is not read yet.
-    pub(crate) fn new(file: SourceFile) -> Self {
-        Self(Arc::new(file))
-    }
-
-    /// The file.
-    pub(crate) fn file(&self) -> &SourceFile {
-        &self.0
-    }
-}
-
-impl PartialEq for Chosen {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
-
-impl From<PathBuf> for Chosen {
-    fn from(path: PathBuf) -> Self {
-        Self::new(SourceFile::new(path))
-    }
-}
-
-impl From<Chosen> for PathBuf {
-    fn from(chosen: Chosen) -> Self {
-        chosen.file().path().to_owned()
-    }
-}
 
 /// Which part of the picture is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -84,7 +46,7 @@ pub(crate) enum Known {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Draft {
     /// The picture.
-    pub source: Option<Chosen>,
+    pub source: Option<SourceFile>,
     /// The part of it.
     pub part: Part,
     /// Whether uneven light is divided out where it matters.
@@ -164,8 +126,10 @@ impl Draft {
 
     /// The name that the file suggests.
     pub(crate) fn own_name(&self) -> String {
-        let path = self.source.as_ref().map(|chosen| chosen.file().path());
-        let stem = path.and_then(|path| path.file_stem());
+        let stem = self
+            .source
+            .as_ref()
+            .and_then(|file| file.path().file_stem());
         stem.unwrap_or_default().to_string_lossy().into_owned()
     }
 

@@ -2,8 +2,10 @@
 
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
+use crate::bench::source_file::SourceFile;
 use crate::tools::picture::found::Found;
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity;
 use selvedge_textile::picture::{Directions, Measured};
 
@@ -73,13 +75,7 @@ fn marked(measured: &Measured) -> Vec<usize> {
     let best = measured.best.into_iter().flatten();
     let index = |angle: f64| {
         let share = (angle / std::f64::consts::PI).rem_euclid(1.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "an index of the curve"
-        )]
-        let index = (share * n as f64).round() as usize % n;
-        index
+        to_index((share * n as f64).round()) % n
     };
     best.map(index).collect()
 }
@@ -87,11 +83,7 @@ fn marked(measured: &Measured) -> Vec<usize> {
 fn origin(found: &Found) -> Origin {
     let program = selvedge_foundation::PROGRAM;
     let mut origin = Origin::default().and("program", program, program);
-    let name = found
-        .inputs
-        .source
-        .as_ref()
-        .map(|chosen| chosen.file().name());
+    let name = found.inputs.source.as_ref().map(SourceFile::name);
     if let (Some(name), Some(sha256)) = (name, found.sha256()) {
         let line = format!("{name}: {sha256}");
         origin = origin.and("file", &line, &name);

@@ -91,7 +91,7 @@ pub(crate) struct Made {
 }
 
 /// What was made of a draft, as far as it went.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Found {
     /// Of what.
     pub(crate) inputs: Draft,
@@ -121,12 +121,7 @@ impl Found {
     pub(crate) fn begun(inputs: Draft) -> Self {
         Self {
             inputs,
-            loaded: None,
-            correlated: None,
-            cloth: None,
-            shaped: None,
-            made: None,
-            failure: None,
+            ..Self::default()
         }
     }
 

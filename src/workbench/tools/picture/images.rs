@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{Color32, ColorImage};
 
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_byte, to_index};
 use selvedge_textile::picture::{Autocorrelation, Lattice, Tile, overlay, range};
 
 /// Pixels along the longer side of a picture that is shown at most.
@@ -20,13 +20,7 @@ const N_VECTORS: f64 = 4.0;
 pub(crate) type Image = Arc<ColorImage>;
 
 fn byte(share: f64) -> u8 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 … 255"
-    )]
-    let byte = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
-    byte
+    to_byte((share.clamp(0.0, 1.0) * 255.0).round())
 }
 
 /// Values as grey.
@@ -67,13 +61,7 @@ fn pixels_of(image: Rgb8Image) -> Image {
 
 /// Whole pixels of a length.
 fn px(length: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a positive length in a picture"
-    )]
-    let px = length.max(0.0).ceil() as usize;
-    px
+    to_index(length.ceil())
 }
 
 /// The part of a picture in which some cells can be told apart, from a corner on.

@@ -54,7 +54,7 @@ impl Tool for Picture {
 
     fn unsaved(&self) -> Option<Unsaved> {
         let source = self.draft.source.as_ref().filter(|_| self.is_begun())?;
-        let name = format!("Textile from {}", source.file().name());
+        let name = format!("Textile from {}", source.name());
         let what = "what was chosen and typed, not kept as a textile yet";
         Some(Unsaved::new(name, what, &self.draft))
     }
@@ -70,8 +70,8 @@ impl Tool for Picture {
     }
 
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
-        let chosen = self.draft.source.as_ref();
-        let chosen = chosen.filter(|_| purpose == Purpose::OpenPicture);
-        chosen.map(|chosen| chosen.file().path().to_owned())
+        let source = self.draft.source.as_ref();
+        let source = source.filter(|_| purpose == Purpose::OpenPicture);
+        source.map(|file| file.path().to_owned())
     }
 }

@@ -9,8 +9,7 @@ use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::keep::Keep;
 use crate::bench::latest::{Latest, Standing};
-use crate::bench::source_file::SourceFile;
-use crate::tools::picture::draft::{Chosen, Draft, Part};
+use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::Found;
 use crate::tools::picture::textures::Textures;
 
@@ -78,7 +77,7 @@ impl Picture {
     /// Takes another picture; how it was lit and its scale stay, for the next may be like it.
     pub(crate) fn open(&mut self, path: PathBuf) {
         let draft = Draft {
-            source: Some(Chosen::new(SourceFile::new(path))),
+            source: Some(path.into()),
             part: Part::Whole,
             lambda: None,
             name: String::new(),
@@ -145,14 +144,5 @@ impl Picture {
         if self.standing() != Standing::Empty {
             self.work.follow(ctx, executor, &self.draft);
         }
-    }
-}
-
-impl std::fmt::Debug for Picture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Picture")
-            .field("draft", &self.draft)
-            .field("n_begun", &self.n_begun())
-            .finish_non_exhaustive()
     }
 }

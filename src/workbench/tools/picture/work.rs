@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::bench::keep::NewTextile;
 use crate::bench::latest::Computed;
+use crate::bench::source_file::SourceFile;
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
@@ -135,9 +136,8 @@ fn stages(
 
 fn loaded(inputs: &Draft) -> Result<Loaded, End> {
     let failed = |line: String| End::Failed(Step::Picture, line);
-    let chosen = inputs.source.as_ref();
-    let chosen = chosen.ok_or_else(|| failed("no picture was chosen".to_owned()))?;
-    let file = chosen.file();
+    let file = inputs.source.as_ref();
+    let file = file.ok_or_else(|| failed("no picture was chosen".to_owned()))?;
     let bytes = file.bytes().map_err(|line| failed(line.to_owned()))?;
     let picture = load(bytes, file.file_name()).map_err(|error| failed(error.to_string()))?;
     Ok(Loaded {
@@ -264,7 +264,7 @@ fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<
 
 fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Result<Made, End> {
     let failed = |error: TextileError| End::Failed(Step::Felt, error.to_string());
-    let file = inputs.source.as_ref().map(|chosen| chosen.file().name());
+    let file = inputs.source.as_ref().map(SourceFile::name);
     let px_per_mm = inputs.px_per_mm().unwrap_or_default();
     let about = PictureTextile {
         name: inputs.final_name(),

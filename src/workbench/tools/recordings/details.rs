@@ -1,13 +1,13 @@
 //! What stands below the list: what the chosen recording is, and what can be done with it.
 
-use eframe::egui::{Label, RichText, TextEdit, Ui};
+use eframe::egui::{TextEdit, Ui};
 
 use crate::bench::command::{Commands, FileCommand, Purpose, RecordingCommand};
 use crate::bench::recording::{Entry, Place};
 use crate::bench::tool::PaneContext;
-use crate::kit::theme::{self, Palette, STEP};
+use crate::kit::theme::STEP;
 use crate::kit::widgets::list;
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, named, paragraph, quiet};
 use crate::tools::recordings::began;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Tuning;
@@ -24,9 +24,7 @@ pub(super) fn show(
     show_name(ui, entry, name, context.commands);
     let tuning = context.scene.tuning;
     for line in lines(entry, tuning) {
-        let text = RichText::new(line).font(theme::small());
-        let text = text.color(Palette::in_ui(ui).dim);
-        ui.add(Label::new(text).wrap());
+        paragraph(ui, quiet(line));
     }
     ui.add_space(STEP);
     let document = &context.bench.document;
@@ -43,8 +41,7 @@ fn show_name(ui: &mut Ui, entry: &Entry, name: &mut String, commands: &mut Comma
     let can_rename = matches!(entry.place, Place::Folder(_));
     let field = TextEdit::singleline(name).desired_width(f32::INFINITY);
     let response = ui.add_enabled(can_rename, field);
-    let node = |node: &mut eframe::egui::accesskit::Node| node.set_label("Name of the recording");
-    ui.ctx().accesskit_node_builder(response.id, node);
+    named(&response, "Name of the recording");
     if response.lost_focus() && *name != entry.about.name {
         if name.trim().is_empty() {
             name.clone_from(&entry.about.name);

@@ -7,7 +7,7 @@
 pub(crate) mod details;
 
 use eframe::egui::{
-    self, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    self, Rect, Response, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::{FileCommand, PlayCommand, Purpose, RecordingCommand};
@@ -15,9 +15,9 @@ use crate::bench::keys::hint;
 use crate::bench::pane::Pane;
 use crate::bench::recording::{About, Entry, Place};
 use crate::bench::tool::{PaneContext, Tool};
-use crate::kit::pane::framed;
+use crate::kit::pane::{framed, scroll_area};
 use crate::kit::theme::{self, Palette, STEP};
-use crate::kit::widgets::text::{button, mark, paint_line};
+use crate::kit::widgets::text::{button, mark, paint_line, quiet};
 use selvedge_foundation::quantity;
 
 /// Height of a row, points.
@@ -54,9 +54,7 @@ impl RecordingList {
         self.show_head(ui, context);
         let room = if self.chosen.is_some() { DETAILS } else { 0.0 };
         let height = (ui.available_height() - room).max(2.0 * ROW);
-        let list = ScrollArea::vertical()
-            .id_salt("recordings")
-            .auto_shrink(false);
+        let list = scroll_area("recordings");
         let row = ROW - ui.spacing().item_spacing.y;
         list.max_height(height)
             .show_rows(ui, row, entries.len(), |ui, range| {
@@ -97,12 +95,11 @@ impl RecordingList {
     fn show_head(&self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let palette = Palette::in_ui(ui);
         let bench = &context.bench;
-        let small = |words: String| RichText::new(words).font(theme::small()).color(palette.dim);
         if let Some(running) = &bench.exploration.recordings.running {
             ui.horizontal(|ui| {
                 mark(ui, palette.selection, "Recording");
                 let length = quantity::clock(bench.live.play.n_recorded * TICK_MS);
-                ui.label(small(format!("{}: {length}", running.about.name)));
+                ui.label(quiet(format!("{}: {length}", running.about.name)));
                 if button(ui, "End", "End the recording", None) {
                     context.commands.push(PlayCommand::ToggleRecording.into());
                 }
@@ -110,7 +107,7 @@ impl RecordingList {
         }
         if let Some(name) = bench.exploration.recordings.last_deleted() {
             ui.horizontal_wrapped(|ui| {
-                ui.label(small(format!("“{name}” is deleted.")));
+                ui.label(quiet(format!("“{name}” is deleted.")));
                 if button(ui, "Undo", "Bring it back", None) {
                     context.commands.push(RecordingCommand::BringBack.into());
                 }
@@ -122,7 +119,7 @@ impl RecordingList {
                 "Nothing is recorded yet: press {key} to begin and {key} again to end. Recordings \
                  are kept on disk from their first moment."
             );
-            ui.label(small(words));
+            ui.label(quiet(words));
         }
         let open = FileCommand::Ask(Purpose::OpenRecording);
         if button(ui, "Open path…", "Open a path file (CSV) to replay", None) {
@@ -180,9 +177,7 @@ fn show_row(ui: &mut Ui, entry: &Entry, is_chosen: bool) -> Response {
     let first = RichText::new(name).font(theme::body()).color(palette.text);
     paint_line(ui, pos2(left, rect.center().y - 8.0), room, first);
     let second = format!("{}  {}", length(entry), began(&entry.about));
-    let second = RichText::new(second)
-        .font(theme::small())
-        .color(palette.dim);
+    let second = quiet(second);
     paint_line(ui, pos2(left, rect.center().y + 9.0), room, second);
     response
 }

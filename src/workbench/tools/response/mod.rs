@@ -12,7 +12,7 @@ pub(crate) mod shown;
 #[cfg(test)]
 mod tests;
 
-use eframe::egui::{Align2, Rect, RichText, Ui, pos2};
+use eframe::egui::{Align2, Rect, Ui, pos2};
 
 use crate::bench::Bench;
 use crate::bench::command::{Commands, ShowCommand};
@@ -25,7 +25,7 @@ use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{quiet, toggle};
 use crate::tools::response::curves::{Curves, Wanted};
 use crate::tools::response::shown::ResponseView;
 use selvedge_foundation::quantity;
@@ -180,8 +180,7 @@ fn paint_heading(ui: &Ui, whole: Rect, view: &ResponseView<'_>) {
     let place = view.place.map_or_else(String::new, |(contactor, _)| {
         format!("  ·  at contactor {contactor}")
     });
-    let name = RichText::new(format!("{}{place}", view.textile));
-    let name = name.font(theme::small()).color(palette.dim);
+    let name = quiet(format!("{}{place}", view.textile));
     crate::kit::widgets::text::paint_line(ui, pos2(whole.left(), middle), room, name);
 }
 

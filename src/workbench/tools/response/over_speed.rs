@@ -7,7 +7,7 @@ use crate::bench::probe::{Probe, SPEEDS_MM_PER_S, two_digits};
 use crate::kit::plot;
 use crate::kit::plot::{Drag, Setting, Shown};
 use crate::kit::theme::Palette;
-use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
 use crate::tools::response::chart;
 use crate::tools::response::curves::speeds_mm_per_s;
@@ -18,17 +18,7 @@ use selvedge_foundation::quantity;
 /// A key changes the speed by this factor; with Shift by its fourth root.
 const KEY_FACTOR: f64 = 1.25;
 /// Speeds that assistive tools may ask for.
-const SCALE: Scale = Scale {
-    least: SPEEDS_MM_PER_S[0],
-    most: SPEEDS_MM_PER_S[1],
-    resting: 100.0,
-    step: 1.0,
-    decimals: 0,
-    unit: "mm/s",
-    factor: 1.0,
-    noticed: None,
-    curve: Curve::Even,
-};
+const SCALE: Scale = Scale::even(SPEEDS_MM_PER_S, 100.0, 1.0, (0, "mm/s"));
 
 /// Shows the plot; a drag chooses the speed.
 pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut Commands) {

@@ -8,11 +8,13 @@ use crate::bench::command::{Commands, ShowCommand};
 use crate::bench::probe::{Probe, STEP_DEG};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{asked_value, declare, key_steps};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::response::shown::{
     MEAN, ResponseView, fill_between, levels_db, paint_focus, paint_handle, paint_moving, words_of,
 };
+use selvedge_foundation::numerics::{to_index, to_single};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -23,17 +25,7 @@ const BESIDE: f32 = 31.0;
 /// From one ring to the next, dB.
 const RING_DB: f64 = 20.0;
 /// Angles that assistive tools may ask for, degrees.
-const SCALE: Scale = Scale {
-    least: 0.0,
-    most: 360.0,
-    resting: 0.0,
-    step: STEP_DEG,
-    decimals: 0,
-    unit: "°",
-    factor: 1.0,
-    noticed: None,
-    curve: Curve::Even,
-};
+const SCALE: Scale = Scale::even([0.0, 360.0], 0.0, STEP_DEG, (0, "°"));
 
 /// Shows the plot; a drag chooses the direction.
 pub(crate) fn show(ui: &Ui, rect: Rect, view: &ResponseView<'_>, commands: &mut Commands) {
@@ -87,12 +79,7 @@ fn describe(response: Response, plot: &Plot, view: &ResponseView<'_>) {
     let around = view.curves.around();
     let step_deg = 360.0 / around.len() as f64;
     let turned = (direction_deg - view.rotation_deg).rem_euclid(360.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "an angle of one turn in steps"
-    )]
-    let place = (turned / step_deg).round() as usize % around.len();
+    let place = to_index((turned / step_deg).round()) % around.len();
     let Some(spread) = around.get(place) else {
         return;
     };
@@ -142,14 +129,12 @@ impl Plot {
     fn distance(&self, level_db: f64) -> f32 {
         let [least_db, most_db] = self.ends_db;
         let share = (level_db - least_db) / (most_db - least_db);
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = share.clamp(0.0, 1.0).max(0.0) as f32;
+        let share = to_single(share.clamp(0.0, 1.0).max(0.0));
         share * self.radius
     }
 
     fn on_ring(&self, direction_deg: f64, distance: f32) -> Pos2 {
-        #[expect(clippy::cast_possible_truncation, reason = "an angle, for the screen")]
-        let angle = direction_deg.to_radians() as f32;
+        let angle = to_single(direction_deg.to_radians());
         self.centre + distance * vec2(angle.cos(), -angle.sin())
     }
 
@@ -169,13 +154,7 @@ impl Plot {
         }
         let corner = pos2(self.left, self.centre.y - self.radius - 4.0);
         let unit = "dB re 1 µm";
-        painter.text(
-            corner,
-            Align2::LEFT_CENTER,
-            unit,
-            theme::small(),
-            palette.dim,
-        );
+        paint_quiet(painter, corner, Align2::LEFT_CENTER, unit);
     }
 
     /// Writes an axis's name behind its end, beyond the handles on the ring.

@@ -17,14 +17,15 @@ use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
-    Colours, HEIGHT_PX, contactor, frequencies, on_finger, picture, sheet, show_levels,
+    Colours, contactor, exported, frequencies, on_finger, picture, show_levels,
     show_spectrogram_corner, waterfall,
 };
 use selvedge_chart as chart;
-use selvedge_chart::{Chart, Row, Series, Style, Upright};
+use selvedge_chart::{Chart, Series, Style, Upright};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -40,7 +41,7 @@ const N_STEPS: u8 = 96;
 type Key = (u64, u64, usize);
 
 /// The spectrum that arrives: the columns that were computed and the texture that holds them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct ContactSpectrum {
     waterfall: Waterfall<Key>,
     columns: ContactColumns,
@@ -62,7 +63,7 @@ impl ContactSpectrum {
     fn catch_up(&mut self, bench: &mut Bench) -> bool {
         let (contactor, colours) = (contactor(bench), Colours::in_force(bench));
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
-        let key = (history.n_clears(), inspection.n_scenes, contactor);
+        let key = (history.n_clears, inspection.n_scenes, contactor);
         let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
         let name = (&bench.ctx, "contact spectrogram");
         let fill = |entry: &Entry, levels_db: &mut Rows| {
@@ -140,19 +141,19 @@ impl Tool for ContactSpectrum {
             })
         };
         let filters = filters(&bench.document.scene().filters, is_linear);
-        let row = Row {
-            panels: vec![picture, filters],
-            height_px: HEIGHT_PX,
-            bar: Some(colours.bar()),
-        };
         let title = format!("Vibration that arrives at contactor {contactor}");
         let note = "Peak amplitude at the surface, before filters and gains, in rows 4.9 % of the \
                     frequency wide; each column is a tick of 25 ms, white where nothing arrived. \
                     Right: amplitude gain of the filters.";
-        let ticks = columns.iter().map(|column| column.tick);
-        let origin = bench.origin().of_contactor(contactor).in_ticks(ticks);
-        let sheet = sheet(&columns, "level_db");
-        Ok(Exported::new(title, sheet, vec![row], note, origin))
+        let origin = bench.origin().of_contactor(contactor);
+        let panels = (vec![picture, filters], colours.bar());
+        Ok(exported(
+            &columns,
+            "level_db",
+            panels,
+            (title, note),
+            origin,
+        ))
     }
 }
 
@@ -206,7 +207,7 @@ fn paint_filters(painter: &Painter, layout: &Layout, filters: &Filters) {
     paint_outer_ticks(painter, strip, (&gains, Side::Bottom), &most);
     let unit_at = pos2(strip.center().x, strip.top() - 6.0);
     if strip.width() >= STRIP {
-        paint_unit(painter, unit_at, Align2::CENTER_BOTTOM, "gain");
+        paint_quiet(painter, unit_at, Align2::CENTER_BOTTOM, "gain");
     }
 }
 

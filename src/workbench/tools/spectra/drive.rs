@@ -15,9 +15,9 @@ use crate::kit::pane::framed;
 use crate::kit::pane::paint_sentence;
 use crate::tools::spectra::waterfall::{Layout, Under, Waterfall};
 use crate::tools::spectra::{
-    Colours, HEIGHT_PX, on_finger, picture, sheet, show_levels, show_spectrogram_corner, waterfall,
+    Colours, exported, on_finger, picture, show_levels, show_spectrogram_corner, waterfall,
 };
-use selvedge_chart::{At, Chart, Extent, Row, Rule};
+use selvedge_chart::{At, Chart, Extent, Rule};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -26,7 +26,7 @@ type Key = (u64, Option<u32>);
 
 /// The spectrum that drives the contactor which the newest tick watched: the columns that were
 /// computed and the texture that holds them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct DriveSpectrum {
     waterfall: Waterfall<Key>,
     spectrum: Spectrum,
@@ -48,7 +48,7 @@ impl DriveSpectrum {
     fn catch_up(&mut self, bench: &Bench) -> bool {
         let history = &bench.past.history;
         let watched = history.newest().map(|entry| entry.tick_sample.watched);
-        let key = (history.n_clears(), watched);
+        let key = (history.n_clears, watched);
         let spectrum = &mut self.spectrum;
         let name = (&bench.ctx, "drive spectrogram");
         let fill = |entry: &Entry, rows_um: &mut Rows| {
@@ -121,21 +121,20 @@ impl Tool for DriveSpectrum {
             rules: Band::ALL.map(carrier).to_vec(),
             ..picture(&columns, is_linear, |um| colours.on_paper(level_of(um)))
         };
-        let row = Row {
-            panels: vec![picture],
-            height_px: HEIGHT_PX,
-            bar: Some(colours.bar()),
-        };
         let title = format!("Spectrum that drives contactor {contactor}");
         let note = "Amplitude spectrum (peak) of the drive, after gains and before output limits: \
                     100 ms under a Hann window whose gain is compensated; the largest in rows 4.9 \
                     % of the frequency wide; white where nothing drove it. Marks on the right: 40 \
                     and 320 Hz.";
-        let ticks = columns.iter().map(|column| column.tick);
-        let origin = bench.rendered_origin();
-        let origin = origin.of_contactor(contactor).in_ticks(ticks);
-        let sheet = sheet(&columns, "amplitude_um");
-        Ok(Exported::new(title, sheet, vec![row], note, origin))
+        let origin = bench.rendered_origin().of_contactor(contactor);
+        let panels = (vec![picture], colours.bar());
+        Ok(exported(
+            &columns,
+            "amplitude_um",
+            panels,
+            (title, note),
+            origin,
+        ))
     }
 }
 

@@ -10,22 +10,19 @@ mod tests;
 pub(crate) mod waterfall;
 pub(crate) mod wave;
 
-use eframe::egui::{Align2, Color32, Rect, RichText, Ui, pos2};
+use eframe::egui::{Align2, Color32, Rect, Ui, pos2};
 
 use crate::bench::Bench;
-use crate::bench::export::{Sheet, bar, rgb};
+use crate::bench::export::{Exported, Origin, Sheet, bar, rgb};
 use crate::bench::on_finger::OnFinger;
 use crate::bench::signals::ring::N_COLUMNS;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at, row_centre_hz};
 use crate::kit::spectrum_scale::{EVENLY, LevelRange};
-use crate::kit::theme;
-use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::axis::paint_unit;
 use crate::kit::widgets::level_bar;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{paint_quiet, quiet, toggle};
 use crate::tools::spectra::waterfall::ShownColumn;
-use selvedge_chart::{Axis, Chart, ColourBar, Raster};
+use selvedge_chart::{Axis, Chart, ColourBar, Raster, Row};
 use selvedge_render::scene::TICKS_PER_S;
 
 /// From the bar of colours to the right end of its unit, points.
@@ -44,8 +41,7 @@ fn show_contactor(ui: &mut Ui, bench: &Bench) {
         || "no contactor chosen".to_owned(),
         |contactor| format!("contactor {contactor}"),
     );
-    let ink = Palette::in_ui(ui).dim;
-    let label = ui.label(RichText::new(words).font(theme::small()).color(ink));
+    let label = ui.label(quiet(words));
     label.on_hover_text("Click a cell of the heatmaps to choose another contactor");
 }
 
@@ -70,7 +66,7 @@ fn show_levels(ui: &Ui, bar: Rect, bench: &mut Bench) {
     let map = bench.settings.preferences.colour_map;
     level_bar::show(ui, bar, map, &mut bench.selection.spectrum.levels);
     let unit_at = pos2(bar.right() + UNIT, bar.top() - 6.0);
-    paint_unit(ui.painter(), unit_at, Align2::RIGHT_BOTTOM, "dB re 1 µm");
+    paint_quiet(ui.painter(), unit_at, Align2::RIGHT_BOTTOM, "dB re 1 µm");
 }
 
 /// The colours of a spectrogram.
@@ -104,6 +100,23 @@ impl Colours {
         let levels = Axis::linear("level, dB re 1 µm").within(self.levels.ends_db());
         bar(self.map, levels)
     }
+}
+
+/// A spectrogram that is exported: its panels with the bar of their colours, and every value.
+fn exported(
+    columns: &[ShownColumn],
+    value: &'static str,
+    (panels, bar): (Vec<Chart>, ColourBar),
+    (title, note): (String, &str),
+    origin: Origin,
+) -> Exported {
+    let row = Row {
+        panels,
+        height_px: HEIGHT_PX,
+        bar: Some(bar),
+    };
+    let origin = origin.in_ticks(columns.iter().map(|column| column.tick));
+    Exported::new(title, sheet(columns, value), vec![row], note, origin)
 }
 
 /// One row a cell, old to new and low to high.

@@ -13,11 +13,12 @@ use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::plot::layers::colour;
-use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::spectra::spatial_chart::{UNLIT, chart, columns, line, with_frequencies};
 use crate::tools::spectra::{contactor, show_contactor};
 use selvedge_chart::{Chart, Style, Weight};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
 
@@ -138,13 +139,7 @@ fn paint_legend(painter: &Painter, area: Rect, view: &SpatialView) {
         let line = line(direction, Vec::new(), Weight::Thin);
         let ink = colour(line.ink, palette);
         let at = pos2(right - 28.0, y);
-        painter.text(
-            at,
-            Align2::RIGHT_CENTER,
-            direction.label(),
-            theme::small(),
-            palette.dim,
-        );
+        paint_quiet(painter, at, Align2::RIGHT_CENTER, direction.label());
         let sample = [pos2(right - 22.0, y), pos2(right, y)];
         let stroke = match view.felt_in(direction) {
             Some(_) => Stroke::new(2.0, ink),
@@ -160,15 +155,7 @@ fn paint_legend(painter: &Painter, area: Rect, view: &SpatialView) {
 
 /// The bin nearest to a wavenumber.
 fn bin_of(wavenumber_per_mm: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to the bins"
-    )]
-    let k = (wavenumber_per_mm / BIN_SPACING_PER_MM)
-        .round()
-        .clamp(1.0, N_BINS as f64) as usize;
-    k
+    to_index((wavenumber_per_mm / BIN_SPACING_PER_MM).round()).clamp(1, N_BINS)
 }
 
 fn words_of(view: &SpatialView, k: usize) -> String {

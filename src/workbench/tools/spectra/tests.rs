@@ -17,6 +17,7 @@ use crate::tools::spectra::spatial::SpatialSpectra;
 use crate::tools::spectra::wave::DriveWave;
 use selvedge_engine::TickSample;
 use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_foundation::numerics::to_single;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::Pose;
@@ -57,18 +58,13 @@ impl Plots {
         let contactor = self.bench.selection.contactor.unwrap();
         for tick in ticks {
             let pose = pose_at(tick);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "as tick_samples hold amplitudes"
-            )]
-            let rounded = |um: f64| um as f32;
             let inspector = &mut self.bench.inspection.inspector;
             let trace = inspector.trace(0, contactor, &pose).unwrap();
             self.take(TickSample {
                 tick,
                 pose,
                 watched: u32::try_from(contactor).unwrap(),
-                watched_um: trace.amplitudes_um.map(rounded),
+                watched_um: trace.amplitudes_um.map(to_single),
                 ..TickSample::default()
             });
         }

@@ -15,8 +15,10 @@ use crate::bench::signals::history::{Entry, History};
 use crate::bench::signals::ring::{ColumnRing, N_COLUMNS, N_SLOTS, slot_of};
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, Rows, edge_hz, row_at};
 use crate::kit::theme::Palette;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit};
+use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::spectra::Colours;
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity;
 use selvedge_render::scene::TICKS_PER_S;
 use selvedge_textile::tactile::Band;
@@ -132,7 +134,7 @@ impl RingImage {
 
 /// A spectrogram: its columns, made for one key and made anew for another, and its texture in the
 /// colours that were asked for last.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(crate) struct Waterfall<K> {
     key: Option<K>,
     colours: Option<Colours>,
@@ -183,7 +185,7 @@ impl<K: PartialEq> Waterfall<K> {
 
     /// The columns that are shown, old to new, without pauses and what was not computed.
     pub(crate) fn shown(&self, history: &History) -> Vec<ShownColumn> {
-        let next = self.ring.next();
+        let next = self.ring.next;
         let first = next.saturating_sub(N_COLUMNS as u64);
         let of = |column: u64| {
             let rows = *self.ring.column(column)?;
@@ -201,14 +203,6 @@ impl<K: PartialEq> Waterfall<K> {
     /// Reads the picture at a place.
     pub(crate) fn read(&self, layout: &Layout, at: Pos2) -> Option<Under> {
         read(layout, &self.ring, at)
-    }
-}
-
-impl std::fmt::Debug for RingImage {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("RingImage")
-            .field("n_uploads", &self.n_uploads)
-            .finish_non_exhaustive()
     }
 }
 
@@ -276,13 +270,13 @@ pub(crate) fn paint(
     let picture = layout.picture;
     painter.rect_filled(picture, 0, palette.floor);
     let presence = on_finger.map(OnFinger::presence);
-    image.paint(painter, layout, ring.next(), presence[0].max(presence[1]));
+    image.paint(painter, layout, ring.next, presence[0].max(presence[1]));
     paint_label(painter, picture, on_finger);
     let axis = layout.frequencies;
     let ticks = axis.ticks(picture.height(), 18.0);
     paint_outer_ticks(painter, picture, (&axis, Side::Left), &ticks);
     let unit_at = pos2(picture.left() - 5.0, picture.top() - 6.0);
-    paint_unit(painter, unit_at, Align2::RIGHT_BOTTOM, "Hz");
+    paint_quiet(painter, unit_at, Align2::RIGHT_BOTTOM, "Hz");
     paint_time(painter, picture);
 }
 
@@ -335,13 +329,8 @@ fn read(layout: &Layout, ring: &ColumnRing, at: Pos2) -> Option<Under> {
     let frequency_hz = axis.value_at_y(picture.y_range(), at.y);
     let n_columns = N_COLUMNS as f32;
     let from_right = ((picture.right() - at.x) / picture.width()).clamp(0.0, 1.0) * n_columns;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and the number of columns"
-    )]
-    let back = (from_right.floor().min(n_columns - 1.0)) as u64;
-    let rows = (ring.next().checked_sub(back + 1)).and_then(|column| ring.column(column));
+    let back = to_index(f64::from(from_right.floor().min(n_columns - 1.0))) as u64;
+    let rows = (ring.next.checked_sub(back + 1)).and_then(|column| ring.column(column));
     let value = rows.map(|rows| rows[row_at(frequency_hz)]);
     Some(Under {
         ago_s: back as f64 / TICKS_PER_S,

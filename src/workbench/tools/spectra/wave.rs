@@ -101,7 +101,8 @@ impl TwoTicks {
 /// has sufficed for a second, in which silence counts as time alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WaveScale {
-    most_um: f64,
+    /// Its upper end, µm.
+    pub(crate) most_um: f64,
     /// The largest reach since the axis could have been smaller, and since when, s.
     smaller: Option<(f64, f64)>,
 }
@@ -116,11 +117,6 @@ impl Default for WaveScale {
 }
 
 impl WaveScale {
-    /// Its upper end, µm.
-    pub(crate) fn most_um(self) -> f64 {
-        self.most_um
-    }
-
     /// The scale after a reach at a time.
     pub(crate) fn following(self, reach_um: f64, time_s: f64) -> Self {
         let round = |um: f64| round_step(um.clamp(LEAST_TOP_UM, 1e9));
@@ -219,7 +215,7 @@ impl DriveWave {
                    amplitudes change at ticks, where both waves cross zero",
             ..Setting::default()
         };
-        let chart = chart(&shown, self.scale.most_um(), N_SHOWN);
+        let chart = chart(&shown, self.scale.most_um, N_SHOWN);
         if let Some(plot) = plot::show(ui, rect, &chart, &setting) {
             // The upper corner is the axis's.
             let lower = plot.area().with_min_y(plot.area().bottom() - LABEL);
@@ -250,7 +246,7 @@ impl Tool for DriveWave {
             return Err(NOTHING_FELT);
         }
         let tick = bench.live.tick;
-        let most_um = self.scale.most_um().max(shown.reach_um());
+        let most_um = self.scale.most_um.max(shown.reach_um());
         let [low, high] = shown.limit_um.map(|um| quantity::with_unit(um, 1, "µm"));
         let on_finger = match sentences(shown.on_finger).join("; ") {
             words if words.is_empty() => words,
@@ -340,15 +336,15 @@ mod tests {
     #[test]
     fn the_axis_rises_at_once_and_falls_after_a_calm_second() {
         let mut scale = WaveScale::default().following(7.0, 0.0);
-        assert_eq!(scale.most_um(), 10.0);
+        assert_eq!(scale.most_um, 10.0);
         scale = scale.following(3.0, 0.1).following(0.4, 0.9);
-        assert_eq!(scale.most_um(), 10.0, "a dip moves nothing");
+        assert_eq!(scale.most_um, 10.0, "a dip moves nothing");
         scale = scale.following(6.0, 1.0);
         assert_eq!(scale.smaller, None, "it is needed again");
         scale = scale.following(1.5, 3.0).following(0.1, 4.1);
-        assert_eq!(scale.most_um(), 2.0);
+        assert_eq!(scale.most_um, 2.0);
         for nothing in [0.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(scale.following(nothing, 9.0).most_um(), 2.0, "{nothing}");
+            assert_eq!(scale.following(nothing, 9.0).most_um, 2.0, "{nothing}");
         }
     }
 
@@ -360,6 +356,6 @@ mod tests {
             let reach_um = if tick % 2 == 0 { 60.0 } else { 0.0 };
             scale = scale.following(reach_um, f64::from(tick) / 40.0);
         }
-        assert_eq!(scale.most_um(), 100.0);
+        assert_eq!(scale.most_um, 100.0);
     }
 }

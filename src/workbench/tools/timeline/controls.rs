@@ -5,7 +5,7 @@ use eframe::egui::{Ui, vec2};
 use crate::bench::command::{Command, Commands, PlayCommand, PlaySource};
 use crate::bench::keys::hint;
 use crate::kit::theme::STEP;
-use crate::tools::timeline::icons::{Face, Icon, icon_button, segments};
+use crate::tools::timeline::icons::{Act, Icon, icon_button, segments};
 use crate::tools::timeline::transport::TransportView;
 
 /// Why there is nothing to step through.
@@ -102,14 +102,6 @@ fn show_sources(ui: &mut Ui, view: &TransportView<'_>, commands: &mut Commands) 
     }
 }
 
-/// A button with a sign: what it is called, what it does or why it does nothing.
-struct Act {
-    icon: Icon,
-    label: &'static str,
-    what: &'static str,
-    refusal: Option<&'static str>,
-}
-
 impl Act {
     fn new(
         icon: Icon,
@@ -128,15 +120,8 @@ impl Act {
     /// Shows it; gives the command when it is pressed.
     fn show(self, ui: &mut Ui, command: PlayCommand, is_on: Option<bool>, commands: &mut Commands) {
         let command: Command = command.into();
-        let face = Face {
-            icon: self.icon,
-            label: self.label,
-            tip: self
-                .refusal
-                .map_or_else(|| tip(ui, self.what, &command), str::to_owned),
-            is_enabled: self.refusal.is_none(),
-        };
-        if icon_button(ui, face, is_on) {
+        let tip = tip(ui, self.what, &command);
+        if icon_button(ui, self, &tip, is_on) {
             commands.push(command);
         }
     }

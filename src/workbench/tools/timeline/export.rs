@@ -1,13 +1,14 @@
 //! What is in sight of the line of time: speed and mean levels, tick for tick.
 
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::bench::export::{Exported, NOTHING_FELT, Sheet, ink};
 use crate::bench::recording::Recording;
 use crate::bench::signals::history::{Entry, History};
 use crate::tools::timeline::axes::{LEVELS_DB, round_above};
 use crate::tools::timeline::span::Span;
 use crate::tools::timeline::transport::TransportView;
-use selvedge_chart::{Axis, Chart, Ink, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Ink, Series, Style};
 use selvedge_foundation::quantity;
 use selvedge_render::scene::{PathCursor, TICKS_PER_S};
 use selvedge_textile::tactile::{Band, vibrating_mean_um};
@@ -146,11 +147,6 @@ fn exported(timeline: &TimelineTicks, origin: Origin) -> Exported {
             ..Series::default()
         }],
         ..Chart::default()
-    };
-    let row = |panel, height_px| Row {
-        panels: vec![panel],
-        height_px,
-        bar: None,
     };
     let mut rows = vec![row(speeds, 110.0)];
     if timeline.has_levels {

@@ -32,22 +32,20 @@ pub(crate) enum Icon {
     Loop,
 }
 
-/// What a button says.
-pub(crate) struct Face<'a> {
-    /// Its sign.
+/// A button: its sign, how it is read out, what it does, and why it does nothing now.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Act {
     pub(crate) icon: Icon,
-    /// Its name.
-    pub(crate) label: &'a str,
-    /// What it does, or why it does nothing.
-    pub(crate) tip: String,
-    /// Whether it does something.
-    pub(crate) is_enabled: bool,
+    pub(crate) label: &'static str,
+    pub(crate) what: &'static str,
+    pub(crate) refusal: Option<&'static str>,
 }
 
 /// A button with a sign. `is_on`: whether what it turns on is on, if it does.
-pub(crate) fn icon_button(ui: &mut Ui, face: Face<'_>, is_on: Option<bool>) -> bool {
+pub(crate) fn icon_button(ui: &mut Ui, act: Act, tip: &str, is_on: Option<bool>) -> bool {
+    let is_enabled = act.refusal.is_none();
     let palette = Palette::in_ui(ui);
-    let sense = if face.is_enabled {
+    let sense = if is_enabled {
         Sense::click()
     } else {
         Sense::hover()
@@ -56,19 +54,19 @@ pub(crate) fn icon_button(ui: &mut Ui, face: Face<'_>, is_on: Option<bool>) -> b
     response.widget_info(|| {
         let role = egui::Role::Button;
         match is_on {
-            Some(is_on) => WidgetInfo::selected(role, face.is_enabled, is_on, face.label),
-            None => WidgetInfo::labeled(role, face.is_enabled, face.label),
+            Some(is_on) => WidgetInfo::selected(role, is_enabled, is_on, act.label),
+            None => WidgetInfo::labeled(role, is_enabled, act.label),
         }
     });
     let is_lit = is_on == Some(true);
-    let ink = match (face.is_enabled, is_on) {
+    let ink = match (is_enabled, is_on) {
         (false, _) => faint(palette),
         (true, Some(false)) => palette.dim,
         (true, _) => palette.text,
     };
     paint_ground(ui, rect, &response, is_lit);
-    paint(ui.painter(), face.icon, rect.center(), ink);
-    response.on_hover_text(face.tip).clicked()
+    paint(ui.painter(), act.icon, rect.center(), ink);
+    response.on_hover_text(act.refusal.unwrap_or(tip)).clicked()
 }
 
 /// One of several, side by side. Each has a name, a tip and, if it cannot be chosen, the reason.

@@ -2,7 +2,6 @@
 //!
 //! What a tile holds depends on path and scene alone, not on the order in which they are made.
 
-use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -83,14 +82,6 @@ impl Drop for Job {
         if let Some(task) = &self.task {
             task.stop();
         }
-    }
-}
-
-impl fmt::Debug for Job {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Job")
-            .field("task", &self.task)
-            .finish_non_exhaustive()
     }
 }
 

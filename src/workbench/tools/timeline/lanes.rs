@@ -10,6 +10,7 @@ use crate::bench::recording::tiles::Tiles;
 use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_at};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::SpectrumScale;
+use crate::kit::texture::{WHOLE, paint};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{self, Palette};
 use crate::tools::timeline::axes::{self, LEVELS_DB, round_above};
@@ -20,7 +21,7 @@ use crate::tools::timeline::picture::{
 };
 use crate::tools::timeline::span::Span;
 use crate::tools::timeline::transport::TICK_MS;
-use selvedge_foundation::numerics::to_index;
+use selvedge_foundation::numerics::{to_index, to_single};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -96,8 +97,7 @@ impl Layout {
 
     /// Where a share of the width stands.
     pub(crate) fn x_at(&self, share: f64) -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = share.clamp(-1.0, 2.0) as f32;
+        let share = to_single(share.clamp(-1.0, 2.0));
         self.ruler.left() + share * self.ruler.width()
     }
 
@@ -128,7 +128,7 @@ pub(crate) struct LaneStyle {
 }
 
 /// The pictures of the lanes.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Pictures {
     spectrum: Columns,
     felt: Columns,
@@ -151,7 +151,7 @@ impl Pictures {
         let fastest = self.felt.each().filter_map(|rows| speed_of(*rows.first()?));
         let top = round_above(fastest.fold(0.0, f64::max));
         let palette = Palette::in_ui(ui);
-        let n_contactors = felt.n_rows().saturating_sub(N_LINES) / 2;
+        let n_contactors = felt.n_rows.saturating_sub(N_LINES) / 2;
         for ((lane, rect), picture) in LANES.into_iter().zip(layout.lanes).zip(&mut self.lanes) {
             let height = n_pixels(rect.height() * scale);
             let drawing = drawing(lane, style, palette, (height, n_contactors, top));
@@ -160,8 +160,8 @@ impl Pictures {
                 Lane::Raster(_) | Lane::Lines => &self.felt,
             };
             ui.painter().rect_filled(rect, 0, palette.floor);
-            picture.follow((ui.ctx(), "timeline"), (columns, height), &drawing);
-            picture.paint(ui.painter(), rect);
+            let texture = picture.follow(ui.ctx(), (columns, height), &drawing);
+            paint(ui.painter(), rect, WHOLE, texture);
         }
         self.veil(ui.painter(), layout, palette);
         top
@@ -190,7 +190,7 @@ impl Pictures {
     /// How often pictures were made.
     #[cfg(test)]
     pub(crate) fn n_uploads(&self) -> u64 {
-        self.lanes.iter().map(Picture::n_uploads).sum()
+        self.lanes.iter().map(|lane| lane.n_made).sum()
     }
 }
 

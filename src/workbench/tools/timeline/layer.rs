@@ -32,7 +32,6 @@ struct FeltKey {
 type SpectrumKey = ([u64; 2], usize);
 
 /// Tiles of one kind.
-#[derive(Debug)]
 struct Layer<K> {
     key: Option<K>,
     path: Option<Arc<ExplorationPath>>,
@@ -65,7 +64,7 @@ impl<K: PartialEq> Layer<K> {
             .path
             .as_ref()
             .is_some_and(|known| Arc::ptr_eq(known, path));
-        if !is_same_path || self.tiles.n_rows() != n_rows {
+        if !is_same_path || self.tiles.n_rows != n_rows {
             self.tiles = Tiles::new(n_rows, path.n_ticks());
             self.key = None;
         }
@@ -104,7 +103,7 @@ impl<K: PartialEq> Layer<K> {
 }
 
 /// All that is drawn of a recording.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct RecordedTiles {
     felt: Layer<FeltKey>,
     spectrum: Layer<SpectrumKey>,

@@ -50,8 +50,8 @@ impl LiveTiles {
     /// one frame may. Whether more are due.
     pub(crate) fn follow(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
         let history = &bench.past.history;
-        let of = (history.n_clears(), history.n_contactors());
-        if self.of != of || self.felt.n_rows() == 0 {
+        let of = (history.n_clears, history.n_contactors);
+        if self.of != of || self.felt.n_rows == 0 {
             self.of = of;
             self.felt = Tiles::new(n_felt_rows(of.1), 0);
             self.next = 0;
@@ -93,8 +93,8 @@ impl LiveTiles {
     /// The newest columns in sight come first.
     fn take_spectra(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
-        let of = (history.n_clears(), inspection.n_scenes, contactor);
-        if self.spectrum_of != of || self.spectrum.n_rows() == 0 {
+        let of = (history.n_clears, inspection.n_scenes, contactor);
+        if self.spectrum_of != of || self.spectrum.n_rows == 0 {
             self.spectrum_of = of;
             self.spectrum = Tiles::new(N_ROWS, 0);
             self.whole = 0..0;

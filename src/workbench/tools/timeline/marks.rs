@@ -2,12 +2,13 @@
 
 use eframe::egui::{
     self, Align2, Key, Popup, Rect, Response, Sense, Shape, Stroke, TextEdit, Ui, UiBuilder,
-    WidgetInfo, accesskit, pos2, vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::{Commands, PlayCommand, RecordingCommand};
 use crate::bench::recording::Marker;
 use crate::kit::theme::{self, Palette};
+use crate::kit::widgets::text::named;
 use crate::tools::timeline::scope::Scope;
 
 /// Width of the field that a name is typed into, points.
@@ -123,18 +124,17 @@ fn answer(
 }
 
 /// The field for a name at its marker. Whether the name is to be kept, once that is decided.
-fn show_field(ui: &mut Ui, scope: &Scope<'_>, share: f64, named: &mut Naming) -> Option<bool> {
+fn show_field(ui: &mut Ui, scope: &Scope<'_>, share: f64, naming: &mut Naming) -> Option<bool> {
     let ruler = scope.layout.ruler;
     let left = scope.layout.x_at(share).min(ruler.right() - FIELD);
     let place = Rect::from_min_size(pos2(left, ruler.top() - 2.0), vec2(FIELD, 18.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(place));
-    let field = TextEdit::singleline(&mut named.text)
+    let field = TextEdit::singleline(&mut naming.text)
         .font(theme::small())
         .desired_width(FIELD);
     let response = child.add(field);
-    let node = |node: &mut accesskit::Node| node.set_label("Name of the marker");
-    ui.ctx().accesskit_node_builder(response.id, node);
-    if !std::mem::replace(&mut named.has_focus, true) {
+    named(&response, "Name of the marker");
+    if !std::mem::replace(&mut naming.has_focus, true) {
         response.request_focus();
         return None;
     }

@@ -73,7 +73,7 @@ impl Bar for Timeline {
         }
         context.bench.settings.preferences.scales.timeline_height = height;
         context.bench.selection.spectrum = style.spectrum;
-        let is_of_recording = self.sight.of() != 0;
+        let is_of_recording = self.sight.of != 0;
         context.bench.exploration.selected = self.selected.clone().filter(|_| is_of_recording);
     }
 

@@ -3,6 +3,7 @@
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Ui, WidgetInfo, pos2};
 
 use crate::kit::theme::{self, Palette};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::timeline::transport::{TICK_MS, TransportView};
 use selvedge_foundation::quantity;
 
@@ -32,7 +33,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, view: &TransportView<'_>) {
     for ((name, digits, unit), y) in rows.into_iter().zip([38.0, 56.0]) {
         let y = rect.top() + y;
         let dim = |x: f32, anchor: Align2, words: &str| {
-            painter.text(pos2(x, y), anchor, words, theme::small(), palette.dim);
+            paint_quiet(painter, pos2(x, y), anchor, words);
         };
         dim(rect.left(), Align2::LEFT_CENTER, name);
         dim(rect.right(), Align2::RIGHT_CENTER, unit);

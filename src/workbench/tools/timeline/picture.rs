@@ -1,15 +1,13 @@
 //! The lanes as pictures, one pixel a column: made when something about them has changed and kept
 //! on the graphics card until then. Only what is in sight is drawn, however long it is.
 
-use std::fmt;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::ops::Range;
 
-use eframe::egui::{
-    Color32, ColorImage, Context, Mesh, Painter, Rect, Shape, TextureHandle, TextureOptions, pos2,
-};
+use eframe::egui::{Color32, ColorImage, Context, TextureId, TextureOptions};
 
 use crate::bench::recording::tiles::Tiles;
+use crate::kit::texture::Texture;
 use crate::kit::theme::Palette;
 use crate::tools::timeline::axes::LEVELS_DB;
 use crate::tools::timeline::code::{GAP, level_of, mirrored, speed_of};
@@ -37,13 +35,13 @@ impl Columns {
     /// Reads what tiles hold of a span in `n` columns, if anything has changed; `of` says which
     /// exploration the tiles are of.
     pub(crate) fn follow(&mut self, tiles: &Tiles, of: u64, (span, n): (Span, usize)) {
-        let key = (of, span, n, tiles.version());
-        if self.key == Some(key) && self.n_rows == tiles.n_rows() {
+        let key = (of, span, n, tiles.version);
+        if self.key == Some(key) && self.n_rows == tiles.n_rows {
             return;
         }
         self.key = Some(key);
         self.stamp += 1;
-        self.n_rows = tiles.n_rows();
+        self.n_rows = tiles.n_rows;
         self.bytes.resize(n * self.n_rows, 0);
         if self.n_rows > 0 {
             for (x, rows) in self.bytes.chunks_exact_mut(self.n_rows).enumerate() {
@@ -58,59 +56,23 @@ impl Columns {
     }
 }
 
-/// A lane on the graphics card.
-#[derive(Default)]
-pub(crate) struct Picture {
-    texture: Option<TextureHandle>,
-    key: Option<(u64, [usize; 2], u64)>,
-    n_uploads: u64,
-}
+/// A lane on the graphics card: of what columns, how large, drawn how.
+pub(crate) type Picture = Texture<(u64, [usize; 2], u64)>;
 
 impl Picture {
-    /// Makes the picture of columns anew if they, its height or how it is drawn have changed.
+    /// The picture of columns, made anew if they, its height or how it is drawn have changed.
     pub(crate) fn follow(
         &mut self,
-        (ctx, name): (&Context, &str),
+        ctx: &Context,
         (columns, height): (&Columns, usize),
         drawing: &Drawing,
-    ) {
+    ) -> TextureId {
         let size = [columns.each().len(), height];
         let mut hasher = DefaultHasher::new();
         drawing.hash(&mut hasher);
         let key = (columns.stamp, size, hasher.finish());
-        if self.key == Some(key) || size.contains(&0) {
-            return;
-        }
-        self.key = Some(key);
-        self.n_uploads += 1;
-        let image = drawing.image(columns, size);
-        match &mut self.texture {
-            Some(texture) => texture.set(image, TextureOptions::NEAREST),
-            None => self.texture = Some(ctx.load_texture(name, image, TextureOptions::NEAREST)),
-        }
-    }
-
-    /// Paints it over `area`.
-    pub(crate) fn paint(&self, painter: &Painter, area: Rect) {
-        let Some(texture) = &self.texture else { return };
-        let mut mesh = Mesh::with_texture(texture.id());
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        mesh.add_rect_with_uv(area, whole, Color32::WHITE);
-        painter.add(Shape::mesh(mesh));
-    }
-
-    /// How often it was made.
-    #[cfg(test)]
-    pub(crate) fn n_uploads(&self) -> u64 {
-        self.n_uploads
-    }
-}
-
-impl fmt::Debug for Picture {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Picture")
-            .field("n_uploads", &self.n_uploads)
-            .finish_non_exhaustive()
+        let how = ("timeline", TextureOptions::NEAREST);
+        self.of(ctx, how, key, || drawing.image(columns, size))
     }
 }
 
@@ -303,8 +265,8 @@ mod tests {
         let lines = |top| Drawing::Lines(LineInks::of(Palette::of(ctx.theme()), top));
         let mut show = |tiles: &Tiles, end: f64, top: usize| {
             columns.follow(tiles, 0, (Span::new(0.0, end), 300));
-            picture.follow((&ctx, "lane"), (&columns, 20), &lines(top));
-            picture.n_uploads()
+            picture.follow(&ctx, (&columns, 20), &lines(top));
+            picture.n_made
         };
         assert_eq!(show(&tiles, 90.0, 100), 1);
         assert_eq!(show(&tiles, 90.0, 100), 1, "nothing has changed");

@@ -8,7 +8,7 @@ use crate::tools::timeline::span::Span;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sight {
     /// What tells the recording that is shown from others; 0 for the last minutes.
-    of: u64,
+    pub(crate) of: u64,
     recorded: Option<Span>,
     /// How long a part of the last minutes, and how far it ends before the newest.
     live: [f64; 2],
@@ -32,11 +32,6 @@ impl Sight {
             self.recorded = None;
         }
         is_other
-    }
-
-    /// What tells the exploration that is shown from others.
-    pub(crate) fn of(&self) -> u64 {
-        self.of
     }
 
     /// The part that is in sight of all that there is.

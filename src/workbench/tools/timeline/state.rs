@@ -25,7 +25,7 @@ pub(crate) enum Drag {
 }
 
 /// The bar at the bottom: what it remembers from frame to frame.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Timeline {
     pub(crate) recorded: RecordedTiles,
     pub(crate) live: LiveTiles,

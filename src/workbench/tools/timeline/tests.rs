@@ -296,7 +296,7 @@ fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
             desk.pass(3);
             let live = &desk.workbench.bench.live;
             assert_eq!(live.play.tick, tick);
-            let mut rows = vec![0; tiles.felt().n_rows()];
+            let mut rows = vec![0; tiles.felt().n_rows];
             tiles.felt().strongest_into(tick..tick + 1, &mut rows);
             for (contactor, dot) in live.dots.iter().enumerate() {
                 let codes = [0, 1].map(|band| rows[N_LINES + band * 24 + contactor]);

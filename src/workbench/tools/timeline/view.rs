@@ -11,9 +11,9 @@ use eframe::egui::{
 use crate::bench::command::{Commands, PlayCommand};
 use crate::kit::pane::paint_sentence;
 use crate::kit::spectrum_scale::EVENLY;
-use crate::kit::theme::{self, Palette};
+use crate::kit::theme::Palette;
 use crate::kit::widgets::level_bar;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{paint_quiet, toggle};
 use crate::tools::timeline::lanes::{self, LaneStyle, Layout, name_of};
 use crate::tools::timeline::scope::{Scope, extent};
 use crate::tools::timeline::span::Span;
@@ -77,7 +77,7 @@ pub(crate) fn show(
         None => (live.felt(), live.spectrum()),
     };
     let tiles = (felt, spectrum);
-    let top = pictures.paint(ui, (&layout, &*style), tiles, (sight.of(), span));
+    let top = pictures.paint(ui, (&layout, &*style), tiles, (sight.of, span));
     let scope = Scope {
         view,
         layout,
@@ -154,7 +154,7 @@ fn navigate(ui: &Ui, response: &Response, (layout, all): (&Layout, Span), state:
         if (factor - 1.0).abs() > 1e-6 {
             let share = layout.share_at(at.x).clamp(0.0, 1.0);
             // What ends with the newest goes on to do so.
-            let ends_with_newest = state.sight.of() == 0 && span.end >= all.end;
+            let ends_with_newest = state.sight.of == 0 && span.end >= all.end;
             let share = if ends_with_newest { 1.0 } else { share };
             state.sight.set(span.zoomed(factor, share, all), all);
         }
@@ -290,7 +290,6 @@ fn paint_cursor(ui: &Ui, layout: &Layout, share: f64) {
 
 /// What is shown, and how far it is made.
 fn paint_title(ui: &Ui, scope: &Scope<'_>, made: Option<f32>) {
-    let palette = Palette::in_ui(ui);
     let take = scope.view.shown_take();
     let title = match (take, made) {
         (Some(_), Some(share)) => {
@@ -305,7 +304,7 @@ fn paint_title(ui: &Ui, scope: &Scope<'_>, made: Option<f32>) {
     let room = name_of(scope.layout.ruler);
     let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
     let (at, anchor) = (room.left_center(), Align2::LEFT_CENTER);
-    painter.text(at, anchor, title, theme::small(), palette.dim);
+    paint_quiet(&painter, at, anchor, title);
 }
 
 /// A line where the pointer is, and what is there.

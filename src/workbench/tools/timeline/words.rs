@@ -29,7 +29,7 @@ pub(crate) fn words_at(
         format!("{ago} before the newest, in felt time")
     };
     let read = |tiles: &Tiles| {
-        let mut rows = vec![GAP; tiles.n_rows()];
+        let mut rows = vec![GAP; tiles.n_rows];
         tiles.strongest_into(tick..tick + 1, &mut rows);
         rows
     };

@@ -10,6 +10,7 @@ use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::PerceptualLevel;
 use crate::bench::view::Source;
 use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState, LinkScale};
+use selvedge_foundation::numerics::to_single;
 use selvedge_render::array::{ContactTrace, Touch};
 
 /// The largest drive code.
@@ -64,11 +65,7 @@ impl Output {
         (gain, scale): (Option<f64>, Option<LinkScale>),
         on_finger: [OnFinger; 2],
     ) -> Self {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the renderer hands amplitudes on in single precision"
-        )]
-        let single = amplitudes_um.map(|um| um as f32);
+        let single = amplitudes_um.map(to_single);
         let played = |band: usize| !on_finger[band].is_silence();
         let felt = [0, 1].map(|band| if played(band) { single[band] } else { 0.0 });
         let mut coder = Coder::of_contactor(profile, contactor);

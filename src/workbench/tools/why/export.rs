@@ -3,9 +3,10 @@
 use crate::bench::export::Exported;
 use crate::bench::export::ink;
 use crate::bench::export::origin::Origin;
+use crate::bench::export::row;
 use crate::tools::why::explanation::Explanation;
 use crate::tools::why::text::sheet;
-use selvedge_chart::{Axis, Chart, Row, Series, Style};
+use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Filters};
 
@@ -60,11 +61,6 @@ pub(crate) fn charts(why: &Explanation, filters: &Filters) -> [Chart; 2] {
 /// The explanation that is shown.
 pub(crate) fn explanation(why: &Explanation, filters: &Filters, origin: Origin) -> Exported {
     let [energy, gains] = charts(why, filters);
-    let row = |panel, height_px| Row {
-        panels: vec![panel],
-        height_px,
-        bar: None,
-    };
     let [low, high] = why
         .trace
         .amplitudes_um

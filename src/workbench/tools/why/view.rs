@@ -1,15 +1,15 @@
 //! Why the chosen contactor does what it does: the chain of numbers, and the energy by bin.
 
-use eframe::egui::{
-    self, Align, Layout, Margin, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{self, Align, Layout, Margin, Rect, RichText, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::perceptual_level::SOURCE;
+use crate::kit::pane::scroll_area;
 use crate::kit::plot;
 use crate::kit::plot::Setting;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, paint_limit_mark};
+use crate::kit::widgets::text::{line, small};
 use crate::tools::why::explanation::Explanation;
 use crate::tools::why::export::charts;
 use crate::tools::why::text::{LIMITS, lines};
@@ -55,20 +55,18 @@ pub(crate) fn show(ui: &mut Ui, why: Option<&Explanation>, filters: &Filters) {
 fn show_chain(ui: &mut Ui, why: &Explanation) {
     let palette = Palette::in_ui(ui);
     let lines = lines(why);
-    let area = ScrollArea::vertical().id_salt("why").auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("why").show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let cell = why.cell.map_or_else(String::new, |(row, column)| {
             format!("   row {row}, column {column}")
         });
         let head = format!("Contactor {}{cell}   tick {}", why.contactor, why.tick);
-        ui.label(RichText::new(head).font(theme::small()).color(palette.text));
+        ui.label(small(head, palette.text));
         ui.horizontal(|ui| {
             ui.add_space(NAMES);
             for band in Band::ALL {
                 let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-                let name = RichText::new(name).font(theme::small());
-                ui.label(name.color(palette.band(band)));
+                ui.label(small(name, palette.band(band)));
             }
         });
         for (name, value) in lines {
@@ -81,15 +79,14 @@ fn show_chain(ui: &mut Ui, why: &Explanation) {
 
 fn show_line(ui: &mut Ui, name: &str, value: &str, limiters: Option<String>) {
     let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), LINE);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let ink = if name.starts_with(['+', '=']) {
             palette.dim
         } else {
             palette.text
         };
-        let name = RichText::new(name).font(theme::small()).color(ink);
+        let name = small(name, ink);
         let place = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(NAMES, LINE), place, |ui| {
             ui.set_min_width(NAMES);

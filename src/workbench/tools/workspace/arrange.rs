@@ -81,7 +81,7 @@ impl Handles {
         let outward = (foot - view.screen(middle(cloth))).normalized();
         let outside = foot + TURN_HANDLE_AWAY * outward;
         // Where there is no room outside, it stands inside.
-        let turn = if view.rect().expand(8.0).contains(outside) {
+        let turn = if view.rect.expand(8.0).contains(outside) {
             outside
         } else {
             foot - TURN_HANDLE_AWAY * outward

@@ -58,8 +58,8 @@ impl Camera {
         true_points_per_mm: Option<f64>,
     ) -> Self {
         let view = self.view(pane, size_mm);
-        let middle = view.centre();
-        let points_per_mm = view.points_per_mm();
+        let middle = view.centre;
+        let points_per_mm = view.points_per_mm;
         let (centre, wanted) = match look {
             Look::Fit => return Self::Fit,
             Look::TrueSize => match true_points_per_mm {
@@ -80,7 +80,7 @@ impl Camera {
             return self;
         }
         let points_per_mm = limited(wanted);
-        let centre = kept_in_sight(centre, points_per_mm, view.rect(), size_mm);
+        let centre = kept_in_sight(centre, points_per_mm, view.rect, size_mm);
         Self::At {
             centre,
             points_per_mm,
@@ -155,7 +155,7 @@ mod tests {
                 let after = zoomed.view(pane(), SIZE_MM);
                 let moved = (after.screen(place) - before.screen(place)).length();
                 assert!(moved < 1e-2, "{camera:?} × {factor}: moved by {moved}");
-                let ratio = after.points_per_mm() / before.points_per_mm();
+                let ratio = after.points_per_mm / before.points_per_mm;
                 assert!((ratio - factor).abs() < 1e-9, "{ratio}");
             }
         }
@@ -165,7 +165,7 @@ mod tests {
     fn magnification_has_ends() {
         let by = |camera: Camera, factor| {
             let zoomed = camera.apply(Look::ZoomBy(factor), pane(), SIZE_MM, None);
-            zoomed.view(pane(), SIZE_MM).points_per_mm()
+            zoomed.view(pane(), SIZE_MM).points_per_mm
         };
         assert_eq!(by(close_up(), 1e9), 200.0);
         assert_eq!(by(close_up(), 1e-9), 0.2);

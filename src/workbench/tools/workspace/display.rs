@@ -17,6 +17,7 @@ use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::kit::widgets::limit_mark::paint_limit_mark;
 use selvedge_foundation::geometry::Point;
+use selvedge_foundation::numerics::to_single;
 
 /// Dots closer together than this have no room for a ring, points per mm.
 const LEAST_FOR_RING: f32 = 4.0;
@@ -243,12 +244,8 @@ impl Brush {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "between 0 and 1, for the screen"
-)]
 fn share(value: f64) -> f32 {
-    value.clamp(0.0, 1.0) as f32
+    to_single(value.clamp(0.0, 1.0))
 }
 
 /// A disc that fades from `colour` in the middle to nothing at its rim.

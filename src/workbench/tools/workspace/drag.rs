@@ -146,7 +146,7 @@ fn edit_of(
     place: Point,
     modifiers: Modifiers,
 ) -> (Option<Edit>, Guides) {
-    let reach_mm = SNAP_POINTS / stage.view.points_per_mm();
+    let reach_mm = SNAP_POINTS / stage.view.points_per_mm;
     let lines = |index| Lines::of(stage.sight.scene.size_mm, &stage.sight.scene.cloths, index);
     match grab {
         Grab::Ground => (None, Guides::default()),

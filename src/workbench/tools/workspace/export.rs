@@ -6,6 +6,7 @@ use crate::bench::probe::Probe;
 use crate::bench::view::Cloth;
 use crate::tools::workspace::maps::ShownMap;
 use selvedge_chart::{Axis, Chart, Raster, Row};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity;
 
 /// Most panels side by side.
@@ -88,15 +89,9 @@ pub(crate) fn maps(
 
 /// Points of a textile along warp and weft whose cells are seen: half a millimetre beyond its edge.
 fn cells_of(cloth: &Cloth) -> [usize; 2] {
-    cloth.size_mm.map(|mm| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the extent of a textile in whole mm"
-        )]
-        let last = (mm.max(0.0) + 0.5 - 1e-6).floor() as usize;
-        last + 1
-    })
+    cloth
+        .size_mm
+        .map(|mm| 1 + to_index(mm.max(0.0) + 0.5 - 1e-6))
 }
 
 fn height_px(row: &[Mapped<'_>]) -> f64 {

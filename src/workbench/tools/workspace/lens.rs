@@ -19,6 +19,7 @@ use crate::tools::workspace::ground::{paint_cloths, paint_display};
 use crate::tools::workspace::stage::Stage;
 use crate::tools::workspace::{display, tips};
 use selvedge_foundation::geometry::Point;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// How many times larger than it is the display is shown, where that fits.
@@ -45,8 +46,7 @@ const LEAST_FOR_FOOT: f32 = 170.0;
 /// Parts the workspace's frame into the ground and the lens's part: what the whole workspace does
 /// not need, on its right, or below it in a high frame.
 pub(crate) fn split(inner: Rect, size_mm: [f64; 2]) -> (Rect, Option<Rect>) {
-    #[expect(clippy::cast_possible_truncation, reason = "a ratio, for the screen")]
-    let aspect = (size_mm[0] / size_mm[1].max(1e-9)) as f32;
+    let aspect = to_single(size_mm[0] / size_mm[1].max(1e-9));
     if inner.width() < LEAST[0] || inner.height() < LEAST[1] || !aspect.is_finite() {
         return (inner, None);
     }
@@ -89,8 +89,7 @@ impl Parts {
         });
         let has_foot = column.height() >= LEAST_FOR_FOOT;
         let foot = has_foot.then(|| {
-            #[expect(clippy::cast_possible_truncation, reason = "a length on the screen")]
-            let side = (TRUE_SIDE_MM * true_points_per_mm) as f32;
+            let side = to_single(TRUE_SIDE_MM * true_points_per_mm);
             let side = side.clamp(TRUE_SIDE[0], TRUE_SIDE[1]).round();
             let foot = room.with_min_y(room.bottom() - side);
             room.max.y = foot.top() - MARGIN;
@@ -171,7 +170,7 @@ pub(crate) fn show(ui: &Ui, column: Rect, stage: &Stage<'_>, commands: &mut Comm
 
 /// Whether a map of the cloth is shown, which needs a legend.
 fn has_legend(stage: &Stage<'_>) -> bool {
-    stage.state.overlays.map().is_some()
+    stage.state.overlays.map.is_some()
 }
 
 /// Where a map's legend stands below the lens; `None` where there is little room.
@@ -232,8 +231,7 @@ fn paint_scale_bar(painter: &egui::Painter, glass: Rect, points_per_mm: f64) {
     else {
         return;
     };
-    #[expect(clippy::cast_possible_truncation, reason = "a length on the screen")]
-    let length = (mm * points_per_mm) as f32;
+    let length = to_single(mm * points_per_mm);
     let size = vec2(length + 16.0, 22.0);
     let tag = Rect::from_min_size(glass.right_bottom() - size, size);
     let corner = egui::CornerRadius {

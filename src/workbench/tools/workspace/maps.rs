@@ -4,7 +4,6 @@
 //! and is tiled over the cloth. It is made on a thread of its own, and anew only when something
 //! that it shows has changed; until it is done the last one stays, unless the textile is another.
 
-use std::fmt;
 use std::sync::Arc;
 
 use eframe::egui::{
@@ -201,15 +200,6 @@ impl Maps {
     pub(crate) fn n_computed(&self) -> u64 {
         let value = self.latest.value();
         self.n_before + value.map_or(0, |value| value.n_computed)
-    }
-}
-
-impl fmt::Debug for Maps {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Maps")
-            .field("n_slots", &self.slots.len())
-            .field("n_computed", &self.n_computed())
-            .finish_non_exhaustive()
     }
 }
 

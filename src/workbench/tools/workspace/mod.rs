@@ -48,7 +48,7 @@ use crate::tools::workspace::state::{Place, WorkspaceView};
 use selvedge_render::array::ContactorReading;
 
 /// The workspace: how it is looked at, and what was computed to be drawn over it.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Workspace {
     pub(crate) view: WorkspaceView,
     /// Maps of the textiles at the chosen velocity.
@@ -126,7 +126,7 @@ impl tool::Tool for Workspace {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        if self.view.overlays.map().is_none() {
+        if self.view.overlays.map.is_none() {
             return Err(
                 "There is nothing to export: show a map over the cloth first, by “Overlay” in \
                  the row of tools or by the keys K and Shift+K",
@@ -174,7 +174,7 @@ impl Workspace {
         if overlays.need_readings() && live.centre.is_some() {
             inspector.readings_into(0, &live.pose, &mut self.readings);
         }
-        let Some(band) = overlays.map() else {
+        let Some(band) = overlays.map else {
             self.maps.clear();
             return;
         };
@@ -217,7 +217,7 @@ fn show(ui: &mut Ui, sight: Sight<'_>, commands: &mut Commands) -> PointerGround
     if let Some(lens) = lens {
         lens::show(ui, lens, &stage, commands);
     }
-    if let Some(band) = state.overlays.map() {
+    if let Some(band) = state.overlays.map {
         let beside = lens.and_then(|lens| lens::room_for_legend(lens, &stage));
         overlay::paint_legend(ui.painter(), &stage, (beside, band));
     }

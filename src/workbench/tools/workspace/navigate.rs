@@ -38,12 +38,12 @@ pub(crate) fn pan(ui: &Ui, stage: &Stage<'_>) {
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     let by = stage.response.drag_delta();
     if by != Vec2::ZERO {
-        let points_per_mm = stage.view.points_per_mm();
+        let points_per_mm = stage.view.points_per_mm;
         let shift = Displacement::new(
             f64::from(by.x) / points_per_mm,
             -f64::from(by.y) / points_per_mm,
         );
-        stage.look(Look::Centre(stage.view.centre() - shift));
+        stage.look(Look::Centre(stage.view.centre - shift));
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn paint(
         palette: Palette::of(painter.ctx().theme()),
         edge: frame.min + vec2(LEFT, TOP),
         view,
-        step_mm: round_step(MIN_LABEL_POINTS / view.points_per_mm().max(1e-6)),
+        step_mm: round_step(MIN_LABEL_POINTS / view.points_per_mm.max(1e-6)),
     };
     let line = Stroke::new(1.0, rulers.palette.hairline);
     painter.hline(frame.x_range(), rulers.edge.y, line);
@@ -161,11 +161,7 @@ impl Rulers<'_> {
         let at = self.view.screen(place);
         let ink = self.palette.selection;
         self.point_out(at, Stroke::new(1.0, ink));
-        let decimals = if self.view.points_per_mm() > 20.0 {
-            2
-        } else {
-            1
-        };
+        let decimals = if self.view.points_per_mm > 20.0 { 2 } else { 1 };
         let number = |mm: f64, decimals| {
             let digits = quantity::fixed(mm, decimals);
             self.painter

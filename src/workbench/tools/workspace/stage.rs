@@ -19,7 +19,7 @@ use selvedge_render::array::ContactorReading;
 const USUAL_DOTS_PER_INCH: f64 = 96.0;
 
 /// What overlays are drawn from.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Layers<'a> {
     /// What the contactors read and how they move; empty while that is not drawn.
     pub readings: &'a [ContactorReading],

@@ -50,7 +50,7 @@ impl WorkspaceView {
     /// Whether a view shows true size, to half a percent.
     pub(crate) fn is_true_size(&self, view: &ViewTransform, pixels_per_point: f32) -> bool {
         self.true_points_per_mm(pixels_per_point)
-            .is_some_and(|wanted| (view.points_per_mm() / wanted - 1.0).abs() < 0.005)
+            .is_some_and(|wanted| (view.points_per_mm / wanted - 1.0).abs() < 0.005)
     }
 
     /// Looks; true size asks for a calibration first where there is none.
@@ -89,7 +89,7 @@ mod tests {
         assert!(!state.is_calibrating, "done");
         let Place { pane, size_mm, .. } = place();
         let view = state.camera.view(pane, size_mm);
-        assert!((view.points_per_mm() - 4.5).abs() < 1e-12, "{view:?}");
+        assert!((view.points_per_mm - 4.5).abs() < 1e-12, "{view:?}");
         assert!(state.is_true_size(&view, 2.0));
         assert!(!state.is_true_size(&view, 1.0), "the window was rescaled");
     }

@@ -228,7 +228,7 @@ fn handles_resize_and_turn_the_chosen_textile() {
     };
     assert_eq!(size_mm, [93.0, 71.0]);
     let (_, shown) = window.run(Vec::new());
-    let handle_mm = 120.0 + 22.0 / shown.view.points_per_mm();
+    let handle_mm = 120.0 + 22.0 / shown.view.points_per_mm;
     let (during, _) = window.drag([70.0, handle_mm], [130.0, 68.0]);
     let turned = edits(&during).last().cloned();
     assert_eq!(turned, Some(Edit::TurnCloth(0, -90.0)), "{during:?}");
@@ -262,7 +262,7 @@ fn the_wheel_zooms_about_the_pointer_and_with_alt_turns_the_display() {
     let before = window.run(Vec::new()).1.view;
     assert_eq!(window.scroll(at), []);
     let after = window.run(Vec::new()).1.view;
-    assert!(after.points_per_mm() > before.points_per_mm(), "{after:?}");
+    assert!(after.points_per_mm > before.points_per_mm, "{after:?}");
     let place = after.workspace(at);
     assert!(
         (place - Point::new(70.0, 70.0)).length_mm() < 0.01,

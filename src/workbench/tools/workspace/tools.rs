@@ -58,7 +58,7 @@ pub(crate) fn show(ui: &mut Ui, state: &mut WorkspaceView, pane: Rect, size_mm: 
         }
     }
     ui.add_space(2.0 * STEP);
-    overlay::show_menu(ui, &mut state.overlays, view.points_per_mm());
+    overlay::show_menu(ui, &mut state.overlays, view.points_per_mm);
 }
 
 /// Shows the magnification, from right to left.
@@ -80,7 +80,7 @@ fn show_magnification(ui: &mut Ui, state: &mut WorkspaceView, view: &ViewTransfo
             state.look(look, place);
         }
     }
-    let pixels_per_mm = view.points_per_mm() * f64::from(pixels_per_point);
+    let pixels_per_mm = view.points_per_mm * f64::from(pixels_per_point);
     let palette = Palette::in_ui(ui);
     let text = RichText::new(magnification(pixels_per_mm, is_true));
     let label = ui.label(text.font(theme::small_number()).color(palette.dim));

@@ -8,6 +8,8 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::{Axis, Tick};
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::kit::widgets::relief3d::mesh::Projection;
+use crate::kit::widgets::text::paint_quiet;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Between numbers, points.
@@ -114,7 +116,7 @@ impl Edge {
         let mut ticks = axis.ticks(length, APART.min(0.9 * length));
         if self.unit == "µm" && ticks.len() < 3 {
             // Too short for round numbers: the relief itself.
-            ticks = vec![Tick::named(axis.most(), &quantity::fixed(axis.most(), 0))];
+            ticks = vec![Tick::named(axis.most, &quantity::fixed(axis.most, 0))];
         }
         let is_shared = |tick: &Tick| {
             let share = axis.share(tick.value);
@@ -131,8 +133,7 @@ impl Edge {
     fn paint_tick(&self, painter: &Painter, axis: &Axis, tick: &Tick, is_last: bool) {
         let palette = Palette::of(painter.ctx().theme());
         let [from, to] = self.ends;
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let at = from + (to - from) * axis.share(tick.value) as f32;
+        let at = from + (to - from) * to_single(axis.share(tick.value));
         let stroke = Stroke::new(1.0, palette.line);
         painter.line_segment([at, at + self.outwards * TICK], stroke);
         let anchor = if self.outwards.x > 0.3 {
@@ -149,15 +150,14 @@ impl Edge {
         }
         // The unit stands after the last number, whichever side the number hangs on.
         let gap = Vec2::new(4.0, 0.0);
-        let font = theme::small();
         if anchor == Align2::RIGHT_CENTER {
-            let unit = painter.text(at, anchor, self.unit, font, palette.dim);
+            let unit = paint_quiet(painter, at, anchor, self.unit);
             at = unit.left_center() - gap;
             painter.text(at, anchor, &tick.label, theme::small_number(), palette.dim);
         } else {
             let number = painter.text(at, anchor, &tick.label, theme::small_number(), palette.dim);
             let at = number.right_center() + gap;
-            painter.text(at, Align2::LEFT_CENTER, self.unit, font, palette.dim);
+            paint_quiet(painter, at, Align2::LEFT_CENTER, self.unit);
         }
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{Color32, Mesh, Pos2, Rect, Vec2, pos2, vec2};
 
 use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d::{Relief3d, View3d};
+use selvedge_foundation::numerics::{to_byte, to_single};
 
 /// Room for the numbers around the block, points.
 const ROOM: Vec2 = vec2(64.0, 44.0);
@@ -32,16 +33,11 @@ pub(crate) struct Projection {
     middle_um: f32,
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "places on the screen")]
-fn single(x: f64) -> f32 {
-    x as f32
-}
-
 impl Projection {
     pub(crate) fn of(relief: &Relief3d, view: View3d, rect: Rect) -> Self {
-        let [u, w] = relief.size_mm().map(|mm| single(0.5 * mm).max(1e-6));
-        let rise = single(view.exaggeration * 1e-3);
-        let up = (0.5 * single(relief.relief_um()) * rise).max(LEAST_SIDE * u.max(w));
+        let [u, w] = relief.size_mm().map(|mm| to_single(0.5 * mm).max(1e-6));
+        let rise = to_single(view.exaggeration * 1e-3);
+        let up = (0.5 * to_single(relief.relief_um()) * rise).max(LEAST_SIDE * u.max(w));
         let (yaw, pitch) = (view.yaw_deg.to_radians(), view.pitch_deg.to_radians());
         let reach = u.hypot(w);
         let tall = reach * pitch.sin() + up * pitch.cos();
@@ -54,13 +50,13 @@ impl Projection {
             pitch: [pitch.cos(), pitch.sin()],
             half: [u, w, up],
             rise,
-            middle_um: single(0.5 * (relief.range_um[0] + relief.range_um[1])),
+            middle_um: to_single(0.5 * (relief.range_um[0] + relief.range_um[1])),
         }
     }
 
     /// A height as drawn, mm above the middle.
     pub(crate) fn up(&self, height_um: f64) -> f32 {
-        (single(height_um) - self.middle_um) * self.rise
+        (to_single(height_um) - self.middle_um) * self.rise
     }
 
     /// Turned about the vertical: to the right, and away from the viewer.
@@ -152,12 +148,7 @@ fn side(mesh: &mut Mesh, projection: &Projection, edge: &[[f32; 3]], colour: Col
 /// A colour under so much light.
 fn lit(colour: Color32, share: f32) -> Color32 {
     let [r, g, b, _] = colour.to_array();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a byte times a share"
-    )]
-    let [r, g, b] = [r, g, b].map(|c| (f32::from(c) * share.clamp(0.0, 1.0)) as u8);
+    let [r, g, b] = [r, g, b].map(|c| to_byte(f64::from(c) * f64::from(share.clamp(0.0, 1.0))));
     Color32::from_rgb(r, g, b)
 }
 
@@ -179,7 +170,7 @@ impl<'a> Places<'a> {
         Self {
             relief,
             projection,
-            step: [0, 1].map(|axis| single(size[axis] / spans[axis])),
+            step: [0, 1].map(|axis| to_single(size[axis] / spans[axis])),
             light: LIGHT.map(|x| x / length),
         }
     }
@@ -188,8 +179,8 @@ impl<'a> Places<'a> {
         let [u, w, _] = self.projection.half;
         let height_um = self.relief.heights_um.row(row)[column];
         [
-            single(column as f64) * self.step[0] - u,
-            single(row as f64) * self.step[1] - w,
+            to_single(column as f64) * self.step[0] - u,
+            to_single(row as f64) * self.step[1] - w,
             self.projection.up(height_um),
         ]
     }
@@ -201,7 +192,7 @@ impl<'a> Places<'a> {
         let [left, right] = [column.saturating_sub(1), (column + 1).min(width - 1)];
         let [below, above] = [row.saturating_sub(1), (row + 1).min(height - 1)];
         let up = |row: usize, column: usize| self.projection.up(heights.row(row)[column]);
-        let slope = |rise: f32, n: usize, step: f32| rise / (single(n.max(1) as f64) * step);
+        let slope = |rise: f32, n: usize, step: f32| rise / (to_single(n.max(1) as f64) * step);
         let p = slope(up(row, right) - up(row, left), right - left, self.step[0]);
         let q = slope(
             up(above, column) - up(below, column),

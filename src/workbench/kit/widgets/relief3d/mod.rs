@@ -19,9 +19,9 @@ use eframe::egui::{
 
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::relief3d::mesh::Projection;
-use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::slider_row;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, extent};
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::HeightMap;
 
@@ -56,12 +56,7 @@ impl Relief3d {
         let n = [heights_um.width(), heights_um.height()];
         let size_mm = map.size_mm();
         let step_mm = [0, 1].map(|axis| size_mm[axis] / n[axis] as f64);
-        let range_um = heights_um
-            .values()
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &z| {
-                [low.min(z), high.max(z)]
-            });
+        let range_um = extent(heights_um.values().iter().copied());
         let mut hasher = DefaultHasher::new();
         n.hash(&mut hasher);
         let numbers = heights_um.values().iter().chain(&step_mm);
@@ -161,17 +156,8 @@ pub(crate) fn relief3d(ui: &mut Ui, name: &str, relief: &Relief3d, view: View3d)
 }
 
 fn exaggeration_scale(relief: &Relief3d) -> Scale {
-    Scale {
-        least: 1.0,
-        most: MOST_EXAGGERATION,
-        resting: View3d::for_relief(relief).exaggeration,
-        step: 0.5,
-        decimals: 1,
-        unit: "×",
-        factor: 1.0,
-        noticed: None,
-        curve: Curve::Even,
-    }
+    let resting = View3d::for_relief(relief).exaggeration;
+    Scale::even([1.0, MOST_EXAGGERATION], resting, 0.5, (1, "×"))
 }
 
 /// What it shows, in words.

@@ -44,13 +44,13 @@ fn the_running_table_is_within_its_bound_and_the_reference_within_rounding() {
     watch(&mut accuracy, &mut window, 100);
     assert_eq!(accuracy.method(), Some(Method::Table));
     let bound_db = accuracy.bound_db;
-    assert!(bound_db > 1e-3 && bound_db <= 0.05, "{accuracy:?}");
+    assert!(bound_db > 1e-3 && bound_db <= 0.05, "{bound_db}");
     let table_db = largest_db(&accuracy);
     assert!(
         (10.0 * ROUNDING_DB..=bound_db).contains(&table_db),
         "{table_db}"
     );
-    assert_eq!(accuracy.tally().sampled, 100);
+    assert_eq!(accuracy.tally.sampled, 100);
     window.dispatch(rendering(Method::Reference, 0.05));
     watch(&mut accuracy, &mut window, 100);
     assert_eq!(accuracy.method(), Some(Method::Reference));
@@ -77,15 +77,15 @@ fn gains_masks_and_edits_on_their_way_are_left_out_and_never_errors() {
         Command::Undo,
     ];
     for act in acts {
-        let before = accuracy.tally();
+        let before = accuracy.tally;
         window.dispatch(act);
         // The engine has not heard of it yet; its last tick shows what was before.
         accuracy.last = None;
         accuracy.watch(&mut window.bench);
-        assert_eq!(accuracy.tally().changed, before.changed + 1);
-        assert_eq!(accuracy.tally().sampled, before.sampled);
+        assert_eq!(accuracy.tally.changed, before.changed + 1);
+        assert_eq!(accuracy.tally.sampled, before.sampled);
         watch(&mut accuracy, &mut window, 30);
-        assert_eq!(accuracy.tally().sampled, before.sampled + 30);
+        assert_eq!(accuracy.tally.sampled, before.sampled + 30);
     }
     assert!(
         largest_db(&accuracy) <= ROUNDING_DB,
@@ -117,16 +117,16 @@ fn nothing_is_sampled_at_rest_or_twice_and_a_reset_forgets() {
     window.bench.send(selvedge_engine::Command::Pause);
     watch(&mut accuracy, &mut window, 20);
     assert!(
-        accuracy.tally().sampled <= 21,
+        accuracy.tally.sampled <= 21,
         "a held tick once: {:?}",
-        accuracy.tally()
+        accuracy.tally
     );
     window.dispatch(PlayCommand::Source(crate::bench::command::PlaySource::Pointer).into());
     watch(&mut accuracy, &mut window, 20);
-    assert!(accuracy.tally().sampled <= 21, "nothing moves");
+    assert!(accuracy.tally.sampled <= 21, "nothing moves");
     accuracy.reset();
     accuracy.take_found();
-    assert_eq!(accuracy.tally(), Tally::default());
+    assert_eq!(accuracy.tally, Tally::default());
     assert_eq!(*accuracy.found(), ErrorView::default());
 }
 

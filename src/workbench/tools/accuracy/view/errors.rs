@@ -27,7 +27,7 @@ pub(crate) fn show(ui: &mut Ui, accuracy: &Accuracy, rendering: Rendering) {
             Method::Table => "Level error of table",
             Method::Auto => "Level error of auto",
         });
-    quiet_line(ui, title, &tally_words(found, accuracy.tally()));
+    quiet_line(ui, title, &tally_words(found, accuracy.tally));
     let height = (ui.available_height() - 3.0 * LINE).max(40.0);
     let size = vec2(ui.available_width(), height);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());

@@ -7,11 +7,12 @@ pub(crate) mod errors;
 pub(crate) mod numbers;
 pub(crate) mod pareto;
 
-use eframe::egui::{self, ComboBox, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
+use eframe::egui::{self, ComboBox, Layout, Rect, Ui, UiBuilder, vec2};
 
 use crate::bench::command::Command;
 use crate::bench::rendering::{MOST_BUDGET_DB, Rendering};
 use crate::bench::tool::PaneContext;
+use crate::kit::pane::scroll_area;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
@@ -42,10 +43,7 @@ pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, context: &mut PaneConte
         ui.advance_cursor_after_rect(rect);
         return;
     }
-    let area = ScrollArea::vertical()
-        .id_salt("accuracy")
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("accuracy").show(ui, |ui| {
         show_controls(ui, accuracy, context);
         let left_over = (size.y - ROW - 3.0 * STEP).max(LEAST);
         let size = vec2(ui.available_width(), left_over);
@@ -122,16 +120,10 @@ fn show_controls(ui: &mut Ui, accuracy: &Accuracy, context: &mut PaneContext<'_>
     let row = ui.horizontal(|ui| {
         show_method(ui, &mut wanted.method);
         ui.add_space(STEP);
+        let resting = Rendering::default().budget_db;
         let scale = Scale {
-            least: 0.0,
-            most: MOST_BUDGET_DB,
-            resting: Rendering::default().budget_db,
-            step: 0.01,
-            decimals: 4,
-            unit: "dB",
-            factor: 1.0,
-            noticed: None,
             curve: Curve::Decades(DECADES),
+            ..Scale::even([0.0, MOST_BUDGET_DB], resting, 0.01, (4, "dB"))
         };
         let slider = ui.add_enabled_ui(rendering.has_budget(), |ui| {
             let ink = Palette::in_ui(ui).text;

@@ -1,10 +1,10 @@
 //! Numbers of the pane as people read them, the lines that hold them, and how histograms stand.
 
-use eframe::egui::{Align2, Color32, Label, Margin, RichText, Sense, Ui, pos2, vec2};
+use eframe::egui::{Align2, Color32, Label, Margin, Sense, Ui, pos2, vec2};
 
 use crate::kit::plot::{Drag, Setting};
 use crate::kit::theme;
-use crate::kit::theme::Palette;
+use crate::kit::widgets::text::{paint_quiet, quiet};
 use selvedge_foundation::quantity;
 
 /// Height of a line, points.
@@ -42,7 +42,6 @@ pub(crate) fn level(db: f64) -> String {
 
 /// A line: a dim name on the left, numbers with their inks right-aligned, a unit behind them.
 pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: &str) {
-    let palette = Palette::in_ui(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
     let spoken: Vec<&str> = values.iter().map(|(value, _)| &**value).collect();
     let spoken = format!("{name} {} {unit}", spoken.join(", "));
@@ -51,20 +50,8 @@ pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: 
     });
     let y = rect.center().y;
     let painter = ui.painter();
-    painter.text(
-        pos2(rect.left(), y),
-        Align2::LEFT_CENTER,
-        name,
-        theme::small(),
-        palette.dim,
-    );
-    let unit_at = painter.text(
-        pos2(rect.right(), y),
-        Align2::RIGHT_CENTER,
-        unit,
-        theme::small(),
-        palette.dim,
-    );
+    paint_quiet(painter, pos2(rect.left(), y), Align2::LEFT_CENTER, name);
+    let unit_at = paint_quiet(painter, pos2(rect.right(), y), Align2::RIGHT_CENTER, unit);
     let mut right = rect.right() - unit_at.width().max(14.0) - 4.0;
     for (value, ink) in values.iter().rev() {
         let font = theme::small_number();
@@ -75,8 +62,7 @@ pub(crate) fn line(ui: &mut Ui, name: &str, values: &[(String, Color32)], unit: 
 
 /// A line of dim words that is cut where there is no room for all.
 pub(crate) fn quiet_line(ui: &mut Ui, words: &str, tip: &str) {
-    let ink = Palette::in_ui(ui).dim;
-    let words = RichText::new(words).font(theme::small()).color(ink);
+    let words = quiet(words);
     let label = ui.add(Label::new(words).truncate());
     if !tip.is_empty() {
         label.on_hover_text(tip);

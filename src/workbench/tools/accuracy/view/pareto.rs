@@ -1,16 +1,14 @@
 //! Every method on this very scene: error against time a tick, with those that nothing beats joined
 //! and the one that runs marked.
 
-use eframe::egui::{
-    Align, Layout, Margin, ProgressBar, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{Margin, ProgressBar, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use crate::bench::Bench;
 use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme::{Palette, ROW, STEP};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, line};
 use crate::tools::accuracy::measuring::Measured;
 use crate::tools::accuracy::sampling::Accuracy;
 use crate::tools::accuracy::view::numbers::{HISTOGRAM, LINE, quiet_line};
@@ -66,8 +64,7 @@ pub(crate) fn show(ui: &mut Ui, accuracy: &mut Accuracy, bench: &Bench) {
 }
 
 fn show_head(ui: &mut Ui, accuracy: &mut Accuracy, bench: &Bench) {
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, ROW, |ui| {
         if let Some(measuring) = &accuracy.measuring {
             if button(ui, "Stop", "Stop measuring", None) {
                 measuring.stop();

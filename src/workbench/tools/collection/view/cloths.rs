@@ -1,15 +1,15 @@
 //! Larger pieces of cloth to look through; only those in sight are read and drawn.
 
-use eframe::egui::{
-    self, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{self, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::view::ClothPicture;
+use crate::kit::pane::scroll_area;
+use crate::kit::swatch;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::paint_line;
-use crate::kit::{swatch, theme};
+use crate::kit::widgets::text::{paint_line, quiet, small};
 use crate::tools::collection::state::{CollectionView, Entry};
 use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
+use selvedge_foundation::numerics::to_index;
 
 /// Side of a piece of cloth, points.
 const SIDE: f32 = 112.0;
@@ -23,16 +23,10 @@ const WORDS: f32 = 44.0;
 /// Shows the pieces in rows.
 pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let room = ui.available_width() - 12.0;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few columns"
-    )]
-    let n_columns = (((room + GAP) / (SIDE + GAP)).floor() as usize).max(1);
+    let n_columns = to_index(f64::from((room + GAP) / (SIDE + GAP))).max(1);
     let rows: Vec<&[Entry<'_>]> = view.entries.chunks(n_columns).collect();
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    let area = ScrollArea::vertical().id_salt("cloths").auto_shrink(false);
-    area.show_rows(ui, SIDE + WORDS, rows.len(), |ui, range| {
+    scroll_area("cloths").show_rows(ui, SIDE + WORDS, rows.len(), |ui, range| {
         for row in &rows[range] {
             ui.horizontal(|ui| {
                 for entry in *row {
@@ -79,15 +73,7 @@ fn show_piece(ui: &mut Ui, entry: &Entry<'_>, picture: Option<ClothPicture>, han
     } else {
         "cannot be read"
     };
-    let lines = [
-        RichText::new(&entry.item.name)
-            .font(theme::small())
-            .color(ink),
-        RichText::new(kind).font(theme::small()).color(palette.dim),
-        RichText::new(structure)
-            .font(theme::small())
-            .color(palette.dim),
-    ];
+    let lines = [small(&entry.item.name, ink), quiet(kind), quiet(structure)];
     for (below, line) in [9.0, 23.0, 37.0].into_iter().zip(lines) {
         let at = pos2(square.left(), square.bottom() + below);
         paint_line(ui, at, SIDE, line);

@@ -1,13 +1,13 @@
 //! What stands over the views: which one, what is searched, which axes, which speed.
 
-use eframe::egui::{self, Align, Layout, RichText, TextEdit, Ui, vec2};
+use eframe::egui::{self, TextEdit, Ui};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::slider_row;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{line, named, quiet, toggle, toggles};
 use crate::tools::collection::listing::{Only, Sort, SortBy};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{Choice, CollectionView, Mode, SPEEDS_MM_PER_S};
@@ -32,7 +32,7 @@ const ORDERS: [(SortBy, &str); 7] = [
 /// Shows both rows.
 pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) {
     let choice = &mut hand.choice;
-    line(ui, |ui| {
+    head_line(ui, |ui| {
         show_modes(ui, choice);
         show_search(ui, &mut hand.search);
         show_kinds(ui, choice, view);
@@ -41,13 +41,12 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
         }
     });
     if choice.mode == Mode::Plot {
-        line(ui, |ui| show_axes(ui, choice, view));
+        head_line(ui, |ui| show_axes(ui, choice, view));
     }
 }
 
-fn line(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
-    let size = vec2(ui.available_width(), ROW + STEP);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+fn head_line(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    line(ui, ROW + STEP, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = 20.0;
         content(ui);
@@ -55,14 +54,11 @@ fn line(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 }
 
 fn show_modes(ui: &mut Ui, choice: &mut Choice) {
-    for (mode, name, tip) in [
+    let modes = [
         (Mode::Plot, "plot", "The library as points of a plot"),
         (Mode::Cloths, "cloths", "The library as pieces of cloth"),
-    ] {
-        if toggle(ui, name, choice.mode == mode, tip) {
-            choice.mode = mode;
-        }
-    }
+    ];
+    toggles(ui, &mut choice.mode, &modes);
     ui.add_space(STEP);
 }
 
@@ -73,8 +69,7 @@ fn show_search(ui: &mut Ui, search: &mut String) {
         .margin(egui::Margin::symmetric(6, 3))
         .hint_text("Search");
     let response = ui.add(field);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Search the collection"));
+    named(&response, "Search the collection");
 }
 
 fn show_kinds(ui: &mut Ui, choice: &mut Choice, view: &CollectionView<'_>) {
@@ -113,7 +108,7 @@ fn show_axes(ui: &mut Ui, choice: &mut Choice, view: &CollectionView<'_>) {
     let measures = view.measures();
     let palette = Palette::in_ui(ui);
     for (index, name) in [(1, "y"), (0, "x")] {
-        ui.label(RichText::new(name).font(theme::small()).color(palette.dim));
+        ui.label(quiet(name));
         let axis = &mut choice.axes[index];
         let text = axis.label(view.items);
         let label = ["Horizontal axis", "Vertical axis"][index];
@@ -143,14 +138,7 @@ fn show_axes(ui: &mut Ui, choice: &mut Choice, view: &CollectionView<'_>) {
 fn speed_scale() -> Scale {
     let [least, most] = SPEEDS_MM_PER_S;
     Scale {
-        least,
-        most,
-        resting: LEVEL_SPEED_MM_PER_S,
-        step: 1.0,
-        decimals: 0,
-        unit: "mm/s",
-        factor: 1.0,
-        noticed: None,
         curve: Curve::Decades((most / least).log10()),
+        ..Scale::even(SPEEDS_MM_PER_S, LEVEL_SPEED_MM_PER_S, 1.0, (0, "mm/s"))
     }
 }

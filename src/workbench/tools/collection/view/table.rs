@@ -1,13 +1,11 @@
 //! What is selected, in numbers; everything that is shown where nothing is selected.
 
-use eframe::egui::{
-    self, Align2, Color32, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2,
-    vec2,
-};
+use eframe::egui::{self, Align2, Color32, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
-use crate::kit::widgets::text::paint_line;
+use crate::kit::widgets::text::{paint_line, paint_quiet, small};
 use crate::tools::collection::listing::{Sort, SortBy, smd_um};
 use crate::tools::collection::measure::Measure;
 use crate::tools::collection::state::{CollectionView, Entry};
@@ -43,10 +41,7 @@ pub(crate) fn show(ui: &mut Ui, view: &CollectionView<'_>, hand: &mut Hand<'_>) 
     ui.painter().hline(head.x_range(), head.bottom(), line);
     ui.spacing_mut().item_spacing.y = 0.0;
     let listed = view.listed();
-    let rows = ScrollArea::vertical()
-        .id_salt("collected")
-        .auto_shrink(false);
-    rows.show_rows(ui, LINE, listed.len(), |ui, range| {
+    scroll_area("collected").show_rows(ui, LINE, listed.len(), |ui, range| {
         for entry in &listed[range] {
             show_row(ui, entry, view.choice.is_tuned, hand);
         }
@@ -94,7 +89,7 @@ fn show_heading(ui: &Ui, cell: Rect, column: usize, sort: &mut Sort) {
     let middle = cell.top() + 10.0;
     let text = painter.text(pos2(x, middle), anchor, name, theme::small(), ink);
     let below = pos2(x, middle + 13.0);
-    painter.text(below, anchor, unit, theme::small(), palette.dim);
+    paint_quiet(painter, below, anchor, unit);
     if is_sorted {
         let at = pos2(
             if decimals > 0 {
@@ -155,7 +150,7 @@ fn show_row(ui: &mut Ui, entry: &Entry<'_>, is_tuned: bool, hand: &mut Hand<'_>)
         } else {
             (palette.dim, 10.0)
         };
-        let text = RichText::new(text).font(theme::small()).color(ink);
+        let text = small(text, ink);
         let at = pos2(cell.left() + indent, cell.center().y);
         paint_line(ui, at, cell.width() - indent, text);
     }

@@ -1,14 +1,13 @@
 //! What is compared: which kind, and which two.
 
-use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
+use eframe::egui::{Label, Ui, vec2};
 
 use crate::bench::Bench;
 use crate::bench::recording::Recording;
 use crate::bench::tool::PaneContext;
-use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{line, paint_quiet, small, toggle, toggles};
 use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
 use crate::tools::compare::comparison::{Compare, Standing};
 use selvedge_foundation::quantity::fixed;
@@ -79,14 +78,9 @@ pub(crate) fn show(
 ) {
     let before = compare.choice.clone();
     let choice = &mut compare.choice;
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        for (what, name, tip) in KINDS {
-            if toggle(ui, name, before.what == what, tip) {
-                choice.what = what;
-            }
-        }
+        toggles(ui, &mut choice.what, &KINDS);
         ui.add_space(STEP);
         let take = context
             .bench
@@ -96,7 +90,7 @@ pub(crate) fn show(
             .map(Recording::name);
         show_status(ui, standing, route, take);
     });
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE;
         match before.what {
@@ -124,7 +118,7 @@ fn show_status(ui: &mut Ui, standing: &Standing, route: &Route, take: Option<&st
     let palette = Palette::in_ui(ui);
     let (words, is_odd) = status(standing, route, take);
     let ink = if is_odd { palette.text } else { palette.dim };
-    let words = RichText::new(words).font(theme::small()).color(ink);
+    let words = small(words, ink);
     let response = ui.add(Label::new(words).truncate());
     response.on_hover_text(match route {
         Route::Recording(_) => {
@@ -238,12 +232,10 @@ fn widths(ui: &Ui, n: u8, n_letters: u8) -> f32 {
 
 /// A list to choose from, named.
 fn combo(ui: &mut Ui, name: &str, width: f32, text: &str, content: impl FnOnce(&mut Ui)) {
-    let palette = Palette::in_ui(ui);
     let (cell, _) = ui.allocate_exact_size(vec2(14.0, LINE), eframe::egui::Sense::hover());
     let centre = eframe::egui::Align2::LEFT_CENTER;
     let at = cell.left_center();
-    ui.painter()
-        .text(at, centre, name, theme::small(), palette.dim);
+    paint_quiet(ui.painter(), at, centre, name);
     let label = match name {
         "at" => "Which textile is exchanged".to_owned(),
         side => format!("{side} of the comparison"),

@@ -11,6 +11,7 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::axis::Tick;
 use crate::kit::widgets::bar::colour_bar;
 use crate::kit::widgets::cells::{GAP, NUMBER_WIDTH, Places, TITLE};
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::compare::words::{
     alone_words, band_name, decimals_of, describe, scale_db, signed_db, unit_of,
 };
@@ -23,9 +24,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, found: &LevelDifference, context: &mut P
     let Some(grid) = context.scene.grid else {
         let at = rect.left_top();
         let words = "The contactors of this display form no grid";
-        let ink = Palette::in_ui(ui).dim;
-        let font = theme::small();
-        ui.painter().text(at, Align2::LEFT_TOP, words, font, ink);
+        paint_quiet(ui.painter(), at, Align2::LEFT_TOP, words);
         return;
     };
     let cells = &found.by_contactor;
@@ -139,7 +138,7 @@ fn paint_bar(painter: &Painter, bar: Rect, most_db: f64) {
         painter.text(at, Align2::LEFT_CENTER, digits, font, palette.dim);
     }
     let at = pos2(bar.left(), bar.top() - 11.0);
-    painter.text(at, Align2::LEFT_CENTER, unit, theme::small(), palette.dim);
+    paint_quiet(painter, at, Align2::LEFT_CENTER, unit);
 }
 
 fn words(index: usize, band: Band, tally: &Tally) -> String {

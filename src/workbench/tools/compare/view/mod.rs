@@ -11,6 +11,7 @@ use eframe::egui::{Align, Align2, Label, Layout, Rect, RichText, Ui, UiBuilder, 
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::small;
 use crate::tools::compare::comparison::{Compare, Standing};
 use crate::tools::compare::words::{band_name, summary};
 use selvedge_textile::tactile::Band;
@@ -94,9 +95,7 @@ fn show_line(ui: &mut Ui, line: Rect, band: Band, words: &str) {
     let font = theme::small();
     ui.painter()
         .text(at, Align2::LEFT_CENTER, band_name(band), font, ink);
-    let words = RichText::new(words)
-        .font(theme::small())
-        .color(palette.text);
+    let words = small(words, palette.text);
     let mut child = ui.new_child(
         UiBuilder::new()
             .max_rect(words_at)

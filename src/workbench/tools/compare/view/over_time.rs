@@ -8,13 +8,14 @@ use crate::bench::tool::PaneContext;
 use crate::bench::view::Source;
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
-use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::compare::choice::Route;
 use crate::tools::compare::comparison::Compare;
 use crate::tools::compare::export::over_time_chart;
 use crate::tools::compare::words::{band_name, decimals_of, signed_db};
 use selvedge_chart::{At, Band as Area, Chart, Extent, Ink, Rule, Weight};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity::{clock, fixed};
 use selvedge_render::LevelDifference;
 use selvedge_render::scene::TICKS_PER_S;
@@ -56,12 +57,8 @@ pub(crate) fn show(
     let just_noticed = noticed_db(found).map(|(_, db)| db).reduce(f64::min);
     if let Some(db) = just_noticed {
         let words = format!("JND ±{} (model)", fixed(db, 1));
-        let (at, ink) = (
-            shown.area().right_top() + vec2(-4.0, 1.0),
-            Palette::in_ui(ui).dim,
-        );
-        ui.painter()
-            .text(at, Align2::RIGHT_TOP, words, theme::small(), ink);
+        let at = shown.area().right_top() + vec2(-4.0, 1.0);
+        paint_quiet(ui.painter(), at, Align2::RIGHT_TOP, words);
     }
     let is_recorded = is_at_hand && matches!(route, Route::Recording(_));
     let play = context.bench.live.play;
@@ -156,12 +153,7 @@ fn answer(shown: Shown, found: &LevelDifference, is_recorded: bool, commands: &m
         return;
     };
     let [time_s, _] = shown.values_at(pointer);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "not below 0, and bounded next"
-    )]
-    let tick = (time_s * TICKS_PER_S).round().max(0.0) as u64;
+    let tick = to_index((time_s * TICKS_PER_S).round()) as u64;
     let tick = tick.min(found.n_ticks.saturating_sub(1));
     if shown.response.clicked() && is_recorded {
         commands.push(PlayCommand::ReplayAt(tick).into());

@@ -1,13 +1,14 @@
 //! The third step for strokes: every curve with what is marked of it, the evaluated section, and
 //! the figures of it.
 
-use eframe::egui::{Align, Align2, Layout, Margin, Rect, RichText, Ui, pos2, vec2};
+use eframe::egui::{Align2, Margin, Rect, Ui, pos2, vec2};
 
 use crate::kit::plot;
 use crate::kit::plot::{Setting, Shown};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::fields::form_line;
+use crate::kit::widgets::text::{paint_quiet, quiet, toggle};
 use crate::tools::import::draft::Draft;
 use crate::tools::import::envelope::Envelope;
 use crate::tools::import::view::section;
@@ -18,8 +19,6 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::surface::{Direction, HeightMap};
 use selvedge_textile::{KesImport, KesReading, KesStroke, Mark, MarkKind, TextileAxis};
 
-/// Height of the row of sections, points.
-const LINE: f32 = 22.0;
 /// Room around the curves: for numbers and names, and on the right for figures.
 const MARGIN: Margin = Margin {
     left: 44,
@@ -209,12 +208,7 @@ fn show_sections(
     axes: [Option<Ends>; 2],
     import: Option<&KesImport>,
 ) {
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
-        let dim = Palette::in_ui(ui).dim;
-        let quiet = |words: &str| RichText::new(words).font(theme::small()).color(dim);
+    form_line(ui, |ui| {
         for (index, (axis, name)) in [(TextileAxis::Warp, "warp"), (TextileAxis::Weft, "weft")]
             .into_iter()
             .enumerate()
@@ -222,7 +216,7 @@ fn show_sections(
             let Some(ends) = axes[index] else {
                 continue;
             };
-            ui.label(quiet(&format!("{name}, mm")));
+            ui.label(quiet(format!("{name}, mm")));
             let section = import.and_then(|import| import.section(axis));
             if let Some(wanted) = section::numbers(ui, name, ends, section) {
                 draft.looked.sections[index] = match wanted {
@@ -276,8 +270,7 @@ fn paint_figures(ui: &Ui, area: Rect, of: &str, figures: &[(&'static str, String
     for (name, value) in figures {
         let left = area.right() + 10.0;
         let painter = ui.painter();
-        let font = theme::small();
-        painter.text(pos2(left, y), Align2::LEFT_CENTER, name, font, palette.dim);
+        paint_quiet(painter, pos2(left, y), Align2::LEFT_CENTER, name);
         let right = pos2(right - 4.0, y);
         painter.text(
             right,

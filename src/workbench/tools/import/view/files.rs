@@ -1,13 +1,12 @@
 //! The first step: which files, and what each of them holds.
 
-use eframe::egui::{Align, Label, Layout, RichText, Ui, vec2};
+use eframe::egui::{Align, Label, Layout, Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::kit::drop::nothing_yet;
-use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{LINE, Need, choose, step_title};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, line, quiet, small, toggle, toggles};
 use crate::tools::import::Import;
 use crate::tools::import::draft::DraftFile;
 use crate::tools::import::work::Found;
@@ -111,12 +110,11 @@ fn show_file(ui: &mut Ui, nth: usize, file: &mut DraftFile, is_strokes: bool) ->
         if is_strokes {
             show_place(ui, nth, file);
         } else if let Some(n_bytes) = file.source.n_bytes() {
-            let size = RichText::new(size_words(n_bytes)).font(theme::small());
-            ui.label(size.color(palette.dim));
+            ui.label(quiet(size_words(n_bytes)));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let path = file.source.path().display().to_string();
-            let name = RichText::new(name).font(theme::small()).color(palette.text);
+            let name = small(name, palette.text);
             ui.add(Label::new(name).truncate()).on_hover_text(path);
         });
     });
@@ -147,15 +145,11 @@ fn show_place(ui: &mut Ui, nth: usize, file: &mut DraftFile) {
 
 /// What the files are taken for.
 fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        let palette = Palette::in_ui(ui);
-        let words = RichText::new("read as")
-            .font(theme::small())
-            .color(palette.dim);
+        let words = quiet("read as");
         ui.label(words);
-        for (value, word, tip) in [
+        let choices = [
             (None, "by content", "What the files are, their content says"),
             (
                 Some(Measurement::Strokes),
@@ -167,11 +161,8 @@ fn show_kind(ui: &mut Ui, kind: &mut Option<Measurement>) {
                 "heights",
                 "Read as a height map or a profile",
             ),
-        ] {
-            if toggle(ui, word, *kind == value, tip) {
-                *kind = value;
-            }
-        }
+        ];
+        toggles(ui, kind, &choices);
     });
 }
 

@@ -1,10 +1,10 @@
 //! The second step for measured heights: what the file says of them, and what it does not.
 
-use eframe::egui::{Align, Layout, Ui, vec2};
+use eframe::egui::Ui;
 
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, choose_of, note, row, text};
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{line, toggles};
 use crate::tools::import::Import;
 use crate::tools::import::draft::HeightsDraft;
 use crate::tools::import::failure::Failure;
@@ -165,7 +165,7 @@ fn show_layer(ui: &mut Ui, typed: &mut HeightsDraft, heights: Option<&Heights>) 
 /// Repeats, and how it is felt.
 fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
     row(ui, "felt", "", |ui, _| {
-        for (value, word, tip) in [
+        let choices = [
             (
                 Representation::Economical,
                 "along strokes",
@@ -176,14 +176,10 @@ fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
                 "at every point",
                 "Spectra at every point of the map, which becomes a part of the textile",
             ),
-        ] {
-            if toggle(ui, word, typed.representation == value, tip) {
-                typed.representation = value;
-            }
-        }
+        ];
+        toggles(ui, &mut typed.representation, &choices);
     });
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
+    line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.checkbox(&mut typed.is_periodic, "one repeat of the cloth")
             .on_hover_text("Strokes go on at the other side of the map; its tilt is not taken off");

@@ -1,12 +1,11 @@
 //! The fourth step: what the textile is called, what was measured on it, and keeping it.
 
-use eframe::egui::{Align, Layout, Response, RichText, Ui, vec2};
+use eframe::egui::{Response, Ui, vec2};
 
 use crate::bench::Bench;
-use crate::kit::theme;
-use crate::kit::theme::{Palette, STEP};
+use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, line, quiet, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::work::Found;
@@ -30,11 +29,10 @@ const MADE: [(Construction, &str); 4] = [
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, bench: &mut Bench) {
     let found = importing.found().cloned();
     let refusal = importing.refusal();
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE + 2.0), line, |ui| {
+    line(ui, LINE + 2.0, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         let width = (ui.available_width() - BUTTONS).max(80.0);
-        ui.allocate_ui_with_layout(vec2(width, LINE), line, |ui| {
+        ui.allocate_ui_with_layout(vec2(width, LINE), *ui.layout(), |ui| {
             ui.set_min_width(width);
             step_title(
                 ui,
@@ -157,8 +155,6 @@ fn named_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui, &Response)) 
 
 /// Figures that were measured elsewhere.
 fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
-    let palette = Palette::in_ui(ui);
-    let quiet = |words: &str| RichText::new(words).font(theme::small()).color(palette.dim);
     let mut gone = None;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(STEP, STEP);

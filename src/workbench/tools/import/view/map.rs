@@ -1,19 +1,21 @@
 //! The third step for a height map: its relief, and the places where strokes cross on it.
 
 use eframe::egui::{
-    Align, Align2, CursorIcon, DragValue, Label, Layout, Rect, RichText, ScrollArea, Sense, Stroke,
-    Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, CursorIcon, DragValue, Label, Rect, RichText, ScrollArea, Sense, Stroke, Ui, UiBuilder,
+    WidgetInfo, pos2, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::axis::{Axis, Side, paint_outer_ticks};
+use crate::kit::widgets::fields::form_line;
 use crate::kit::widgets::relief::{BAR_ROOM, Relief, paint_height_bar};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, named, paint_quiet, quiet, toggle};
 use crate::tools::import::Import;
-use crate::tools::import::draft::Looked;
+use crate::tools::import::draft::EvaluationDraft;
 use crate::tools::import::work::Heights;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::surface::{Probe, Representation};
 
@@ -39,7 +41,7 @@ const NEXT: [[f64; 2]; 5] = [
 
 /// Shows the step.
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: ColourMap) {
-    let Some(relief) = heights.relief.as_deref() else {
+    let Some(relief) = &heights.relief else {
         return;
     };
     let whole = ui.available_rect_before_wrap().intersect(ui.clip_rect());
@@ -77,8 +79,8 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: 
 
 /// The places of the map and of the list: side by side where the map leaves room.
 fn split(whole: Rect, relief: &Relief, n_places: usize) -> (Rect, Rect) {
-    let [u_mm, w_mm] = relief.size_mm();
-    let width = share(u_mm / w_mm) * (whole.height() - BELOW) + LEFT + BAR_ROOM + 24.0;
+    let [u_mm, w_mm] = relief.size_mm;
+    let width = to_single(u_mm / w_mm) * (whole.height() - BELOW) + LEFT + BAR_ROOM + 24.0;
     if width + LIST <= whole.width() {
         return whole.split_left_right_at_x(whole.left() + width);
     }
@@ -88,7 +90,7 @@ fn split(whole: Rect, relief: &Relief, n_places: usize) -> (Rect, Rect) {
 }
 
 fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
-    let [u_mm, w_mm] = relief.size_mm();
+    let [u_mm, w_mm] = relief.size_mm;
     let painter = ui.painter();
     let (u, w) = (Axis::linear(0.0, u_mm), Axis::linear(0.0, w_mm));
     paint_outer_ticks(
@@ -103,20 +105,19 @@ fn paint_axes(ui: &Ui, rect: Rect, relief: &Relief) {
         (&w, Side::Left),
         &w.ticks(rect.height(), 36.0),
     );
-    let palette = Palette::in_ui(ui);
     let words = "warp, mm; weft upwards";
     let at = pos2(rect.right(), rect.bottom() + 16.0);
-    painter.text(at, Align2::RIGHT_TOP, words, theme::small(), palette.dim);
-    let n_missing = relief.n_missing();
+    paint_quiet(painter, at, Align2::RIGHT_TOP, words);
+    let n_missing = relief.n_missing;
     if n_missing > 0 {
         let words = format!("hatched: {n_missing} points missing");
         let at = pos2(rect.left(), rect.bottom() + 16.0);
-        painter.text(at, Align2::LEFT_TOP, words, theme::small(), palette.dim);
+        paint_quiet(painter, at, Align2::LEFT_TOP, words);
     }
 }
 
 /// The places in mm; the middle if none was said.
-fn places_of(looked: &Looked, size_mm: [f64; 2]) -> Vec<[f64; 2]> {
+fn places_of(looked: &EvaluationDraft, size_mm: [f64; 2]) -> Vec<[f64; 2]> {
     if looked.places.is_empty() {
         return vec![size_mm.map(|mm| 0.5 * mm)];
     }
@@ -129,8 +130,14 @@ fn within(place_mm: [f64; 2], size_mm: [f64; 2]) -> [f64; 2] {
 }
 
 /// The strokes on the map: crosses that are dragged; a double click adds one.
-fn show_places(ui: &Ui, rect: Rect, relief: &Relief, looked: &mut Looked, is_felt_along: bool) {
-    let size_mm = relief.size_mm();
+fn show_places(
+    ui: &Ui,
+    rect: Rect,
+    relief: &Relief,
+    looked: &mut EvaluationDraft,
+    is_felt_along: bool,
+) {
+    let size_mm = relief.size_mm;
     let mm_at = |at: eframe::egui::Pos2| {
         let share = (at - rect.min) / rect.size();
         let place = [
@@ -165,8 +172,8 @@ fn show_places(ui: &Ui, rect: Rect, relief: &Relief, looked: &mut Looked, is_fel
     }
     for (nth, place_mm) in places.iter_mut().enumerate() {
         let at = pos2(
-            rect.left() + share(place_mm[0] / size_mm[0]) * rect.width(),
-            rect.bottom() - share(place_mm[1] / size_mm[1]) * rect.height(),
+            rect.left() + to_single(place_mm[0] / size_mm[0]) * rect.width(),
+            rect.bottom() - to_single(place_mm[1] / size_mm[1]) * rect.height(),
         );
         let grip = Rect::from_center_size(at, vec2(20.0, 20.0));
         let grip = ui.interact(grip, ui.scope_id().with(("place", nth)), Sense::drag());
@@ -186,11 +193,6 @@ fn show_places(ui: &Ui, rect: Rect, relief: &Relief, looked: &mut Looked, is_fel
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-fn share(share: f64) -> f32 {
-    share as f32
-}
-
 /// A cross with the width of the wire, and its number.
 fn paint_place(
     ui: &Ui,
@@ -202,8 +204,8 @@ fn paint_place(
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(rect.expand(1.0));
     let half_mm = 0.5 * Probe::default().width_mm;
-    let half_y = share(half_mm / size_mm[1]) * rect.height();
-    let half_x = share(half_mm / size_mm[0]) * rect.width();
+    let half_y = to_single(half_mm / size_mm[1]) * rect.height();
+    let half_x = to_single(half_mm / size_mm[0]) * rect.width();
     let wire = palette.selection.gamma_multiply(0.16);
     for band in [
         Rect::from_x_y_ranges(rect.x_range(), at.y - half_y..=at.y + half_y),
@@ -237,15 +239,14 @@ fn show_list(
     ui: &mut Ui,
     relief: &Relief,
     (heights, is_felt_along): (&Heights, bool),
-    looked: &mut Looked,
+    looked: &mut EvaluationDraft,
 ) {
     ui.spacing_mut().item_spacing.y = STEP;
     if !is_felt_along {
         let words = "Felt at every point of the map; the cross only says where SMD is read.";
-        let dim = Palette::in_ui(ui).dim;
-        ui.label(RichText::new(words).font(theme::small()).color(dim));
+        ui.label(quiet(words));
     }
-    let size_mm = relief.size_mm();
+    let size_mm = relief.size_mm;
     let mut places = places_of(looked, size_mm);
     let before = places.clone();
     let mut gone = None;
@@ -294,13 +295,8 @@ fn show_place(
         Option<&Result<std::sync::Arc<selvedge_textile::HeightPlace>, String>>,
     ),
 ) -> bool {
-    let dim = Palette::in_ui(ui).dim;
     let mut is_gone = false;
-    let line = Layout::left_to_right(Align::Center);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), line, |ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        ui.spacing_mut().interact_size.y = LINE - 2.0;
-        let quiet = |words: String| RichText::new(words).font(theme::small()).color(dim);
+    form_line(ui, |ui| {
         ui.label(quiet(if n > 1 {
             format!("place {}", nth + 1)
         } else {
@@ -312,8 +308,7 @@ fn show_place(
                 .fixed_decimals(2);
             let response = ui.add(value.range(0.0..=size_mm[axis]));
             let label = format!("Place {} {name} in mm", nth + 1);
-            ui.ctx()
-                .accesskit_node_builder(response.id, |node| node.set_label(label));
+            named(&response, label);
         }
         ui.label(quiet("mm".to_owned()));
         ui.add_space(2.0 * STEP);
@@ -323,8 +318,7 @@ fn show_place(
                 let smd = with_unit(place.smd_um(), 2, "µm");
                 let label = ui.label(RichText::new(smd.clone()).font(theme::number()));
                 let described = format!("Place {} SMD {smd}", nth + 1);
-                ui.ctx()
-                    .accesskit_node_builder(label.id, |node| node.set_label(described));
+                named(&label, described);
             }
             Some(Err(words)) => {
                 ui.add(Label::new(quiet(words.clone())).truncate())

@@ -6,7 +6,7 @@ use eframe::egui::{CursorIcon, DragValue, Rect, Response, Sense, Stroke, Ui, Wid
 use crate::kit::plot::Shown;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::slider::key_steps;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{named, toggle};
 use selvedge_textile::KesSection;
 use selvedge_textile::surface::WINDOW_LENGTH_MM;
 
@@ -121,8 +121,7 @@ pub(crate) fn numbers(
         let value = DragValue::new(&mut mm).speed(0.02).fixed_decimals(2);
         let response = ui.add(value.range(ends.covered_mm[0]..=ends.covered_mm[1]));
         let label = format!("{name} section {word} in mm");
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_label(label));
+        named(&response, label);
         if response.changed() {
             wanted = Some(Wish::Section(ends.with_end(end, mm)));
         }

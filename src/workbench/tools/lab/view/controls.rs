@@ -5,11 +5,13 @@ use eframe::egui::{self, Align, ComboBox, Layout, RichText, ScrollArea, Ui, Widg
 use crate::bench::Bench;
 use crate::bench::command::lab::Beginning;
 use crate::bench::library_view::LibraryView;
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
+use crate::kit::widgets::text::{line, named, quiet, small};
 use crate::tools::lab::state::{Lab, Page};
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::{family, keep, parts, recipe};
+use crate::tools::lab::view::{family, keep, recipe};
 use selvedge_textile::RECIPES;
 
 /// Height of a list of textiles in a menu, points.
@@ -17,9 +19,7 @@ const LIST: f32 = 320.0;
 
 /// Shows the controls.
 pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
-    let line = Layout::left_to_right(Align::Center);
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, line, |ui| {
+    line(ui, ROW, |ui| {
         if let Some(beginning) = show_beginnings(ui, &bench.library.view) {
             lab.begin_with(bench, beginning);
         }
@@ -27,15 +27,12 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
             show_steps(ui, lab);
         });
     });
-    ui.allocate_ui_with_layout(size, line, |ui| show_pages(ui, &mut lab.page));
+    line(ui, ROW, |ui| show_pages(ui, &mut lab.page));
     ui.add_space(STEP);
     if lab.steps.is_none() {
         return;
     }
-    let area = ScrollArea::vertical()
-        .id_salt(("lab controls", lab.page as usize))
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area(("lab controls", lab.page as usize)).show(ui, |ui| {
         // The bar of the scroll has room of its own: nothing lies under it.
         ui.set_max_width(ui.available_width() - 10.0);
         match lab.page {
@@ -103,7 +100,7 @@ fn list(ui: &mut Ui, salt: &str, libraries: &LibraryView) -> Option<String> {
 fn show_steps(ui: &mut Ui, lab: &mut Lab) {
     let steps = lab.steps.as_ref();
     let list = steps.map(Steps::list).unwrap_or_default();
-    let is_changed = steps.is_some_and(|steps| steps.now() != steps.first());
+    let is_changed = steps.is_some_and(|steps| steps.recipe.draft != steps.recipe.first);
     // From the right.
     let start = is_changed.then(|| "Back to the start".to_owned());
     let redo = list.redo().map(|step| format!("Redo in the lab: {step}"));
@@ -133,12 +130,12 @@ fn show_steps(ui: &mut Ui, lab: &mut Lab) {
 
 /// What is edited: the name of the recipe and its kind.
 pub(crate) fn show_name(ui: &mut Ui, steps: Option<&Steps>) {
-    let Some(manifest) = steps.and_then(|steps| steps.first().read().ok()) else {
+    let Some(manifest) = steps.and_then(|steps| steps.recipe.first.read().ok()) else {
         return;
     };
     let kind = manifest.source.kind();
     let words = format!("{} · {kind}", manifest.name);
-    let text = parts::small(&words, Palette::in_ui(ui).text);
+    let text = small(&words, Palette::in_ui(ui).text);
     let tip = "What the recipe began with";
     ui.label(text).on_hover_text(tip);
     ui.add_space(2.0 * STEP);
@@ -168,8 +165,7 @@ fn show_pages(ui: &mut Ui, shown: &mut Page) {
 
 /// What the recipe is compared with.
 pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
-    let palette = Palette::in_ui(ui);
-    ui.label(parts::small("compare with", palette.dim));
+    ui.label(quiet("compare with"));
     let compared = lab.compared.as_ref();
     let name = compared.map_or("nothing", |compared| compared.name.as_str());
     let combo = ComboBox::from_id_salt("lab compared")
@@ -195,8 +191,7 @@ pub(crate) fn show_compared(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     if let Some(id) = wanted {
         lab.compare_with(bench, id);
     }
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label("Compared with"));
+    named(&response, "Compared with");
     let tip = "A textile of the library, drawn as a thin grey curve";
     response.on_hover_text(tip);
 }

@@ -5,13 +5,13 @@ use eframe::egui::{ComboBox, RichText, Ui};
 use crate::bench::Bench;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::row;
+use crate::kit::widgets::text::named;
+use crate::kit::widgets::text::{quiet, row};
 use crate::tools::lab::family::FamilyFields;
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
 use crate::tools::lab::view::keep::{refusal, show_fields};
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::{complaint, wide_button};
 use crate::tools::lab::view::rows;
 use selvedge_foundation::quantity;
@@ -24,9 +24,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         return;
     };
     let plan = &mut lab.plan;
-    let palette = Palette::in_ui(ui);
     let words = "Several textiles that differ in one parameter, evenly apart";
-    ui.label(parts::small(words, palette.dim));
+    ui.label(quiet(words));
     ui.add_space(STEP);
     let unit = show_parameters(ui, steps, plan);
     rows::short_field(ui, ("First value", unit), &mut plan.ends[0]);
@@ -61,7 +60,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     show_fields(ui, lab, &keep, bench);
     ui.add_space(STEP);
     let last = format!("{}-1 … {}-{n}", keep.id.trim(), keep.id.trim());
-    ui.label(parts::small(&last, palette.dim));
+    ui.label(quiet(&last));
     let numbered = KeepFields {
         id: format!("{}-1", keep.id.trim()),
         ..keep
@@ -79,16 +78,14 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
 
 /// The parameter that varies; says its unit.
 fn show_parameters(ui: &mut Ui, steps: &Steps, plan: &mut FamilyFields) -> &'static str {
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let groups = groups(draft.kind());
-    let named = |title: &'static str, parameter: &Parameter| format!("{title}: {}", parameter.name);
     let numbers: Vec<(String, Parameter)> = groups
         .iter()
         .flat_map(|group| {
-            group
-                .parameters
-                .iter()
-                .map(|one| (named(group.title, one), *one))
+            let name = |one: &Parameter| format!("{}: {}", group.title, one.name);
+            let all = group.parameters.iter();
+            all.map(move |one| (name(one), *one))
         })
         .filter(|(_, parameter)| is_number(parameter) && draft.value(parameter.place).is_some())
         .collect();
@@ -107,9 +104,7 @@ fn show_parameters(ui: &mut Ui, steps: &Steps, plan: &mut FamilyFields) -> &'sta
                     }
                 }
             });
-        let label = "Parameter that varies";
-        ui.ctx()
-            .accesskit_node_builder(list.response.id, |node| node.set_label(label));
+        named(&list.response, "Parameter that varies");
     });
     match chosen.map(|(_, parameter)| parameter.kind) {
         Some(ParameterKind::Number { unit, .. } | ParameterKind::Optional { unit, .. }) => unit,
@@ -134,7 +129,7 @@ fn show_members(ui: &mut Ui, family: &crate::tools::lab::family::Family) {
         });
         let name = format!("{nth}  {}", member.label);
         row(ui, &name, |ui| {
-            ui.label(parts::small("dB", palette.dim));
+            ui.label(quiet("dB"));
             for (band, words) in db.iter().rev() {
                 let text = RichText::new(words).font(theme::number());
                 ui.label(text.color(palette.band(*band)));

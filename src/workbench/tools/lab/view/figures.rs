@@ -1,12 +1,13 @@
 //! Figures of a surface, beside them those of what it is compared with.
 
-use eframe::egui::{Align, Layout, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{Align, Layout, RichText, Ui, vec2};
 
+use crate::kit::pane::scroll_area;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::text::{line, named, quiet};
 use crate::tools::lab::preview::{Preview, Shown};
 use crate::tools::lab::state::Lab;
-use crate::tools::lab::view::parts;
 use selvedge_foundation::quantity;
 
 /// Height of a row, points.
@@ -18,19 +19,15 @@ const NUMBER: f32 = 62.0;
 
 /// Shows the figures.
 pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
-    let palette = Palette::in_ui(ui);
     let compared = lab.compared.as_ref();
     let others = compared.map(|compared| compared.felt.figures());
     let head = compared.map_or_else(
         || "figures".to_owned(),
         |compared| format!("figures · grey: {}", compared.name),
     );
-    ui.add(eframe::egui::Label::new(parts::small(&head, palette.dim)).truncate());
+    ui.add(eframe::egui::Label::new(quiet(&head)).truncate());
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::vertical()
-        .id_salt("lab figures")
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("lab figures").show(ui, |ui| {
         ui.set_max_width(ui.available_width().min(380.0));
         for shown in preview.figures() {
             let others = others.unwrap_or_default();
@@ -55,13 +52,11 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab, preview: &Preview) {
 )]
 fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<String>)) {
     let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), ROW);
-    let line = Layout::left_to_right(Align::Center);
-    let response = ui.allocate_ui_with_layout(size, line, |ui| {
+    let response = line(ui, ROW, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        ui.label(parts::small(shown.name, palette.dim));
+        ui.label(quiet(shown.name));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            cell(ui, UNIT, Align::Min, parts::small(shown.unit, palette.dim));
+            cell(ui, UNIT, Align::Min, quiet(shown.unit));
             let number = |value: f64| {
                 let digits = quantity::fixed(value, shown.decimals);
                 RichText::new(digits).font(theme::number())
@@ -73,7 +68,7 @@ fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<S
             let value = number(shown.value).color(palette.text);
             cell(ui, NUMBER, Align::Max, value);
             if let Some(note) = note {
-                ui.label(parts::small(&note, palette.dim));
+                ui.label(quiet(&note));
             }
         });
     });
@@ -83,8 +78,7 @@ fn row(ui: &mut Ui, shown: &Shown, (other, note): (Option<Option<f64>>, Option<S
         quantity::with_unit(shown.value, shown.decimals, shown.unit)
     );
     let response = response.response;
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     response.on_hover_text(shown.what);
 }
 

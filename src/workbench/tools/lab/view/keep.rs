@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use crate::bench::Bench;
-use crate::kit::theme::{Palette, STEP};
+use crate::kit::theme::STEP;
+use crate::kit::widgets::text::quiet;
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::state::Lab;
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::{complaint, wide_button};
 use crate::tools::lab::view::rows;
 
@@ -17,7 +17,6 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     };
     show_fields(ui, lab, &recipe.fields, bench);
     ui.add_space(STEP);
-    let palette = Palette::in_ui(ui);
     let from = recipe.parent.as_ref().map_or_else(
         || "Made from nothing but its recipe".to_owned(),
         |parent| {
@@ -26,8 +25,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         },
     );
     let tip = "The manifest names the textile that this one was made from, and the program";
-    ui.label(parts::small(&from, palette.dim))
-        .on_hover_text(tip);
+    ui.label(quiet(&from)).on_hover_text(tip);
     ui.add_space(2.0 * STEP);
     let wrong = recipe.fields.refusal();
     if let Some(words) = &wrong {

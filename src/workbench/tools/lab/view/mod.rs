@@ -17,16 +17,16 @@ pub(crate) mod weave;
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Align, Layout, ProgressBar, Rect, ScrollArea, Stroke, Ui, vec2};
+use eframe::egui::{self, Align, Layout, ProgressBar, Rect, Stroke, Ui, vec2};
 
 use crate::bench::Bench;
 use crate::bench::latest::Standing;
-use crate::kit::pane::paint_sentence;
+use crate::kit::pane::{paint_sentence, scroll_area};
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, line, quiet, small};
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Lab;
-use crate::tools::lab::view::parts::{small, within};
+use crate::tools::lab::view::parts::within;
 
 /// Width of the parameters, points.
 const CONTROLS: f32 = 330.0;
@@ -68,8 +68,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
 /// The line over the plots: what is shown, how it stands to the recipe, what it is compared with.
 fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), LINE);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, LINE, |ui| {
         controls::show_name(ui, lab.steps.as_ref());
         controls::show_compared(ui, lab, bench);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -81,7 +80,7 @@ fn show_standing(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
                     .desired_width(72.0)
                     .desired_height(4.0);
                 ui.add(bar);
-                ui.label(small("computing", palette.dim));
+                ui.label(quiet("computing"));
                 return;
             }
             let standing = lab.standing();
@@ -122,10 +121,7 @@ fn show_plots(ui: &mut Ui, lab: &mut Lab, bench: &Bench) {
     } else {
         room.y.max(LEAST)
     };
-    let area = ScrollArea::vertical()
-        .id_salt("lab plots")
-        .auto_shrink(false);
-    area.show(ui, |ui| {
+    scroll_area("lab plots").show(ui, |ui| {
         let size = vec2(ui.available_width(), height - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
         if lab.standing() != Standing::Fresh {

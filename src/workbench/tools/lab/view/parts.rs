@@ -1,10 +1,9 @@
 //! Small pieces that the views of the lab share.
 
-use eframe::egui::{self, Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
+use eframe::egui::{self, Align, Layout, Rect, Ui, UiBuilder, vec2};
 
-use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
-use crate::kit::widgets::text::button;
+use crate::kit::widgets::text::{button, quiet, small};
 
 /// Shows something in a part of the pane.
 pub(crate) fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
@@ -18,16 +17,10 @@ pub(crate) fn within<R>(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui) -
     .inner
 }
 
-/// Small words.
-pub(crate) fn small(words: &str, ink: egui::Color32) -> RichText {
-    RichText::new(words).font(theme::small()).color(ink)
-}
-
 /// The quiet title over a plot; says where the plot begins.
 pub(crate) fn title(ui: &Ui, rect: Rect, words: &str) -> Rect {
-    let palette = Palette::in_ui(ui);
     let at = rect.left_top() + vec2(0.0, 0.5 * ROW - 5.0);
-    let text = small(words, palette.dim);
+    let text = quiet(words);
     crate::kit::widgets::text::paint_line(ui, at, rect.width(), text);
     rect.with_min_y(rect.top() + 18.0)
 }

@@ -2,19 +2,20 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{
-    self, Align2, Color32, Mesh, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
-};
+use eframe::egui::{self, Align2, Painter, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::signals::spatial::{DENSITIES_DB, density_db};
+use crate::kit::texture::{WHOLE, paint};
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, paint_unit, round_step};
+use crate::kit::widgets::axis::{Axis, Side, Tick, paint_outer_ticks, round_step};
 use crate::kit::widgets::bar::colour_bar;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::lab::pictures::wavenumbers;
 use crate::tools::lab::preview::Preview;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::view::parts::title;
+use selvedge_foundation::numerics::{extent, to_index, to_single};
 use selvedge_foundation::quantity;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, LocalSpectra};
 
@@ -45,11 +46,7 @@ pub(crate) fn show_relief(ui: &Ui, rect: Rect, lab: &mut Lab, preview: &Arc<Prev
     } else {
         (size_mm[1] * width / height, size_mm[1])
     };
-    let share = |mm: f64, of: f64| -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "a share, for the screen")]
-        let share = (mm / of) as f32;
-        share
-    };
+    let share = |mm: f64, of: f64| to_single(mm / of);
     let along = along.min(size_mm[0]);
     let from = lab.look.from_mm.min(size_mm[0] - along).max(0.0);
     let shown = vec2(area.width(), area.height());
@@ -58,16 +55,10 @@ pub(crate) fn show_relief(ui: &Ui, rect: Rect, lab: &mut Lab, preview: &Arc<Prev
         pos2(share(from, size_mm[0]), 1.0 - share(across, size_mm[1])),
         pos2(share(from + along, size_mm[0]), 1.0),
     );
-    let mut mesh = Mesh::with_texture(texture.id());
-    mesh.add_rect_with_uv(picture, uv, Color32::WHITE);
-    ui.painter().add(Shape::mesh(mesh));
+    paint(ui.painter(), picture, uv, texture);
     paint_ruler(ui.painter(), picture, along);
     let heights = preview.relief.heights_um().values();
-    let (least, most) = heights
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(least, most), height| {
-            (least.min(*height), most.max(*height))
-        });
+    let [least, most] = extent(heights.iter().copied());
     response.on_hover_text(format!(
         "Heights from {} to {}; warp to the right, weft upwards",
         quantity::with_unit(least, 0, "µm"),
@@ -78,8 +69,7 @@ pub(crate) fn show_relief(ui: &Ui, rect: Rect, lab: &mut Lab, preview: &Arc<Prev
 /// A length in millimetres at the lower left.
 fn paint_ruler(painter: &Painter, picture: Rect, along_mm: f64) {
     let length_mm = round_step(along_mm / 6.0);
-    #[expect(clippy::cast_possible_truncation, reason = "a length, for the screen")]
-    let length = (length_mm / along_mm) as f32 * picture.width();
+    let length = to_single(length_mm / along_mm) * picture.width();
     let left = picture.left_bottom() + vec2(10.0, -10.0);
     let palette = Palette::of(painter.ctx().theme());
     let tick = Tick::number(length_mm);
@@ -122,12 +112,9 @@ pub(crate) fn show_spectra(
     }
     let spectra = preview.felt.surface.spectra(direction);
     let texture = lab.pictures.spectra(ui.ctx(), spectra, map);
-    let mut mesh = Mesh::with_texture(texture.id());
-    let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let floor = Palette::in_ui(ui).floor;
     ui.painter().rect_filled(area, 0, floor);
-    mesh.add_rect_with_uv(area, all, Color32::WHITE);
-    ui.painter().add(Shape::mesh(mesh));
+    paint(ui.painter(), area, WHOLE, texture);
     paint_axes(ui.painter(), area, spectra);
     paint_bar(ui.painter(), (area, below), map);
     describe(response, area, direction, spectra);
@@ -139,12 +126,12 @@ fn paint_axes(painter: &Painter, area: Rect, spectra: &LocalSpectra) {
     let ticks = axis.ticks(area.height(), 20.0);
     paint_outer_ticks(painter, area, (&axis, Side::Left), &ticks);
     let corner = area.left_top() + vec2(-24.0, -3.0);
-    paint_unit(painter, corner, Align2::LEFT_BOTTOM, "cycles/mm");
+    paint_quiet(painter, corner, Align2::LEFT_BOTTOM, "cycles/mm");
     let places = Axis::linear(0.0, spectra.shape()[0] as f64);
     let ticks = places.ticks(area.width(), 50.0);
     paint_outer_ticks(painter, area, (&places, Side::Bottom), &ticks);
     let corner = area.right_bottom() + vec2(4.0, 14.0);
-    paint_unit(painter, corner, Align2::LEFT_BOTTOM, "mm");
+    paint_quiet(painter, corner, Align2::LEFT_BOTTOM, "mm");
 }
 
 fn paint_bar(painter: &Painter, (area, whole): (Rect, Rect), map: ColourMap) {
@@ -155,7 +142,7 @@ fn paint_bar(painter: &Painter, (area, whole): (Rect, Rect), map: ColourMap) {
     let ticks = axis.ticks(bar.height(), 22.0);
     paint_outer_ticks(painter, bar, (&axis, Side::Right), &ticks);
     let corner = pos2(whole.right(), bar.top() - 3.0);
-    paint_unit(painter, corner, Align2::RIGHT_BOTTOM, "dB");
+    paint_quiet(painter, corner, Align2::RIGHT_BOTTOM, "dB");
 }
 
 fn describe(response: egui::Response, area: Rect, direction: Direction, spectra: &LocalSpectra) {
@@ -165,14 +152,8 @@ fn describe(response: egui::Response, area: Rect, direction: Direction, spectra:
     let wavenumber = wavenumbers().value_at_y(area.y_range(), at.y);
     let [n_along, n_across] = spectra.shape();
     let places = Axis::linear(0.0, n_along as f64);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "within the picture"
-    )]
-    let whole = |x: f64| x.max(0.0) as usize;
-    let point = whole(places.value_at_x(area.x_range(), at.x)).min(n_along.saturating_sub(1));
-    let bin = whole((wavenumber / BIN_SPACING_PER_MM).round()).clamp(1, spectra.n_bins());
+    let point = to_index(places.value_at_x(area.x_range(), at.x)).min(n_along.saturating_sub(1));
+    let bin = to_index((wavenumber / BIN_SPACING_PER_MM).round()).clamp(1, spectra.n_bins());
     let powers = spectra.powers_um2(n_along * (n_across / 2) + point);
     let level = density_db(powers[bin - 1] / BIN_SPACING_PER_MM);
     let words = format!(

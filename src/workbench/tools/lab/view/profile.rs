@@ -1,14 +1,13 @@
 //! The heights along one stroke, in travel order: what a probe reads.
 
 use eframe::egui::{Margin, Rect, Ui};
+use selvedge_foundation::numerics::extent;
 
 use crate::kit::plot;
 use crate::kit::plot::{Drag, Setting, Shown};
-use crate::kit::theme::Palette;
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{quiet, toggle};
 use crate::tools::lab::preview::{Felt, Preview};
 use crate::tools::lab::state::{Lab, Look};
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::within;
 use selvedge_chart::{Axis, Chart, Ink, Series, Style, Weight};
 use selvedge_textile::surface::{Direction, Profile};
@@ -62,9 +61,7 @@ fn held_um(lab: &Lab, felt: &Felt) -> Option<[f64; 2]> {
     let felt = std::iter::once(felt).chain(compared);
     let profiles = felt.filter_map(|felt| felt.profile(lab.look.direction));
     let heights = profiles.flat_map(|profile| profile.heights_um().iter().copied());
-    let ends = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
-        [low.min(height), high.max(height)]
-    });
+    let ends = extent(heights);
     let span = ends[1] - ends[0];
     if !span.is_finite() {
         return lab.heights_um;
@@ -113,9 +110,8 @@ pub(crate) fn chart(lab: &Lab, felt: &Felt) -> Chart {
 
 /// Which stroke, and how much of it.
 fn show_head(ui: &mut Ui, look: &mut Look) {
-    let palette = Palette::in_ui(ui);
     ui.horizontal(|ui| {
-        ui.label(parts::small("profile", palette.dim));
+        ui.label(quiet("profile"));
         for (direction, letters) in
             Direction::ALL
                 .into_iter()

@@ -1,12 +1,10 @@
 //! The parameters of a recipe, group by group.
 
-use eframe::egui::{CollapsingHeader, RichText, Ui};
+use eframe::egui::{CollapsingHeader, Ui};
 
-use crate::kit::theme;
-use crate::kit::theme::Palette;
+use crate::kit::widgets::text::quiet;
 use crate::tools::lab::state::Lab;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::parts;
 use crate::tools::lab::view::parts::complaint;
 use crate::tools::lab::view::rows;
 use selvedge_foundation::files::KeyValue;
@@ -25,7 +23,7 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
     let Some(steps) = &lab.steps else {
         return changes;
     };
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let fault = steps.fault();
     if let Some(fault) = fault.filter(|fault| fault.place.is_none()) {
         complaint(ui, &fault.message);
@@ -34,10 +32,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &Lab) -> Vec<Change> {
         let is_faulty =
             |parameter: &Parameter| fault.is_some_and(|fault| fault.place == Some(parameter.place));
         let has_fault = group.parameters.iter().any(is_faulty);
-        let palette = Palette::in_ui(ui);
         let mark = if has_fault { " ·  wrong value" } else { "" };
-        let title = RichText::new(format!("{}{mark}", group.title));
-        let title = title.font(theme::small()).color(palette.dim);
+        let title = quiet(format!("{}{mark}", group.title));
         let header = CollapsingHeader::new(title)
             .id_salt((draft.kind().to_owned(), group.title))
             .default_open(is_short(&group));
@@ -94,13 +90,12 @@ fn is_short(group: &Group) -> bool {
 }
 
 fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<Change> {
-    let draft = steps.now();
+    let draft = &steps.recipe.draft;
     let is_of_table = matches!(parameter.kind, ParameterKind::Template { .. })
         || draft.has_table(parameter.place.table);
     if !is_of_table {
         if let Some(words) = rows::missing(parameter) {
-            let palette = Palette::in_ui(ui);
-            ui.label(parts::small(words, palette.dim));
+            ui.label(quiet(words));
         }
         return None;
     }

@@ -1,18 +1,17 @@
 //! One parameter in a row: a slider, words to choose from, numbers to type.
 
 use eframe::egui::{
-    self, Align, Color32, ComboBox, Layout, Response, RichText, Sense, TextEdit, Ui, WidgetInfo,
-    vec2,
+    self, Align, Color32, ComboBox, Layout, Response, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW};
+use crate::kit::widgets::fields::typed_field;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, row, toggle};
+use crate::kit::widgets::text::{button, line, named, quiet, row, toggle};
 use crate::tools::lab::family::key_value;
 use crate::tools::lab::steps::Steps;
-use crate::tools::lab::view::parts;
 use selvedge_foundation::files::{KeyValue, Keys};
 use selvedge_textile::{Draft, Parameter, Place, example_templates};
 
@@ -47,8 +46,8 @@ pub(crate) fn number(
     parameter: &Parameter,
     range: Range,
 ) -> Option<KeyValue> {
-    let value = steps.now().number(parameter.place)?;
-    let first = steps.first().number(parameter.place).unwrap_or(value);
+    let value = steps.recipe.draft.number(parameter.place)?;
+    let first = steps.recipe.first.number(parameter.place).unwrap_or(value);
     let scale = scale(range, first, value);
     let palette = Palette::in_ui(ui);
     let is_changed = (value - first).abs() > 1e-12;
@@ -129,7 +128,7 @@ pub(crate) fn optional(
     parameter: &Parameter,
     (range, instead_of): (Range, &'static str),
 ) -> Option<Option<KeyValue>> {
-    if steps.now().value(parameter.place).is_some() {
+    if steps.recipe.draft.value(parameter.place).is_some() {
         let new = number(ui, steps, parameter, range);
         if new.is_some() || !instead_of.is_empty() {
             return new.map(Some);
@@ -149,7 +148,12 @@ pub(crate) fn optional(
         ..parameter.place
     };
     let [least, most] = range.ends;
-    let begin = steps.now().number(other).unwrap_or(1.0).clamp(least, most);
+    let begin = steps
+        .recipe
+        .draft
+        .number(other)
+        .unwrap_or(1.0)
+        .clamp(least, most);
     is_wanted.then(|| Some(key_value(begin, range.is_whole)))
 }
 
@@ -183,8 +187,7 @@ pub(crate) fn combo<'a>(
             }
         });
         let label = parameter.name;
-        ui.ctx()
-            .accesskit_node_builder(list.response.id, |node| node.set_label(label));
+        named(&list.response, label);
     });
     describe(&response, parameter, None);
     chosen
@@ -229,13 +232,12 @@ pub(crate) fn list(
     parameter: &Parameter,
     (unit, is_whole): (&str, bool),
 ) -> Option<KeyValue> {
-    let palette = Palette::in_ui(ui);
     let values = draft.value(parameter.place)?.as_array()?;
     let texts: Vec<String> = values.iter().map(ToString::to_string).collect();
     let text = texts.join("  ");
     let head = format!("{} ({} values)", parameter.name, values.len());
     let response = row(ui, &head, |ui| {
-        ui.label(parts::small(unit, palette.dim));
+        ui.label(quiet(unit));
     });
     describe(&response, parameter, None);
     let typed = field(ui, parameter, (&text, f32::INFINITY))?;
@@ -304,57 +306,36 @@ pub(crate) fn field(
     (now, width): (&str, f32),
 ) -> Option<String> {
     let id = ui.scope_id().with(("field", parameter.place));
-    let editing: Option<String> = ui.data(|data| data.get_temp(id));
-    let mut text = editing.unwrap_or_else(|| now.to_owned());
-    let edit = TextEdit::singleline(&mut text)
-        .id(id)
-        .font(theme::number())
-        .desired_width(width)
-        .margin(egui::Margin::symmetric(6, 3));
-    let response = ui.add(edit);
-    let label = parameter.name;
-    ui.ctx()
-        .accesskit_node_builder(id, |node| node.set_label(label));
-    if response.lost_focus() {
-        ui.data_mut(|data| data.remove::<String>(id));
-        let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
-        return (!is_cancelled && text != now).then_some(text);
-    }
-    if response.has_focus() {
-        ui.data_mut(|data| data.insert_temp(id, text));
-    }
-    None
+    typed_field(ui, id, (parameter.name, now), |edit| {
+        edit.desired_width(width)
+            .margin(egui::Margin::symmetric(6, 3))
+    })
 }
 
 /// A name before a field of words, below each other.
 pub(crate) fn named_field(ui: &mut Ui, name: &str, text: &mut String) -> Response {
-    let palette = Palette::in_ui(ui);
-    ui.label(parts::small(name, palette.dim));
+    ui.label(quiet(name));
     let edit = TextEdit::singleline(text)
         .desired_width(f32::INFINITY)
         .margin(egui::Margin::symmetric(6, 4));
     let response = ui.add(edit);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    named(&response, name);
     response
 }
 
 /// A short field with a name before it, in a row.
 pub(crate) fn short_field(ui: &mut Ui, (name, unit): (&str, &str), text: &mut String) {
-    let palette = Palette::in_ui(ui);
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+    line(ui, ROW, |ui| {
         ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(RichText::new(unit).font(theme::small()).color(palette.dim));
+            ui.label(quiet(unit));
             let edit = TextEdit::singleline(text)
                 .font(theme::number())
                 .desired_width(84.0)
                 .margin(egui::Margin::symmetric(6, 3));
             let response = ui.add(edit);
             response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, name));
-            ui.ctx()
-                .accesskit_node_builder(response.id, |node| node.set_label(name));
+            named(&response, name);
         });
     });
 }

@@ -7,6 +7,7 @@ use eframe::egui::{Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::view::rows::combo;
 use selvedge_foundation::files::KeyValue;
+use selvedge_foundation::numerics::to_index;
 use selvedge_textile::{Draft, INTERLACINGS, Parameter};
 
 /// What the list says of rows that are no named interlacing.
@@ -95,12 +96,7 @@ fn paper(ui: &mut Ui, rows: &[Vec<bool>]) -> Option<[usize; 2]> {
         }
     }
     let cell_at = |at: eframe::egui::Pos2| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "within the paper"
-        )]
-        let whole = |x: f32| (x / cell).floor().max(0.0) as usize;
+        let whole = |x: f32| to_index(f64::from(x / cell));
         let (pick, end) = (whole(rect.bottom() - at.y), whole(at.x - rect.left()));
         [pick.min(rows.len() - 1), end.min(n_ends - 1)]
     };

@@ -11,10 +11,12 @@ use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d;
 use crate::kit::widgets::relief3d::View3d;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::picture::found::{Cloth, Found, Made};
 use crate::tools::picture::state::Picture;
 use crate::tools::picture::textures::Textures;
 use crate::tools::picture::view::{frame, plots};
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
 /// Distance of cards and height of their titles, points.
@@ -65,18 +67,11 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
     let is_past = picture.standing() != Standing::Fresh;
     let is_same_file = |found: &&Found| found.inputs.source == picture.draft.source;
     let found = found.as_deref().filter(is_same_file);
-    let palette = Palette::in_ui(ui);
     for (card, title) in TITLES.iter().enumerate() {
         let place = vec2((card % columns) as f32, (card / columns) as f32);
         let at = whole.min + place * (size + vec2(GAP, GAP));
         let rect = Rect::from_min_size(at, size);
-        ui.painter().text(
-            rect.min,
-            Align2::LEFT_TOP,
-            *title,
-            theme::small(),
-            palette.dim,
-        );
+        paint_quiet(ui.painter(), rect.min, Align2::LEFT_TOP, *title);
         let room = rect.with_min_y(rect.top() + TITLE);
         let mut child = ui.new_child(UiBuilder::new().max_rect(room).id_salt(title));
         child.set_clip_rect(room.expand(4.0).intersect(ui.clip_rect()));
@@ -139,13 +134,7 @@ fn nothing(ui: &Ui, room: Rect, words: &str) {
     let palette = Palette::in_ui(ui);
     ui.painter().rect_filled(room, 2, palette.raised);
     let centre = room.center();
-    ui.painter().text(
-        centre,
-        Align2::CENTER_CENTER,
-        words,
-        theme::small(),
-        palette.dim,
-    );
+    paint_quiet(ui.painter(), centre, Align2::CENTER_CENTER, words);
 }
 
 /// The matrix with its maxima, the most dominant ones numbered, and the lattice vectors.
@@ -160,8 +149,7 @@ fn correlation(
     let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
     let palette = Palette::of(painter.ctx().theme());
     let px = rect.width() / (2 * radius + 1) as f32;
-    #[expect(clippy::cast_possible_truncation, reason = "places on the screen")]
-    let at = |[x, y]: [f64; 2]| rect.center() + vec2(x as f32, y as f32) * px;
+    let at = |[x, y]: [f64; 2]| rect.center() + vec2(to_single(x), to_single(y)) * px;
     for (nth, (place, _)) in cloth.maxima.iter().take(N_MAXIMA).enumerate() {
         for place in [*place, place.map(|x| -x)] {
             painter.circle_stroke(at(place), 3.0, Stroke::new(1.0, palette.rim));

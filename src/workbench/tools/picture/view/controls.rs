@@ -1,15 +1,15 @@
 //! The steps: what is chosen and typed, and what came of it in words.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::Ui;
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::latest::Standing;
-use crate::kit::theme;
+use crate::bench::source_file::SourceFile;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
 use crate::tools::picture::state::Picture;
@@ -58,7 +58,7 @@ fn show_picture(
     commands: &mut Commands,
 ) {
     let source = picture.draft.source.as_ref();
-    let name = source.map(|chosen| chosen.file().name());
+    let name = source.map(SourceFile::name);
     step_title(ui, 1, "File and scale", &name.unwrap_or_default());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
@@ -79,14 +79,11 @@ fn show_picture(
     row_of(ui, NAME, ("scale", ""), |ui, label| {
         let need = Need::of(draft.px_per_mm().is_none());
         text(ui, label, &mut draft.scale, ("600", NUMBER, need));
-        for (unit, word, tip) in [
+        let choices = [
             (ScaleUnit::Dpi, "dpi", "Dots to an inch, as scanners count"),
             (ScaleUnit::PxPerMm, "px/mm", "Pixels to a millimetre"),
-        ] {
-            if toggle(ui, word, draft.unit == unit, tip) {
-                draft.unit = unit;
-            }
-        }
+        ];
+        toggles(ui, &mut draft.unit, &choices);
     });
     let size = found
         .and_then(|found| found.loaded.as_deref())
@@ -148,20 +145,6 @@ fn slider(ui: &mut Ui, name: &str, scale: Scale, value: f64) -> Option<f64> {
     slider_row_as(ui, (name, ink), (shape, scale), value).0
 }
 
-fn scale_of([least, most]: [f64; 2], resting: f64, unit: &'static str) -> Scale {
-    Scale {
-        least,
-        most,
-        resting,
-        step: 1.0,
-        decimals: 0,
-        unit,
-        factor: 1.0,
-        noticed: None,
-        curve: Curve::Even,
-    }
-}
-
 /// Directions, lattice and tile.
 fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
     let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
@@ -220,15 +203,10 @@ fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
             ""
         },
     );
+    let resting = directions.lambda_per_px;
     let scale = Scale {
-        least: 0.02,
-        most: 5.0,
-        resting: directions.lambda_per_px,
-        step: 0.01,
-        decimals: 2,
-        unit: "1/px",
         curve: Curve::Decades(2.4),
-        ..scale_of([0.02, 5.0], 0.5, "1/px")
+        ..Scale::even([0.02, 5.0], resting, 0.01, (2, "1/px"))
     };
     let now = draft.lambda.unwrap_or(directions.lambda_per_px);
     if let Some(lambda) = slider(ui, "λ", scale, now) {
@@ -269,13 +247,13 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
             let slant = slider(
                 ui,
                 "slant",
-                scale_of([5.0, 80.0], 45.0, "°"),
+                Scale::even([5.0, 80.0], 45.0, 1.0, (0, "°")),
                 light.slant_deg,
             );
             let tilt = slider(
                 ui,
                 "tilt",
-                scale_of([-180.0, 180.0], 90.0, "°"),
+                Scale::even([-180.0, 180.0], 90.0, 1.0, (0, "°")),
                 light.tilt_deg,
             );
             if slant.is_some() || tilt.is_some() {
@@ -326,10 +304,6 @@ fn show_trust(ui: &mut Ui, shaped: &Shaped) {
         .estimate
         .as_ref()
         .map_or("", |estimate| &estimate.words);
-    let palette = Palette::in_ui(ui);
     let words = format!("{} {more}", shaped.shape.reliability);
-    let words = RichText::new(words.trim())
-        .font(theme::small())
-        .color(palette.dim);
-    ui.add(eframe::egui::Label::new(words).wrap());
+    paragraph(ui, quiet(words.trim()));
 }

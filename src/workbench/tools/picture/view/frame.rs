@@ -4,6 +4,7 @@ use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, 
 
 use crate::kit::theme::Palette;
 use crate::tools::picture::draft::Part;
+use selvedge_foundation::numerics::{to_index, to_single};
 
 /// Half the width of a handle, points.
 const GRIP: f32 = 7.0;
@@ -53,20 +54,11 @@ fn region_of(ends: [f64; 4], size: [f64; 2]) -> [usize; 4] {
         [low.round(), high.round() - low.round()]
     };
     let ([x, w], [y, h]) = (side(0), side(1));
-    [x, y, w, h].map(|n| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "inside a picture"
-        )]
-        let n = n as usize;
-        n
-    })
+    [x, y, w, h].map(to_index)
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
 fn on_screen(rect: Rect, size: [f64; 2], [x, y]: [f64; 2]) -> Pos2 {
-    let share = vec2((x / size[0]) as f32, (y / size[1]) as f32);
+    let share = vec2(to_single(x / size[0]), to_single(y / size[1]));
     rect.min + share * rect.size()
 }
 

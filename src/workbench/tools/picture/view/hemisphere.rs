@@ -5,6 +5,7 @@ use eframe::egui::{Color32, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::kit::theme::Palette;
 use crate::kit::widgets::slider::key_steps;
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 use selvedge_textile::picture::shading::Light;
 
@@ -38,8 +39,7 @@ pub(crate) fn show(ui: &mut Ui, light: Light) -> Option<Light> {
         painter.circle_stroke(centre, ring, Stroke::new(1.0, palette.hairline));
     }
     painter.circle_stroke(centre, radius, Stroke::new(1.0, palette.line));
-    #[expect(clippy::cast_possible_truncation, reason = "degrees, for the screen")]
-    let [slant, tilt] = [light.slant_deg, light.tilt_deg].map(|deg| deg.to_radians() as f32);
+    let [slant, tilt] = [light.slant_deg, light.tilt_deg].map(|deg| to_single(deg.to_radians()));
     let out = radius * slant.sin();
     let at = pos2(centre.x + out * tilt.cos(), centre.y - out * tilt.sin());
     painter.line_segment([centre, at], Stroke::new(1.0, palette.line));

@@ -5,7 +5,7 @@ use eframe::egui::{Button, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
-use crate::kit::widgets::text::{button, toggle};
+use crate::kit::widgets::text::{button, toggles};
 use crate::tools::picture::draft::{Draft, Known};
 use crate::tools::picture::found::Step;
 use crate::tools::picture::state::Picture;
@@ -24,7 +24,6 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
     show_height(ui, &mut picture.draft);
     let own = picture.draft.own_name();
     row_of(ui, 44.0, ("name", ""), |ui, label| {
-        let felt = &mut picture.draft.representation;
         let width = ui.available_width() - 96.0;
         text(
             ui,
@@ -32,7 +31,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
             &mut picture.draft.name,
             (&own, width, Need::Optional),
         );
-        for (value, word, tip) in [
+        let choices = [
             (
                 Representation::Economical,
                 "strokes",
@@ -43,11 +42,8 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
                 "area",
                 "Felt at every point of the relief",
             ),
-        ] {
-            if toggle(ui, word, *felt == value, tip) {
-                *felt = value;
-            }
-        }
+        ];
+        toggles(ui, &mut picture.draft.representation, &choices);
     });
     let refusal = picture.refusal();
     ui.horizontal(|ui| {
@@ -87,7 +83,7 @@ fn show_height(ui: &mut Ui, draft: &mut Draft) {
     row_of(ui, 44.0, ("height", "µm"), |ui, label| {
         let need = Need::of(draft.height_scale().is_none());
         text(ui, label, &mut draft.height, ("80", 72.0, need));
-        for (known, word, tip) in [
+        let choices = [
             (
                 Known::Relief,
                 "relief",
@@ -98,10 +94,7 @@ fn show_height(ui: &mut Ui, draft: &mut Draft) {
                 "SMD",
                 "The roughness that the surface tester reads",
             ),
-        ] {
-            if toggle(ui, word, draft.known == known, tip) {
-                draft.known = known;
-            }
-        }
+        ];
+        toggles(ui, &mut draft.known, &choices);
     });
 }

@@ -1,6 +1,7 @@
 //! Curves of the pane: directions over angle, and the four strokes.
 
 use eframe::egui::{Margin, Rect, Ui};
+use selvedge_foundation::numerics::extent;
 
 use crate::kit::plot;
 use crate::kit::plot::Setting;
@@ -32,9 +33,7 @@ pub(crate) fn directions(ui: &Ui, rect: Rect, directions: &Directions) {
 /// The four strokes, on one scale, each on its own line.
 pub(crate) fn strokes(ui: &Ui, rect: Rect, made: &Made) {
     let all = made.profiles.iter().flat_map(|(_, heights, _)| heights);
-    let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
-        [low.min(*z), high.max(*z)]
-    });
+    let ends = extent(all.copied());
     let n = made.profiles.len();
     let foot = f32::from(MARGIN.bottom);
     let height = (rect.height() - foot) / n.max(1) as f32;
@@ -44,7 +43,7 @@ pub(crate) fn strokes(ui: &Ui, rect: Rect, made: &Made) {
         let is_last = nth + 1 == n;
         let chart = Chart {
             x: Axis::linear("place, mm").within([0.0, SHOWN_MM]),
-            y: Axis::linear("height, µm").within([low, high]),
+            y: Axis::linear("height, µm").within(ends),
             series: vec![Series {
                 name: direction.label().to_owned(),
                 points: points.take_while(|[mm, _]| *mm <= SHOWN_MM).collect(),

@@ -1,17 +1,16 @@
 //! The points of a textile's profiles, 1 mm apart: one small picture of a point, tiled over the
 //! cloth, so that a thousand points cost as much as one.
 
-use std::fmt;
-
 use eframe::egui::{
     Color32, ColorImage, Context, Painter, Rect, Shape, TextureFilter, TextureHandle,
     TextureOptions, TextureWrapMode, pos2,
 };
 
 use crate::bench::view::Cloth;
-use crate::kit::swatch::{narrow, tiled};
+use crate::kit::swatch::tiled;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::arrange::{screen_bounds, screen_corners};
+use selvedge_foundation::numerics::{to_byte, to_single};
 
 /// Points nearer to one another than this are not drawn, points of the screen.
 const LEAST_STEP: f64 = 6.0;
@@ -52,7 +51,7 @@ impl Lattice {
     /// Draws the points of a textile, if there is room for them.
     pub(crate) fn paint(&self, painter: &Painter, view: &ViewTransform, cloth: &Cloth) {
         let bounds = screen_bounds(view, cloth);
-        if !has_room(view.points_per_mm()) || !painter.clip_rect().intersects(bounds) {
+        if !has_room(view.points_per_mm) || !painter.clip_rect().intersects(bounds) {
             return;
         }
         let step = view.length(1.0) * painter.ctx().pixels_per_point();
@@ -61,22 +60,13 @@ impl Lattice {
         let Some(picture) = self.pictures.get(place) else {
             return;
         };
-        let [width, height] = cloth.size_mm.map(narrow);
+        let [width, height] = cloth.size_mm.map(to_single);
         // A picture has its point in the middle, and point 0 lies on the edge of the cloth.
         let corners = screen_corners(view, cloth);
         let from = pos2(0.5, 0.5);
         let uv = Rect::from_min_max(from, pos2(width + 0.5, height + 0.5));
         let mesh = tiled(corners, uv, picture.id(), Color32::WHITE);
         painter.add(Shape::mesh(mesh));
-    }
-}
-
-impl fmt::Debug for Lattice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let n_pictures = self.pictures.len();
-        f.debug_struct("Lattice")
-            .field("n_pictures", &n_pictures)
-            .finish()
     }
 }
 
@@ -92,12 +82,8 @@ fn picture(side: u8) -> ColorImage {
         let white = STRENGTHS[0] * point;
         let dark = STRENGTHS[1] * rim;
         let opacity = dark + white * (1.0 - dark);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "0 to 255, rounded"
-        )]
-        let [grey, alpha] = [white, opacity].map(|share| (255.0 * share).round() as u8);
+        let [grey, alpha] =
+            [white, opacity].map(|share| to_byte(f64::from((255.0 * share).round())));
         Color32::from_rgba_premultiplied(grey, grey, grey, alpha.max(grey))
     };
     let side = usize::from(side);

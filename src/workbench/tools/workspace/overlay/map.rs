@@ -2,10 +2,11 @@
 //! that says which colour is how much.
 
 use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureId, pos2, vec2};
+use selvedge_foundation::numerics::to_single;
 
 use crate::bench::probe::Probe;
 use crate::bench::view::Cloth;
-use crate::kit::swatch::{narrow, tiled};
+use crate::kit::swatch::tiled;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
@@ -34,7 +35,7 @@ pub(crate) fn paint(
     // The cell of point i reaches from half a millimetre before it to half a millimetre behind.
     let share = |axis: usize, place_mm: f64| {
         let n_points = n_points[axis].max(1) as f64;
-        narrow((place_mm + 0.5) / n_points)
+        to_single((place_mm + 0.5) / n_points)
     };
     let [width, height] = cloth.size_mm;
     let uv = Rect::from_min_max(
@@ -118,7 +119,7 @@ pub(crate) fn words_at(stage: &Stage<'_>, index: usize, cloth: &Cloth, place: Po
         .layers
         .maps
         .amplitude_um(index, [own.x_mm, own.y_mm]);
-    let Some((band, amplitude_um)) = stage.state.overlays.map().zip(found) else {
+    let Some((band, amplitude_um)) = stage.state.overlays.map.zip(found) else {
         return String::new();
     };
     format!(

@@ -11,16 +11,15 @@ pub(crate) use crate::tools::workspace::overlay::motion::paint_readings;
 pub(crate) use crate::tools::workspace::overlay::motion::paint_velocities;
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{Button, Painter, PopupCloseBehavior, RichText, Ui, vec2};
+use eframe::egui::{Button, Painter, PopupCloseBehavior, Ui, vec2};
 
 use crate::bench::command::ShowCommand;
 use crate::bench::keys::hint;
 use crate::bench::overlays::{Overlay, Overlays};
 use crate::bench::view::Cloth;
-use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
-use crate::kit::widgets::text::tick_box;
+use crate::kit::widgets::text::{quiet, small, tick_box};
 use crate::tools::workspace::stage::Stage;
 
 /// Height of the buttons in the row of tabs, points.
@@ -34,7 +33,7 @@ pub(crate) fn paint_on_cloth(
     (index, cloth): (usize, &Cloth),
 ) {
     let overlays = stage.state.overlays;
-    if overlays.map().is_some()
+    if overlays.map.is_some()
         && let Some(picture) = stage.sight.layers.maps.picture(index)
     {
         map::paint(painter, view, cloth, picture);
@@ -49,7 +48,7 @@ pub(crate) fn show_menu(ui: &mut Ui, overlays: &mut Overlays, points_per_mm: f64
     let palette = Palette::in_ui(ui);
     let is_any = *overlays != Overlays::default();
     let ink = if is_any { palette.text } else { palette.dim };
-    let text = RichText::new("Overlay").font(theme::small()).color(ink);
+    let text = small("Overlay", ink);
     let button = Button::selectable(is_any, text).min_size(vec2(56.0, BUTTON));
     let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let shown = *overlays;
@@ -65,8 +64,7 @@ pub(crate) fn show_menu(ui: &mut Ui, overlays: &mut Overlays, points_per_mm: f64
             }
         }
         let words = "Maps are after gains, at the velocity chosen in the Response pane";
-        let text = RichText::new(words).font(theme::small());
-        ui.label(text.color(Palette::in_ui(ui).dim));
+        ui.label(quiet(words));
     });
     response.on_hover_text("What is drawn over the cloth: points, readings, velocities, maps");
 }
@@ -74,8 +72,6 @@ pub(crate) fn show_menu(ui: &mut Ui, overlays: &mut Overlays, points_per_mm: f64
 /// Says why the points are not to be seen.
 fn show_hint(ui: &mut Ui, points_per_mm: f64) {
     if !lattice::has_room(points_per_mm) {
-        let text = RichText::new("Come closer: there are less than 6 pixels to a mm");
-        let text = text.font(theme::small());
-        ui.label(text.color(Palette::in_ui(ui).dim));
+        ui.label(quiet("Come closer: there are less than 6 pixels to a mm"));
     }
 }

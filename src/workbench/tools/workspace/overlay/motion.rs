@@ -4,9 +4,9 @@
 //! and weft dim, forward solid and reverse dashed.
 
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2, vec2};
+use selvedge_foundation::numerics::to_single;
 
 use crate::bench::overlays::Overlay;
-use crate::kit::swatch::narrow;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::stage::Stage;
@@ -212,6 +212,6 @@ impl Brush<'_> {
 
 /// A velocity's direction on the screen, where y points down; its length means nothing.
 pub(crate) fn on_screen(velocity: Velocity) -> Vec2 {
-    let [x, y] = [velocity.x_mm_per_s, -velocity.y_mm_per_s].map(narrow);
+    let [x, y] = [velocity.x_mm_per_s, -velocity.y_mm_per_s].map(to_single);
     vec2(x, y)
 }
