@@ -131,7 +131,7 @@ impl Tool for Experiment {
 
     fn begin(&mut self, bench: &mut Bench) {
         let preferences = &bench.settings.preferences;
-        let (folder, design) = (&preferences.folders.sessions, &preferences.design);
+        let (folder, design) = (&preferences.folders.sessions, &preferences.folders.design);
         self.form.take_up(folder.as_deref(), design.as_deref());
     }
 
@@ -195,7 +195,7 @@ impl Tool for Experiment {
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
         preferences.folders.sessions = self.form.kept_folder();
-        preferences.design = self.form.study.chosen().word();
+        preferences.folders.design = self.form.study.chosen().word();
     }
 }
 
