@@ -55,6 +55,7 @@ pub(crate) mod selection;
 pub(crate) mod session;
 pub(crate) mod settings;
 pub(crate) mod signals;
+pub(crate) mod sound;
 pub(crate) mod source_change;
 pub(crate) mod source_file;
 pub(crate) mod sources;

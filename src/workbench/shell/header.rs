@@ -16,6 +16,7 @@ use crate::kit::widgets::text::{button, mark};
 use crate::shell::menu::{
     Appearance, show_edit_menu, show_help_menu, show_scene_menu, show_view_menu,
 };
+use selvedge_engine::SoundState;
 
 /// What also stands in a menu has no room in a narrower window, points: whether the device is armed
 /// and what Esc does is always seen.
@@ -55,6 +56,7 @@ pub(crate) fn show(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             show_escape(ui, bench, commands);
             show_armed(ui, &bench.live);
+            show_sound(ui, bench, commands);
             ui.add_space(2.0 * STEP);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 show_name(ui, scene);
@@ -152,6 +154,46 @@ fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let response = ui.add_enabled(is_enabled, Button::new(text).min_size(size));
     let response = response.on_disabled_hover_text("Nothing moves by itself");
     if response.on_hover_text(tip).clicked() {
+        commands.push(command);
+    }
+}
+
+/// Whether what is felt is heard; grey, with the reason, where it cannot be.
+fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
+    let palette = Palette::in_ui(ui);
+    let is_on = bench.settings.preferences.sound.is_on;
+    let command: Command = ShowCommand::ToggleSound.into();
+    let key = hint(ui.ctx(), &command);
+    let state = bench.device.sound.state();
+    let (icon, ink, tip) = match (is_on, &state) {
+        (true, Some(SoundState::Absent(why))) => ("🔇", palette.dim, format!("Not heard: {why}")),
+        (true, _) => (
+            "🔊",
+            palette.text,
+            format!(
+                "What is felt is heard, 40 Hz made audible by overtones. Off: {key}. \
+                 Louder, quieter, as driven: View, Sound"
+            ),
+        ),
+        (false, _) => ("🔇", palette.dim, format!("Hear what is felt ({key})")),
+    };
+    let text = RichText::new(icon).color(ink);
+    let button = Button::new(text).min_size(vec2(ROW, ROW));
+    let response = ui.add_enabled(!bench.has_session(), button.frame_when_inactive(false));
+    response.widget_info(|| {
+        WidgetInfo::selected(
+            egui::Role::CheckBox,
+            ui.is_enabled(),
+            is_on,
+            "Sound of what is felt",
+        )
+    });
+    let why = "No sound while a session is held: it changes what is felt and gives answers away";
+    if response
+        .on_disabled_hover_text(why)
+        .on_hover_text(tip)
+        .clicked()
+    {
         commands.push(command);
     }
 }
