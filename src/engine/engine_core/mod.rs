@@ -2,6 +2,7 @@
 //!
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
+mod heard;
 mod obey;
 
 use std::time::{Duration, Instant};
@@ -11,12 +12,11 @@ use super::input::{
 };
 use super::ready::Retired;
 use super::recording::{LinkTally, RecordedTick, Recorder};
-use super::sound::stereo_levels;
 use super::track::Track;
 use super::vibration::Vibration;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SoundFeed, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
+    RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -198,26 +198,6 @@ impl EngineCore {
         } = self.pose();
         let place = [position.x_mm, position.y_mm, angle_deg];
         tap.write(self.tick, place, self.felt_um());
-    }
-
-    /// Hands the last tick to whoever makes sound of it: what a device at full gain plays, armed
-    /// or not.
-    pub(super) fn sound_to(&self, feed: &mut SoundFeed) {
-        let felt_um = self.felt_um();
-        let Some(frame) = self.scene.renderer().frames().first() else {
-            return;
-        };
-        let (middle, half_mm) = (frame.position(), self.scene.start().x_mm);
-        let from_middle = |index: usize| frame.contactor_position(index).x_mm - middle.x_mm;
-        let widest_mm =
-            (0..felt_um.len()).fold(0.0, |most, index| from_middle(index).abs().max(most));
-        let contactors = felt_um.iter().enumerate();
-        let contactors = contactors.map(|(index, &felt_um)| {
-            let place = from_middle(index) / f64::max(widest_mm, 1e-9);
-            (place, self.scene.limited_um(index, felt_um))
-        });
-        let finger = (middle.x_mm - half_mm) / f64::max(half_mm, 1e-9);
-        feed.push(stereo_levels(finger, contactors));
     }
 
     /// Whether the device plays silence: stopped or held.

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 
-use super::{FADES_OUT, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
+use super::player::{FADES_OUT, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
 
 /// Bytes in the pipe: 11 ms.
 const PIPE: usize = 4096;
@@ -54,7 +54,10 @@ pub(super) fn play(player: &SharedPlayer, shared: &Shared) -> Result<(), String>
         write()?;
         n_written += 1;
         if n_written == PROVED {
-            shared.set_state(SoundState::Playing("aplay"));
+            shared.set_state(SoundState::Playing {
+                by: "aplay",
+                latency: None,
+            });
         }
     }
     let n_left = FADES_OUT.as_millis() / 5;

@@ -10,7 +10,6 @@ use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::pin::pin;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::task::{Context, Poll, Wake};
 use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
@@ -21,7 +20,7 @@ use pulseaudio::protocol::{
 };
 use pulseaudio::{AsPlaybackSource as _, Client, ClientError, PlaybackStream};
 
-use super::{FADES_OUT, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
+use super::player::{FADES_OUT, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
 
 /// How long an answer may take.
 const ANSWER: Duration = Duration::from_secs(1);
@@ -158,13 +157,12 @@ impl Stream {
     /// # Errors
     /// The server does not answer any more, or has let the stream go.
     pub(super) fn play(self, shared: &Shared) -> Result<(), String> {
-        shared.set_state(SoundState::Playing("PulseAudio or PipeWire"));
         while !shared.is_over() {
             match wait(self.stream.timing_info(), ANSWER) {
-                Some(Ok(timing)) => {
-                    let us = latency_us(&timing);
-                    shared.latency_us.store(us, Ordering::Relaxed);
-                }
+                Some(Ok(timing)) => shared.set_state(SoundState::Playing {
+                    by: "PulseAudio or PipeWire",
+                    latency: Some(latency(&timing)),
+                }),
                 Some(Err(error)) => return Err(described(&error)),
                 None => return Err("the server of sound does not answer any more".to_owned()),
             }
@@ -176,10 +174,10 @@ impl Stream {
 }
 
 /// From the making of the next sample to its playing.
-fn latency_us(timing: &PlaybackLatency) -> u32 {
+fn latency(timing: &PlaybackLatency) -> Duration {
     let waiting = timing.write_offset.saturating_sub(timing.read_offset);
     let waiting_us = u64::try_from(waiting).unwrap_or(0) * 1000 / u64::from(BYTES_PER_MS);
-    u32::try_from(waiting_us.saturating_add(timing.sink_usec)).unwrap_or(u32::MAX)
+    Duration::from_micros(waiting_us.saturating_add(timing.sink_usec))
 }
 
 /// In words; a read that took too long is a server that does not answer.

@@ -7,7 +7,10 @@ use std::thread;
 use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
 use cpal::{BufferSize, OutputCallbackInfo, StreamConfig};
 
-use super::{BLOCK, FADES_OUT, RETRY, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
+use super::player::{BLOCK, FADES_OUT, SOUND_RATE_HZ, Shared, SharedPlayer, SoundState, locked};
+
+/// How often it is asked whether the device is still there.
+const ASK: std::time::Duration = std::time::Duration::from_secs(1);
 
 /// Plays until the output is dropped.
 ///
@@ -44,9 +47,12 @@ pub(super) fn play(player: &SharedPlayer, shared: &Shared) -> Result<(), String>
     let stream = device.build_output_stream(config, fill, fail, None);
     let stream = stream.map_err(|error| error.to_string())?;
     stream.play().map_err(|error| error.to_string())?;
-    shared.set_state(SoundState::Playing("the system"));
+    shared.set_state(SoundState::Playing {
+        by: "the system",
+        latency: None,
+    });
     while !shared.is_over() {
-        shared.nap(RETRY);
+        shared.nap(ASK);
         if let Ok(what) = failures.try_recv() {
             return Err(what);
         }

@@ -18,6 +18,7 @@ pub(crate) mod export;
 pub(crate) mod felt_log;
 pub(crate) mod files;
 pub(crate) mod folders;
+pub(crate) mod follow_sound;
 pub(crate) mod free_places;
 pub(crate) mod history;
 pub(crate) mod keep;

@@ -165,17 +165,23 @@ fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let command: Command = ShowCommand::ToggleSound.into();
     let key = hint(ui.ctx(), &command);
     let state = bench.device.sound.state();
-    let (icon, ink, tip) = match (is_on, &state) {
-        (true, Some(SoundState::Absent(why))) => ("🔇", palette.dim, format!("Not heard: {why}")),
-        (true, _) => (
-            "🔊",
-            palette.text,
-            format!(
-                "What is felt is heard, 40 Hz made audible by overtones. Off: {key}. \
-                 Louder, quieter, as driven: View, Sound"
-            ),
-        ),
+    let (icon, ink, tip) = match (is_on, state) {
         (false, _) => ("🔇", palette.dim, format!("Hear what is felt ({key})")),
+        (true, Some(SoundState::Absent(why))) => ("🔇", palette.dim, format!("Not heard: {why}")),
+        (true, state) => {
+            let later = match state {
+                Some(SoundState::Playing {
+                    latency: Some(latency),
+                    ..
+                }) => format!(", {} ms later", latency.as_millis()),
+                _ => String::new(),
+            };
+            let tip = format!(
+                "What is felt is heard{later}, 40 Hz made audible by overtones. Off: {key}. \
+                 Louder, quieter, as driven: View, Sound"
+            );
+            ("🔊", palette.text, tip)
+        }
     };
     let text = RichText::new(icon).color(ink);
     let button = Button::new(text).min_size(vec2(ROW, ROW));

@@ -208,7 +208,7 @@ fn first_height() -> f32 {
 #[serde(default)]
 pub(crate) struct SoundPreferences {
     /// Whether it is on.
-    #[serde(rename = "sound")]
+    #[serde(rename = "sound_on")]
     pub(crate) is_on: bool,
     /// How loud it is.
     #[serde(rename = "sound_volume")]

@@ -24,6 +24,7 @@ pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;
 pub(crate) mod participant;
+pub(crate) mod played_noise;
 pub(crate) mod presenting;
 pub(crate) mod run_session;
 pub(crate) mod sessions;

@@ -6,8 +6,8 @@
 use crate::bench::Bench;
 use crate::bench::view::BridgePhase;
 use crate::tools::experiment::active_session::ActiveSession;
-use crate::tools::experiment::noise::HeardNoise;
 use crate::tools::experiment::now::{Began, Now};
+use crate::tools::experiment::played_noise::HeardNoise;
 use selvedge_engine::{RecordedTick, Recording};
 use selvedge_experiment::layout::on_the_table;
 use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};

@@ -5,7 +5,7 @@ use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::builder::state::Builder;
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::materials::Materials;
-use crate::tools::experiment::noise::PlayedNoise;
+use crate::tools::experiment::played_noise::PlayedNoise;
 use selvedge_experiment::session::Session;
 
 /// The window that shows a participant's view and nothing else.

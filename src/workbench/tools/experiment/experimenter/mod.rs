@@ -12,8 +12,9 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, section};
-use crate::tools::experiment::noise::{NOISE_DB, NoiseView};
+use crate::tools::experiment::noise::NoiseView;
 use crate::tools::experiment::participant;
+use crate::tools::experiment::played_noise::NOISE_DB;
 use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
 use selvedge_engine::SoundState;
 
@@ -108,7 +109,7 @@ fn show_player(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
             let words = format!("Nothing is heard: {why}. It is tried again every 2 s.");
             return note(ui, &words, Tone::Wrong);
         }
-        Some(SoundState::Playing(by)) => {
+        Some(SoundState::Playing { by, .. }) => {
             format!("Played by {by}, on through all trials; the note of every row says so.")
         }
         Some(SoundState::Opening) => "On its way".to_owned(),
