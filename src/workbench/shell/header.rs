@@ -1,7 +1,8 @@
 //! The line on top: the scene and what may be done with it, armed state, and what Esc does.
 
 use eframe::egui::{
-    self, Align, Align2, Button, Layout, RichText, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    self, Align, Align2, Button, Color32, Layout, Pos2, RichText, Sense, Shape, Stroke, StrokeKind,
+    Ui, WidgetInfo, vec2,
 };
 
 use crate::bench::Bench;
@@ -165,9 +166,9 @@ fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let command: Command = ShowCommand::ToggleSound.into();
     let key = hint(ui.ctx(), &command);
     let state = bench.device.sound.state();
-    let (icon, ink, tip) = match (is_on, state) {
-        (false, _) => ("🔇", palette.dim, format!("Hear what is felt ({key})")),
-        (true, Some(SoundState::Absent(why))) => ("🔇", palette.dim, format!("Not heard: {why}")),
+    let (is_heard, ink, tip) = match (is_on, state) {
+        (false, _) => (false, palette.dim, format!("Hear what is felt ({key})")),
+        (true, Some(SoundState::Absent(why))) => (false, palette.dim, format!("Not heard: {why}")),
         (true, state) => {
             let later = match state {
                 Some(SoundState::Playing {
@@ -180,12 +181,12 @@ fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
                 "What is felt is heard{later}, 40 Hz made audible by overtones. Off: {key}. \
                  Louder, quieter, as driven: View, Sound"
             );
-            ("🔊", palette.text, tip)
+            (true, palette.text, tip)
         }
     };
-    let text = RichText::new(icon).color(ink);
-    let button = Button::new(text).min_size(vec2(ROW, ROW));
+    let button = Button::new("").min_size(vec2(ROW, ROW));
     let response = ui.add_enabled(!bench.has_session(), button.frame_when_inactive(false));
+    paint_loudspeaker(ui, response.rect.center(), (is_heard, ink));
     response.widget_info(|| {
         WidgetInfo::selected(
             egui::Role::CheckBox,
@@ -201,6 +202,34 @@ fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
         .clicked()
     {
         commands.push(command);
+    }
+}
+
+/// A loudspeaker, with waves or struck out: the window's letters have none.
+fn paint_loudspeaker(ui: &Ui, centre: Pos2, (is_heard, ink): (bool, Color32)) {
+    let at = |x: f32, y: f32| centre + vec2(x, y);
+    let line = Stroke::new(1.5, ink);
+    let painter = ui.painter();
+    let cone = [
+        (-7.0, -2.5),
+        (-4.0, -2.5),
+        (0.0, -6.0),
+        (0.0, 6.0),
+        (-4.0, 2.5),
+        (-7.0, 2.5),
+    ];
+    painter.add(Shape::closed_line(
+        cone.map(|(x, y)| at(x, y)).to_vec(),
+        line,
+    ));
+    if is_heard {
+        for far in [3.5, 6.5] {
+            let wave = [(far - 1.0, -far), (far, 0.0), (far - 1.0, far)];
+            painter.line(wave.map(|(x, y)| at(x, 0.8 * y)).to_vec(), line);
+        }
+    } else {
+        painter.line_segment([at(3.0, -3.0), at(7.0, 3.0)], line);
+        painter.line_segment([at(3.0, 3.0), at(7.0, -3.0)], line);
     }
 }
 
