@@ -101,7 +101,7 @@ fn show_name(ui: &mut Ui, scene: &SceneView) {
     let (ink, words) = if scene.is_edited {
         (palette.selection, "edited: not saved yet")
     } else {
-        (egui::Color32::TRANSPARENT, "saved")
+        (Color32::TRANSPARENT, "saved")
     };
     mark(ui, ink, words).on_hover_text(words);
     let text = RichText::new(&scene.name).font(theme::title());
