@@ -45,7 +45,7 @@ pub use bids::write_bids;
 pub use course::{Course, Step};
 pub use error::ExperimentError;
 pub use limits::over_limits;
-pub use noise::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
+pub use noise::{Colour, MOST_NOISE_MINUTES, MaskingNoise, NoiseSound};
 pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
 pub use plan::{Exclusions, FrozenPlan, Hypothesis, Plan};
 pub use presentation::{Presentation, PresentedTick, Proof, Standing, Validity, Watch};
