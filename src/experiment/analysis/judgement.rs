@@ -20,7 +20,7 @@ pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Se
         all.push(judgement_confidence::section(experiment, n_grades));
     }
     all.push(judgement_power::section(experiment, &percents(experiment)));
-    all.push(judgement_cells::section(experiment));
+    all.extend(judgement_cells::sections(experiment));
     if is_pair {
         all.push(judgement_pairs::section(experiment, options));
     }
