@@ -45,6 +45,17 @@ impl Bar {
     }
 }
 
+/// Bars of percentages beside one to compare with.
+pub(super) fn share_bars(
+    key: &str,
+    (title, label): (&str, &str),
+    shown: &[Bar],
+    rule: (f64, &str),
+) -> Drawn {
+    let label = format!("{label} (95 % interval)");
+    bars(key, title, &label, (shown, Some([0.0, 100.0])), &[rule])
+}
+
 /// Bars with error bars, groups side by side, and levels to compare with.
 pub(crate) fn bars(
     key: &str,

@@ -139,13 +139,6 @@ fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
         Kind::OddOneOut | Kind::Judgement | Kind::Choice => true,
         _ => false,
     };
-    let of = |subject: &Subject<'_>| {
-        let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
-        let n = right.iter().filter(|is_right| **is_right).count();
-        (
-            subject.name.to_owned(),
-            100.0 * n as f64 / right.len() as f64,
-        )
-    };
+    let of = |subject: &Subject<'_>| (subject.name.to_owned(), subject.percent_right());
     is_scored.then(|| experiment.subjects.iter().map(of).collect())
 }

@@ -38,6 +38,20 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Subject<'a> {
+    /// Right answers, and answers that are right or wrong.
+    pub(super) fn n_right(&self) -> (u64, u64) {
+        let verdicts = self.trials().filter_map(|r| r.is_correct);
+        verdicts.fold((0, 0), |(right, n), is_right| {
+            (right + u64::from(is_right), n + 1)
+        })
+    }
+
+    /// Right answers, %.
+    pub(super) fn percent_right(&self) -> f64 {
+        let (right, n) = self.n_right();
+        100.0 * right as f64 / n as f64
+    }
+
     /// All trials, session after session.
     pub(super) fn trials(&self) -> impl Iterator<Item = &'a Record> + '_ {
         self.sessions.iter().flat_map(|s| s.trials.iter().copied())

@@ -1,12 +1,13 @@
 //! What was called real by material and condition: percentages and their analysis of variance.
 
 use super::answers::judgements;
-use super::draw::{Bar, bars};
+use super::draw::{Bar, share_bars};
 use super::included_trials::{Experiment, Subject};
 use super::model::Section;
 use super::tables::{summaries, tests};
 use super::variance::effects;
-use crate::design::Stimulus;
+use crate::Record;
+use crate::design::{Design, Stimulus};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
 use selvedge_statistics::{Computed, Outcome, Undefined, mean, paired_t};
 
@@ -57,14 +58,8 @@ fn section(experiment: &Experiment<'_>, group: Option<&str>) -> Section {
     let all = differences(&conditions, |condition| of(None, Some(condition)));
     section.table(tests("differences", "Conditions, subject by subject", &all));
     let title = experiment.titled(&named("called real by material", ", "));
-    let label = "called real, % (95 % interval)";
-    section.figure(bars(
-        "materials",
-        &title,
-        label,
-        (&shown, Some([0.0, 100.0])),
-        &[(50.0, "half")],
-    ));
+    let words = (title.as_str(), "called real, %");
+    section.figure(share_bars("materials", words, &shown, (50.0, "half")));
     section
 }
 
@@ -131,18 +126,29 @@ fn by_subject(
 }
 
 fn cell_answers(experiment: &Experiment<'_>, group: Option<&str>) -> Vec<CellAnswer> {
+    let subjects = experiment.subjects.iter();
+    let rows = subjects.map(|subject| (subject.name.to_owned(), subject.trials()));
+    called_real(experiment.design, rows, group)
+}
+
+/// 100 for every judgement of a group's stimuli that calls one real, 0 for the others, by material
+/// and condition.
+pub(crate) fn called_real<'a>(
+    design: &Design,
+    subjects: impl Iterator<Item = (String, impl Iterator<Item = &'a Record>)>,
+    group: Option<&str>,
+) -> Vec<CellAnswer> {
     let mut all = Vec::new();
-    for subject in &experiment.subjects {
-        for judged in subject.trials().flat_map(judgements) {
-            let stimulus = &experiment.design.stimuli[judged.item];
-            if !stimulus.is_of(group) {
-                continue;
+    for (subject, rows) in subjects {
+        for judged in rows.flat_map(judgements) {
+            let stimulus = &design.stimuli[judged.item];
+            if stimulus.is_of(group) {
+                all.push(CellAnswer {
+                    subject: subject.clone(),
+                    levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
+                    value: if judged.called_real { 100.0 } else { 0.0 },
+                });
             }
-            all.push(CellAnswer {
-                subject: subject.name.to_owned(),
-                levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
-                value: if judged.called_real { 100.0 } else { 0.0 },
-            });
         }
     }
     all

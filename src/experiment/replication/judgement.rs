@@ -5,7 +5,7 @@ use super::comparison::{DesignWithStimuli, Kind, Options, Replication, bar, by_l
 use super::printed;
 use super::studies::{Subjects, each_study, percents_right};
 use crate::ExperimentError;
-use crate::analysis::{Cell, Drawn, Section, Table, bars, cells, judgements};
+use crate::analysis::{Cell, Drawn, Section, Table, bars, called_real, cells};
 use crate::design::{Design, Stimulus};
 use selvedge_foundation::progress::Progress;
 use selvedge_statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
@@ -84,30 +84,29 @@ pub(super) fn section(
 }
 
 fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
-    let stimuli = &laid.design.stimuli;
-    let groups = printed::SIGNALS.map(|(group, ..)| group);
-    let mut answers: Vec<Vec<Answer>> = vec![Vec::new(); groups.len()];
-    let mut called = vec![[0.0; 2]; stimuli.len()];
-    for (nth, rows) in subjects.iter().enumerate() {
-        for judged in rows.iter().flat_map(judgements) {
-            let stimulus = &stimuli[judged.item];
-            let value = if judged.called_real { 100.0 } else { 0.0 };
-            called[judged.item][0] += value;
-            called[judged.item][1] += 1.0;
-            if let Some(at) = groups.iter().position(|group| *group == stimulus.group) {
-                answers[at].push(Answer {
-                    subject: format!("o{nth:02}"),
-                    levels: vec![stimulus.material.clone(), stimulus.condition.clone()],
-                    value,
-                });
-            }
-        }
-    }
+    let answers = |group| {
+        let rows = subjects.iter().enumerate();
+        let rows = rows.map(|(nth, rows)| (format!("o{nth:02}"), rows.iter()));
+        called_real(&laid.design, rows, group)
+    };
+    let all = answers(None);
+    let of = |one: &Stimulus| {
+        let is_its = |answer: &&Answer| answer.levels == [&*one.material, &*one.condition];
+        mean(
+            &all.iter()
+                .filter(is_its)
+                .map(|answer| answer.value)
+                .collect::<Vec<f64>>(),
+        )
+    };
+    let called_real = laid.design.stimuli.iter().map(of);
     let percents = percents_right(subjects);
     Found {
         right_percent: percents.iter().sum::<f64>() / percents.len() as f64,
-        called_real: called.iter().map(|[sum, n]| sum / n).collect(),
-        signals: answers.iter().map(|own| signal(own)).collect(),
+        called_real: called_real.map(|share| share.unwrap_or(f64::NAN)).collect(),
+        signals: printed::SIGNALS
+            .map(|(group, ..)| signal(&answers(Some(group))))
+            .into(),
     }
 }
 

@@ -131,7 +131,8 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
     let rows = || subjects.iter().flatten();
     let answers: Vec<TriadAnswer> = rows().filter_map(triad_answer).collect();
     let percents = percents_right(subjects);
-    let (right, wrong): (Vec<&TriadAnswer>, Vec<&TriadAnswer>) = answers.iter().partition(|a| a.is_correct);
+    let (right, wrong): (Vec<&TriadAnswer>, Vec<&TriadAnswer>) =
+        answers.iter().partition(|a| a.is_correct);
     let percent = |n: usize, of: usize| 100.0 * n as f64 / of as f64;
     let grades = Grade::ALL.map(|grade| {
         let n = right.iter().filter(|a| a.grade == grade).count();

@@ -210,6 +210,8 @@ fn shares_right_of_a_hundred_observers_are_found_and_held() {
     };
     for (name, section) in [
         ("odd-one-out", "accuracy"),
+        ("odd-one-out-optical", "accuracy"),
+        ("odd-one-out-pen", "accuracy"),
         ("ranking-virtual-target", "identification"),
         ("ranking-real-target", "identification"),
     ] {
@@ -226,7 +228,7 @@ fn shares_right_of_a_hundred_observers_are_found_and_held() {
         known.check(&analysis);
         let correction = Correction::LogLinear;
         let choice = match name {
-            "odd-one-out" => triangle(right, n, correction),
+            _ if section == "accuracy" => triangle(right, n, correction),
             _ => forced_choice(right, n, 4, correction),
         };
         let d_prime = choice.unwrap().d_prime;
@@ -294,17 +296,21 @@ fn exponents_of_a_hundred_observers_are_found_and_held() {
 
 #[test]
 fn a_hundred_observers_set_gains_to_what_the_cloth_has() {
-    let design = Design::shipped("adjustment-two-gains").unwrap();
-    let observer = Observer::default();
-    let analysis = analysed(&held_with(&loud(&design), &design, &observer, 0..N));
-    for band in ["40", "320"] {
-        let key = format!("adjustment-two-gains-gain-{band}-db");
+    for (name, gain) in [
+        ("adjustment-two-gains", "gain-40-db"),
+        ("adjustment-two-gains", "gain-320-db"),
+        ("gain-matching", "gain-db"),
+    ] {
+        let design = Design::shipped(name).unwrap();
+        let observer = Observer::default();
+        let analysis = analysed(&held_with(&loud(&design), &design, &observer, 0..N));
+        let key = format!("{name}-{gain}");
         let stimuli = table(&analysis, &key, "stimuli");
         let mut n_held = 0;
         for row in 0..stimuli.rows.len() {
             let bias = 10.0_f64.powf(value(stimuli, row, "mean") / 20.0) - 1.0;
             println!(
-                "gain at {band} Hz, {:?}: {:+.1} % of 0 dB, {:.3} to {:.3} dB",
+                "{key}, {:?}: {:+.1} % of 0 dB, {:.3} to {:.3} dB",
                 stimuli.rows[row][0],
                 100.0 * bias,
                 value(stimuli, row, "ci_low"),
@@ -317,4 +323,26 @@ fn a_hundred_observers_set_gains_to_what_the_cloth_has() {
         }
         assert!(n_held + 1 >= stimuli.rows.len(), "{key}: {n_held}");
     }
+}
+
+#[test]
+fn ratings_of_a_hundred_observers_are_found_and_held() {
+    let design = Design::shipped("rating").unwrap();
+    let observer = Observer::default();
+    let analysed_of = |numbers| analysed(&sessions(&design, &observer, numbers));
+    let (found, long_run) = (analysed_of(0..N), analysed_of(N..N + 1000));
+    let [found, long_run] = [&found, &long_run].map(|one| table(one, "rating-ratings", "means"));
+    let (mut n_held, mut largest) = (0, 0.0_f64);
+    for row in 0..found.rows.len() {
+        let truth = value(long_run, row, "mean");
+        let [low, high] = ["ci_low", "ci_high"].map(|end| value(found, row, end));
+        n_held += usize::from((low..=high).contains(&truth));
+        // Of what the scale spans.
+        largest = largest.max((value(found, row, "mean") - truth).abs() / 100.0);
+    }
+    let n = found.rows.len();
+    let percent = 100.0 * largest;
+    println!("rating: off by {percent:.1} % at most; {n_held} of {n} intervals hold");
+    assert!(largest <= 0.05, "{largest}");
+    assert!(n_held as f64 >= 0.9 * n as f64, "{n_held} of {n}");
 }
