@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::model::{Cell, Section, Table, cells, file_name};
 use super::what_counts::{catch_verdicts, is_pilot, left_out_void, out_row, planned};
-use crate::design::Design;
+use crate::design::{Design, Rules};
 use crate::record::{Outcome, Record};
 use crate::session::Found;
 use crate::{Course, Validity};
@@ -179,14 +179,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
             }),
         }
     }
-    let rules = &design.rules;
-    subjects.retain(|subject| {
-        let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
-        let correct = (verdicts, rules.least_share_correct, "right");
-        let catches = catch_verdicts(subject);
-        let caught = (catches, rules.least_share_caught, "catch trials right");
-        is_enough(subject, correct, &mut left_out) && is_enough(subject, caught, &mut left_out)
-    });
+    subjects.retain(|subject| is_right_enough(subject, &design.rules, &mut left_out));
     subjects.retain(|subject| subject.trials().next().is_some());
     if let Some(planned) = planned(&sessions, subjects.len()) {
         section.table(planned);
@@ -327,6 +320,14 @@ fn without_fast<'a>(mut session: Session<'a>, left_out: &mut Table) -> Session<'
     }
     session.trials = kept;
     session
+}
+
+fn is_right_enough(subject: &Subject<'_>, rules: &Rules, left_out: &mut Table) -> bool {
+    let verdicts = subject.trials().filter_map(|r| r.is_correct).collect();
+    let correct = (verdicts, rules.least_share_correct, "right");
+    let catches = catch_verdicts(subject);
+    let caught = (catches, rules.least_share_caught, "catch trials right");
+    is_enough(subject, correct, left_out) && is_enough(subject, caught, left_out)
 }
 
 fn is_enough(

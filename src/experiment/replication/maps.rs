@@ -21,8 +21,6 @@ const N_STARTS: usize = 20;
 const N_STARTS_ON_A_LINE: usize = 100;
 /// As many as an analysis takes.
 const N_STARTS_OF_ONE: usize = 50;
-/// Sets of random ranks that a loss is compared with.
-const N_RANDOM_DATA: usize = 200;
 /// As many as the paper's figure goes to.
 const MOST_DIMENSIONS: usize = 5;
 
@@ -86,7 +84,7 @@ pub(super) fn section(
             chance(
                 &names.collect::<Vec<_>>(),
                 &how,
-                (MOST_DIMENSIONS, N_RANDOM_DATA),
+                (MOST_DIMENSIONS, options.n_studies),
                 part,
             )
         })?;
@@ -209,7 +207,7 @@ fn figure_3a(found: &[Mapped], chance: &[Null]) -> Drawn {
         shown.extend(bar(&name, "rankings", &own.copied().collect::<Vec<f64>>()));
         shown.extend(bar(&name, "random ranks", &null.losses));
     }
-    let title = "As Philpott & Summers 2012, figure 3a: how well maps fit";
+    let title = "Philpott & Summers 2012, in place of figure 3a: how well maps fit";
     let label = "S-stress (95 of 100 studies)";
     bars("figure-3a", title, label, (&shown, None), &[])
 }

@@ -11,7 +11,7 @@ use crate::analysis::{
 use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use selvedge_statistics::ranking::{Grade, OddOneOut, TriadAnswer};
-use selvedge_statistics::{Computed, Undefined};
+use selvedge_statistics::{Computed, Undefined, mean};
 
 const PAPER: &str = "Allerkamp et al., odd one out";
 /// The paper ends with this many dimensions for virtual fabrics, by the elbow.
@@ -19,8 +19,8 @@ const PRINTED_DIMENSIONS: f64 = 1.0;
 /// Starts of maps: few objects, so that few are needed.
 const N_STARTS: usize = 10;
 const N_STARTS_ON_A_LINE: usize = 100;
-/// Sets of random ranks that stress is compared with.
-const N_RANDOM_DATA: usize = 200;
+/// How often lines are turned to their mean.
+const N_TURNED: usize = 5;
 /// More dimensions than these leave seven fabrics nothing to fit.
 const MOST_DIMENSIONS: usize = 4;
 
@@ -38,6 +38,15 @@ const ASSUMED: [&str; 4] = [
     "near relatives stand in for the optical model's textiles",
     "nothing",
     "nothing",
+];
+
+const ELBOW: [(&str, &str); 6] = [
+    ("group", "group"),
+    ("one", "one"),
+    ("two", "two"),
+    ("more", "more"),
+    ("below_chance", "a map below the 5 % point of random ranks"),
+    ("studies", "studies"),
 ];
 
 /// What one study came to.
@@ -76,7 +85,37 @@ pub(super) fn section(
          answers, easy, normal and hard, errors by fabric, stress over dimensions, and the map on \
          a line. Intervals hold 95 of 100 studies.",
     );
-    let named: Vec<Kind> = NAMES
+    let laid = laid.iter().chain(laid.last());
+    let cases: Vec<Case<'_>> = laid.zip(kinds()).collect();
+    let names: Vec<String> = cases[0]
+        .0
+        .design
+        .stimuli
+        .iter()
+        .map(|s| s.id.clone())
+        .collect();
+    let chance = progress.within([0.0, 0.2], |part| {
+        chance(&names, &mds(), (MOST_DIMENSIONS, options.n_studies), part)
+    })?;
+    let found = progress.within([0.2, 1.0], |part| {
+        each_study(&cases, "triads", options, part, found)
+    })?;
+    let title = "How many dimensions the elbow finds, share of studies, %";
+    let mut chosen = Table::new("elbow", title, &ELBOW);
+    for ((_, kind), found) in cases.iter().zip(&found) {
+        let elbows = found.iter().filter_map(|f| elbow(f, &chance).ok());
+        let elbows: Vec<Elbow> = elbows.collect();
+        compare(found, &elbows, kind, all);
+        chosen.push(shares(kind, &elbows));
+    }
+    section.figures.extend(figures(&found, &chance, &names));
+    section.table(chosen);
+    Ok(section)
+}
+
+/// An observer of every group, and one that guesses.
+fn kinds() -> impl Iterator<Item = Kind> {
+    NAMES
         .into_iter()
         .zip(ASSUMED)
         .map(|(description, assumed)| {
@@ -88,43 +127,6 @@ pub(super) fn section(
                 ..kind
             }
         })
-        .collect();
-    let laid = laid.iter().chain(laid.last());
-    let cases: Vec<Case<'_>> = laid.zip(named.iter().copied()).collect();
-    let names: Vec<String> = cases[0]
-        .0
-        .design
-        .stimuli
-        .iter()
-        .map(|s| s.id.clone())
-        .collect();
-    let chance = progress.within([0.0, 0.2], |part| {
-        chance(&names, &mds(), (MOST_DIMENSIONS, N_RANDOM_DATA), part)
-    })?;
-    let found = progress.within([0.2, 1.0], |part| {
-        each_study(&cases, "triads", options, part, found)
-    })?;
-    let mut chosen = Table::new(
-        "elbow",
-        "How many dimensions the elbow finds, share of studies, %",
-        &[
-            ("group", "group"),
-            ("one", "one"),
-            ("two", "two"),
-            ("more", "more"),
-            ("below_chance", "a map below the 5 % point of random ranks"),
-            ("studies", "studies"),
-        ],
-    );
-    for ((_, kind), found) in cases.iter().zip(&found) {
-        let elbows = found.iter().filter_map(|f| elbow(f, &chance).ok());
-        let elbows: Vec<Elbow> = elbows.collect();
-        compare(found, &elbows, kind, all);
-        chosen.push(shares(kind, &elbows));
-    }
-    section.figures.extend(figures(&found, &chance, &names));
-    section.table(chosen);
-    Ok(section)
 }
 
 fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
@@ -223,6 +225,7 @@ fn figures(found: &[Vec<Found>], chance: &[Null], names: &[String]) -> Vec<Drawn
     };
     let [mut right, mut grades, mut errors, mut stress, mut line]: [Vec<Bar>; 5] =
         Default::default();
+    let mut towards = Vec::new();
     for (group, own) in groups() {
         right.extend(of(group, "", own, &|f| Some(f.percent)));
         let felt = group != guessing().description;
@@ -237,7 +240,7 @@ fn figures(found: &[Vec<Found>], chance: &[Null], names: &[String]) -> Vec<Drawn
             stress.extend(of(&dimensions(dims), group, own, &stress1));
         }
         if felt {
-            line.extend(places_on_a_line(group, own, names));
+            line.extend(places_on_a_line(group, own, names, &mut towards));
         }
     }
     for (dims, null) in (1..).zip(chance) {
@@ -273,8 +276,14 @@ fn figures(found: &[Vec<Found>], chance: &[Null], names: &[String]) -> Vec<Drawn
     .into()
 }
 
-/// Where the fabrics lie on the maps on a line, every study's pointing as the first's does.
-fn places_on_a_line(group: &str, found: &[Found], names: &[String]) -> Vec<Bar> {
+/// Where the fabrics lie on the maps on a line, every one pointing as the mean of all does, which
+/// points as that of the group before.
+fn places_on_a_line(
+    group: &str,
+    found: &[Found],
+    names: &[String],
+    towards: &mut Vec<f64>,
+) -> Vec<Bar> {
     let on_a_line = |one: &Found| {
         let map = one.maps.as_ref().ok()?.first()?;
         map.points
@@ -283,13 +292,20 @@ fn places_on_a_line(group: &str, found: &[Found], names: &[String]) -> Vec<Bar> 
             .collect()
     };
     let lines: Vec<Vec<f64>> = found.iter().filter_map(on_a_line).collect();
-    let sign = |line: &Vec<f64>| {
-        let along = lines[0].iter().zip(line).map(|(a, b)| a * b).sum::<f64>();
-        1.0_f64.copysign(along)
+    let values = |towards: &[f64], item: usize| -> Vec<f64> {
+        let sign = |line: &Vec<f64>| {
+            let along = towards.iter().zip(line).map(|(a, b)| a * b).sum::<f64>();
+            1.0_f64.copysign(along)
+        };
+        lines.iter().map(|line| sign(line) * line[item]).collect()
     };
-    let place = |(item, name): (usize, &String)| {
-        let values: Vec<f64> = lines.iter().map(|line| sign(line) * line[item]).collect();
-        bar(name, group, &values)
-    };
+    if towards.is_empty() {
+        towards.extend(lines.first().into_iter().flatten());
+    }
+    for _ in 0..N_TURNED {
+        let mean = |item| mean(&values(towards, item)).unwrap_or(0.0);
+        *towards = (0..names.len()).map(mean).collect();
+    }
+    let place = |(item, name): (usize, &String)| bar(name, group, &values(towards, item));
     names.iter().enumerate().filter_map(place).collect()
 }
