@@ -47,7 +47,7 @@ pub use error::ExperimentError;
 pub use limits::over_limits;
 pub use noise::{Colour, MOST_NOISE_MINUTES, MaskingNoise, NoiseSound};
 pub use participants::{HANDS, Participant, Participants, Particulars, SEXES};
-pub use plan::{Exclusions, FrozenPlan, Hypothesis, Plan};
+pub use plan::{FrozenPlan, Hypothesis, Plan};
 pub use presentation::{Presentation, PresentedTick, Proof, Standing, Validity, Watch};
 pub use preview::{Balance, Power, Preview, PreviewOptions};
 pub use procedure::Procedure;
