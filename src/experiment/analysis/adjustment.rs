@@ -176,10 +176,10 @@ fn by_group(
     let mut found = Vec::new();
     for (nth, (a, first)) in means.iter().enumerate() {
         for (b, second) in &means[nth + 1..] {
-            let is_whole = first.len() == second.len();
-            let outcome = match is_whole {
-                true => paired_t(first, second),
-                false => Err(Undefined::because("a subject lacks one of the groups")),
+            let outcome = if first.len() == second.len() {
+                paired_t(first, second)
+            } else {
+                Err(Undefined::because("a subject lacks one of the groups"))
             };
             found.push((format!("{a} less {b}, {key}"), outcome));
         }

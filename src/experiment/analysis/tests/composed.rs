@@ -176,7 +176,7 @@ fn who_misses_more_catch_trials_than_the_rules_allow_is_left_out() {
     numbered.replace_range(response, "[response]\nkind = \"number\"\n\n");
     let rating = |unlike: f64| AnswerValue::Ratings(vec![unlike]).into();
     let number = |unlike: f64| AnswerValue::Number(unlike).into();
-    let answers: [(String, fn(f64) -> Answer); 2] = [(scaled, rating), (numbered, number)];
+    let answers = [(scaled, rating as fn(f64) -> Answer), (numbered, number)];
     for (text, answer) in answers {
         let design = Design::from_toml(&text, Path::new("caught.toml")).unwrap();
         // Of four catch trials the first answers two rightly, the second one.

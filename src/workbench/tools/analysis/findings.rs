@@ -140,13 +140,11 @@ pub(crate) fn stamp_of(folder: &Path) -> u64 {
 fn textiles(found: &[Found]) -> BTreeMap<String, String> {
     let mut textiles = BTreeMap::new();
     for design in found.iter().map(|one| &one.design) {
-        let library = design
-            .library
-            .as_deref()
-            .unwrap_or_else(|| Path::new(SHIPPED));
-        if !is_of_the_program(library) && !library.is_absolute() {
-            continue;
-        }
+        let library = match design.library.as_deref() {
+            Some(library) if is_of_the_program(library) || library.is_absolute() => library,
+            Some(_) => continue,
+            None => Path::new(SHIPPED),
+        };
         for stimulus in &design.stimuli {
             if let Source::Textile { id, .. } = &stimulus.source {
                 for name in [&stimulus.id, &stimulus.material] {
