@@ -39,7 +39,6 @@ mod runner;
 mod sample;
 mod snapshot;
 mod snapshot_summary;
-mod sound;
 mod stop;
 mod tap;
 mod tick_sample;
@@ -68,9 +67,6 @@ pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, PointerView, RecordingView,
     RenderingView, Snapshot,
-};
-pub use sound::{
-    SOUND_RATE_HZ, Sonifier, SoundFeed, SoundOutput, SoundSource, SoundState, sonification,
 };
 pub use stop::StopSwitch;
 pub use tap::Tap;

@@ -4,7 +4,6 @@ mod bad;
 mod choices;
 mod composed;
 mod files;
-mod groups;
 mod inference;
 mod pairs;
 mod ranking;
