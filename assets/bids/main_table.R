@@ -1,12 +1,14 @@
 # Makes main-table.tsv once more from the events, and says how far the two are apart.
-# Needs R and nothing else: Rscript main_table.R, in this folder.
+# Needs R and nothing else: Rscript main_table.R
+
+folder <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE)[1]))
 
 read <- function(path) {
   read.delim(path, na.strings = "n/a", colClasses = "character", check.names = FALSE, quote = "\"")
 }
 
-printed <- read("main-table.tsv")
-events <- Sys.glob(file.path("..", "sub-*", "ses-*", "beh", "*_events.tsv"))
+printed <- read(file.path(folder, "main-table.tsv"))
+events <- Sys.glob(file.path(folder, "..", "sub-*", "ses-*", "beh", "*_events.tsv"))
 cells <- list()
 for (path in events) {
   parts <- strsplit(sub("_events.tsv$", "", basename(path)), "_")[[1]]
@@ -26,6 +28,7 @@ for (path in events) {
     }
   }
 }
+cat("task\tvalue\tparticipant_id\tby\tn\tmean\n")
 largest <- 0
 for (i in seq_len(nrow(printed))) {
   row <- printed[i, ]
@@ -34,7 +37,7 @@ for (i in seq_len(nrow(printed))) {
   if (length(values) != as.integer(row$n)) stop(key, ": ", length(values), " rows, ", row$n, " were counted")
   again <- if (row$is_geometric == "1") exp(mean(log(values))) else mean(values)
   largest <- max(largest, abs(again - as.numeric(row$mean)) / max(1, abs(again)))
-  cat(key, length(values), format(again, digits = 12), sep = "\t")
+  cat(key, length(values), formatC(again, digits = 12, format = "g"), sep = "\t")
   cat("\n")
 }
 if (length(cells) != nrow(printed)) stop("cells are missing in main-table.tsv")

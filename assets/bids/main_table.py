@@ -1,6 +1,6 @@
 """Makes main-table.tsv once more from the events, and says how far the two are apart.
 
-Needs Python 3 and nothing else: python3 main_table.py, in this folder.
+Needs Python 3 and nothing else: python3 main_table.py
 """
 
 import csv

@@ -237,6 +237,20 @@ impl Coder {
         codes
     }
 
+    /// What the limits leave of a contactor's amplitude at full gain, µm: what it does itself,
+    /// whatever drive that takes.
+    pub fn limited_um(&self, contactor: usize, amplitude_um: [f32; 2]) -> [f32; 2] {
+        let calibration = self.leads.get(contactor).map(|lead| lead.calibration);
+        let calibration = calibration.unwrap_or_default();
+        let (driven_um, _) = driven(amplitude_um, 1.0, &self.scale, calibration);
+        [0, 1].map(|band| {
+            let gain = calibration.drive_gain[band];
+            #[expect(clippy::cast_possible_truncation, reason = "at most the limit")]
+            let um = (driven_um[band] / gain) as f32;
+            if um.is_finite() { um } else { 0.0 }
+        })
+    }
+
     /// Totals since the coder was made.
     pub fn counters(&self) -> CodeCounters {
         self.counters
@@ -269,14 +283,13 @@ fn usable(amplitude_um: f32) -> bool {
     amplitude_um.is_finite() && amplitude_um >= 0.0
 }
 
-/// The code of one contactor: limit, calibrate, share full drive, round half up, never more than
-/// 65535 in all.
-fn drive_code(
+/// The drive of one contactor, µm of nominal gain: limit, calibrate, share full drive.
+fn driven(
     amplitude_um: [f32; 2],
     gain: f64,
     scale: &Scale,
     calibration: Calibration,
-) -> ([u16; 2], LimiterState) {
+) -> ([f64; 2], LimiterState) {
     let mut limiter = LimiterState::default();
     let mut driven_um = [0.0; 2];
     for band in 0..2 {
@@ -301,6 +314,17 @@ fn drive_code(
         limiter.guarded = true;
         driven_um = driven_um.map(|a_um| a_um / share);
     }
+    (driven_um, limiter)
+}
+
+/// The code of one contactor: its drive, rounded half up, never more than 65535 in all.
+fn drive_code(
+    amplitude_um: [f32; 2],
+    gain: f64,
+    scale: &Scale,
+    calibration: Calibration,
+) -> ([u16; 2], LimiterState) {
+    let (driven_um, limiter) = driven(amplitude_um, gain, scale, calibration);
     let full = f64::from(FULL_CODE) * scale.part;
     let [code_40, code_320] =
         [0, 1].map(|band| round_half_up(full * driven_um[band] / scale.full_scale_um[band]));

@@ -3,7 +3,7 @@
 //! Commands are plain values; what they need prepared (buffers, tables, ports) is prepared by
 //! [`Engine::send`](super::Engine::send) before they reach the thread.
 
-use super::{InputSource, PreparedScene, Tap, VibrationStep};
+use super::{InputSource, PreparedScene, SoundFeed, Tap, VibrationStep};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
 use selvedge_render::{PlacedLevel, RenderError};
 use selvedge_textile::tactile::Tuning;
@@ -101,6 +101,8 @@ pub enum Command {
     Watch(usize),
     /// Tell other programs what is felt at every tick, or no longer.
     SetTap(Option<Box<Tap>>),
+    /// Make sound of what is felt at every tick, or no longer.
+    SetSound(Option<Box<SoundFeed>>),
     /// Ends the thread.
     Shutdown,
 }

@@ -105,6 +105,7 @@ impl Engine {
             snapshots: snapshots_in,
             sampler,
             tap: None,
+            sound: None,
         };
         let (waker, news) = match config.on_news {
             Some(listener) => {
@@ -225,6 +226,7 @@ impl Engine {
             Command::SampleTicks(is_heard) => ReadyCommand::SampleTicks(is_heard),
             Command::Watch(contactor) => ReadyCommand::Watch(contactor),
             Command::SetTap(tap) => ReadyCommand::Tap(tap),
+            Command::SetSound(feed) => ReadyCommand::Sound(feed),
             Command::Shutdown => ReadyCommand::Shutdown,
         };
         self.push(command)

@@ -39,6 +39,7 @@ mod runner;
 mod sample;
 mod snapshot;
 mod snapshot_summary;
+mod sound;
 mod stop;
 mod tap;
 mod tick_sample;
@@ -67,6 +68,9 @@ pub use sample::{PointerSample, SampleCounters};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, PointerView, RecordingView,
     RenderingView, Snapshot,
+};
+pub use sound::{
+    SOUND_RATE_HZ, Sonifier, SoundFeed, SoundOutput, SoundSource, SoundState, sonification,
 };
 pub use stop::StopSwitch;
 pub use tap::Tap;

@@ -200,6 +200,14 @@ impl PreparedScene {
         if is_silent { silence() } else { amplitudes() }.unwrap_or_default()
     }
 
+    /// What the limits leave of an amplitude of the first display's contactor, µm.
+    pub(super) fn limited_um(&self, contactor: usize, amplitude_um: [f32; 2]) -> [f32; 2] {
+        let output = self.outputs.first();
+        output.map_or(amplitude_um, |output| {
+            output.coder.limited_um(contactor, amplitude_um)
+        })
+    }
+
     /// A snapshot before the first tick, with room for every contactor.
     pub(super) fn first_snapshot(&self) -> Snapshot {
         let pose = Pose {

@@ -5,7 +5,7 @@ use triple_buffer::Input;
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
 use super::vibration::Vibration;
-use super::{PreparedScene, Snapshot, Tap};
+use super::{PreparedScene, Snapshot, SoundFeed, Tap};
 use selvedge_device::{ArrayChange, Bridge, Coder};
 use selvedge_render::PlacedLevel;
 use selvedge_textile::tactile::Tuning;
@@ -43,6 +43,8 @@ pub(super) enum ReadyCommand {
     Watch(usize),
     /// Tell other programs what is felt, or no longer.
     Tap(Option<Box<Tap>>),
+    /// Make sound of what is felt, or no longer.
+    Sound(Option<Box<SoundFeed>>),
     Shutdown,
 }
 
@@ -108,6 +110,7 @@ pub(super) enum Retired {
     Bridge(Box<Bridge>),
     Array(Box<NextArray>),
     Tap(Box<Tap>),
+    Sound(Box<SoundFeed>),
     Recorder(Box<Recorder>),
 }
 

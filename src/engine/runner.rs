@@ -14,7 +14,7 @@ use super::meters::{DurationHistogram, RecentMedian};
 use super::ready::{CoreCommand, MAX_RETIRED, NextArray, NextScene, ReadyCommand, Retired};
 use super::snapshot_summary::{SnapshotSummary, Waker};
 use super::tick_sample::TickSampler;
-use super::{ClockView, EngineCore, Notice, Snapshot, StopSwitch, Tap};
+use super::{ClockView, EngineCore, Notice, Snapshot, SoundFeed, StopSwitch, Tap};
 use selvedge_device::{Bridge, BridgeEvent, SentFrame, StopHow};
 
 /// A tick that begins later than this after it was due is late.
@@ -49,6 +49,8 @@ pub(super) struct Channels {
     pub(super) sampler: TickSampler,
     /// Whom to tell what is felt.
     pub(super) tap: Option<Box<Tap>>,
+    /// What makes sound of it.
+    pub(super) sound: Option<Box<SoundFeed>>,
 }
 
 /// Notices on their way to the handle; those that find no room are counted.
@@ -179,6 +181,9 @@ impl Runner {
         if let Some(tap) = &mut self.channels.tap {
             self.core.write_to(tap);
         }
+        if let Some(feed) = &mut self.channels.sound {
+            self.core.sound_to(feed);
+        }
         let done = self.clock.now();
         self.late += u64::from(started.saturating_duration_since(due) > LATE);
         self.lateness.add(done.saturating_duration_since(due));
@@ -239,6 +244,10 @@ impl Runner {
                 ReadyCommand::Tap(tap) => {
                     let last = std::mem::replace(&mut self.channels.tap, tap);
                     self.retire(last.map(Retired::Tap));
+                }
+                ReadyCommand::Sound(feed) => {
+                    let last = std::mem::replace(&mut self.channels.sound, feed);
+                    self.retire(last.map(Retired::Sound));
                 }
                 ReadyCommand::Shutdown => {
                     self.link.stop(StopHow::Now);

@@ -12,12 +12,14 @@ use std::path::Path;
 
 use super::ExperimentError;
 use super::named::named;
+use selvedge_engine::{SOUND_RATE_HZ, SoundSource};
 use selvedge_foundation::files::{FileError, Staged};
 use selvedge_foundation::numerics::{Complex, Random, RealTransform};
 use selvedge_foundation::progress::Progress;
+use selvedge_render::single;
 
 /// Samples per second.
-pub(crate) const NOISE_RATE_HZ: u32 = 48_000;
+pub(crate) const NOISE_RATE_HZ: u32 = SOUND_RATE_HZ;
 /// The noise repeats itself after so long, s: nobody notices.
 const PERIOD_S: u32 = 60;
 /// What is filled, Hz.
@@ -68,7 +70,32 @@ impl Default for MaskingNoise {
     }
 }
 
+/// A masking noise as it is played: the same on both sides, again and again without a seam.
+#[derive(Debug)]
+pub struct NoiseSound {
+    period: Vec<f32>,
+    next: usize,
+}
+
+impl SoundSource for NoiseSound {
+    fn fill(&mut self, frames: &mut [[f32; 2]]) {
+        for frame in frames {
+            *frame = [self.period.get(self.next).copied().unwrap_or_default(); 2];
+            self.next = (self.next + 1) % self.period.len().max(1);
+        }
+    }
+}
+
 impl MaskingNoise {
+    /// Its level, rms, dB re full scale.
+    pub const LEVEL_DB: f64 = -20.0;
+
+    /// The samples of its file, to be played. Takes a moment.
+    pub fn sound(&self) -> NoiseSound {
+        let period = self.period().into_iter().map(single).collect();
+        NoiseSound { period, next: 0 }
+    }
+
     /// Writes it: one channel of 16 bits. A file that was there is replaced once this one is whole.
     ///
     /// # Errors
@@ -269,6 +296,27 @@ mod tests {
         let faded = written(&Folder::new("noise-fade"), noise(7, 2.0));
         assert!(faded[0].abs() < 1e-4 && faded[faded.len() - 1].abs() < 1e-4);
         assert!(faded[3 * 48_000..57 * 48_000] == samples[3 * 48_000..57 * 48_000]);
+    }
+
+    #[test]
+    fn what_is_played_is_what_is_written_on_both_sides_again_and_again() {
+        let noise = MaskingNoise {
+            minutes: 2,
+            ..MaskingNoise::default()
+        };
+        let file = written(&Folder::new("noise-played"), noise);
+        let mut sound = noise.sound();
+        let mut frames = vec![[9.0; 2]; 7919];
+        let mut n_played = 0;
+        while n_played < file.len() {
+            sound.fill(&mut frames);
+            for ([left, right], sample) in frames.iter().zip(&file[n_played..]) {
+                assert!(left == right && (f64::from(*left) - sample).abs() < 2e-5);
+            }
+            n_played += frames.len();
+        }
+        let rms = (file.iter().map(|x| x * x).sum::<f64>() / file.len() as f64).sqrt();
+        assert!((20.0 * rms.log10() - MaskingNoise::LEVEL_DB).abs() < 0.01);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::ExperimentError;
-use crate::design::{Design, Kind};
+use crate::design::{Design, Kind, Rules};
 use selvedge_foundation::files::{self, FileError, sha256_hex};
 
 /// A plan.
@@ -29,22 +29,10 @@ pub struct Plan {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub equivalence: Option<[f64; 2]>,
     /// What is left out, as the design's rules have it.
-    pub exclusions: Exclusions,
+    pub exclusions: Rules,
     /// What is asked of the data.
     #[serde(rename = "hypothesis", default)]
     pub hypotheses: Vec<Hypothesis>,
-}
-
-/// What is left out.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Exclusions {
-    /// Sessions with fewer trials.
-    pub least_trials: usize,
-    /// Trials that were answered faster, s.
-    pub least_response_s: f64,
-    /// Subjects with a smaller share of right answers, 0 to 1.
-    pub least_share_correct: f64,
 }
 
 /// Something that is expected, and how it is tested.
@@ -77,11 +65,7 @@ impl Plan {
             subjects: design.rules.subjects,
             alpha: 0.05,
             equivalence: None,
-            exclusions: Exclusions {
-                least_trials: design.rules.least_trials,
-                least_response_s: design.rules.least_response_s,
-                least_share_correct: design.rules.least_share_correct,
-            },
+            exclusions: design.rules,
             hypotheses: vec![Hypothesis {
                 expected: expected.to_owned(),
                 test: test.to_owned(),

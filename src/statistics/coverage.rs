@@ -6,16 +6,17 @@ use selvedge_foundation::numerics::Random;
 use crate::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
 use crate::detection::{Answers, Correction, choice_share, forced_choice, yes_no};
 use crate::procrustes::protest;
+use crate::properties::{BestTurn, PropertyVector};
 use crate::psychometric::stevens::{Estimate, stevens};
 use crate::psychometric::{Block, Family, Guess, Model, Psychometric};
 use crate::variance::{
-    Answer, Crossed, Effect, Sphericity, friedman, kruskal_wallis, one_way, repeated_one_way,
-    repeated_two_way, welch,
+    Answer, Crossed, Effect, Sphericity, every_pair, friedman, kruskal_wallis, one_way,
+    repeated_one_way, repeated_two_way, welch,
 };
 use crate::{
-    Computed, Outcome, Resampling, Sides, Summary, bootstrap, exact_binomial, fisher_z, mean,
-    normal_lower, one_sample_t, paired_t, pearson, pearson_r, sign_flip, two_sample_t,
-    wilcoxon_signed_rank, wilson,
+    Computed, Outcome, Resampling, Sides, Summary, bootstrap, exact_binomial, f_upper, fisher_z,
+    mean, normal_lower, one_sample_t, paired_t, pearson, pearson_r, sign_flip, spearman, tost,
+    two_sample_t, wilcoxon_signed_rank, wilson,
 };
 
 const LEVEL: f64 = 0.95;
@@ -39,6 +40,28 @@ fn assert_within(band: [f64; 2], seed: u64, trials: &[Trial]) {
         assert!(
             (low..=high).contains(&percent),
             "{name}: {percent} ± {error}"
+        );
+    }
+}
+
+/// Studies without an effect that every test is tried on.
+const N_NULL: u32 = 2000;
+
+/// A test, and one study without an effect: whether the test finds one.
+type Null = (&'static str, fn(&mut Random) -> Computed<bool>);
+
+/// Refuses tests that find more than 5 % of what is not there, give or take what chance leaves of so
+/// many studies (99.9 % of a binomial), and tests that hardly find any.
+fn assert_false_positives(seed: u64, tests: &[Null]) {
+    let most = 100.0 * (ALPHA + 3.29 * (ALPHA * (1.0 - ALPHA) / f64::from(N_NULL)).sqrt());
+    for (name, study) in tests {
+        let mut random = Random::new(seed).branch(name);
+        let n_found = (0..N_NULL).filter(|_| study(&mut random).unwrap()).count();
+        let percent = 100.0 * n_found as f64 / f64::from(N_NULL);
+        println!("{name}: {n_found} of {N_NULL} studies, {percent:.2} %");
+        assert!(
+            (2.5..=most).contains(&percent),
+            "{name}: {percent} of {most}"
         );
     }
 }
@@ -108,78 +131,116 @@ fn intervals_of_d_primes_and_of_thresholds_hold_the_truth() {
     assert_within([90.0, 99.0], 1, trials);
 }
 
+const TESTS: &[Null] = &[
+    ("t, one sample", |random| {
+        let sample = Summary::of(&normals::<N>(random, 25.0, 8.0))?;
+        rejects(one_sample_t(&sample, 25.0))
+    }),
+    ("t, paired", |random| {
+        let [a, b] = correlated(random);
+        rejects(paired_t(&a, &b))
+    }),
+    ("t, Welch, spreads 1 : 3", |random| {
+        let a = Summary::of(&normals::<N>(random, 0.0, 1.0))?;
+        let b = Summary::of(&normals::<N>(random, 0.0, 3.0))?;
+        rejects(two_sample_t(&a, &b).map(|tests| tests.welch))
+    }),
+    ("t, Student, two samples", |random| {
+        let [a, b] = [(); 2].map(|()| Summary::of(&normals::<N>(random, 0.0, 1.0)));
+        rejects(two_sample_t(&a?, &b?).map(|tests| tests.student))
+    }),
+    ("equivalence, at its bound", |random| {
+        let sample = Summary::of(&normals::<12>(random, 1.0, 0.5))?;
+        Ok(tost(&sample, [-1.0, 1.0], ALPHA)?.p < ALPHA)
+    }),
+    ("Wilcoxon, differences of pairs", |random| {
+        let [a, b] = correlated(random);
+        let differences: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
+        rejects(wilcoxon_signed_rank(&differences, 0.0))
+    }),
+    ("binomial, 80 trials", |random| {
+        // 27 hits or more have a probability of 0.0499.
+        let hits = u64::from(successes(random, 80, 0.25));
+        rejects(exact_binomial(hits, 80, 0.25, Sides::Greater))
+    }),
+    ("PROTEST", |random| {
+        let [a, b] = [(); 2].map(|()| clouds(random));
+        Ok(protest(&a, &b, 39, random)? <= ALPHA)
+    }),
+    ("sign flips", |random| {
+        rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))
+    }),
+    ("property of a map, F", |random| {
+        let (map, property) = (clouds(random), normals::<7>(random, 0.0, 1.0));
+        let found = PropertyVector::of(&map, &property)?;
+        let [df, df_error] = found.df.map(|df| df as f64);
+        Ok(f_upper(found.f, df, df_error)? < ALPHA)
+    }),
+    ("turn of a map", |random| {
+        let map = clouds(random);
+        let [x, y] = [(); 2].map(|()| normals::<7>(random, 0.0, 1.0));
+        let turn = BestTurn::of(&map, [&x, &y])?;
+        Ok(turn.p_values(&map, [&x, &y], 39, random)?[0] <= ALPHA)
+    }),
+    ("correlation, Spearman", |random| {
+        let [x, y] = [(); 2].map(|()| normals::<16>(random, 0.0, 1.0));
+        rejects(spearman(&x, &y))
+    }),
+    ("correlation, Pearson", |random| {
+        let [x, y] = [(); 2].map(|()| normals::<16>(random, 0.0, 1.0));
+        rejects(pearson(&x, &y))
+    }),
+];
+
 #[test]
 fn tests_find_no_more_than_their_level_where_nothing_is() {
-    let trials: &[Trial] = &[
-        ("t, one sample", 2000, |random| {
-            let sample = Summary::of(&normals::<N>(random, 25.0, 8.0))?;
-            rejects(one_sample_t(&sample, 25.0))
-        }),
-        ("t, paired", 2000, |random| {
-            let [a, b] = correlated(random);
-            rejects(paired_t(&a, &b))
-        }),
-        ("t, Welch, spreads 1 : 3", 2000, |random| {
-            let a = Summary::of(&normals::<N>(random, 0.0, 1.0))?;
-            let b = Summary::of(&normals::<N>(random, 0.0, 3.0))?;
-            rejects(two_sample_t(&a, &b).map(|tests| tests.welch))
-        }),
-        ("Wilcoxon, differences of pairs", 2000, |random| {
-            let [a, b] = correlated(random);
-            let differences: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-            rejects(wilcoxon_signed_rank(&differences, 0.0))
-        }),
-        ("binomial, 80 trials", 2000, |random| {
-            // 27 hits or more have a probability of 0.0499.
-            let hits = u64::from(successes(random, 80, 0.25));
-            rejects(exact_binomial(hits, 80, 0.25, Sides::Greater))
-        }),
-        ("PROTEST", 2000, |random| {
-            let [a, b] = [(); 2].map(|()| clouds(random));
-            Ok(protest(&a, &b, 39, random)? <= ALPHA)
-        }),
-        ("sign flips", 2000, |random| {
-            rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))
-        }),
-        ("correlation, Pearson", 2000, |random| {
-            let [x, y] = [(); 2].map(|()| normals::<16>(random, 0.0, 1.0));
-            rejects(pearson(&x, &y))
-        }),
-    ];
-    assert_within([3.5, 6.5], 2, trials);
+    assert_false_positives(2, TESTS);
 }
+
+const ANALYSES_OF_VARIANCE: &[Null] = &[
+    ("one way", |random| rejects(one_way(&groups(random)))),
+    ("Welch", |random| rejects(welch(&groups(random)))),
+    ("Kruskal–Wallis", |random| {
+        rejects(kruskal_wallis(&groups(random)))
+    }),
+    ("Friedman", |random| {
+        let rows = (0..N).map(|_| normals::<4>(random, 0.0, 1.0).to_vec());
+        rejects(friedman(&rows.collect::<Vec<_>>()))
+    }),
+    ("two way, spherical, Huynh–Feldt", |random| {
+        two_way(random, (1, false), |s| s.p_huynh_feldt.clone())
+    }),
+    ("two way, of two levels", |random| {
+        two_way(random, (0, true), |s| s.p_greenhouse_geisser.clone())
+    }),
+    ("two way, both together, Greenhouse–Geisser", |random| {
+        two_way(random, (2, true), |s| s.p_greenhouse_geisser.clone())
+    }),
+    ("two way, not spherical, Greenhouse–Geisser", |random| {
+        two_way(random, (1, true), |s| s.p_greenhouse_geisser.clone())
+    }),
+    ("within subjects, one way, Greenhouse–Geisser", |random| {
+        let table = table(random, &[("material", 4)], true)?;
+        let p = |s: &Sphericity| s.p_greenhouse_geisser.clone();
+        Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
+    }),
+    ("within subjects, one way, Huynh–Feldt", |random| {
+        let table = table(random, &[("material", 4)], false)?;
+        let p = |s: &Sphericity| s.p_huynh_feldt.clone();
+        Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
+    }),
+    ("Holm, any of six pairs", |random| {
+        let rows: Vec<Vec<f64>> = groups(random);
+        let any = every_pair(&rows)?
+            .into_iter()
+            .any(|pair| pair.p_holm.is_ok_and(|p| p < ALPHA));
+        Ok(any)
+    }),
+];
 
 #[test]
 fn analyses_of_variance_find_no_more_than_their_level_where_nothing_is() {
-    let trials: &[Trial] = &[
-        ("one way", 2000, |random| rejects(one_way(&groups(random)))),
-        ("Welch", 2000, |random| rejects(welch(&groups(random)))),
-        ("Kruskal–Wallis", 2000, |random| {
-            rejects(kruskal_wallis(&groups(random)))
-        }),
-        ("Friedman", 2000, |random| {
-            let rows = (0..N).map(|_| normals::<4>(random, 0.0, 1.0).to_vec());
-            rejects(friedman(&rows.collect::<Vec<_>>()))
-        }),
-        ("two way, spherical, Huynh–Feldt", 1000, |random| {
-            two_way(random, false, |s| s.p_huynh_feldt.clone())
-        }),
-        (
-            "two way, not spherical, Greenhouse–Geisser",
-            1000,
-            |random| two_way(random, true, |s| s.p_greenhouse_geisser.clone()),
-        ),
-        (
-            "within subjects, one way, Greenhouse–Geisser",
-            1000,
-            |random| {
-                let table = table(random, &[("material", 4)], true)?;
-                let p = |s: &Sphericity| s.p_greenhouse_geisser.clone();
-                Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
-            },
-        ),
-    ];
-    assert_within([3.5, 6.5], 2, trials);
+    assert_false_positives(2, ANALYSES_OF_VARIANCE);
 }
 
 fn normals<const M: usize>(random: &mut Random, mean: f64, sd: f64) -> [f64; M] {
@@ -288,10 +349,14 @@ fn corrected(effect: &Effect, p: fn(&Sphericity) -> Computed) -> Computed {
         .map_or_else(|| effect.p.clone(), p)
 }
 
-/// The second factor, of four levels, of a table of two by four.
-fn two_way(random: &mut Random, is_uneven: bool, p: fn(&Sphericity) -> Computed) -> Computed<bool> {
+/// The first factor, of two levels, the second, of four, or both together.
+fn two_way(
+    random: &mut Random,
+    (effect, is_uneven): (usize, bool),
+    p: fn(&Sphericity) -> Computed,
+) -> Computed<bool> {
     let table = table(random, &[("signal", 2), ("material", 4)], is_uneven)?;
-    Ok(corrected(&repeated_two_way(&table)?.effects[1], p)? < ALPHA)
+    Ok(corrected(&repeated_two_way(&table)?.effects[effect], p)? < ALPHA)
 }
 
 /// Subjects who differ, cells that do not but, if uneven, in how much they vary.

@@ -86,6 +86,7 @@ const MAX_VISIBLE_ITEMS: usize = 900;
 const HOMES: &[(&str, &str)] = &[
     ("clap", "src/cli/"),
     ("cpal", "src/engine/audio/device.rs"),
+    ("cpal", "src/engine/sound/system.rs"),
     ("crc32fast", "src/device/"),
     ("csv", "src/foundation/files/"),
     ("directories", "src/workbench/bench/settings/"),
@@ -98,6 +99,7 @@ const HOMES: &[(&str, &str)] = &[
     ("image", "src/foundation/files/"),
     ("md5", "src/foundation/files/hash.rs"),
     ("png", "src/foundation/files/"),
+    ("pulseaudio", "src/engine/sound/"),
     ("quick_xml", "src/foundation/files/xml.rs"),
     ("rand", "src/foundation/numerics/random.rs"),
     ("rand_distr", "src/foundation/numerics/random.rs"),
@@ -106,6 +108,7 @@ const HOMES: &[(&str, &str)] = &[
     ("resvg", "src/chart/pixels.rs"),
     ("input_linux", "src/engine/input/evdev/"),
     ("rustix", "src/engine/input/evdev/"),
+    ("rustix", "src/engine/sound/aplay.rs"),
     ("rustix", "src/foundation/progress.rs"),
     ("rfd", "src/workbench/shell/dialogs.rs"),
     ("serde_json", "src/foundation/files/"),

@@ -142,34 +142,43 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
         assert!(table.lines().count() > 3, "{table}");
         let taken = analysed(&lab, &choices);
         assert!(taken.err.contains("name a new folder"), "{}", taken.err);
-        check_script(&set, &table, design);
+        check_scripts(&set, &table, design);
     }
 }
 
-/// The script in Python makes the same table, and notices another; without Python it is not tried.
+/// The scripts in Python and R make the same table, and notice another; the one whose program is not
+/// installed is not tried.
 #[expect(clippy::print_stderr, reason = "says what was skipped")]
-fn check_script(set: &Path, table: &str, design: &str) {
-    let script = set.join("code/main_table.py");
-    let Ok(made) = Command::new("python3").arg(&script).output() else {
-        eprintln!("no python3: its script is not tried");
-        return;
-    };
-    let said = String::from_utf8_lossy(&made.stderr);
-    assert!(
-        made.status.success() && said.contains("apart by"),
-        "{design}: {said}"
-    );
+fn check_scripts(set: &Path, table: &str, design: &str) {
     let (first, last) = table.trim_end().rsplit_once('\n').unwrap();
     let mut cells: Vec<&str> = last.split('\t').collect();
     cells[5] = "12345";
     let edited = format!("{first}\n{}\n", cells.join("\t"));
-    fs::write(set.join("code/main-table.tsv"), edited).unwrap();
-    let differs = Command::new("python3").arg(&script).output().unwrap();
-    let why = String::from_utf8_lossy(&differs.stderr);
-    assert!(
-        !differs.status.success(),
-        "{design}: another table is noticed: {why}"
-    );
+    let printed = set.join("code/main-table.tsv");
+    let mut made: Vec<Vec<u8>> = Vec::new();
+    for (program, script) in [("python3", "main_table.py"), ("Rscript", "main_table.R")] {
+        let run = || {
+            Command::new(program)
+                .arg(set.join("code").join(script))
+                .output()
+        };
+        fs::write(&printed, table).unwrap();
+        let Ok(again) = run() else {
+            eprintln!("no {program}: its script is not tried");
+            continue;
+        };
+        let said = String::from_utf8_lossy(&again.stderr);
+        let is_same = again.status.success() && said.contains("apart by");
+        assert!(is_same, "{design}, {program}: {said}");
+        made.push(again.stdout);
+        fs::write(&printed, &edited).unwrap();
+        let differs = run().unwrap();
+        let why = String::from_utf8_lossy(&differs.stderr);
+        let is_noticed = !differs.status.success();
+        assert!(is_noticed, "{design}: {program} notices another: {why}");
+    }
+    let are_alike = made.windows(2).all(|pair| pair[0] == pair[1]);
+    assert!(are_alike, "{design}: both print the same table");
 }
 
 #[test]

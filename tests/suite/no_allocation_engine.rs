@@ -11,7 +11,7 @@ use assert_no_alloc::assert_no_alloc;
 use selvedge_device::{ArrayProfile, BridgeState, Target};
 use selvedge_engine::{
     Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
-    ProgramLink, TICK, VibrationStep, loopback,
+    ProgramLink, SoundSource as _, TICK, VibrationStep, loopback, sonification,
 };
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge_render::array::{Accuracy, Method};
@@ -75,6 +75,10 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
     let (mut engine, mut pointer) = engine(start);
     let _recording = engine.record().unwrap();
     engine.send(Command::SampleTicks(true)).unwrap();
+    let (feed, mut sonifier, _) = sonification();
+    let feed = Some(Box::new(feed));
+    engine.send(Command::SetSound(feed)).unwrap();
+    let mut heard = [[0.0; 2]; 1200];
     // Fewer than all blocks of the recording: collecting them is the window's affair.
     for n in 0..390_u32 {
         let gain_db = f64::from(n % 20);
@@ -93,9 +97,14 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
                 push(&mut pointer, stamp, (stamp - start).as_secs_f64());
             }
             engine.step_uncollected(start + TICK * (n + 1));
+            sonifier.fill(&mut heard);
             assert!(engine.next_tick_sample().is_some(), "it moved");
         });
     }
+    assert!(
+        heard.iter().any(|[left, _]| left.abs() > 1e-3),
+        "it is heard"
+    );
     let snapshot = engine.snapshot();
     assert_eq!(snapshot.recording.n_ticks, 390);
     assert!(

@@ -33,7 +33,7 @@ fn table() -> String {
         let design = Design::shipped(name)?;
         let (medium, method) = (design.medium.name(), design.composition.kind().name());
         Some(format!(
-            "{name:<24}{medium:<8}{method:<14}{}\n",
+            "{name:<24}{medium:<12}{method:<14}{}\n",
             design.title
         ))
     };

@@ -70,6 +70,10 @@ fn described(design: &Design, preview: &Preview) -> String {
             one.what, one.n
         ));
     }
+    let left_out = design.rules.exclusions();
+    if !left_out.is_empty() {
+        lines.push(format!("left out: {}", left_out.join("; ")));
+    }
     lines.push(format!(
         "power {:.0} % of {} simulated studies: {}",
         100.0 * preview.power.share,

@@ -24,20 +24,21 @@ pub(crate) struct ReplicateArgs {
     #[arg(long, value_name = "N", default_value_t = 200,
         value_parser = clap::value_parser!(u16).range(20..=10_000))]
     studies: u16,
-    /// Leave out one study of each in full
+    /// How much observers differ in their noise: standard deviation of its logarithm
+    #[arg(long, value_name = "SD", default_value_t = 0.2)]
+    spread: f64,
+    /// Besides, one study of each experiment in full, as analyse has it
     #[arg(long)]
-    brief: bool,
+    full: bool,
 }
 
 /// Simulates the papers' experiments, and writes what came out.
 pub(super) fn run(args: &ReplicateArgs) -> Result<(), CliError> {
-    let n_studies = usize::from(args.studies);
     let options = Options {
         seed: args.seed,
-        n_studies,
-        n_swept: n_studies.div_ceil(4),
-        n_maps: n_studies.div_ceil(4),
-        is_detailed: !args.brief,
+        n_studies: usize::from(args.studies),
+        spread: args.spread,
+        is_detailed: args.full,
         cache: selvedge_workbench::build_cache(),
     };
     let found = with_meter("replicating", |progress| replicate(&options, progress))??;

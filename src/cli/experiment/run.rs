@@ -270,7 +270,8 @@ fn latest(folder: &Path, design: &Design, pseudonym: &str) -> Option<u32> {
 
 /// Whether there is a row below the header of a log.
 fn has_row(log: &Path) -> Result<bool, CliError> {
-    Ok(files::read_text(log)?.lines().nth(1).is_some())
+    let is_empty = log.metadata().is_ok_and(|file| file.len() == 0);
+    Ok(!is_empty && files::read_text(log)?.lines().nth(1).is_some())
 }
 
 /// A gap as people say it.

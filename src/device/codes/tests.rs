@@ -345,3 +345,35 @@ fn plainly(pair: [f32; 2], gain: f64, limit_um: [f64; 2], comp_limit: [u16; 2]) 
     let [low, high] = driven_um.map(|a| round_half_up(65535.0 * a / full_um));
     [low, high.min(FULL_CODE - low)]
 }
+
+#[test]
+fn what_limits_leave_of_an_amplitude_is_what_its_code_stands_for() {
+    let mut profile = ArrayProfile {
+        limit_um: [30.0, 40.0],
+        ..ArrayProfile::default()
+    };
+    let weak = Calibration {
+        drive_gain: [1.25, 0.8],
+        is_off: false,
+    };
+    profile.set_calibration(0, weak);
+    profile.set_calibration(
+        1,
+        Calibration {
+            is_off: true,
+            ..weak
+        },
+    );
+    let mut coder = Coder::new(&profile, 3);
+    for asked in [[4.0, 9.0], [45.0, 1.0], [30.0, 40.0], [f32::NAN, 5.0]] {
+        let codes = coder.encode(&[asked; 3], 1.0);
+        assert_eq!(coder.limited_um(1, asked), [0.0; 2], "it is off");
+        for (contactor, gains) in [(0, weak.drive_gain), (2, [1.0; 2])] {
+            let left_um = coder.limited_um(contactor, asked);
+            for band in 0..2 {
+                let um = f64::from(codes[contactor][band]) / 65_535.0 * 50.0 / gains[band];
+                assert!((um - f64::from(left_um[band])).abs() < 2e-3, "{left_um:?}");
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 //!
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
+mod heard;
 mod obey;
 
 use std::time::{Duration, Instant};

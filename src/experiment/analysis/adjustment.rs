@@ -19,10 +19,11 @@ use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::psychometric::{Adjustments, Settings, Starts};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
 use selvedge_statistics::{
-    Computed, Interval, Summary, Undefined, mean, one_sample_t, t_quantile_upper,
+    Computed, Interval, Outcome, Summary, Undefined, mean, one_sample_t, paired_t, t_quantile_upper,
 };
 
 /// A setting of one parameter.
+#[derive(Clone, Copy)]
 struct Setting<'a> {
     subject: &'a str,
     item: usize,
@@ -119,7 +120,11 @@ fn parameter_section(
         let own: Vec<&Setting<'_>> = all.iter().filter(|s| s.item == item).collect();
         let means = means_of_subjects(&own);
         table.push(stimulus_row(name, (&own, &means), middle));
-        shown.extend(Bar::mean(name, "", &means));
+        shown.extend(Bar::mean(
+            name,
+            &experiment.design.stimuli[item].group,
+            &means,
+        ));
     }
     section.table(table);
     let title = format!(
@@ -135,12 +140,51 @@ fn parameter_section(
     let hysteresis = start_effect(experiment, all, middle)
         .and_then(|d| Summary::of(&d))
         .and_then(|s| one_sample_t(&s, 0.0));
-    let found = [
-        ("stimuli", rows.and_then(|rows| friedman(&rows))),
-        ("begun high less begun low, subject by subject", hysteresis),
+    let mut found = vec![
+        ("stimuli".to_owned(), rows.and_then(|rows| friedman(&rows))),
+        (
+            "begun high less begun low, subject by subject".to_owned(),
+            hysteresis,
+        ),
     ];
+    found.extend(by_group(experiment, key, all, &mut section));
     section.table(tests("tests", "Stimuli, and where it began", &found));
     section
+}
+
+/// Each group of stimuli by itself, and every two of them subject by subject.
+fn by_group(
+    experiment: &Experiment<'_>,
+    key: &str,
+    all: &[Setting<'_>],
+    section: &mut Section,
+) -> Vec<(String, Computed<Outcome>)> {
+    let (names, groups) = (experiment.ids(), experiment.groups());
+    let mut means: Vec<(&String, Vec<f64>)> = Vec::new();
+    for group in &groups {
+        let is_own = |one: &&Setting<'_>| experiment.design.stimuli[one.item].is_of(Some(group));
+        let own: Vec<Setting<'_>> = all.iter().filter(is_own).copied().collect();
+        let variance = by_subject(&own, &names).and_then(|table| repeated_one_way(&table));
+        let key = super::model::file_name(&format!("anova-{group}"), '-');
+        section.table(effects(
+            &key,
+            &format!("Stimuli, within subjects: {group}"),
+            &variance,
+        ));
+        means.push((group, means_of_subjects(&own.iter().collect::<Vec<_>>())));
+    }
+    let mut found = Vec::new();
+    for (nth, (a, first)) in means.iter().enumerate() {
+        for (b, second) in &means[nth + 1..] {
+            let outcome = if first.len() == second.len() {
+                paired_t(first, second)
+            } else {
+                Err(Undefined::because("a subject lacks one of the groups"))
+            };
+            found.push((format!("{a} less {b}, {key}"), outcome));
+        }
+    }
+    found
 }
 
 /// The mean setting of every subject.

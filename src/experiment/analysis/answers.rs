@@ -81,15 +81,15 @@ pub(super) fn percent(answers: &[TriadAnswer]) -> f64 {
 }
 
 /// Whether one stimulus was called real. A pair says it of both of its own.
-pub(crate) struct Judgement {
-    pub item: usize,
-    pub is_real: bool,
-    pub called_real: bool,
-    pub confidence: Option<u8>,
+pub(super) struct Judgement {
+    pub(super) item: usize,
+    pub(super) is_real: bool,
+    pub(super) called_real: bool,
+    pub(super) confidence: Option<u8>,
 }
 
 /// The judgements of a trial; none of another task or without an answer.
-pub(crate) fn judgements(record: &Record) -> Vec<Judgement> {
+pub(super) fn judgements(record: &Record) -> Vec<Judgement> {
     let Task { items, right, .. } = &record.trial.task;
     let (Some(right), Some(AnswerValue::Chosen(chosen))) = (right, record.value()) else {
         return Vec::new();

@@ -1,7 +1,7 @@
 //! One of several chosen, right or wrong: shares and d′ by subject, by the relation that belongs to
 //! how stimuli came together.
 
-use super::draw::{Bar, bars};
+use super::draw::{Bar, share_bars};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, percent_of};
 use super::options::Options;
@@ -65,6 +65,45 @@ impl Counts {
     }
 }
 
+/// What subjects came to.
+pub(super) struct BySubject {
+    pub(super) table: Table,
+    percents: Vec<f64>,
+    pub(super) d_primes: Vec<f64>,
+    shown: Vec<Bar>,
+}
+
+/// Shares of right answers and d′, subject by subject.
+pub(super) fn by_subject(experiment: &Experiment<'_>) -> BySubject {
+    let chance = 1.0 / experiment.design.composition.n_choices() as f64;
+    let mut found = BySubject {
+        table: Table::new("subjects", "Right answers by subject", &SUBJECTS),
+        percents: Vec::new(),
+        d_primes: Vec::new(),
+        shown: Vec::new(),
+    };
+    for subject in &experiment.subjects {
+        let counts = Counts::of(subject);
+        let (right, n) = (counts.right, counts.n);
+        let choice = sensitivity(experiment, &counts);
+        found.percents.push(100.0 * right as f64 / n.max(1) as f64);
+        found
+            .d_primes
+            .extend(choice.as_ref().ok().map(|choice| choice.d_prime));
+        found.shown.push(Bar::share(subject.name, right, n));
+        found.table.push(cells![
+            subject.name,
+            n,
+            right,
+            percent_of(right, n, "no trials"),
+            percent_interval(right, n),
+            exact_binomial(right, n, chance, Sides::Greater).map(|o| o.p),
+            or_undefined(choice.map(|choice| choice_cells(&choice)), 4)
+        ]);
+    }
+    found
+}
+
 /// Shares and d′ by subject and over them.
 pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
     let composition = &experiment.design.composition;
@@ -75,25 +114,12 @@ pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Se
         selvedge_foundation::quantity::fixed(100.0 * chance, 1),
         relation(experiment)
     ));
-    let mut table = Table::new("subjects", "Right answers by subject", &SUBJECTS);
-    let (mut percents, mut d_primes, mut shown) = (Vec::new(), Vec::new(), Vec::new());
-    for subject in &experiment.subjects {
-        let counts = Counts::of(subject);
-        let (right, n) = (counts.right, counts.n);
-        let choice = sensitivity(experiment, &counts);
-        percents.push(100.0 * right as f64 / n.max(1) as f64);
-        d_primes.extend(choice.as_ref().ok().map(|choice| choice.d_prime));
-        shown.push(Bar::share(subject.name, right, n));
-        table.push(cells![
-            subject.name,
-            n,
-            right,
-            percent_of(right, n, "no trials"),
-            percent_interval(right, n),
-            exact_binomial(right, n, chance, Sides::Greater).map(|o| o.p),
-            or_undefined(choice.map(|choice| choice_cells(&choice)), 4)
-        ]);
-    }
+    let BySubject {
+        table,
+        percents,
+        d_primes,
+        shown,
+    } = by_subject(experiment);
     section.table(table);
     let means = [("right, %", percents.clone()), ("d′", d_primes.clone())];
     section.over_subjects(&means, options);
@@ -106,15 +132,8 @@ pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Se
     ];
     section.table(tests("tests", "Against guessing", &found));
     let title = experiment.titled("right answers");
-    let shown = (shown.as_slice(), Some([0.0, 100.0]));
-    let label = "right, % (95 % interval)";
-    section.figure(bars(
-        "bars",
-        &title,
-        label,
-        shown,
-        &[(100.0 * chance, "chance")],
-    ));
+    let rule = (100.0 * chance, "chance");
+    section.figure(share_bars("bars", (&title, "right, %"), &shown, rule));
     vec![section]
 }
 

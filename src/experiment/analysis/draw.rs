@@ -12,7 +12,7 @@ const HEIGHT_PX: f64 = 360.0;
 
 /// A value with its name and, where there is one, its interval.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bar {
+pub(crate) struct Bar {
     pub(super) name: String,
     /// Which group it belongs to: bars of one group share a colour.
     pub(super) group: String,
@@ -21,7 +21,7 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    pub(super) fn of(name: &str, group: &str, value: f64, interval: Option<[f64; 2]>) -> Self {
+    pub(crate) fn of(name: &str, group: &str, value: f64, interval: Option<[f64; 2]>) -> Self {
         Self {
             name: name.to_owned(),
             group: group.to_owned(),
@@ -45,8 +45,19 @@ impl Bar {
     }
 }
 
+/// Bars of percentages beside one to compare with.
+pub(super) fn share_bars(
+    key: &str,
+    (title, label): (&str, &str),
+    shown: &[Bar],
+    rule: (f64, &str),
+) -> Drawn {
+    let label = format!("{label} (95 % interval)");
+    bars(key, title, &label, (shown, Some([0.0, 100.0])), &[rule])
+}
+
 /// Bars with error bars, groups side by side, and levels to compare with.
-pub(super) fn bars(
+pub(crate) fn bars(
     key: &str,
     title: &str,
     label: &str,

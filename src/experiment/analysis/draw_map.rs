@@ -20,18 +20,18 @@ const LETTER_PX: f64 = 3.1;
 const DOT_PX: f64 = 6.0;
 
 /// A map of named points with ellipses around them and directions in which measures rise.
-pub(super) struct MapDrawing<'a> {
-    pub(super) names: &'a [String],
-    pub(super) points: &'a [Vec<f64>],
-    pub(super) axes: [&'a str; 2],
-    pub(super) ellipses: &'a [Ellipse],
+pub(crate) struct MapDrawing<'a> {
+    pub(crate) names: &'a [String],
+    pub(crate) points: &'a [Vec<f64>],
+    pub(crate) axes: [&'a str; 2],
+    pub(crate) ellipses: &'a [Ellipse],
     /// Name and direction, as long as its multiple correlation.
-    pub(super) directions: &'a [(String, [f64; 2])],
+    pub(crate) directions: &'a [(String, [f64; 2])],
 }
 
 impl MapDrawing<'_> {
     /// The drawing of a plane map; on a line, the second axis is 0.
-    pub(super) fn drawn(&self, key: &str, title: &str, notes: Vec<String>) -> Drawn {
+    pub(crate) fn drawn(&self, key: &str, title: &str, notes: Vec<String>) -> Drawn {
         let at = |p: &[f64]| {
             [
                 p.first().copied().unwrap_or(0.0),

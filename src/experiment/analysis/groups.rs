@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::answers::{Rankings, rankings};
 use super::included_trials::{Experiment, Subject};
-use super::model::{Section, Table, cells};
+use super::model::{Section, known};
 use super::tables::{summaries, tests};
 use crate::design::Kind;
 use selvedge_statistics::variance::{holm, kruskal_wallis, one_way, welch};
@@ -37,22 +37,28 @@ pub(super) fn compared(experiments: &[Experiment<'_>]) -> Option<Section> {
     let mut section = Section::new("comparison", "Experiments compared");
     section.note(
         "Scores are shares of right answers by subject. Welch's t is the one to believe where \
-         spreads differ; the paired test is of subjects who took part in both. Where there are \
-         three experiments or more, p by Holm is Welch's, adjusted for all that are compared.",
+         spreads differ; the paired test is of subjects who took part in both. Three experiments \
+         or more are compared together first; p by Holm is Welch's t of every two of them, \
+         adjusted for each other.",
     );
     let all = || by_method.values().flatten();
     let means: Vec<(String, Vec<f64>)> = all()
         .map(|(key, scores)| (format!("{key}, %"), values(scores)))
         .collect();
     section.table(summaries("means", "Right answers", &means));
-    let found: Vec<Tested> = by_method
-        .iter()
-        .flat_map(|(name, all)| method(name, all))
-        .collect();
-    section.table(tests("tests", "Differences", &found));
-    if by_method.values().any(|all| all.len() > 2) {
-        section.table(adjusted(&found));
+    let (mut found, mut p_holm) = (Vec::new(), Vec::new());
+    for (name, all) in &by_method {
+        let own = method(name, all);
+        p_holm.extend(adjusted(&own));
+        found.extend(own);
     }
+    let mut table = tests("tests", "Differences", &found);
+    if p_holm.iter().any(Option::is_some) {
+        let why = "Welch's t of three experiments or more alone has it";
+        let cells = p_holm.into_iter().map(|p| known(p, why));
+        table.column_after("p", ("p_holm", "p by Holm"), cells);
+    }
+    section.table(table);
     Some(section)
 }
 
@@ -77,25 +83,21 @@ fn method(name: &str, all: &[(&str, Scores)]) -> Vec<Tested> {
     found
 }
 
-/// Welch's p values, adjusted for each other.
-fn adjusted(found: &[Tested]) -> Table {
-    let columns = [
-        ("what", "of what"),
-        ("p", "p (Welch)"),
-        ("p_holm", "p by Holm"),
-    ];
-    let mut table = Table::new("holm", "Differences, adjusted for each other", &columns);
-    let outcomes = found
-        .iter()
-        .filter_map(|(what, found)| Some((what, found.as_ref().ok()?)));
-    let (names, p): (Vec<&String>, Vec<f64>) = outcomes
-        .filter(|(_, outcome)| outcome.test == WELCH)
-        .map(|(what, outcome)| (what, outcome.p))
-        .unzip();
-    for ((what, p), p_holm) in names.iter().zip(&p).zip(holm(&p)) {
-        table.push(cells![*what, *p, p_holm]);
-    }
-    table
+/// p of Welch's t of every two of three experiments or more, adjusted for each other; nothing in
+/// the rows of other tests.
+fn adjusted(found: &[Tested]) -> Vec<Option<f64>> {
+    let is_welch = |outcome: &&Outcome| outcome.test == WELCH;
+    let p = found.iter().map(|(_, found)| {
+        let outcome = found.as_ref().ok().filter(is_welch);
+        outcome.map(|outcome| outcome.p)
+    });
+    let p: Vec<Option<f64>> = p.collect();
+    let together: Vec<f64> = p.iter().copied().flatten().collect();
+    let mut by_holm = holm(&together).into_iter();
+    let is_many = together.len() > 1;
+    p.into_iter()
+        .map(|p| p.and_then(|_| by_holm.next()).filter(|_| is_many))
+        .collect()
 }
 
 fn values(scores: &Scores) -> Vec<f64> {
@@ -137,13 +139,6 @@ fn scores(experiment: &Experiment<'_>) -> Option<Scores> {
         Kind::OddOneOut | Kind::Judgement | Kind::Choice => true,
         _ => false,
     };
-    let of = |subject: &Subject<'_>| {
-        let right: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
-        let n = right.iter().filter(|is_right| **is_right).count();
-        (
-            subject.name.to_owned(),
-            100.0 * n as f64 / right.len() as f64,
-        )
-    };
+    let of = |subject: &Subject<'_>| (subject.name.to_owned(), subject.percent_right());
     is_scored.then(|| experiment.subjects.iter().map(of).collect())
 }

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use super::model::{Cell, Section, Table, cells, file_name};
-use super::what_counts::{is_pilot, left_out_void, out_row, planned};
-use crate::design::Design;
+use super::what_counts::{catch_verdicts, is_pilot, left_out_void, out_row, planned};
+use crate::design::{Design, Rules};
 use crate::record::{Outcome, Record};
 use crate::session::Found;
 use crate::{Course, Validity};
@@ -38,6 +38,20 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Subject<'a> {
+    /// Right answers, and answers that are right or wrong.
+    pub(super) fn n_right(&self) -> (u64, u64) {
+        let verdicts = self.trials().filter_map(|r| r.is_correct);
+        verdicts.fold((0, 0), |(right, n), is_right| {
+            (right + u64::from(is_right), n + 1)
+        })
+    }
+
+    /// Right answers, %.
+    pub(super) fn percent_right(&self) -> f64 {
+        let (right, n) = self.n_right();
+        100.0 * right as f64 / n as f64
+    }
+
     /// All trials, session after session.
     pub(super) fn trials(&self) -> impl Iterator<Item = &'a Record> + '_ {
         self.sessions.iter().flat_map(|s| s.trials.iter().copied())
@@ -52,6 +66,19 @@ impl Experiment<'_> {
 
     pub(super) fn ids(&self) -> Vec<String> {
         self.design.stimuli.iter().map(|s| s.id.clone()).collect()
+    }
+
+    /// The groups that stimuli are kept apart by, in the order of the design; none where all are of
+    /// one.
+    pub(super) fn groups(&self) -> Vec<String> {
+        let mut groups: Vec<String> = Vec::new();
+        for stimulus in &self.design.stimuli {
+            if !stimulus.group.is_empty() && !groups.contains(&stimulus.group) {
+                groups.push(stimulus.group.clone());
+            }
+        }
+        groups.retain(|group| self.design.stimuli.iter().any(|one| one.group != *group));
+        groups
     }
 
     /// An empty section of this experiment.
@@ -134,7 +161,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
     for &found in &sessions {
         let session = Session {
             found,
-            trials: answered(found),
+            trials: answered(found, false),
         };
         table.push(held_row(&session));
         left_out_void(found, &mut left_out);
@@ -152,8 +179,7 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
             }),
         }
     }
-    let least = design.rules.least_share_correct;
-    subjects.retain(|subject| is_right_enough(subject, least, &mut left_out));
+    subjects.retain(|subject| is_right_enough(subject, &design.rules, &mut left_out));
     subjects.retain(|subject| subject.trials().next().is_some());
     if let Some(planned) = planned(&sessions, subjects.len()) {
         section.table(planned);
@@ -222,24 +248,8 @@ fn describe_rules(design: &Design, section: &mut Section) {
         0 => "the number of subjects was left open".to_owned(),
         n => format!("{n} subjects planned"),
     }];
-    if rules.least_trials > 0 {
-        texts.push(format!(
-            "a session with fewer than {} trials is left out",
-            rules.least_trials
-        ));
-    }
-    if rules.least_response_s > 0.0 {
-        texts.push(format!(
-            "a trial answered in less than {} s is left out",
-            rules.least_response_s
-        ));
-    }
-    if rules.least_share_correct > 0.0 {
-        let share = 100.0 * rules.least_share_correct;
-        texts.push(format!(
-            "a subject with less than {share} % right is left out"
-        ));
-    }
+    let left_out = rules.exclusions().into_iter();
+    texts.extend(left_out.map(|what| format!("{what} is left out")));
     section.note(format!(
         "Settled in the design before the first subject: {}. Practice and aborted trials never \
          count.",
@@ -247,11 +257,12 @@ fn describe_rules(design: &Design, section: &mut Section) {
     ));
 }
 
-/// The trials of a session that were answered and count as presented, without practice.
-fn answered(found: &Found) -> Vec<&Record> {
+/// The trials of a session that were answered and count as presented, without practice: those that
+/// catch, or the others.
+pub(super) fn answered(found: &Found, is_catch: bool) -> Vec<&Record> {
     let counts = |record: &&Record| {
         let is_void = record.presentation.validity() == Validity::Void;
-        let is_asked = !record.trial.is_practice && !record.trial.task.is_catch;
+        let is_asked = !record.trial.is_practice && record.trial.task.is_catch == is_catch;
         is_asked && record.answer().is_some() && !is_void
     };
     found.records.iter().filter(counts).collect()
@@ -311,8 +322,19 @@ fn without_fast<'a>(mut session: Session<'a>, left_out: &mut Table) -> Session<'
     session
 }
 
-fn is_right_enough(subject: &Subject<'_>, least: f64, left_out: &mut Table) -> bool {
-    let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
+fn is_right_enough(subject: &Subject<'_>, rules: &Rules, left_out: &mut Table) -> bool {
+    let verdicts = subject.trials().filter_map(|r| r.is_correct).collect();
+    let correct = (verdicts, rules.least_share_correct, "right");
+    let catches = catch_verdicts(subject);
+    let caught = (catches, rules.least_share_caught, "catch trials right");
+    is_enough(subject, correct, left_out) && is_enough(subject, caught, left_out)
+}
+
+fn is_enough(
+    subject: &Subject<'_>,
+    (verdicts, least, what): (Vec<bool>, f64, &str),
+    left_out: &mut Table,
+) -> bool {
     if least <= 0.0 || verdicts.is_empty() {
         return true;
     }
@@ -322,7 +344,7 @@ fn is_right_enough(subject: &Subject<'_>, least: f64, left_out: &mut Table) -> b
         return true;
     }
     let why = format!(
-        "{n_right} of {} right, less than {} %",
+        "{n_right} of {} {what}, less than {} %",
         verdicts.len(),
         100.0 * least
     );

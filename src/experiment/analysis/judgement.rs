@@ -6,9 +6,9 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Section, Table, cells, or_undefined};
 use super::options::Options;
 use super::tables::tests;
-use super::{judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
+use super::{choices, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::Sets;
-use selvedge_statistics::detection::{Answers, Correction, forced_choice, yes_no};
+use selvedge_statistics::detection::{Answers, Correction, yes_no};
 use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
 pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
@@ -20,33 +20,25 @@ pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Se
         all.push(judgement_confidence::section(experiment, n_grades));
     }
     all.push(judgement_power::section(experiment, &percents(experiment)));
-    all.push(judgement_cells::section(experiment));
+    all.extend(judgement_cells::sections(experiment));
     if is_pair {
         all.push(judgement_pairs::section(experiment, options));
     }
     all
 }
 
-fn right_of(subject: &Subject<'_>) -> (u64, u64) {
-    let verdicts: Vec<bool> = subject.trials().filter_map(|r| r.is_correct).collect();
-    (
-        verdicts.iter().filter(|r| **r).count() as u64,
-        verdicts.len() as u64,
-    )
-}
-
 /// Every subject's right answers, %.
 fn percents(experiment: &Experiment<'_>) -> Vec<f64> {
-    let all = experiment.subjects.iter().map(right_of);
-    all.map(|(right, n)| 100.0 * right as f64 / n as f64)
-        .collect()
+    let all = experiment.subjects.iter();
+    all.map(Subject::percent_right).collect()
 }
 
 fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) -> Section {
     let mut section = experiment.section("sensitivity", "sensitivity and bias");
     let (table, d_primes) = if is_pair {
         section.note("The real one of two was to be found: d′ of two alternatives without bias.");
-        pair_table(experiment)
+        let found = choices::by_subject(experiment);
+        (found.table, found.d_primes)
     } else {
         section.note(
             "A hit is a real one called real, a false alarm a generated one called real. Rates \
@@ -61,7 +53,7 @@ fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) ->
     section.over_subjects(&means, options);
     let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
     let from_half: Vec<f64> = percents.iter().map(|p| p - 50.0).collect();
-    let rights = experiment.subjects.iter().map(right_of);
+    let rights = experiment.subjects.iter().map(Subject::n_right);
     let (right, n) = rights.fold((0, 0), |(a, b), (right, n)| (a + right, b + n));
     let flipped = sign_flip(&from_half, options.n_permutations, options.seed);
     let all = [
@@ -132,42 +124,6 @@ fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
         let [hits, alarms] = [answers.hits, answers.false_alarms];
         let counts = [hits, answers.n_signal, alarms, answers.n_noise];
         table.push(cells![subject.name, counts, or_undefined(found, 9)]);
-    }
-    (table, d_primes)
-}
-
-fn pair_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
-    let columns = [
-        ("subject", "subject"),
-        ("pairs", "pairs"),
-        ("right", "right"),
-        ("percent", "%"),
-        ("p", "exact binomial p, two-sided"),
-        ("d_prime", "d′, 2-AFC"),
-        ("d_prime_ci_low", "95 % CI from"),
-        ("d_prime_ci_high", "to"),
-        ("correction", "correction"),
-    ];
-    let mut table = Table::new("subjects", "Right answers by subject", &columns);
-    let mut d_primes = Vec::new();
-    for subject in &experiment.subjects {
-        let (right, n) = right_of(subject);
-        let choice = forced_choice(right, n, 2, Correction::LogLinear);
-        d_primes.extend(choice.as_ref().ok().map(|choice| choice.d_prime));
-        let choice = choice.map(|choice| {
-            let correction = choice.correction.map_or("none", Correction::name);
-            cells![choice.d_prime, choice.interval, correction]
-        });
-        let percent = 100.0 * right as f64 / n as f64;
-        let p = exact_binomial(right, n, 0.5, Sides::Two).map(|o| o.p);
-        table.push(cells![
-            subject.name,
-            n,
-            right,
-            percent,
-            p,
-            or_undefined(choice, 4)
-        ]);
     }
     (table, d_primes)
 }

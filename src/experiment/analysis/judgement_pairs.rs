@@ -27,7 +27,7 @@ pub(super) fn section(experiment: &Experiment<'_>, options: &Options) -> Section
         "Preferred is what was taken for real. Conditions are compared over all materials; stimuli \
          are on one scale only where pairs join them.",
     );
-    let conditions = levels(experiment, |s| &s.condition);
+    let conditions = levels(experiment, None, |s| &s.condition);
     let condition_of = |item: usize| {
         let own = &experiment.design.stimuli[item].condition;
         conditions.iter().position(|condition| condition == own)

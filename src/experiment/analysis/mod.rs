@@ -51,8 +51,10 @@ mod write;
 
 use std::path::Path;
 
-pub(super) use answers::{judgements, rank_trial, triad_answer};
-pub(super) use draw::scatter;
+pub(super) use answers::{rank_trial, triad_answer};
+pub(super) use draw::{Bar, bars, scatter};
+pub(super) use draw_map::MapDrawing;
+pub(super) use judgement_cells::called_real;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};
 pub(super) use odd_one_out::grade_weights;

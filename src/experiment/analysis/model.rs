@@ -133,6 +133,21 @@ impl Table {
         self.rows.push(row);
     }
 
+    /// Puts a further column behind the one of this name; it has a cell for every row.
+    pub(super) fn column_after(
+        &mut self,
+        name: &str,
+        (own, heading): (&str, &str),
+        cells: impl Iterator<Item = Cell>,
+    ) {
+        let before = self.columns.iter().position(|column| column.name == name);
+        let at = before.map_or(self.columns.len(), |at| at + 1);
+        self.columns.insert(at, Column::new(own, heading));
+        for (row, cell) in self.rows.iter_mut().zip(cells) {
+            row.insert(at, cell);
+        }
+    }
+
     /// The cell of a row in the column of this name.
     #[must_use]
     pub fn cell(&self, row: usize, column: &str) -> Option<&Cell> {

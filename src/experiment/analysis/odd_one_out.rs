@@ -2,7 +2,7 @@
 //! were mistaken, and the distances that follow.
 
 use super::answers::{n_right, percent, triad_answer, triads};
-use super::draw::{Bar, bars};
+use super::draw::{Bar, bars, share_bars};
 use super::included_trials::{Experiment, Session, Subject};
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, cells, known, percent_interval, percent_of};
@@ -158,15 +158,9 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
     section.table(tests("tests", title, &found));
     shown.extend(Bar::mean("mean", "", &percents));
     let title = experiment.titled("right answers");
-    let shown = (shown.as_slice(), Some([0.0, 100.0]));
-    let label = "right, % (95 % interval)";
-    section.figure(bars(
-        "subjects-bars",
-        &title,
-        label,
-        shown,
-        &[(CHANCE_PERCENT, "chance")],
-    ));
+    let words = (title.as_str(), "right, %");
+    let rule = (CHANCE_PERCENT, "chance");
+    section.figure(share_bars("subjects-bars", words, &shown, rule));
     section
 }
 

@@ -10,7 +10,6 @@ use super::rating::crossed;
 use super::tables::{SUMMARY, summary_cells, tests};
 use super::variance::complete_rows;
 use crate::{AnswerValue, Record};
-use selvedge_statistics::Summary;
 use selvedge_statistics::ranking::Preferences;
 use selvedge_statistics::variance::friedman;
 
@@ -91,11 +90,7 @@ fn scored(experiment: &Experiment<'_>) -> Section {
     for (item, name) in names.iter().enumerate() {
         let values: Vec<f64> = all.iter().filter_map(|own| own[item]).collect();
         table.push(cells![name, summary_cells(&values)]);
-        if let Ok(mean) = selvedge_statistics::mean(&values) {
-            let summary = Summary::of(&values).ok();
-            let interval = summary.and_then(|s| s.interval(0.95).ok());
-            shown.push(Bar::of(name, "", mean, interval.map(|i| [i.low, i.high])));
-        }
+        shown.extend(Bar::mean(name, "", &values));
     }
     section.table(table);
     let rows = complete_rows(&crossed(experiment, &names, &all));

@@ -2,7 +2,7 @@
 //! found, what was taken for what, and the map that follows.
 
 use super::answers::{CHANCE_PERCENT, Rankings, rankings};
-use super::draw::{Bar, bars};
+use super::draw::{Bar, share_bars};
 use super::included_trials::Experiment;
 use super::map::Mapping;
 use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval};
@@ -116,15 +116,9 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
     section.table(tests("tests", "Against chance", &found));
     shown.extend(Bar::mean("mean", "", &percents));
     let title = experiment.titled("targets identified");
-    let label = "targets identified, % (95 % interval)";
-    let shown = (shown.as_slice(), Some([0.0, 100.0]));
-    section.figure(bars(
-        "subjects-bars",
-        &title,
-        label,
-        shown,
-        &[(CHANCE_PERCENT, "chance")],
-    ));
+    let words = (title.as_str(), "targets identified, %");
+    let rule = (CHANCE_PERCENT, "chance");
+    section.figure(share_bars("subjects-bars", words, &shown, rule));
     section
 }
 

@@ -1,9 +1,12 @@
 //! What is to be known before any number: how it was felt, what was planned, what does not count.
 
+use super::included_trials::{Subject, answered};
 use super::model::{Cell, Section, Table, cells};
+use crate::design::{Form, Rules, Scale};
 use crate::record::Record;
 use crate::session::Found;
-use crate::{Proof, Validity};
+use crate::{AnswerValue, Proof, Validity};
+use selvedge_foundation::numerics::median;
 
 /// Whether what was asked was tried on the screen.
 pub(super) fn is_pilot(found: &Found) -> bool {
@@ -30,6 +33,34 @@ pub(super) fn left_out_void(found: &Found, left_out: &mut Table) {
     }
 }
 
+/// Whether catch trials were answered rightly: called the same, placed in the lower half of every
+/// scale, or given less than the median of the subject's other pairs.
+pub(super) fn catch_verdicts(subject: &Subject<'_>) -> Vec<bool> {
+    let numbers = subject.trials().filter_map(|record| match record.value() {
+        Some(AnswerValue::Number(number)) => Some(*number),
+        _ => None,
+    });
+    let middle = median(&mut numbers.collect::<Vec<f64>>());
+    let is_low = |(value, scale): (&f64, &Scale)| {
+        let [low, high] = scale.bounds();
+        *value < 0.5 * (low + high)
+    };
+    let mut verdicts = Vec::new();
+    for found in subject.sessions.iter().map(|session| session.found) {
+        let form = &found.design.composition.response.form;
+        for record in answered(found, true) {
+            verdicts.extend(match (record.value(), form) {
+                (Some(AnswerValue::Ratings(values)), Form::Scales(scales)) => {
+                    Some(values.iter().zip(scales).all(is_low))
+                }
+                (Some(AnswerValue::Number(number)), _) => Some(*number < middle),
+                _ => record.is_correct,
+            });
+        }
+    }
+    verdicts
+}
+
 /// What the frozen plan says, beside what was done; `None` where there is none.
 pub(super) fn planned(sessions: &[&Found], n_subjects: usize) -> Option<Table> {
     let frozen = sessions.iter().find_map(|found| found.plan.as_ref())?;
@@ -45,27 +76,12 @@ pub(super) fn planned(sessions: &[&Found], n_subjects: usize) -> Option<Table> {
         format!("SHA-256 {}…", &frozen.sha256[..12]),
         held
     ]);
-    let rules = sessions[0].design.rules;
-    let left_out = |trials: usize, s: f64, share: f64| {
-        format!(
-            "fewer than {trials} trials; faster than {s} s; less than {} % right",
-            100.0 * share
-        )
+    let left_out = |rules: &Rules| match rules.exclusions().join("; ") {
+        none if none.is_empty() => "nothing".to_owned(),
+        some => some,
     };
-    let by_plan = plan.exclusions;
-    table.push(cells![
-        "left out",
-        left_out(
-            by_plan.least_trials,
-            by_plan.least_response_s,
-            by_plan.least_share_correct
-        ),
-        left_out(
-            rules.least_trials,
-            rules.least_response_s,
-            rules.least_share_correct
-        ),
-    ]);
+    let [by_plan, done] = [&plan.exclusions, &sessions[0].design.rules].map(left_out);
+    table.push(cells!["left out", by_plan, done]);
     if let Some([low, high]) = plan.equivalence {
         table.push(cells![
             "equal between",

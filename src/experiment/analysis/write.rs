@@ -17,7 +17,7 @@ const PNG_WIDTH: u32 = 1720;
 /// Tables with more rows stand in their files alone.
 const MOST_ROWS_ON_THE_PAGE: usize = 60;
 /// Likewise with more columns.
-const MOST_COLUMNS_ON_THE_PAGE: usize = 20;
+const MOST_COLUMNS_ON_THE_PAGE: usize = 21;
 /// The column of a CSV table that says what is not computable, and why.
 const REASONS: &str = "not_computable";
 
@@ -183,6 +183,10 @@ fn csv_of(table: &Table, path: &Path) -> Result<Vec<u8>, ExperimentError> {
     for row in &table.rows {
         for cell in row {
             match cell {
+                // Without a row of zeros before its digits.
+                Cell::Number(value) if (f64::MIN_POSITIVE..1e-6).contains(&value.abs()) => {
+                    writer.number(format_args!("{value:e}"))
+                }
                 Cell::Number(value) => writer.number(value),
                 Cell::Text(text) => writer.text(text),
                 Cell::Undefined(_) => writer.text(""),

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 use super::check_adaptation::check_level;
 use super::check_composition::check_composition;
-use super::{Design, Medium, Source, is_name};
+use super::{Design, Form, Medium, Source, is_name};
 use selvedge_foundation::files::{Flaw, Place};
 
 /// Most stimuli of a design: schedules are made at once.
@@ -157,6 +157,15 @@ fn check_course(design: &Design) -> Checked {
     let rules = &design.rules;
     let place = ("rules", 0, "least_share_correct");
     need_within(place, &rules.least_share_correct, 0.0..=1.0, "")?;
+    let place = ("rules", 0, "least_share_caught");
+    need_within(place, &rules.least_share_caught, 0.0..=1.0, "")?;
+    let (order, form) = (&design.composition.order, &design.composition.response.form);
+    let can_be_right = order.catch_trials > 0 && *form != Form::Choice;
+    let is_possible = rules.least_share_caught <= 0.0 || can_be_right;
+    let what = "no catch trial here can be answered rightly";
+    let mend = "add catch_trials to [order] of pairs that are rated, numbered or called the same, \
+                or take it away";
+    need(is_possible, place, what, mend)?;
     let least_s = rules.least_response_s;
     let is_right = least_s >= 0.0 && least_s.is_finite();
     let what = format!("least_response_s is {least_s}");

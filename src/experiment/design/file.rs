@@ -63,6 +63,8 @@ struct StimulusKeys {
     #[serde(default)]
     condition: String,
     #[serde(default)]
+    group: String,
+    #[serde(default)]
     gain_db: f64,
     band_hz: Option<f64>,
     level_db: Option<f64>,
@@ -103,6 +105,7 @@ impl Design {
             id: id.clone(),
             material: id.clone(),
             condition: String::new(),
+            group: String::new(),
             source: match medium {
                 Medium::Array => Source::Textile {
                     id: id.clone(),
@@ -181,6 +184,7 @@ impl StimulusKeys {
             material: self.material.unwrap_or_else(|| self.id.clone()),
             id: self.id,
             condition: self.condition,
+            group: self.group,
             source,
         })
     }

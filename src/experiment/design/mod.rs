@@ -18,7 +18,7 @@ mod vocabulary;
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub(crate) use adaptation::Needs;
 pub use adaptation::{Adaptation, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track};
@@ -46,10 +46,12 @@ macro_rules! shipped {
 }
 
 /// The designs that are part of the program: the papers' sessions and the usual measurements.
-const SHIPPED: [(&str, &str); 12] = [
+const SHIPPED: [(&str, &str); 14] = [
     shipped!("ranking-real-target"),
     shipped!("ranking-virtual-target"),
     shipped!("odd-one-out"),
+    shipped!("odd-one-out-optical"),
+    shipped!("odd-one-out-pen"),
     shipped!("adjustment-two-gains"),
     shipped!("gain-matching"),
     shipped!("real-or-generated"),
@@ -156,11 +158,18 @@ pub struct Stimulus {
     pub material: String,
     /// Where it comes from, as the study calls it: `measured`, `picture`, …
     pub condition: String,
+    /// What analyses keep it apart by, as the study calls it: `seen`, `unseen`, …; empty for none.
+    pub group: String,
     /// What presents it.
     pub source: Source,
 }
 
 impl Stimulus {
+    /// Whether it belongs to a group; all belong to none.
+    pub(crate) fn is_of(&self, group: Option<&str>) -> bool {
+        group.is_none_or(|group| self.group == group)
+    }
+
     /// The cloth on the table that it is, or that it stands for.
     pub(crate) fn cloth(&self) -> &str {
         match &self.source {
@@ -245,10 +254,11 @@ named! { "movement",
 }
 
 /// What was settled before the first subject came, and is copied into every report.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Rules {
-    /// How many subjects are planned; 0 where it was left open.
+    /// How many subjects are planned; 0 where it was left open. A plan says so by itself.
+    #[serde(skip_serializing)]
     pub subjects: usize,
     /// A session with fewer complete trials is left out.
     pub(crate) least_trials: usize,
@@ -256,6 +266,41 @@ pub struct Rules {
     pub(crate) least_response_s: f64,
     /// A subject whose share of right answers is below this is left out, 0 to 1.
     pub(crate) least_share_correct: f64,
+    /// A subject whose share of catch trials answered rightly is below this is left out, 0 to 1.
+    pub(crate) least_share_caught: f64,
+}
+
+impl Rules {
+    /// What is left out, a clause each.
+    pub fn exclusions(&self) -> Vec<String> {
+        let percent = |share: f64| format!("{} %", 100.0 * share);
+        let all = [
+            (
+                self.least_trials > 0,
+                format!("a session with fewer than {} trials", self.least_trials),
+            ),
+            (
+                self.least_response_s > 0.0,
+                format!("a trial answered in less than {} s", self.least_response_s),
+            ),
+            (
+                self.least_share_correct > 0.0,
+                format!(
+                    "a subject with less than {} right",
+                    percent(self.least_share_correct)
+                ),
+            ),
+            (
+                self.least_share_caught > 0.0,
+                format!(
+                    "a subject with less than {} of the catch trials right",
+                    percent(self.least_share_caught)
+                ),
+            ),
+        ];
+        let is_set = |(is_set, text): (bool, String)| is_set.then_some(text);
+        all.into_iter().filter_map(is_set).collect()
+    }
 }
 
 fn speed() -> f64 {

@@ -134,7 +134,7 @@ const ADAPTED: &str = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 
     reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
 
 /// Presentation, response and further tables, with what is said of them and how it is mended.
-const MISFITS: [([&str; 3], &str, &str); 16] = [
+const MISFITS: [([&str; 3], &str, &str); 18] = [
     (
         [SINGLE, "kind = \"choice\"", ""],
         "one alone to choose",
@@ -234,6 +234,24 @@ const MISFITS: [([&str; 3], &str, &str); 16] = [
         ],
         "sequence is \"zigzag\"",
         "\"williams\"",
+    ),
+    (
+        [
+            PAIR,
+            "kind = \"same-different\"",
+            "[rules]\nleast_share_caught = 0.5",
+        ],
+        "no catch trial here can be answered rightly",
+        "add catch_trials",
+    ),
+    (
+        [
+            PAIR,
+            "kind = \"choice\"",
+            "[order]\ncatch_trials = 2\n[rules]\nleast_share_caught = 0.5",
+        ],
+        "no catch trial here can be answered rightly",
+        "or take it away",
     ),
 ];
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::*;
-use crate::design::Design;
+use crate::design::{Design, Source, Stimulus};
 use crate::{AnswerValue, Record, Simulation, simulated_subject};
 use selvedge_foundation::quantity::{factor_of_gain, level_db};
 use selvedge_statistics::{mean, spearman};
@@ -26,9 +26,13 @@ fn levels_of(ids: &[String], id: &str) -> Levels {
     }
 }
 
+/// What the stimuli are made of; those that are made of nothing by their own names.
 fn ids(design: &Design) -> Vec<String> {
-    let ids = design.stimuli.iter().map(|stimulus| stimulus.id.clone());
-    ids.collect()
+    let of = |stimulus: &Stimulus| match &stimulus.source {
+        Source::Textile { id, .. } | Source::RealCloth(id) => id.clone(),
+        Source::Vibration { .. } => stimulus.id.clone(),
+    };
+    design.stimuli.iter().map(of).collect()
 }
 
 pub(crate) fn stimuli(design: &Design) -> Stimuli {

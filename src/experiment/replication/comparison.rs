@@ -2,10 +2,10 @@
 //! what is obtained.
 
 use crate::ExperimentError;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Bar};
 use crate::design::Design;
 use crate::observer::{Observer, Stimuli, Strategy, Weighting};
-use selvedge_chart::{Chart, Series, Style};
+use selvedge_chart::{Series, Style};
 use selvedge_foundation::numerics::quantile;
 use selvedge_foundation::progress::Progress;
 use selvedge_statistics::{Computed, Summary, mean};
@@ -16,13 +16,11 @@ use selvedge_textile::BuildCache;
 pub struct Options {
     /// What all chance begins with.
     pub seed: u64,
-    /// Studies of every comparison, at least 20.
+    /// Studies of every comparison, figure and point of a sweep, at least 20.
     pub n_studies: usize,
-    /// Studies of every point of a sweep, at least 2.
-    pub n_swept: usize,
-    /// Studies that maps are made of, at least 2.
-    pub n_maps: usize,
-    /// Whether one study of each experiment is analysed in full.
+    /// How much observers differ in their noise: standard deviation of its logarithm.
+    pub spread: f64,
+    /// Whether one study of each experiment is analysed in full besides.
     pub is_detailed: bool,
     /// Where textiles that are built from recipes are kept.
     pub cache: Option<BuildCache>,
@@ -33,9 +31,8 @@ impl Default for Options {
         Self {
             seed: 1,
             n_studies: 200,
-            n_swept: 50,
-            n_maps: 50,
-            is_detailed: true,
+            spread: 0.2,
+            is_detailed: false,
             cache: None,
         }
     }
@@ -71,8 +68,6 @@ impl Comparison {
 pub struct Replication {
     /// Number by number.
     pub comparisons: Vec<Comparison>,
-    /// What changes with what is assumed, and the names of the files.
-    pub sweeps: Vec<(String, Chart)>,
     /// All of it, to be read.
     pub analysis: Analysis,
 }
@@ -166,6 +161,18 @@ impl DesignWithStimuli {
 /// A printed number as a line across a plot.
 pub(super) fn printed_line(name: &str, value: f64, ends: [f64; 2]) -> Series {
     Series::of(name, Style::Dashed, ends.map(|at| [at, value]))
+}
+
+/// The mean over studies as a bar, with the interval in which 95 of 100 studies lie; none where fewer
+/// than two have it.
+pub(super) fn bar(name: &str, group: &str, values: &[f64]) -> Option<Bar> {
+    let spread = Spread::of(values).ok()?;
+    Some(Bar::of(
+        name,
+        group,
+        spread.mean,
+        Some([spread.low, spread.high]),
+    ))
 }
 
 /// How a number is spread over studies.

@@ -1,6 +1,6 @@
 //! Number by number: printed beside obtained.
 
-use super::comparison::Comparison;
+use super::comparison::{Comparison, Options};
 use crate::analysis::{Cell, Section, Table, cells, known};
 
 const COLUMNS: [(&str, &str); 12] = [
@@ -18,21 +18,23 @@ const COLUMNS: [(&str, &str); 12] = [
     ("difference", "obtained less printed"),
 ];
 
-pub(super) fn section(comparisons: &[Comparison]) -> Section {
+pub(super) fn section(comparisons: &[Comparison], options: &Options) -> Section {
     let mut section = Section::new("published", "Published against obtained");
-    section.note(
-        "Obtained is the mean over simulated studies of the size of the paper's; the interval is \
-         where 95 of 100 such studies lie. Nothing was fitted: noise is from published just \
-         noticeable differences. Textiles are those that the program ships, not the papers'.",
-    );
     let judged: Vec<bool> = comparisons
         .iter()
         .filter_map(Comparison::is_within)
         .collect();
     let n_within = judged.iter().filter(|is_within| **is_within).count();
     section.note(format!(
-        "{n_within} of {} printed numbers lie within.",
+        "**{n_within} of {} printed numbers lie where 95 of 100 simulated studies do.**",
         judged.len()
+    ));
+    section.note(format!(
+        "Obtained is the mean over {} simulated studies of the papers' own size; intervals of all \
+         tables and figures are where 95 of 100 of them lie. Nothing was fitted: noise is from \
+         published just noticeable differences, and observers differ in it by {} (standard \
+         deviation of its logarithm). Textiles are those that the program ships, not the papers'.",
+        options.n_studies, options.spread
     ));
     let mut table = Table::new("numbers", "Printed and obtained", &COLUMNS);
     for one in comparisons {

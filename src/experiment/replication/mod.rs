@@ -36,7 +36,7 @@ use comparison::{DesignWithStimuli, by_levels};
 struct Papers {
     real: DesignWithStimuli,
     virtually: DesignWithStimuli,
-    triads: DesignWithStimuli,
+    triads: [DesignWithStimuli; 3],
     judged: DesignWithStimuli,
 }
 
@@ -45,11 +45,16 @@ impl Papers {
         let mut open = |name: &str, part| {
             progress.within(part, |part| DesignWithStimuli::open(name, options, part))
         };
+        let [pen, optical, kawabata] = odd_one_out::GROUPS;
         Ok(Self {
             real: open("ranking-real-target", [0.0, 0.2])?,
             virtually: open("ranking-virtual-target", [0.2, 0.4])?,
-            triads: open("odd-one-out", [0.4, 0.5])?,
-            judged: open("real-or-generated", [0.5, 1.0])?,
+            triads: [
+                open(pen, [0.4, 0.45])?,
+                open(optical, [0.45, 0.6])?,
+                open(kawabata, [0.6, 0.65])?,
+            ],
+            judged: open("real-or-generated", [0.65, 1.0])?,
         })
     }
 }
@@ -64,8 +69,6 @@ pub fn replicate(
 ) -> Result<Replication, ExperimentError> {
     let options = &Options {
         n_studies: options.n_studies.max(20),
-        n_swept: options.n_swept.max(2),
-        n_maps: options.n_maps.max(2),
         ..options.clone()
     };
     let papers = progress.within([0.0, 0.1], |part| Papers::open(options, part))?;
@@ -85,7 +88,6 @@ fn replicated(
     } = papers;
     let mut found = Replication {
         comparisons: Vec::new(),
-        sweeps: Vec::new(),
         analysis: Analysis {
             title: "Published against obtained, by simulated observers".to_owned(),
             sections: Vec::new(),
@@ -98,25 +100,28 @@ fn replicated(
     };
     let all = &mut found;
     let sections = [
-        progress.within([0.0, 0.5], |part| ranked.section(all, part))?,
-        progress.within([0.5, 0.6], |part| {
+        progress.within([0.0, 0.35], |part| ranked.section(all, part))?,
+        progress.within([0.35, 0.75], |part| {
             maps::section(virtually, options, all, part)
         })?,
-        progress.within([0.6, 0.75], |part| {
+        progress.within([0.75, 0.85], |part| {
             odd_one_out::section(triads, options, all, part)
         })?,
-        progress.within([0.75, 0.85], |part| {
+        progress.within([0.85, 0.9], |part| {
             judgement::section(judged, options, all, part)
         })?,
     ];
-    let listed = listing::section(&found.comparisons);
+    let listed = listing::section(&found.comparisons, options);
     let all = &mut found.analysis.sections;
     all.push(listed);
     all.extend(sections);
     all.push(printed::section());
     if options.is_detailed {
-        let each = [real, virtually, triads, judged];
-        all.extend(progress.within([0.85, 1.0], |part| in_full(&each, options, part))?);
+        let each: Vec<&DesignWithStimuli> = [real, virtually, judged]
+            .into_iter()
+            .chain(triads)
+            .collect();
+        all.extend(progress.within([0.9, 1.0], |part| in_full(&each, options, part))?);
     }
     Ok(found)
 }
@@ -130,13 +135,8 @@ fn in_full(
     let mut found = Vec::new();
     progress.step(0.0, "one study of each in full")?;
     for laid in each {
-        let n_sessions = odd_one_out::sessions_of(&laid.design);
-        found.extend(studies::simulate_study(
-            laid,
-            by_levels().observer,
-            n_sessions,
-            options,
-        )?);
+        let observer = by_levels().observer;
+        found.extend(studies::simulate_study(laid, observer, options)?);
     }
     let how = analysis::Options {
         seed: options.seed,

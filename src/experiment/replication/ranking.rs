@@ -6,12 +6,12 @@ use super::comparison::{
     printed_line,
 };
 use super::printed;
-use super::studies::{Studies, Subjects, percent_right};
+use super::studies::{Case, Subjects, each_study, percents_right};
 use crate::ExperimentError;
-use crate::analysis::{Section, Table, cells, scatter};
+use crate::analysis::{Drawn, Section, Table, cells, scatter};
 use crate::observer::{Observer, Strategy, Weighting};
-use selvedge_chart::{Axis, Chart, Series, Style};
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_chart::{Axis, Series, Style};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::{Computed, Summary, Undefined};
 
@@ -36,9 +36,8 @@ pub(super) struct Rankings<'a> {
 /// What one study found: the mean of its subjects and the SE of that, %.
 type Found = (f64, f64);
 
-fn found(subjects: &Subjects) -> Found {
-    let percents: Vec<f64> = subjects.iter().map(|rows| percent_right(rows)).collect();
-    match Summary::of(&percents) {
+fn found(subjects: &Subjects, _laid: &DesignWithStimuli) -> Found {
+    match Summary::of(&percents_right(subjects)) {
         Ok(summary) => (summary.mean, summary.se),
         Err(_) => (f64::NAN, f64::NAN),
     }
@@ -52,17 +51,6 @@ struct Swept {
 }
 
 impl Rankings<'_> {
-    fn studies(
-        &self,
-        laid: &DesignWithStimuli,
-        observer: Observer,
-        (n, doing): (usize, &str),
-        progress: &mut Progress<'_>,
-    ) -> Result<Vec<Found>, ExperimentError> {
-        let studies = Studies::of(laid, observer, 1, self.options);
-        studies.each((n, doing), progress, found)
-    }
-
     /// Comparisons, sweeps, and what it would take.
     ///
     /// # Errors
@@ -74,22 +62,17 @@ impl Rankings<'_> {
     ) -> Result<Section, ExperimentError> {
         let title = "Ranking against a target, and what is assumed";
         let mut section = Section::new("ranking", title);
-        self.compare(all, progress)?;
-        let looks = self.over_looks(progress)?;
+        progress.within([0.0, 0.4], |part| self.compare(all, part))?;
+        let looks = progress.within([0.4, 0.75], |part| self.over_looks(part))?;
         let title = "A virtual target, over looks";
         section.table(table("looks", ("looks", "looks"), title, &looks));
         let nearest = nearest_looks(&looks);
-        let errors = self.over_errors(nearest, progress)?;
+        let errors = progress.within([0.75, 1.0], |part| self.over_errors(nearest, part))?;
         let title = "A real target, over the error of the model";
         let at = ("error_db", "real against virtual, sd in dB");
         section.table(table("model-error", at, title, &errors));
-        let drawn = [looks_plot(&looks), errors_plot(&errors)];
-        for (name, plot) in drawn {
-            let axes = [plot.x.clone(), plot.y.clone()];
-            let key = format!("{name}-curves");
-            section.figure(scatter(&key, &plot.title, axes, plot.series.clone()));
-            all.sweeps.push((format!("replication-{name}"), plot));
-        }
+        section.figure(looks_plot(&looks));
+        section.figure(errors_plot(&errors));
         section.note(
             "Published differences are those of one look at a steady vibration. How many looks \
              exploring a textile is worth is not published, so it is swept, not chosen; so is the \
@@ -100,7 +83,7 @@ impl Rankings<'_> {
     }
 
     /// What is compared with what was printed.
-    fn cases(&self) -> [(&'static str, &DesignWithStimuli, Kind, printed::Share); 5] {
+    fn cases(&self) -> [(&'static str, Case<'_>, printed::Share); 5] {
         let with_error = |mut kind: Kind, assumed: &'static str| {
             kind.assumed = assumed;
             kind.observer.real_error_db = MODEL_ERROR_DB;
@@ -111,17 +94,13 @@ impl Rankings<'_> {
         let (by_levels, practised) = (by_levels(), practised());
         let real = with_error(by_levels, differs);
         let real_practised = with_error(practised, both);
+        let virtually = |kind, printed| (VIRTUAL, (self.virtually, kind), printed);
         [
-            (VIRTUAL, self.virtually, by_levels, printed::VIRTUAL),
-            (
-                VIRTUAL,
-                self.virtually,
-                practised,
-                printed::VIRTUAL_PRACTISED,
-            ),
-            (VIRTUAL, self.virtually, guessing(), printed::CHANCE),
-            (REAL, self.real, real, printed::REAL),
-            (REAL, self.real, real_practised, printed::REAL_PRACTISED),
+            virtually(by_levels, printed::VIRTUAL),
+            virtually(practised, printed::VIRTUAL_PRACTISED),
+            virtually(guessing(), printed::CHANCE),
+            (REAL, (self.real, real), printed::REAL),
+            (REAL, (self.real, real_practised), printed::REAL_PRACTISED),
         ]
     }
 
@@ -131,32 +110,50 @@ impl Rankings<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<(), ExperimentError> {
         let cases = self.cases();
-        for (nth, (paper, laid, kind, printed)) in cases.into_iter().enumerate() {
-            let n = self.options.n_studies;
-            let part = [0.08 * nth as f64, 0.08 * (nth + 1) as f64];
-            let found = progress.within(part, |part| {
-                self.studies(laid, kind.observer, (n, paper), part)
-            })?;
+        let held = cases.each_ref().map(|(_, case, _)| *case);
+        let found = each_study(&held, "rankings", self.options, progress, found)?;
+        for ((paper, (_, kind), printed), found) in cases.iter().zip(&found) {
             let is_printed = kind.observer.strategy != Strategy::None;
             let shown = is_printed.then_some(printed.percent);
             let means: Vec<f64> = found.iter().map(|study| study.0).collect();
-            all.add((paper, &kind), (printed.quantity, shown), &means);
+            all.add((paper, kind), (printed.quantity, shown), &means);
             if printed.se.is_some() {
                 let errors: Vec<f64> = found.iter().map(|study| study.1).collect();
                 let quantity = "its standard error over subjects, %";
-                all.add((paper, &kind), (quantity, printed.se), &errors);
+                all.add((paper, kind), (quantity, printed.se), &errors);
             }
         }
         Ok(())
     }
 
+    /// Observers by name and by where they stand in a sweep, in studies of a design.
     fn swept(
         &self,
         laid: &DesignWithStimuli,
-        observer: Observer,
-    ) -> Result<Vec<Found>, ExperimentError> {
-        let n = self.options.n_swept;
-        unheard(|progress| self.studies(laid, observer, (n, ""), progress))
+        (observers, doing): (&[(&'static str, f64, Observer)], &str),
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Swept>, ExperimentError> {
+        let case = |(_, _, observer): &(&'static str, f64, Observer)| {
+            let kind = Kind {
+                observer: *observer,
+                ..by_levels()
+            };
+            (laid, kind)
+        };
+        let cases: Vec<Case<'_>> = observers.iter().map(case).collect();
+        let found = each_study(&cases, doing, self.options, progress, found)?;
+        let swept = observers
+            .iter()
+            .zip(found)
+            .filter_map(|((observer, at, _), found)| {
+                let means: Vec<f64> = found.iter().map(|study| study.0).collect();
+                Some(Swept {
+                    observer,
+                    at: *at,
+                    spread: Spread::of(&means).ok()?,
+                })
+            });
+        Ok(swept.collect())
     }
 
     fn over_looks(&self, progress: &mut Progress<'_>) -> Result<Vec<Swept>, ExperimentError> {
@@ -165,22 +162,20 @@ impl Rankings<'_> {
             ("all cues alike", Strategy::All, Weighting::Equal),
             ("all cues by their worth", Strategy::All, Weighting::Learnt),
         ];
-        let mut swept = Vec::new();
-        for (nth, (observer, strategy, weighting)) in kinds.into_iter().enumerate() {
-            for (at, looks) in LOOKS.into_iter().enumerate() {
-                let how = Observer {
-                    strategy,
-                    weighting,
-                    looks,
-                    ..Observer::default()
-                };
-                let part = (nth * LOOKS.len() + at) as f64 / (3 * LOOKS.len()) as f64;
-                progress.step(0.4 + 0.35 * part, "looks")?;
-                let found = self.swept(self.virtually, how)?;
-                push(&mut swept, observer, f64::from(looks), &found);
-            }
-        }
-        Ok(swept)
+        let looking = |(name, strategy, weighting), looks: u32| {
+            let observer = Observer {
+                strategy,
+                weighting,
+                looks,
+                ..Observer::default()
+            };
+            (name, f64::from(looks), observer)
+        };
+        let observers: Vec<_> = kinds
+            .into_iter()
+            .flat_map(|kind| LOOKS.map(|looks| looking(kind, looks)))
+            .collect();
+        self.swept(self.virtually, (&observers, "looks"), progress)
     }
 
     /// With one look, and with as many as experiment 2 would take.
@@ -189,37 +184,24 @@ impl Rankings<'_> {
         nearest: u32,
         progress: &mut Progress<'_>,
     ) -> Result<Vec<Swept>, ExperimentError> {
-        let mut swept = Vec::new();
+        let observer = |(name, looks), real_error_db: f64| {
+            let observer = Observer {
+                looks,
+                real_error_db,
+                ..Observer::default()
+            };
+            (name, real_error_db, observer)
+        };
         let kinds = [("one look", 1), (AS_FITTED, nearest)];
-        for (nth, (observer, looks)) in kinds.into_iter().enumerate() {
-            for (at, real_error_db) in ERRORS_DB.into_iter().enumerate() {
-                let how = Observer {
-                    looks,
-                    real_error_db,
-                    ..Observer::default()
-                };
-                let part = (nth * ERRORS_DB.len() + at) as f64 / (2 * ERRORS_DB.len()) as f64;
-                progress.step(0.75 + 0.25 * part, "error of the model")?;
-                let found = self.swept(self.real, how)?;
-                push(&mut swept, observer, real_error_db, &found);
-            }
-        }
-        Ok(swept)
+        let observers: Vec<_> = kinds
+            .into_iter()
+            .flat_map(|kind| ERRORS_DB.map(|error_db| observer(kind, error_db)))
+            .collect();
+        self.swept(self.real, (&observers, "error of the model"), progress)
     }
 }
 
 const AS_FITTED: &str = "as many as experiment 2 takes";
-
-fn push(swept: &mut Vec<Swept>, observer: &'static str, at: f64, found: &[Found]) {
-    let means: Vec<f64> = found.iter().map(|study| study.0).collect();
-    if let Ok(spread) = Spread::of(&means) {
-        swept.push(Swept {
-            observer,
-            at,
-            spread,
-        });
-    }
-}
 
 /// The looks with which levels alone come nearest to what experiment 2 printed.
 fn nearest_looks(swept: &[Swept]) -> u32 {
@@ -294,7 +276,7 @@ fn table(key: &str, (at, heading): (&str, &str), title: &str, swept: &[Swept]) -
     table
 }
 
-fn looks_plot(swept: &[Swept]) -> (String, Chart) {
+fn looks_plot(swept: &[Swept]) -> Drawn {
     let ends = [1.0, f64::from(LOOKS[LOOKS.len() - 1])];
     let practised = printed::VIRTUAL_PRACTISED.percent;
     let mut series = lines(swept);
@@ -305,10 +287,10 @@ fn looks_plot(swept: &[Swept]) -> (String, Chart) {
     ]);
     let title = "A virtual target: identification over looks";
     let x = Axis::log("looks that exploring is worth");
-    ("looks".to_owned(), plot(title, x, series))
+    scatter("looks-curves", title, [x, percent()], series)
 }
 
-fn errors_plot(swept: &[Swept]) -> (String, Chart) {
+fn errors_plot(swept: &[Swept]) -> Drawn {
     let ends = [0.0, ERRORS_DB[ERRORS_DB.len() - 1]];
     let mut series = lines(swept);
     series.extend([
@@ -317,17 +299,11 @@ fn errors_plot(swept: &[Swept]) -> (String, Chart) {
     ]);
     let title = "A real target: identification over the error of the model";
     let x = Axis::linear("real against virtual cloth, sd in dB");
-    ("model-error".to_owned(), plot(title, x, series))
+    scatter("model-error-curves", title, [x, percent()], series)
 }
 
-fn plot(title: &str, x: Axis, series: Vec<Series>) -> Chart {
-    Chart {
-        title: title.to_owned(),
-        x,
-        y: Axis::linear("target ranked first, %").within([0.0, 100.0]),
-        series,
-        ..Chart::default()
-    }
+fn percent() -> Axis {
+    Axis::linear("target ranked first, %").within([0.0, 100.0])
 }
 
 fn lines(swept: &[Swept]) -> Vec<Series> {

@@ -1,6 +1,6 @@
 //! Many studies of one kind, each by itself, and how what they found is spread.
 
-use super::comparison::{DesignWithStimuli, Options};
+use super::comparison::{DesignWithStimuli, Kind, Options};
 use crate::design::Design;
 use crate::observer::Observer;
 use crate::session::Found;
@@ -8,40 +8,58 @@ use crate::{ExperimentError, Record, Simulation, simulated_subject};
 use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::progress::Progress;
 
+/// A study's rows that count, subject by subject.
+pub(super) type Subjects = Vec<Vec<Record>>;
+
+/// A design, and a kind of observer in it.
+pub(super) type Case<'a> = (&'a DesignWithStimuli, Kind);
+
+/// What `found` makes of every study of every case, of as many subjects as the design plans.
+///
+/// # Errors
+/// A study cannot be held, or it was cancelled.
+pub(super) fn each_study<T: Send>(
+    cases: &[Case<'_>],
+    doing: &str,
+    options: &Options,
+    progress: &mut Progress<'_>,
+    found: impl Fn(&Subjects, &DesignWithStimuli) -> T + Sync,
+) -> Result<Vec<Vec<T>>, ExperimentError> {
+    let share = 1.0 / cases.len().max(1) as f64;
+    let mut all = Vec::with_capacity(cases.len());
+    for (nth, (laid, kind)) in cases.iter().enumerate() {
+        let part = [nth, nth + 1].map(|at| share * at as f64);
+        let observer = differing(kind.observer, options);
+        let studies = Studies {
+            laid,
+            observer,
+            seed: options.seed,
+        };
+        let n = options.n_studies;
+        all.push(progress.within(part, |part| {
+            studies.each((n, doing), part, |subjects| found(subjects, laid))
+        })?);
+    }
+    Ok(all)
+}
+
+/// An observer that stands for many who differ.
+fn differing(observer: Observer, options: &Options) -> Observer {
+    Observer {
+        jnd_spread: options.spread,
+        ..observer
+    }
+}
+
 /// Observers in a design, study after study.
-#[derive(Clone, Copy)]
-pub(super) struct Studies<'a> {
+struct Studies<'a> {
     laid: &'a DesignWithStimuli,
     observer: Observer,
-    /// Subjects and sessions of each.
-    size: (usize, u32),
     seed: u64,
 }
 
-/// A study's rows that count, subject by subject, sessions joined.
-pub(super) type Subjects = Vec<Vec<Record>>;
-
-impl<'a> Studies<'a> {
-    /// As many subjects as the design plans, eight where it does not, each in so many sessions.
-    pub(super) fn of(
-        laid: &'a DesignWithStimuli,
-        observer: Observer,
-        n_sessions: u32,
-        options: &Options,
-    ) -> Self {
-        Self {
-            laid,
-            observer,
-            size: (planned(&laid.design), n_sessions),
-            seed: options.seed,
-        }
-    }
-
-    /// What `found` makes of the rows of each of `n` studies.
-    ///
-    /// # Errors
-    /// A study cannot be held, or it was cancelled.
-    pub(super) fn each<T: Send>(
+impl Studies<'_> {
+    fn each<T: Send>(
         &self,
         (n, doing): (usize, &str),
         progress: &mut Progress<'_>,
@@ -81,22 +99,17 @@ impl<'a> Studies<'a> {
             observer: &self.observer,
             seed: study.branch("observers").seed(),
         };
-        let (n_subjects, n_sessions) = self.size;
-        let mut subjects = Vec::with_capacity(n_subjects);
-        for nth in 0..n_subjects {
-            let mut rows = Vec::new();
-            for session in 1..=n_sessions {
-                rows.extend(simulation.records(&simulated_subject(nth, session))?);
-            }
+        let of_subject = |nth: usize| {
+            let mut rows = simulation.records(&simulated_subject(nth, 1))?;
             rows.retain(|row| !row.trial.is_practice);
-            subjects.push(rows);
-        }
-        Ok(subjects)
+            Ok(rows)
+        };
+        (0..planned(&design)).map(of_subject).collect()
     }
 }
 
 /// How many take part: as the design plans, eight where it does not.
-pub(super) fn planned(design: &Design) -> usize {
+fn planned(design: &Design) -> usize {
     match design.rules.subjects {
         0 => 8,
         n => n,
@@ -107,20 +120,25 @@ pub(super) fn planned(design: &Design) -> usize {
 pub(super) fn simulate_study(
     laid: &DesignWithStimuli,
     observer: Observer,
-    n_sessions: u32,
     options: &Options,
 ) -> Result<Vec<Found>, ExperimentError> {
+    let observer = differing(observer, options);
     let simulation = Simulation {
         design: &laid.design,
         stimuli: &laid.stimuli,
         observer: &observer,
         seed: options.seed,
     };
-    simulation.sessions(planned(&laid.design), n_sessions)
+    simulation.sessions(planned(&laid.design), 1)
 }
 
 /// What is right of a subject's rows, %.
-pub(super) fn percent_right(rows: &[Record]) -> f64 {
+fn percent_right(rows: &[Record]) -> f64 {
     let n_right = rows.iter().filter(|r| r.is_correct == Some(true)).count();
     100.0 * n_right as f64 / rows.len() as f64
+}
+
+/// What is right of every subject's rows, %.
+pub(super) fn percents_right(subjects: &Subjects) -> Vec<f64> {
+    subjects.iter().map(|rows| percent_right(rows)).collect()
 }

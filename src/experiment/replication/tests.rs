@@ -8,9 +8,6 @@ use selvedge_foundation::progress::unheard;
 fn small() -> Options {
     Options {
         n_studies: 20,
-        n_swept: 2,
-        n_maps: 4,
-        is_detailed: false,
         ..Options::default()
     }
 }
@@ -25,7 +22,7 @@ fn papers() -> Papers {
     Papers {
         real: laid("ranking-real-target"),
         virtually: laid("ranking-virtual-target"),
-        triads: laid("odd-one-out"),
+        triads: odd_one_out::GROUPS.map(laid),
         judged: laid("real-or-generated"),
     }
 }
@@ -77,7 +74,16 @@ fn printed_and_obtained_stand_beside_each_other_and_come_again() {
     assert!(m2.obtained.mean < 0.2 && m2.obtained.low >= 0.0, "{m2:?}");
     let guesses = found("right answers, %", "guesses", &all);
     assert!(guesses.obtained.mean < 60.0, "{guesses:?}");
-    assert_eq!(all.sweeps.len(), 2);
+    let groups = ["real cloth, pen", "optical model", "Kawabata model"];
+    for group in groups {
+        let right = found("right answers, %", group, &all);
+        assert!(right.obtained.low > 100.0 / 3.0, "{right:?}");
+    }
+    let signals = all
+        .comparisons
+        .iter()
+        .filter(|one| one.quantity.starts_with("F(1, 11)"));
+    assert_eq!(signals.count(), 4, "seen and unseen apart, two observers");
 }
 
 #[test]
@@ -116,8 +122,9 @@ fn a_replication_can_be_stopped() {
 
 #[test]
 fn what_chance_gives_is_known_for_every_number_of_dimensions() {
-    let triads = papers().triads;
-    let chance = unheard(|progress| odd_one_out::chance(&triads, progress)).unwrap();
+    let names: Vec<String> = (0..7).map(|at| format!("fabric-{at}")).collect();
+    let mds = selvedge_statistics::mds::Mds::default();
+    let chance = unheard(|progress| maps::chance(&names, &mds, (4, 40), progress)).unwrap();
     let means: Vec<f64> = chance
         .iter()
         .map(selvedge_statistics::mds::Null::mean)

@@ -231,3 +231,19 @@ fn the_path_of_a_trial_is_a_path_and_is_there_before_its_row() {
     session.answer(&answer, &about).unwrap();
     assert_eq!(Found::read(session.log()).unwrap().records.len(), 2);
 }
+
+#[test]
+fn killed_before_the_end_of_its_header_a_session_is_begun_again() {
+    let folder = Folder::new("torn-header");
+    let (log, bytes) = held(&folder);
+    let found = Found::read(&log).unwrap();
+    for cut in [0, 1, ends(&bytes)[0] - 1] {
+        fs::write(&log, &bytes[..cut]).unwrap();
+        let (design, subject) = (found.design.clone(), found.subject.clone());
+        let session = Session::create(&folder.0, design, subject, "none").unwrap();
+        assert_eq!(session.n_rows(), 0, "cut at {cut}");
+        drop(session);
+        let begun = fs::read(&log).unwrap();
+        assert!(begun.starts_with(&bytes[..ends(&bytes)[0]]), "cut at {cut}");
+    }
+}

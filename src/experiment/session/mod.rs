@@ -355,12 +355,15 @@ impl Session {
 /// Begins a log again in which no trial stands, since the program ended before its sidecar or its
 /// first row was written.
 fn never_begun(path: &Path, names: &[&str]) -> Result<Journal, FileError> {
-    let table = Journal::reopen(path, names)?.table;
-    let is_whole = path.with_extension("json").exists() && table.n_rows() > 0;
-    if is_whole || trials(&table).next().is_some() {
-        return Err(FileError::Exists {
-            path: path.to_owned(),
-        });
+    // Not even its header may have been written to its end.
+    if std::fs::read(path).is_ok_and(|bytes| bytes.contains(&b'\n')) {
+        let table = Journal::reopen(path, names)?.table;
+        let is_whole = path.with_extension("json").exists() && table.n_rows() > 0;
+        if is_whole || trials(&table).next().is_some() {
+            return Err(FileError::Exists {
+                path: path.to_owned(),
+            });
+        }
     }
     std::fs::remove_file(path).map_err(|source| FileError::Write {
         path: path.to_owned(),

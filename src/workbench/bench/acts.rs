@@ -13,6 +13,7 @@ use crate::bench::command::{
 use crate::bench::overlays::{Overlay, Overlays};
 use crate::bench::perspective::Perspective;
 use crate::bench::query;
+use crate::bench::settings::preferences::Loudness;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_textile::tactile::Band;
 
@@ -33,6 +34,7 @@ pub(crate) const THEME: &str = "Theme: ";
 pub(crate) const COLOURS: &str = "Colours of numbers: ";
 pub(crate) const SIZE: &str = "Size of everything: ";
 pub(crate) const CONTACTORS: &str = "Contactors: ";
+pub(crate) const SOUND: &str = "Sound: ";
 pub(crate) const CLIP: &str = "Export the recording: ";
 
 /// What an act concerns.
@@ -350,6 +352,17 @@ fn view_acts() -> Vec<Act> {
         styles
             .map(|(style, name)| show(format!("{CONTACTORS}{name}"), ShowCommand::DotStyle(style))),
     );
+    let sound = |name: &str, command| show(format!("{SOUND}{name}"), command);
+    acts.extend([
+        sound("what is felt, on or off", ShowCommand::ToggleSound).on(CTRL, Key::M),
+        sound("quiet", ShowCommand::Loudness(Loudness::Quiet)),
+        sound("middle", ShowCommand::Loudness(Loudness::Middle)),
+        sound("loud", ShowCommand::Loudness(Loudness::Loud)),
+        sound(
+            "as driven (40 Hz itself, no overtones)",
+            ShowCommand::ToggleAsDriven,
+        ),
+    ]);
     acts
 }
 

@@ -32,6 +32,7 @@ impl Bench {
         self.poll_excerpt();
         self.follow_array(ctx);
         self.log_what_is_felt();
+        self.follow_sound();
         if !self.engine.is_running() {
             let words = "The engine has stopped and the device with it: save the scene and start \
                          the program again";

@@ -25,6 +25,7 @@ use crate::bench::recovery::Recovery;
 use crate::bench::rendering::Rendering;
 use crate::bench::session::SessionInSight;
 use crate::bench::signals::history::History;
+use crate::bench::sound::Sound;
 use crate::bench::sources::Sources;
 use crate::bench::trail::Trail;
 use crate::bench::view::BridgeView;
@@ -137,6 +138,8 @@ pub(crate) struct DeviceState {
     pub(crate) interval: IntervalMeter,
     /// What the log of links was told.
     pub(crate) felt_log: FeltLog,
+    /// The sound of what is felt.
+    pub(crate) sound: Sound,
 }
 
 /// What was felt lately.

@@ -187,6 +187,7 @@ impl Workbench {
             zoom: kept.zoom,
             perspective: kept.perspective,
             dots: self.bench.selection.dot_style,
+            sound: kept.sound,
             greys_below: self.bench.selection.greys_below,
             overlays: kept.overlays,
             panes: shown.to_vec(),

@@ -1,7 +1,8 @@
 //! The line on top: the scene and what may be done with it, armed state, and what Esc does.
 
 use eframe::egui::{
-    self, Align, Align2, Button, Layout, RichText, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    self, Align, Align2, Button, Color32, Layout, Pos2, RichText, Sense, Shape, Stroke, StrokeKind,
+    Ui, WidgetInfo, vec2,
 };
 
 use crate::bench::Bench;
@@ -16,6 +17,7 @@ use crate::kit::widgets::text::{button, mark};
 use crate::shell::menu::{
     Appearance, show_edit_menu, show_help_menu, show_scene_menu, show_view_menu,
 };
+use selvedge_engine::SoundState;
 
 /// What also stands in a menu has no room in a narrower window, points: whether the device is armed
 /// and what Esc does is always seen.
@@ -55,6 +57,7 @@ pub(crate) fn show(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             show_escape(ui, bench, commands);
             show_armed(ui, &bench.live);
+            show_sound(ui, bench, commands);
             ui.add_space(2.0 * STEP);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 show_name(ui, scene);
@@ -98,7 +101,7 @@ fn show_name(ui: &mut Ui, scene: &SceneView) {
     let (ink, words) = if scene.is_edited {
         (palette.selection, "edited: not saved yet")
     } else {
-        (egui::Color32::TRANSPARENT, "saved")
+        (Color32::TRANSPARENT, "saved")
     };
     mark(ui, ink, words).on_hover_text(words);
     let text = RichText::new(&scene.name).font(theme::title());
@@ -153,6 +156,80 @@ fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let response = response.on_disabled_hover_text("Nothing moves by itself");
     if response.on_hover_text(tip).clicked() {
         commands.push(command);
+    }
+}
+
+/// Whether what is felt is heard; grey, with the reason, where it cannot be.
+fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
+    let palette = Palette::in_ui(ui);
+    let is_on = bench.settings.preferences.sound.is_on;
+    let command: Command = ShowCommand::ToggleSound.into();
+    let key = hint(ui.ctx(), &command);
+    let state = bench.device.sound.state();
+    let (is_heard, ink, tip) = match (is_on, state) {
+        (false, _) => (false, palette.dim, format!("Hear what is felt ({key})")),
+        (true, Some(SoundState::Absent(why))) => (false, palette.dim, format!("Not heard: {why}")),
+        (true, state) => {
+            let later = match state {
+                Some(SoundState::Playing {
+                    latency: Some(latency),
+                    ..
+                }) => format!(", {} ms later", latency.as_millis()),
+                _ => String::new(),
+            };
+            let tip = format!(
+                "What is felt is heard{later}, 40 Hz made audible by overtones. Off: {key}. \
+                 Louder, quieter, as driven: View, Sound"
+            );
+            (true, palette.text, tip)
+        }
+    };
+    let button = Button::new("").min_size(vec2(ROW, ROW));
+    let response = ui.add_enabled(!bench.has_session(), button.frame_when_inactive(false));
+    paint_loudspeaker(ui, response.rect.center(), (is_heard, ink));
+    response.widget_info(|| {
+        WidgetInfo::selected(
+            egui::Role::CheckBox,
+            ui.is_enabled(),
+            is_on,
+            "Sound of what is felt",
+        )
+    });
+    let why = "No sound while a session is held: it changes what is felt and gives answers away";
+    if response
+        .on_disabled_hover_text(why)
+        .on_hover_text(tip)
+        .clicked()
+    {
+        commands.push(command);
+    }
+}
+
+/// A loudspeaker, with waves or struck out: the window's letters have none.
+fn paint_loudspeaker(ui: &Ui, centre: Pos2, (is_heard, ink): (bool, Color32)) {
+    let at = |x: f32, y: f32| centre + vec2(x, y);
+    let line = Stroke::new(1.5, ink);
+    let painter = ui.painter();
+    let cone = [
+        (-7.0, -2.5),
+        (-4.0, -2.5),
+        (0.0, -6.0),
+        (0.0, 6.0),
+        (-4.0, 2.5),
+        (-7.0, 2.5),
+    ];
+    painter.add(Shape::closed_line(
+        cone.map(|(x, y)| at(x, y)).to_vec(),
+        line,
+    ));
+    if is_heard {
+        for far in [3.5, 6.5] {
+            let wave = [(far - 1.0, -far), (far, 0.0), (far - 1.0, far)];
+            painter.line(wave.map(|(x, y)| at(x, 0.8 * y)).to_vec(), line);
+        }
+    } else {
+        painter.line_segment([at(3.0, -3.0), at(7.0, 3.0)], line);
+        painter.line_segment([at(3.0, 3.0), at(7.0, -3.0)], line);
     }
 }
 

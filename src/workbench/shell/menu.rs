@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Button, RichText, ScrollArea, Ui};
 
-use crate::bench::acts::{self, CLIP, COLOURS, CONTACTORS, SIZE, THEME, group};
+use crate::bench::acts::{self, CLIP, COLOURS, CONTACTORS, SIZE, SOUND, THEME, group};
 use crate::bench::clips::ClipsView;
 use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
 use crate::bench::history::StepList;
@@ -13,6 +13,7 @@ use crate::bench::keys::hint;
 use crate::bench::overlays::Overlays;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
+use crate::bench::settings::preferences::SoundPreferences;
 use crate::bench::view::SceneView;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
@@ -33,6 +34,8 @@ pub(crate) struct Appearance {
     pub(crate) zoom: f32,
     /// How contactors are drawn.
     pub dots: DotStyle,
+    /// What is heard of what is felt.
+    pub(crate) sound: SoundPreferences,
     /// Whether what is below the threshold of detection is greyed.
     pub(crate) greys_below: bool,
     /// What is drawn over the cloth.
@@ -193,6 +196,7 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, commands: &mu
             ("Colours of numbers", COLOURS),
             ("Size of everything", SIZE),
             ("Contactors", CONTACTORS),
+            ("Sound", SOUND),
         ] {
             ui.menu_button(title, |ui| {
                 for (label, act) in group(prefix) {
@@ -240,6 +244,9 @@ impl Appearance {
             Command::Show(ShowCommand::ColourMap(map)) => *map == self.map,
             Command::Show(ShowCommand::Zoom(zoom)) => (zoom - self.zoom).abs() < 0.01,
             Command::Show(ShowCommand::DotStyle(style)) => *style == self.dots,
+            Command::Show(ShowCommand::ToggleSound) => self.sound.is_on,
+            Command::Show(ShowCommand::Loudness(loudness)) => *loudness == self.sound.loudness,
+            Command::Show(ShowCommand::ToggleAsDriven) => self.sound.as_driven,
             _ => false,
         }
     }

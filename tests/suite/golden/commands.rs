@@ -248,7 +248,7 @@ fn golden_experiment() {
         .folder("looks")
         .run("experiment noise --out noise.wav --minutes 1 --seed 4")
         .file("noise.wav")
-        .run("experiment replicate --studies 20 --brief --out again")
+        .run("experiment replicate --studies 20 --out again")
         .file("again/published-numbers.csv");
     script.compare(&mut golden, "experiment");
     golden.finish();

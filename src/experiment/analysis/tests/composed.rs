@@ -166,3 +166,39 @@ fn a_catch_trial_shows_the_same_twice_and_does_not_count() {
         "all as unlike: {pairs:?}"
     );
 }
+
+#[test]
+fn who_misses_more_catch_trials_than_the_rules_allow_is_left_out() {
+    let one = COMPOSED.iter().find(|one| one.name == "dissimilarity");
+    let scaled = format!("{}\n[rules]\nleast_share_caught = 0.5\n", one.unwrap().text);
+    let response = scaled.find("[response]").unwrap()..scaled.find("[order]").unwrap();
+    let mut numbered = scaled.clone();
+    numbered.replace_range(response, "[response]\nkind = \"number\"\n\n");
+    let rating = |unlike: f64| AnswerValue::Ratings(vec![unlike]).into();
+    let number = |unlike: f64| AnswerValue::Number(unlike).into();
+    let answers = [(scaled, rating as fn(f64) -> Answer), (numbered, number)];
+    for (text, answer) in answers {
+        let design = Design::from_toml(&text, Path::new("caught.toml")).unwrap();
+        // Of four catch trials the first answers two rightly, the second one.
+        let of_subject = |nth: usize| {
+            let mut n_caught = 0;
+            held(&design, (nth, 1), |task, number| {
+                if !task.is_catch {
+                    return answer(40.0 + number as f64);
+                }
+                n_caught += 1;
+                answer(if n_caught > 2 - nth { 90.0 } else { 1.0 })
+            })
+        };
+        let found: Vec<Found> = (0..2).map(of_subject).collect();
+        let analysis = analysed(&found);
+        let left_out = table(&analysis, "dissimilarity-sessions", "left-out");
+        assert_eq!(left_out.rows.len(), 1, "{left_out:?}");
+        let why = "1 of 4 catch trials right, less than 50 %";
+        assert_eq!(left_out.cell(0, "subject"), Some(&"p02".into()));
+        assert_eq!(left_out.cell(0, "why"), Some(&why.into()));
+        let page = analysis.page();
+        let rule = "a subject with less than 50 % of the catch trials right is left out";
+        assert!(page.contains(rule), "{page}");
+    }
+}

@@ -210,6 +210,8 @@ fn shares_right_of_a_hundred_observers_are_found_and_held() {
     };
     for (name, section) in [
         ("odd-one-out", "accuracy"),
+        ("odd-one-out-optical", "accuracy"),
+        ("odd-one-out-pen", "accuracy"),
         ("ranking-virtual-target", "identification"),
         ("ranking-real-target", "identification"),
     ] {
@@ -224,9 +226,13 @@ fn shares_right_of_a_hundred_observers_are_found_and_held() {
             truth: (percent, &|_| percent),
         };
         known.check(&analysis);
+        // A mean of a hundred d′ of 21 triads is known to some 6 % alone: one group stands for three.
+        if name.starts_with("odd-one-out-") {
+            continue;
+        }
         let correction = Correction::LogLinear;
         let choice = match name {
-            "odd-one-out" => triangle(right, n, correction),
+            _ if section == "accuracy" => triangle(right, n, correction),
             _ => forced_choice(right, n, 4, correction),
         };
         let d_prime = choice.unwrap().d_prime;
@@ -294,17 +300,21 @@ fn exponents_of_a_hundred_observers_are_found_and_held() {
 
 #[test]
 fn a_hundred_observers_set_gains_to_what_the_cloth_has() {
-    let design = Design::shipped("adjustment-two-gains").unwrap();
-    let observer = Observer::default();
-    let analysis = analysed(&held_with(&loud(&design), &design, &observer, 0..N));
-    for band in ["40", "320"] {
-        let key = format!("adjustment-two-gains-gain-{band}-db");
+    for (name, gain) in [
+        ("adjustment-two-gains", "gain-40-db"),
+        ("adjustment-two-gains", "gain-320-db"),
+        ("gain-matching", "gain-db"),
+    ] {
+        let design = Design::shipped(name).unwrap();
+        let observer = Observer::default();
+        let analysis = analysed(&held_with(&loud(&design), &design, &observer, 0..N));
+        let key = format!("{name}-{gain}");
         let stimuli = table(&analysis, &key, "stimuli");
         let mut n_held = 0;
         for row in 0..stimuli.rows.len() {
             let bias = 10.0_f64.powf(value(stimuli, row, "mean") / 20.0) - 1.0;
             println!(
-                "gain at {band} Hz, {:?}: {:+.1} % of 0 dB, {:.3} to {:.3} dB",
+                "{key}, {:?}: {:+.1} % of 0 dB, {:.3} to {:.3} dB",
                 stimuli.rows[row][0],
                 100.0 * bias,
                 value(stimuli, row, "ci_low"),

@@ -4,6 +4,7 @@ mod bad;
 mod choices;
 mod composed;
 mod files;
+mod groups;
 mod inference;
 mod pairs;
 mod ranking;

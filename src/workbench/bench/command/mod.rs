@@ -27,6 +27,7 @@ use crate::bench::pane::{Exportable, Pane};
 use crate::bench::perspective::Perspective;
 use crate::bench::probe::Probe;
 use crate::bench::rendering::Rendering;
+use crate::bench::settings::preferences::Loudness;
 use crate::bench::sources::SourceCommand;
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::ClipKind;
@@ -302,6 +303,12 @@ pub(crate) enum ShowCommand {
     ToggleThreshold,
     /// What the contactors' dots show by what.
     DotStyle(DotStyle),
+    /// Let what is felt be heard, or no longer.
+    ToggleSound,
+    /// How loud that is.
+    Loudness(Loudness),
+    /// Let 40 Hz itself sound in place of its overtones, or the other way round.
+    ToggleAsDriven,
     /// Draw this over the cloth, or no longer.
     Overlay(Overlay),
     /// Ask what textiles would give at this velocity.

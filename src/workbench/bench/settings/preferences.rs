@@ -78,12 +78,12 @@ pub(crate) struct Preferences {
     /// Size of the window, points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) window_size: Option<[f32; 2]>,
+    /// The sound of what is felt.
+    #[serde(flatten)]
+    pub(crate) sound: SoundPreferences,
     /// Folders that the user works in.
     #[serde(flatten)]
     pub(crate) folders: KnownFolders,
-    /// The design that was chosen last: the name of one of the program, or the path of a file.
-    #[serde(rename = "experiment_design", skip_serializing_if = "Option::is_none")]
-    pub design: Option<String>,
     /// The scenes that were opened or saved last, newest first, by absolute path.
     #[serde(with = "scene_paths")]
     pub(crate) recent_scenes: Vec<PathBuf>,
@@ -117,7 +117,7 @@ impl Default for Preferences {
             tablet_areas: BTreeMap::new(),
             window_size: None,
             folders: KnownFolders::default(),
-            design: None,
+            sound: SoundPreferences::default(),
             recent_scenes: Vec::new(),
         }
     }
@@ -203,7 +203,46 @@ fn first_height() -> f32 {
     132.0
 }
 
-/// Folders that the user works in.
+/// The sound of what is felt: off at first.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct SoundPreferences {
+    /// Whether it is on.
+    #[serde(rename = "sound_on")]
+    pub(crate) is_on: bool,
+    /// How loud it is.
+    #[serde(rename = "sound_volume")]
+    pub(crate) loudness: Loudness,
+    /// Whether 40 Hz itself sounds in place of its overtones.
+    #[serde(rename = "sound_as_driven")]
+    pub(crate) as_driven: bool,
+}
+
+/// How loud the sound of what is felt is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Loudness {
+    /// 30 % of the ceiling.
+    Quiet,
+    /// 60 %.
+    #[default]
+    Middle,
+    /// All of it.
+    Loud,
+}
+
+impl Loudness {
+    /// Of the ceiling, 0…1.
+    pub(crate) fn share(self) -> f32 {
+        match self {
+            Self::Quiet => 0.3,
+            Self::Middle => 0.6,
+            Self::Loud => 1.0,
+        }
+    }
+}
+
+/// Folders that the user works in, and the design.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct KnownFolders {
@@ -213,6 +252,9 @@ pub(crate) struct KnownFolders {
     /// Those of textiles that were added to the libraries, by absolute path.
     #[serde(rename = "library_folders", skip_serializing_if = "Vec::is_empty")]
     pub(crate) libraries: Vec<PathBuf>,
+    /// The design that was chosen last: the name of one of the program, or the path of a file.
+    #[serde(rename = "experiment_design", skip_serializing_if = "Option::is_none")]
+    pub(crate) design: Option<String>,
 }
 
 /// What a file calls a theme.

@@ -10,7 +10,9 @@ use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::Settings;
-use crate::bench::settings::preferences::{KnownFolders, Preferences, Scales};
+use crate::bench::settings::preferences::{
+    KnownFolders, Loudness, Preferences, Scales, SoundPreferences,
+};
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::{Handle, SpectrumScale};
 use crate::kit::theme::colour_map::ColourMap;
@@ -224,8 +226,13 @@ fn every_setting_survives_writing_and_reading() {
         folders: KnownFolders {
             sessions: Some("/lab/study 1".to_owned()),
             libraries: vec!["/lab/ä".into(), "/c".into()],
+            design: Some("odd-one-out".to_owned()),
         },
-        design: Some("odd-one-out".to_owned()),
+        sound: SoundPreferences {
+            is_on: true,
+            loudness: Loudness::Loud,
+            as_driven: true,
+        },
         ..Preferences::default()
     };
     let scenes = ["/a/ä b.scene.toml", "/c.toml"].map(PathBuf::from);

@@ -109,6 +109,15 @@ impl Bench {
             }
             ShowCommand::Mute(part) => self.selection.mute_solo.toggle_mute(part),
             ShowCommand::Solo(part) => self.selection.mute_solo.toggle_solo(part),
+            ShowCommand::ToggleSound => {
+                let sound = &mut self.settings.preferences.sound;
+                sound.is_on = !sound.is_on;
+            }
+            ShowCommand::Loudness(loudness) => self.settings.preferences.sound.loudness = loudness,
+            ShowCommand::ToggleAsDriven => {
+                let sound = &mut self.settings.preferences.sound;
+                sound.as_driven = !sound.as_driven;
+            }
             ShowCommand::HearAll => self.selection.mute_solo = MuteSolo::default(),
             _ => {}
         }

@@ -314,7 +314,7 @@ impl ActiveSession {
             outcome: answer.map_or(Outcome::Aborted, Outcome::Answered),
             timing,
             tuning: self.tuning(),
-            note: self.note.trim().to_owned(),
+            note: self.presented.heard.noted(&self.note),
             path: None,
             samples: Vec::new(),
         });

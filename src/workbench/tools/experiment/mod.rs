@@ -24,6 +24,7 @@ pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;
 pub(crate) mod participant;
+pub(crate) mod played_noise;
 pub(crate) mod presenting;
 pub(crate) mod run_session;
 pub(crate) mod sessions;
@@ -131,7 +132,7 @@ impl Tool for Experiment {
 
     fn begin(&mut self, bench: &mut Bench) {
         let preferences = &bench.settings.preferences;
-        let (folder, design) = (&preferences.folders.sessions, &preferences.design);
+        let (folder, design) = (&preferences.folders.sessions, &preferences.folders.design);
         self.form.take_up(folder.as_deref(), design.as_deref());
     }
 
@@ -195,7 +196,7 @@ impl Tool for Experiment {
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
         preferences.folders.sessions = self.form.kept_folder();
-        preferences.design = self.form.study.chosen().word();
+        preferences.folders.design = self.form.study.chosen().word();
     }
 }
 

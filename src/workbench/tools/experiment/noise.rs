@@ -1,15 +1,21 @@
-//! The masking noise that a design may ask for: a file to be played by any player.
+//! The masking noise that a design may ask for: played by the program, or a file for any player.
+//!
+//! What is played goes on while trials run and between them; a row's note says what was heard of
+//! its trial.
 
 use std::path::Path;
 
-use crate::bench::Bench;
 use crate::bench::background::{Task, finished};
+use crate::bench::{Bench, FRAME};
 use crate::tools::experiment::form::NOISE_FILE;
 use crate::tools::experiment::state::Experiment;
+use selvedge_engine::{SoundOutput, SoundState};
 use selvedge_experiment::MaskingNoise;
 use selvedge_foundation::progress::Progress;
+use selvedge_foundation::quantity;
+use selvedge_render::single;
 
-/// How it stands with the noise.
+/// How it stands with the file of the noise.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum NoiseView {
     /// There is none yet.
@@ -32,6 +38,41 @@ impl NoiseView {
 }
 
 impl Experiment {
+    /// Begins to play the noise.
+    pub(crate) fn play_noise(&mut self, bench: &Bench) {
+        let make = |_: &mut Progress<'_>| Ok(MaskingNoise::default().sound());
+        self.played.making = Some(bench.executor.start("selvedge-noise", make));
+    }
+
+    /// Lets the noise follow its level, and the trial that waits know of it; ends it where no
+    /// design asks for it.
+    fn follow_noise(&mut self, bench: &mut Bench) {
+        let is_asked = self.noise().is_some();
+        let played = &mut self.played;
+        if !is_asked {
+            played.stop();
+            return;
+        }
+        match finished(&mut played.making) {
+            Some(Ok(sound)) => match SoundOutput::open(Box::new(sound)) {
+                Ok(output) => played.output = Some(output),
+                Err(error) => bench.notices.give(error.to_string()),
+            },
+            Some(Err(line)) => bench.notices.give(line),
+            None => {}
+        }
+        if let Some(output) = &played.output {
+            let gain_db = played.level_db - MaskingNoise::LEVEL_DB;
+            output.set_level(single(quantity::factor_of_gain(gain_db)));
+        }
+        if played.state() == Some(SoundState::Opening) {
+            bench.ctx.request_repaint_after(FRAME);
+        }
+        if let Some(session) = &mut self.session {
+            session.presented.heard.hear(played.heard_db());
+        }
+    }
+
     /// How it stands with a masking noise, where the design asks for one.
     pub(crate) fn noise(&self) -> Option<NoiseView> {
         let form = &self.form;
@@ -55,6 +96,7 @@ impl Experiment {
 
     /// Takes what came of it.
     pub(crate) fn poll_noise(&mut self, bench: &mut Bench) {
+        self.follow_noise(bench);
         match finished(&mut self.noise) {
             Some(Ok(())) => self.form.has_noise = true,
             Some(Err(line)) => bench.notices.give(line),

@@ -7,6 +7,7 @@ use crate::bench::Bench;
 use crate::bench::view::BridgePhase;
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::now::{Began, Now};
+use crate::tools::experiment::played_noise::HeardNoise;
 use selvedge_engine::{RecordedTick, Recording};
 use selvedge_experiment::layout::on_the_table;
 use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};
@@ -56,6 +57,8 @@ pub(crate) struct Presented {
     pub(crate) trouble: Option<String>,
     /// How long the last trial took, s.
     pub(crate) last_response_s: Option<f64>,
+    /// What was heard of a masking noise since it began.
+    pub(crate) heard: HeardNoise,
 }
 
 impl Default for Presented {
@@ -66,6 +69,7 @@ impl Default for Presented {
             n_void: 0,
             trouble: None,
             last_response_s: None,
+            heard: HeardNoise::default(),
         }
     }
 }
@@ -208,6 +212,7 @@ impl ActiveSession {
             Presenting::Confirmed
         };
         self.presented.recording = TrialRecording::Running(recording, 0);
+        self.presented.heard.begin();
         self.began = began;
     }
 

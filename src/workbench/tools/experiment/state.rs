@@ -5,6 +5,7 @@ use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::builder::state::Builder;
 use crate::tools::experiment::form::Form;
 use crate::tools::experiment::materials::Materials;
+use crate::tools::experiment::played_noise::PlayedNoise;
 use selvedge_experiment::session::Session;
 
 /// The window that shows a participant's view and nothing else.
@@ -29,6 +30,8 @@ pub(crate) struct Experiment {
     pub(super) session: Option<Box<ActiveSession>>,
     /// A masking noise on its way to its file.
     pub(super) noise: Option<Task<()>>,
+    /// The masking noise as it is played.
+    pub(super) played: PlayedNoise,
     /// A window of the participant's own.
     pub(super) window: ParticipantsWindow,
     /// Whether the participant sees nothing while a trial waits.

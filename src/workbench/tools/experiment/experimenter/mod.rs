@@ -4,7 +4,7 @@
 pub(crate) mod begin;
 pub(crate) mod session;
 
-use eframe::egui::{ProgressBar, RichText, Ui};
+use eframe::egui::{DragValue, ProgressBar, RichText, Role, Ui, WidgetInfo};
 
 use crate::bench::Bench;
 use crate::bench::tool::PaneContext;
@@ -14,7 +14,9 @@ use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, section};
 use crate::tools::experiment::noise::NoiseView;
 use crate::tools::experiment::participant;
+use crate::tools::experiment::played_noise::NOISE_DB;
 use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
+use selvedge_engine::SoundState;
 
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
@@ -46,34 +48,76 @@ fn show_typed(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
     }
 }
 
-/// How it stands with the masking noise that the design asks for.
+/// The masking noise that the design asks for: played here, and as a file.
 fn show_noise(ui: &mut Ui, noise: &NoiseView, experiment: &mut Experiment, bench: &Bench) {
     section(ui, "Masking noise");
+    show_player(ui, experiment, bench);
     match noise {
         NoiseView::Writing(share) => {
             ui.add(ProgressBar::new(*share).desired_height(4.0));
             note(ui, "The noise is being written", Tone::Quiet);
         }
         NoiseView::At(path) => {
-            let words = "The design asks for it; this program does not play it. Let any player \
-                         repeat this file on the participant's earphones, so loud that the device \
-                         is not heard:";
+            let words = "As a file, to be repeated by any player:";
             note(ui, words, Tone::Quiet);
-            note(ui, path, Tone::Wrong);
+            note(ui, path, Tone::Quiet);
         }
         NoiseView::Missing => {
-            let words = "The design asks for one; this program does not play it, but writes it as \
-                         a sound file for any player.";
-            note(ui, words, Tone::Quiet);
             let has_folder = experiment.form.kept_folder().is_some();
             let refusal = (!has_folder).then_some("Say in which folder first");
-            let tip = "Pink noise, 30 Hz to 6 kHz, ten minutes that repeat without a seam";
+            let tip = "For any player: pink noise, 30 Hz to 6 kHz, ten minutes that repeat without \
+                       a seam";
             if button(ui, "Write the noise", tip, refusal) {
                 experiment.write_noise(bench);
                 ui.ctx().request_repaint();
             }
         }
     }
+}
+
+/// Play, stop and how loud; whether it is heard.
+fn show_player(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
+    let (is_begun, state) = (experiment.played.is_begun(), experiment.played.state());
+    ui.horizontal(|ui| {
+        let (words, tip) = if is_begun {
+            ("Stop the noise", "It fades within 50 ms")
+        } else {
+            let tip = "On what this computer plays sound on: the participant's earphones";
+            ("Play the noise", tip)
+        };
+        let refusal = bench.is_stepped().then_some("Nothing is played here");
+        if button(ui, words, tip, refusal) {
+            if is_begun {
+                experiment.played.stop();
+            } else {
+                experiment.play_noise(bench);
+            }
+            ui.ctx().request_repaint();
+        }
+        let [least, most] = NOISE_DB;
+        let value = DragValue::new(&mut experiment.played.level_db)
+            .range(least..=most)
+            .speed(0.2)
+            .fixed_decimals(0)
+            .suffix(" dB");
+        let response = ui.add(value);
+        response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "Level of the noise"));
+        response.on_hover_text("Rms re full scale; the system's own volume comes after it");
+    });
+    let words = match state {
+        Some(SoundState::Absent(why)) => {
+            let words = format!("Nothing is heard: {why}. It is tried again every 2 s.");
+            return note(ui, &words, Tone::Wrong);
+        }
+        Some(SoundState::Playing { by, .. }) => {
+            format!("Played by {by}, on through all trials; the note of every row says so.")
+        }
+        Some(SoundState::Opening) => "On its way".to_owned(),
+        None => "The design asks for it: so loud that the device is not heard, found by ear with \
+                 the device armed and no finger on it."
+            .to_owned(),
+    };
+    note(ui, &words, Tone::Quiet);
 }
 
 /// Whether the participant sees anything in trials.
