@@ -112,9 +112,9 @@ impl Layout {
                 id: id.clone(),
                 origin_mm: place.origin_mm,
                 size_mm: [SIDE_MM; 2],
-                rotation_deg: 0.0,
                 gain_db: *gain_db + adapted_db,
                 label: place.number.map_or_else(String::new, |n| n.to_string()),
+                ..PlacedTextile::default()
             })
         });
         Scene {

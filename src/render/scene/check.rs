@@ -3,7 +3,7 @@
 //! One list of rules for files and for values that arrive live. Knows where a value stands in a
 //! file by table and key, but reads no file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::geometry::MAX_CONTACTORS;
 use super::{Display, Geometry, PlacedTextile, Scene};
@@ -28,7 +28,24 @@ pub(super) fn scene_flaw(scene: &Scene) -> Option<Flaw> {
         .or_else(|| count_flaw(("display", MAX_DISPLAYS, "geometry"), scene.displays.len()))
         .or_else(|| first(&scene.displays, display_flaw))
         .or_else(|| filters_flaw(&scene.filters))
-        .or_else(|| scene.tuning.as_ref().and_then(tuning_flaw))
+        .or_else(|| {
+            scene
+                .tuning
+                .as_ref()
+                .and_then(|tuning| tuning_flaw(("tuning", 0), tuning))
+        })
+        .or_else(|| slots_flaw(scene))
+}
+
+fn slots_flaw(scene: &Scene) -> Option<Flaw> {
+    let mut seen = BTreeSet::new();
+    scene.slots.iter().enumerate().find_map(|(nth, slot)| {
+        let twice = !seen.insert(slot.letter);
+        let what = || format!("slot {} stands twice", slot.letter.name());
+        let mend = "keep one, or give the other a letter from A to H of its own";
+        let doubled = twice.then(|| Flaw::new(("slot", nth, "letter"), what(), mend));
+        doubled.or_else(|| tuning_flaw(("slot", nth), &slot.tuning))
+    })
 }
 
 fn first<T>(entries: &[T], flaw: fn(usize, &T) -> Option<Flaw>) -> Option<Flaw> {
@@ -62,6 +79,12 @@ fn textile_flaw(index: usize, textile: &PlacedTextile) -> Option<Flaw> {
         .or_else(|| sizes_flaw(at("size_mm"), textile.size_mm))
         .or_else(|| finite_flaw(at("rotation_deg"), &[textile.rotation_deg]))
         .or_else(|| gain_flaw(at("gain_db"), textile.gain_db))
+        .or_else(|| {
+            let mut gains = textile.slot_gains_db.values();
+            gains.find_map(|gain_db| gain_flaw(at("slot_gains_db"), *gain_db))
+        })
+        .or_else(|| finite_flaw(at("target_40_db_sl"), textile.target_40_db_sl.as_slice()))
+        .or_else(|| finite_flaw(at("target_320_db_sl"), textile.target_320_db_sl.as_slice()))
 }
 
 fn id_flaw(place: Place, id: &str) -> Option<Flaw> {
@@ -130,11 +153,13 @@ fn filters_flaw(filters: &Filters) -> Option<Flaw> {
     }
 }
 
-fn tuning_flaw(tuning: &Tuning) -> Option<Flaw> {
-    tuning
-        .check()
-        .err()
-        .map(|error| Flaw::described(("tuning", 0, error.key()), &error.to_string(), FINITE))
+fn tuning_flaw((table, nth): (&'static str, usize), tuning: &Tuning) -> Option<Flaw> {
+    let error = tuning.check().err()?;
+    Some(Flaw::described(
+        (table, nth, error.key()),
+        &error.to_string(),
+        FINITE,
+    ))
 }
 
 fn gain_flaw(place: Place, gain_db: f64) -> Option<Flaw> {

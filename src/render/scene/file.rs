@@ -2,15 +2,17 @@
 //!
 //! Reads and writes the text; what makes a value wrong is said in `check.rs`. Loads no textile.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::check::scene_flaw;
+use super::slots::{SlotLetter, TuningSlot};
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
-use selvedge_textile::tactile::{Filters, Tuning};
+use selvedge_textile::tactile::{Band, Filters, Tuning};
 use selvedge_textile::{elsewhere, id_in, is_of_the_program};
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
@@ -36,6 +38,8 @@ pub struct Scene {
     pub filters: Filters,
     /// Gains and compression; `None` takes the library's default tuning.
     pub tuning: Option<Tuning>,
+    /// Tunings that are kept to be compared, in the order of their letters.
+    pub slots: Vec<TuningSlot>,
     /// Recordings that belong to it.
     pub recordings: Vec<RecordingReference>,
 }
@@ -59,7 +63,7 @@ impl RecordingReference {
 }
 
 /// A textile of the library and where it lies.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedTextile {
     /// The textile's id in the library, or `LIBRARY:ID` of another one
@@ -78,6 +82,15 @@ pub struct PlacedTextile {
     /// What the screen calls it.
     #[serde(default)]
     pub label: String,
+    /// The level above the threshold of detection that 40 Hz is to have, dB.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_40_db_sl: Option<f64>,
+    /// The same of 320 Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_320_db_sl: Option<f64>,
+    /// Its gain in the scene's slots, dB; in others it is [`Self::gain_db`].
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub slot_gains_db: BTreeMap<SlotLetter, f64>,
 }
 
 /// A tactile display.
@@ -105,6 +118,8 @@ struct SceneKeys {
     filters: Option<FilterKeys>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tuning: Option<Tuning>,
+    #[serde(default, rename = "slot", skip_serializing_if = "Vec::is_empty")]
+    slots: Vec<TuningSlot>,
     #[serde(default, rename = "recording", skip_serializing_if = "Vec::is_empty")]
     recordings: Vec<RecordingReference>,
 }
@@ -129,11 +144,31 @@ struct FilterKeys {
 }
 
 impl PlacedTextile {
+    /// The level above the threshold of detection that a band is to have, dB.
+    pub fn target_db_sl(&self, band: Band) -> Option<f64> {
+        match band {
+            Band::Low => self.target_40_db_sl,
+            Band::High => self.target_320_db_sl,
+        }
+    }
+
     /// The textile's own axes, seen from the workspace: x along its warp, y along its weft.
     pub fn workspace_from_textile(&self) -> Frame {
         Frame {
             origin: self.origin_mm,
             rotation: Rotation::from_degrees(self.rotation_deg),
+        }
+    }
+
+    /// What it is and where it lies, without gains, targets and label.
+    #[must_use]
+    pub fn untuned(&self) -> Self {
+        Self {
+            id: self.id.clone(),
+            origin_mm: self.origin_mm,
+            size_mm: self.size_mm,
+            rotation_deg: self.rotation_deg,
+            ..Self::default()
         }
     }
 
@@ -247,6 +282,7 @@ impl Scene {
             filters: (keys.filters.as_ref())
                 .map_or_else(|| Ok(Filters::default()), filters_from_keys)?,
             tuning: keys.tuning,
+            slots: keys.slots,
             recordings: keys.recordings,
         })
     }
@@ -260,6 +296,7 @@ impl Scene {
             displays: self.displays.iter().map(Display::keys).collect(),
             filters: Some(filter_keys(self.filters)),
             tuning: self.tuning,
+            slots: self.slots.clone(),
             recordings: self.recordings.clone(),
         }
     }

@@ -193,11 +193,8 @@ mod tests {
     fn placed(id: &str) -> PlacedTextile {
         PlacedTextile {
             id: id.to_owned(),
-            origin_mm: Point::default(),
             size_mm: [50.0; 2],
-            rotation_deg: 0.0,
-            gain_db: 0.0,
-            label: String::new(),
+            ..PlacedTextile::default()
         }
     }
 

@@ -17,6 +17,7 @@ mod geometry;
 mod loaded;
 mod path;
 mod pose;
+mod slots;
 mod stroke;
 
 pub use error::SceneError;
@@ -25,6 +26,7 @@ pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
 pub use loaded::LoadedScene;
 pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};
 pub use pose::{Pose, TICKS_PER_S};
+pub use slots::{SlotLetter, TuningSlot};
 pub use stroke::Stroke;
 
 #[cfg(test)]

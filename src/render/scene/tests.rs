@@ -152,6 +152,15 @@ proptest! {
             rotation_deg,
             gain_db,
             label: text.clone(),
+            target_40_db_sl: Some(dx_mm),
+            target_320_db_sl: None,
+            slot_gains_db: [(SlotLetter::A, gain_db), (SlotLetter::H, 0.0)].into(),
+        };
+        let slot = TuningSlot {
+            letter: SlotLetter::H,
+            name: text.clone(),
+            note: String::new(),
+            tuning: Tuning { gain_db, ..Tuning::default() },
         };
         let offsets = vec![Displacement::new(dx_mm, dy_mm), Displacement::new(dx_mm + 1.0, 0.0)];
         let scene = Scene {
@@ -162,6 +171,7 @@ proptest! {
             displays: vec![Display { geometry: Geometry::Contactors(offsets), rotation_deg }],
             filters: Filters::LogGaussian { octaves },
             tuning: compression.map(|compression| Tuning { compression, ..Tuning::default() }),
+            slots: vec![slot],
             recordings: vec![RecordingReference {
                 name: "Slow".to_owned(),
                 path: "strokes/slow.csv".into(),

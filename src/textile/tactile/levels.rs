@@ -74,6 +74,32 @@ impl Levels {
     }
 }
 
+/// Speeds along one axis at which the loudest amplitudes are looked for, mm/s.
+const PEAK_SPEEDS_MM_PER_S: [f64; 5] = [25.0, 50.0, 100.0, 200.0, 400.0];
+
+/// The loudest pairs of amplitudes `[A40, A320]` of a surface, µm peak: over all points, the four
+/// principal directions and speeds from 25 to 400 mm/s, those that no other pair beats in both.
+pub fn loudest_um(surface: &Surface, filters: &Filters) -> Vec<[f64; 2]> {
+    let mut loudest: Vec<[f64; 2]> = Vec::new();
+    for speed_mm_per_s in PEAK_SPEEDS_MM_PER_S {
+        let response = SpeedResponse::at(speed_mm_per_s, filters);
+        for direction in Direction::ALL {
+            let spectra = surface.spectra(direction);
+            for point in 0..spectra.n_points() {
+                let powers = spectra.powers_um2(point);
+                let pair = response.squared_amplitudes_um2(powers).map(f64::sqrt);
+                let beats =
+                    |one: &[f64; 2], other: &[f64; 2]| one[0] >= other[0] && one[1] >= other[1];
+                if !loudest.iter().any(|known| beats(known, &pair)) {
+                    loudest.retain(|known| !beats(&pair, known));
+                    loudest.push(pair);
+                }
+            }
+        }
+    }
+    loudest
+}
+
 /// The level of two mean amplitudes in µm; `None` when either is 0 (or not a number).
 pub(crate) fn level_of_means([low_um, high_um]: [f64; 2]) -> Option<f64> {
     let level = 0.5 * (level_db(low_um) + level_db(high_um));
@@ -127,10 +153,35 @@ mod tests {
     }
 
     #[test]
+    fn the_loudest_pairs_are_of_the_speeds_at_which_each_band_hears_most() {
+        let sine = surface(|x_mm| 3.0 * (std::f64::consts::TAU * 1.6 * x_mm).sin());
+        let filters = Filters::default();
+        let loudest = loudest_um(&sine, &filters);
+        let most = |band: usize| loudest.iter().map(|pair| pair[band]).fold(0.0, f64::max);
+        assert!(
+            (most(0) / 3.0 - 1.0).abs() < 0.02,
+            "40 Hz at 25 mm/s: {loudest:?}"
+        );
+        assert!(
+            (most(1) / 3.0 - 1.0).abs() < 0.02,
+            "320 Hz at 200 mm/s: {loudest:?}"
+        );
+        for at in [25.0, 50.0, 100.0, 200.0, 400.0] {
+            let mean = Levels::at(at, &sine, &filters).mean_um;
+            let is_under = |pair: &[f64; 2]| pair[0] >= mean[0] - 1e-9 && pair[1] >= mean[1] - 1e-9;
+            assert!(loudest.iter().any(is_under), "{at} mm/s: {mean:?}");
+        }
+    }
+
+    #[test]
     fn a_flat_textile_has_no_level() {
         let levels = Levels::of(&surface(|_| 4.0), &Filters::default());
         assert_eq!(levels.mean_um, [0.0; 2]);
         assert_eq!(levels.level_db(), None);
         assert_eq!(levels.cv, [0.0; 2]);
+        assert_eq!(
+            loudest_um(&surface(|_| 4.0), &Filters::default()),
+            [[0.0; 2]]
+        );
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! The gains that are felt are the document's with what is muted left out.
 
+use crate::bench::gain_set::GainSet;
 use crate::bench::mute_solo::MuteSolo;
 use selvedge_engine::Command;
 use selvedge_render::RenderScene;
@@ -17,18 +18,13 @@ pub(crate) struct AppliedGains {
 }
 
 impl AppliedGains {
-    /// What is to be felt of a scene with `n_contactors`.
-    pub(crate) fn of(
-        scene: &Scene,
-        tuning: Tuning,
-        mute_solo: &MuteSolo,
-        n_contactors: usize,
-    ) -> Self {
-        let gains = scene.textiles.iter().enumerate();
+    /// What is to be felt of gains with `n_contactors`.
+    pub(crate) fn of(gains: &GainSet, mute_solo: &MuteSolo, n_contactors: usize) -> Self {
+        let own = gains.gains_db.iter().enumerate();
         Self {
-            tuning: mute_solo.tuning(tuning),
-            cloth_gains_db: gains
-                .map(|(index, cloth)| mute_solo.cloth_gain_db(index, cloth.gain_db))
+            tuning: mute_solo.tuning(gains.tuning),
+            cloth_gains_db: own
+                .map(|(index, gain_db)| mute_solo.cloth_gain_db(index, *gain_db))
                 .collect(),
             contactor_mask: mute_solo.contactor_mask(n_contactors),
         }
@@ -107,7 +103,7 @@ mod tests {
             editing::apply(&edit, &mut scene, Tuning::default());
         }
         let felt = |scene: &Scene, mute_solo: &MuteSolo| {
-            AppliedGains::of(scene, Tuning::default(), mute_solo, 24)
+            AppliedGains::of(&GainSet::of(scene, Tuning::default()), mute_solo, 24)
         };
         let mut mute_solo = MuteSolo::default();
         let before = felt(&scene, &mute_solo);

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::command::edit::{Edit, Target};
 use crate::bench::editing;
+use crate::bench::gain_set::GainSet;
 use crate::bench::history::{History, Moment, StepList};
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
@@ -121,11 +122,11 @@ impl Document {
     pub(crate) fn pane_of(&self, n_done: usize) -> Option<Pane> {
         let there = self.history.state_after(n_done, &self.scene)?;
         let lies = |scene: &Scene| -> Vec<PlacedTextile> {
-            let bare = |cloth: &PlacedTextile| PlacedTextile {
-                gain_db: 0.0,
-                ..cloth.clone()
+            let untuned = |cloth: &PlacedTextile| PlacedTextile {
+                label: cloth.label.clone(),
+                ..cloth.untuned()
             };
-            scene.textiles.iter().map(bare).collect()
+            scene.textiles.iter().map(untuned).collect()
         };
         let is_moved = lies(there) != lies(&self.scene);
         Some(if is_moved {
@@ -133,6 +134,25 @@ impl Document {
         } else {
             Pane::Tuning
         })
+    }
+
+    /// What gains a step turned, in words, and what going to where it was done would turn.
+    pub(crate) fn turned_by(&self, n_done: usize) -> [String; 2] {
+        let after = |n_done| {
+            let there = self.history.state_after(n_done, &self.scene);
+            there.unwrap_or(&self.scene)
+        };
+        let gains = |scene| GainSet::of(scene, self.default_tuning);
+        let (there, now) = (after(n_done), gains(&self.scene));
+        let names: Vec<String> = (there.textiles.iter())
+            .map(|cloth| format!("{} {}", cloth.label, cloth.id).trim().to_owned())
+            .collect();
+        let turned = |from: &GainSet| from.differences(&gains(there), &names).join(", ");
+        let before = n_done.checked_sub(1).map(|before| gains(after(before)));
+        [
+            before.as_ref().map_or_else(String::new, turned),
+            turned(&now),
+        ]
     }
 
     /// Takes steps back or brings them again until so many are done.
@@ -210,12 +230,8 @@ mod tests {
 
     fn empty() -> PlacedTextile {
         PlacedTextile {
-            id: String::new(),
-            origin_mm: selvedge_foundation::geometry::Point::default(),
             size_mm: [1.0; 2],
-            rotation_deg: 0.0,
-            gain_db: 0.0,
-            label: String::new(),
+            ..PlacedTextile::default()
         }
     }
 

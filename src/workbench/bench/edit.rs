@@ -2,6 +2,7 @@
 
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
+use crate::bench::gain_set::GainSet;
 use crate::bench::preparing::Ready;
 use crate::bench::{Bench, editing, preparing};
 
@@ -142,15 +143,11 @@ impl Bench {
 
     /// What is to be felt of a scene now.
     fn gains_now(&self, scene: &Scene) -> AppliedGains {
-        let tuning = scene
-            .tuning
-            .unwrap_or_else(|| self.document.default_tuning());
-        AppliedGains::of(
-            scene,
-            tuning,
-            &self.selection.mute_solo,
-            self.n_contactors(),
-        )
+        let held = self.selection.held_gains.as_ref();
+        let held = held.filter(|held| held.gains_db.len() == scene.textiles.len());
+        let own = || GainSet::of(scene, self.document.default_tuning());
+        let gains = held.cloned().unwrap_or_else(own);
+        AppliedGains::of(&gains, &self.selection.mute_solo, self.n_contactors())
     }
 
     /// Tells the engine which gains changed, if any.

@@ -2,6 +2,7 @@
 
 use crate::bench::command::edit::Edit;
 use crate::bench::free_places::free_places;
+use crate::bench::gain_set::{GainSet, band_gain_mut};
 use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 use selvedge_render::scene::{PlacedTextile, Scene};
 use selvedge_textile::tactile::{Band, Tuning};
@@ -17,8 +18,7 @@ pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
     let before = tuning;
     match edit {
         Edit::MasterGain(db) => tuning.gain_db = *db,
-        Edit::BandGain(Band::Low, db) => tuning.gain_40_db = *db,
-        Edit::BandGain(Band::High, db) => tuning.gain_320_db = *db,
+        Edit::BandGain(band, db) => *band_gain_mut(&mut tuning, *band) = *db,
         Edit::Compression(share) => tuning.compression = *share,
         Edit::Filters(filters) => scene.filters = *filters,
         Edit::AddCloth(id, middle) => {
@@ -52,7 +52,15 @@ pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
                 scene.recordings.push(reference.clone());
             }
         }
+        Edit::Gains(gains) => {
+            tuning = gains.tuning;
+            gains.put_into(scene);
+        }
+        Edit::KeepSlot(_) | Edit::EmptySlot(_) | Edit::SlotWords(..) => {
+            change_slot(edit, scene, tuning);
+        }
         Edit::TextileGain(index, _)
+        | Edit::TargetLevel(index, ..)
         | Edit::MoveCloth(index, _)
         | Edit::TurnCloth(index, _)
         | Edit::ResizeCloth(index, _)
@@ -67,9 +75,30 @@ pub(crate) fn apply(edit: &Edit, scene: &mut Scene, mut tuning: Tuning) {
     }
 }
 
+fn change_slot(edit: &Edit, scene: &mut Scene, tuning: Tuning) {
+    match edit {
+        Edit::KeepSlot(letter) => GainSet::of(scene, tuning).keep_in(scene, *letter),
+        Edit::EmptySlot(letter) => {
+            scene.slots.retain(|slot| slot.letter != *letter);
+            for cloth in &mut scene.textiles {
+                cloth.slot_gains_db.remove(letter);
+            }
+        }
+        Edit::SlotWords(letter, [name, note]) => {
+            if let Some(slot) = scene.slots.iter_mut().find(|slot| slot.letter == *letter) {
+                slot.name.clone_from(name);
+                slot.note.clone_from(note);
+            }
+        }
+        _ => {}
+    }
+}
+
 fn change_cloth(edit: &Edit, cloth: &mut PlacedTextile) {
     match edit {
         Edit::TextileGain(_, db) => cloth.gain_db = *db,
+        Edit::TargetLevel(_, Band::Low, db_sl) => cloth.target_40_db_sl = *db_sl,
+        Edit::TargetLevel(_, Band::High, db_sl) => cloth.target_320_db_sl = *db_sl,
         Edit::MoveCloth(_, origin) => cloth.origin_mm = *origin,
         Edit::TurnCloth(_, angle_deg) => turn(cloth, *angle_deg),
         Edit::ResizeCloth(_, size_mm) => {
@@ -107,9 +136,8 @@ fn new_cloth(scene: &Scene, id: &str, middle: Point, size_mm: [f64; 2]) -> Place
         id: id.to_owned(),
         origin_mm: Point::new(whole(origin.x_mm), whole(origin.y_mm)),
         size_mm,
-        rotation_deg: 0.0,
-        gain_db: 0.0,
         label: free_label(scene),
+        ..PlacedTextile::default()
     }
 }
 

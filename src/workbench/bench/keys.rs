@@ -35,11 +35,13 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let focused = ctx.memory(egui::Memory::focused);
     let is_panes = |id| Pane::ALL.into_iter().any(|pane| pane_focus(pane) == id);
     let has_focus = focused.is_some_and(|id| !is_panes(id));
+    // Alt with a letter holds a slot of tunings; the toolkit would take it for the letter alone.
+    let is_alt = ctx.input(|input| input.modifiers.alt);
     let mut commands: Vec<Command> = escape(ctx).into_iter().collect();
     for (key, act) in table() {
         let is_for_widget = has_focus && key.logical_key == Key::Space;
         let waits = (is_typing && !act.while_typing) || is_for_widget;
-        if waits || key.logical_key == Key::Escape {
+        if waits || key.logical_key == Key::Escape || is_alt != key.modifiers.alt {
             continue;
         }
         if ctx.input_mut(|input| input.consume_shortcut(key)) {

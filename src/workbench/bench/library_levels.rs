@@ -16,7 +16,7 @@ use crate::bench::view::{LibraryDot, LibraryEntry};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_render::scene::LoadedScene;
 use selvedge_textile::surface::Surface;
-use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::tactile::{Filters, Levels, loudest_um};
 use selvedge_textile::{Library, Textile};
 
 /// Surfaces that are kept for the next filters; those of more textiles are read again.
@@ -41,6 +41,7 @@ impl PartialEq for Key {
 #[derive(Debug, Default)]
 struct Measured {
     levels: BTreeMap<String, Levels>,
+    loudest_um: BTreeMap<String, Vec<[f64; 2]>>,
     surfaces: BTreeMap<String, Arc<Surface>>,
 }
 
@@ -68,6 +69,8 @@ impl Computed<Key> for Measured {
             };
             let levels = Levels::of(&surface, &key.filters);
             measured.levels.insert(id.clone(), levels);
+            let loudest_um = loudest_um(&surface, &key.filters);
+            measured.loudest_um.insert(id.clone(), loudest_um);
             if measured.surfaces.len() < MAX_SURFACES {
                 measured.surfaces.insert(id.clone(), surface);
             }
@@ -96,16 +99,17 @@ pub(crate) struct LibraryLevels {
 
 impl LibraryLevels {
     /// Has the whole library measured under the present filters, as long as it is asked for that,
-    /// and takes what was measured.
+    /// and takes what was measured. The index has levels, but not what is loudest.
     pub(crate) fn follow(
         &mut self,
         (ctx, executor): (&egui::Context, &Executor),
         loaded: &LoadedScene,
         library_view: &LibraryView,
+        wants_loudest: bool,
     ) {
         let before = self.latest.value().map(Arc::as_ptr);
         self.latest.poll();
-        if self.is_stale {
+        if self.is_stale || wants_loudest {
             let key = Key {
                 library: Arc::clone(library_view.library()),
                 filters: loaded.scene().filters,
@@ -116,6 +120,15 @@ impl LibraryLevels {
         if self.latest.value().map(Arc::as_ptr) != before {
             self.renew(loaded, library_view);
         }
+    }
+
+    /// The loudest pairs of amplitudes of a textile under filters, by [`loudest_um`]; `None` until
+    /// the library was measured.
+    pub(crate) fn loudest_um(&self, id: &str, filters: &Filters) -> Option<&[[f64; 2]]> {
+        let key = self.latest.key();
+        let is_fresh = key.is_some_and(|key| key.filters == *filters);
+        let measured = self.latest.value().filter(|_| is_fresh)?;
+        measured.loudest_um.get(id).map(Vec::as_slice)
     }
 
     /// Makes the dots anew: of the scene as it is, and of the library as far as it is measured.

@@ -20,6 +20,7 @@ pub(crate) mod files;
 pub(crate) mod folders;
 pub(crate) mod follow_sound;
 pub(crate) mod free_places;
+pub(crate) mod gain_set;
 pub(crate) mod history;
 pub(crate) mod keep;
 pub(crate) mod keys;

@@ -38,6 +38,8 @@ panes! {
     Recordings: "Recordings", "Recordings", 0.0, false;
     /// Gains, compression, filters.
     Tuning: "Tuning", "Tuning", 0.0, true;
+    /// Levels of the scene's textiles, and what they are to be.
+    Levels: "Levels", "Levels", 56.0, true;
     /// The device.
     Bridge: "Bridge", "Bridge", 0.0, true;
     /// Both bands of every contactor.
@@ -57,7 +59,7 @@ panes! {
     /// How accurate rendering is, and what it costs.
     Accuracy: "Accuracy", "Accuracy", 108.0, true;
     /// Two tunings, textiles or methods set against each other.
-    Compare: "Compare", "Compare", 124.0, true;
+    Compare: "Compare", "Compare", 72.0, true;
     /// The whole library at once.
     Collection: "Collection", "Collection", 0.0, true;
     /// A recipe of a textile, and what becomes of it.

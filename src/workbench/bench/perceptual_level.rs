@@ -4,18 +4,24 @@
 //! All of it comes from the model of [`Perception`] and is marked as one. Nothing here ever reaches
 //! what is rendered.
 
+use crate::bench::gain_set::GainSet;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::Part;
 use crate::bench::view::SceneView;
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db, with_unit};
 use selvedge_textile::tactile::{
-    Band, Perception, detection_threshold_db, just_noticeable_db, vibrating_mean_um,
+    Band, Perception, Tuning, detection_threshold_db, just_noticeable_db, vibrating_mean_um,
 };
 
 /// Where numbers above threshold come from, for tips.
 pub(crate) const SOURCE: &str = "dB SL: above the threshold of detection. A model of published \
                                  averages, ±3 dB, not a measurement of anybody’s finger: “Above \
                                  threshold” in the guide to the workbench";
+
+/// A level is matched by so much at most, dB.
+const MOST_MATCH_DB: f64 = 60.0;
+/// Halvings of that range: to a hundred-thousandth of a dB.
+const N_HALVINGS: usize = 24;
 
 /// What a display feels like at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,22 +107,64 @@ pub(crate) fn of_textile(
     index: usize,
     (n_contactors, mute_solo): (usize, &MuteSolo),
 ) -> Option<Perception> {
-    let cloth = scene.cloths.get(index)?;
-    let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
-    let compression_db = scene.reference_db.map_or(0.0, |reference_db| {
-        scene
-            .tuning
-            .compression_gain_db(Some(dot.level_db), reference_db)
-    });
-    let tuned_um = Band::ALL.map(|band| {
+    let gain_db = scene.cloths.get(index)?.gain_db;
+    let mut tuned_um = mean_um(scene, index, (&scene.tuning, gain_db))?;
+    for band in Band::ALL {
         let parts = [Part::Cloth(index), Part::Band(band)];
         if !parts.into_iter().all(|part| mute_solo.is_felt(part)) {
-            return 0.0;
+            tuned_um[band.index()] = 0.0;
         }
-        let own_db = dot.gain_db + cloth.gain_db + compression_db;
-        dot.mean_um[band.index()] * factor_of_gain(scene.tuning.band_gain_db(band) + own_db)
-    });
+    }
     Some(Perception::of(tuned_um, n_contactors))
+}
+
+/// A placed textile's mean amplitudes at 100 mm/s by a tuning and a gain of the scene, µm; `None`
+/// when nobody knows its level.
+pub(crate) fn mean_um(
+    scene: &SceneView,
+    index: usize,
+    (tuning, gain_db): (&Tuning, f64),
+) -> Option<[f64; 2]> {
+    let cloth = scene.cloths.get(index)?;
+    let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
+    let compressed = |reference_db| tuning.compression_gain_db(Some(dot.level_db), reference_db);
+    let own_db = dot.gain_db + gain_db + scene.reference_db.map_or(0.0, compressed);
+    let tuned = |band: Band| factor_of_gain(tuning.band_gain_db(band) + own_db);
+    Some(Band::ALL.map(|band| dot.mean_um[band.index()] * tuned(band)))
+}
+
+/// The scene's textiles as strong as `like` makes them, by the master gain alone, by the
+/// mean of the model's intensity over them. As they are, where nothing is felt.
+pub(crate) fn as_strong(
+    scene: &SceneView,
+    mut gains: GainSet,
+    like: &GainSet,
+    n_contactors: usize,
+) -> GainSet {
+    let intensity = |gains: &GainSet| -> f64 {
+        let own = gains.gains_db.iter().enumerate();
+        let felt = own.filter_map(|(index, gain_db)| {
+            let um = mean_um(scene, index, (&gains.tuning, *gain_db))?;
+            Some(Perception::of(um, n_contactors).intensity())
+        });
+        felt.sum()
+    };
+    let wanted = intensity(like);
+    if intensity(&gains) <= 0.0 || wanted <= 0.0 {
+        return gains;
+    }
+    let asked_db = gains.tuning.gain_db;
+    let (mut low_db, mut high_db) = (-MOST_MATCH_DB, MOST_MATCH_DB);
+    for _ in 0..N_HALVINGS {
+        let by_db = 0.5 * (low_db + high_db);
+        gains.tuning.gain_db = asked_db + by_db;
+        if intensity(&gains) < wanted {
+            low_db = by_db;
+        } else {
+            high_db = by_db;
+        }
+    }
+    gains
 }
 
 /// The change of gain that is just noticed: of one band, or of both at once, where the more

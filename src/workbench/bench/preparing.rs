@@ -112,14 +112,8 @@ fn prepare(
 
 /// Whether two scenes differ in anything but gains, so that the engine needs a new one.
 pub(crate) fn differs(before: &Scene, after: &Scene) -> bool {
-    // What gains and labels are does not matter here.
     let placed = |scene: &Scene| -> Vec<PlacedTextile> {
-        let bare = |cloth: &PlacedTextile| PlacedTextile {
-            gain_db: 0.0,
-            label: String::new(),
-            ..cloth.clone()
-        };
-        scene.textiles.iter().map(bare).collect()
+        scene.textiles.iter().map(PlacedTextile::untuned).collect()
     };
     let is_same = before.filters == after.filters
         && before.displays == after.displays

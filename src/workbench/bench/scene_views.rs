@@ -13,7 +13,10 @@ impl Bench {
         let reference_db = self.live.reference_db;
         let scene = self.document.scene();
         let origin = Origin::of(scene, &self.document.tuning(), reference_db);
-        if self.selection.mute_solo.is_any() {
+        if self.selection.held_gains.is_some() {
+            let words = "a slot of tunings is held";
+            origin.and("audition", words, words)
+        } else if self.selection.mute_solo.is_any() {
             let words = "parts are muted or felt alone";
             origin.and("audition", words, words)
         } else {
@@ -43,12 +46,15 @@ impl Bench {
     pub(crate) fn follow_library_levels(&mut self) {
         let (loaded, library) = (&self.engine_scene.loaded, &mut self.library);
         let with = (&self.ctx, &self.executor);
-        library.levels.follow(with, loaded, &library.view);
+        let wants_loudest = self.in_sight.contains(&Pane::Levels);
+        library
+            .levels
+            .follow(with, loaded, &library.view, wants_loudest);
     }
 
     /// The scene as panes draw it; textiles in it want their pictures.
     pub(crate) fn scene_view(&mut self) -> SceneView {
-        if self.shows(Pane::Tuning) {
+        if self.shows(Pane::Tuning) || self.shows(Pane::Levels) {
             self.follow_library_levels();
         }
         let placed = &self.document.scene().textiles;

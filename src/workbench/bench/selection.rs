@@ -1,6 +1,7 @@
 //! What is chosen in all views, and how amplitudes are drawn in all of them. Never undoable.
 
 use crate::bench::command::ShowCommand;
+use crate::bench::gain_set::GainSet;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::DotStyle;
 use crate::bench::probe::Probe;
@@ -27,6 +28,8 @@ pub(crate) struct Selection {
     pub probe: Probe,
     /// What the pointer rests on.
     pub(crate) hovered: Hovered,
+    /// Gains that are felt in place of the scene's as long as they are held.
+    pub(crate) held_gains: Option<GainSet>,
     /// What is muted and what is felt alone.
     pub(crate) mute_solo: MuteSolo,
 }

@@ -43,7 +43,7 @@ pub(crate) fn show(
             ui.add_space(STEP);
         }
         show_scene_menu(ui, scene, appearance, commands);
-        show_edit_menu(ui, steps, commands);
+        show_edit_menu(ui, steps, &bench.document, commands);
         show_view_menu(ui, appearance, commands);
         show_help_menu(ui, commands);
         ui.add_space(STEP);

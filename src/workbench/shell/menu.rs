@@ -8,6 +8,7 @@ use eframe::egui::{Button, RichText, ScrollArea, Ui};
 use crate::bench::acts::{self, CLIP, COLOURS, CONTACTORS, SIZE, SOUND, THEME, group};
 use crate::bench::clips::ClipsView;
 use crate::bench::command::{Command, Commands, DotStyle, FileCommand, Purpose, ShowCommand};
+use crate::bench::document::Document;
 use crate::bench::history::StepList;
 use crate::bench::keys::hint;
 use crate::bench::overlays::Overlays;
@@ -17,6 +18,7 @@ use crate::bench::settings::preferences::SoundPreferences;
 use crate::bench::view::SceneView;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
+use crate::kit::widgets::slider::tell;
 use crate::kit::widgets::text::tick_box;
 use selvedge_foundation::quantity;
 
@@ -120,7 +122,12 @@ fn show_recent(ui: &mut Ui, recent: &[PathBuf], commands: &mut Commands) {
 }
 
 /// What can be taken back and brought again, step by step.
-pub(crate) fn show_edit_menu(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
+pub(crate) fn show_edit_menu(
+    ui: &mut Ui,
+    steps: &StepList,
+    document: &Document,
+    commands: &mut Commands,
+) {
     ui.menu_button("Edit", |ui| {
         ui.set_min_width(220.0);
         for (act, step, command) in [
@@ -135,14 +142,23 @@ pub(crate) fn show_edit_menu(ui: &mut Ui, steps: &StepList, commands: &mut Comma
         }
         ui.separator();
         ui.add_enabled_ui(!steps.names.is_empty(), |ui| {
-            let menu = ui.menu_button("History", |ui| show_history(ui, steps, commands));
+            let menu = ui.menu_button("History", |ui| {
+                // A tool may have steps of its own.
+                let document = Some(document).filter(|document| document.steps() == *steps);
+                show_history(ui, steps, document, commands);
+            });
             menu.response.on_disabled_hover_text("Nothing was done yet");
         });
     });
 }
 
-/// Every step, newest last; a click goes to where it had just been done.
-fn show_history(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
+/// Every step with what it turned, newest last; a click goes to where it had just been done.
+fn show_history(
+    ui: &mut Ui,
+    steps: &StepList,
+    document: Option<&Document>,
+    commands: &mut Commands,
+) {
     let palette = Palette::in_ui(ui);
     let area = ScrollArea::vertical()
         .max_height(LIST)
@@ -157,7 +173,15 @@ fn show_history(ui: &mut Ui, steps: &StepList, commands: &mut Commands) {
                 palette.text
             };
             let is_now = n_done == steps.n_done;
-            let line = ui.selectable_label(is_now, RichText::new(name).color(ink));
+            let [own, from_now] = document
+                .map(|document| document.turned_by(n_done))
+                .unwrap_or_default();
+            // The change itself says more than that it was one of gains.
+            let words = if own.is_empty() { name } else { &own };
+            let line = ui.selectable_label(is_now, RichText::new(words).color(ink));
+            if line.hovered() && !from_now.is_empty() {
+                tell(&line, format!("{name}. From now: {from_now}"));
+            }
             if line.clicked() && !is_now {
                 commands.push(Command::StepTo(n_done));
                 ui.close();

@@ -11,6 +11,7 @@ pub(crate) mod contactors;
 pub(crate) mod experiment;
 pub(crate) mod import;
 pub(crate) mod lab;
+pub(crate) mod levels;
 pub(crate) mod library;
 pub(crate) mod picture;
 pub(crate) mod recordings;
@@ -41,8 +42,9 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(library::Library::default()),
         Box::new(recordings::RecordingList::default()),
         Box::new(bridge::Bridge::default()),
-        Box::new(contactors::Contactors),
+        Box::new(contactors::Contactors::default()),
         Box::new(tuning::Tuning::default()),
+        Box::new(levels::LevelBench::default()),
         Box::new(workspace::Workspace::default()),
         Box::new(experiment::Experiment::default()),
         Box::new(analysis::Analysis::default()),

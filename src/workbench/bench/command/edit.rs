@@ -1,7 +1,8 @@
 //! Changes of the scene: what can be undone, and which of them join into one step.
 
+use crate::bench::gain_set::GainSet;
 use selvedge_foundation::geometry::Point;
-use selvedge_render::scene::RecordingReference;
+use selvedge_render::scene::{RecordingReference, SlotLetter};
 use selvedge_textile::tactile::{Band, Filters};
 
 /// A change of the scene: undoable, saved.
@@ -15,6 +16,16 @@ pub(crate) enum Edit {
     Compression(f64),
     /// Gain of the textile at this place in the scene's list, dB.
     TextileGain(usize, f64),
+    /// All gains at once.
+    Gains(GainSet),
+    /// The level above threshold that a band of the textile at this place is to have, dB.
+    TargetLevel(usize, Band, Option<f64>),
+    /// Keeps the gains in force in a slot.
+    KeepSlot(SlotLetter),
+    /// Name and note of a slot.
+    SlotWords(SlotLetter, [String; 2]),
+    /// Forgets what a slot keeps.
+    EmptySlot(SlotLetter),
     /// Kind and width of the filters.
     Filters(Filters),
     /// Moves the textile at this place: its origin, mm.
@@ -48,6 +59,14 @@ pub(crate) enum Target {
     Compression,
     /// Gain of the textile at this place.
     TextileGain(usize),
+    /// All gains.
+    Gains,
+    /// What level a textile is to have.
+    TargetLevel(usize, Band),
+    /// What a slot keeps; never joined.
+    Slot(SlotLetter),
+    /// What a slot is called.
+    SlotWords(SlotLetter),
     /// The filters.
     Filters,
     /// Where a textile lies.
@@ -78,6 +97,10 @@ impl Edit {
             Self::BandGain(band, _) => Target::BandGain(band),
             Self::Compression(_) => Target::Compression,
             Self::TextileGain(index, _) => Target::TextileGain(index),
+            Self::Gains(_) => Target::Gains,
+            Self::TargetLevel(index, band, _) => Target::TargetLevel(index, band),
+            Self::KeepSlot(letter) | Self::EmptySlot(letter) => Target::Slot(letter),
+            Self::SlotWords(letter, _) => Target::SlotWords(letter),
             Self::Filters(_) => Target::Filters,
             Self::MoveCloth(index, _) => Target::Place(index),
             Self::TurnCloth(index, _) => Target::Turn(index),
@@ -101,6 +124,10 @@ impl Target {
             Self::BandGain(Band::High) => "320 Hz gain",
             Self::Compression => "compression",
             Self::TextileGain(_) => "textile gain",
+            Self::Gains => "all gains",
+            Self::TargetLevel(..) => "target level",
+            Self::Slot(_) => "slot of a tuning",
+            Self::SlotWords(_) => "name of a slot",
             Self::Filters => "filters",
             Self::Place(_) => "moved textile",
             Self::Turn(_) => "turned textile",
@@ -118,7 +145,12 @@ impl Target {
     pub(crate) fn joins(self) -> bool {
         !matches!(
             self,
-            Self::Add | Self::AddSeveral | Self::Remove | Self::Order | Self::Recording
+            Self::Add
+                | Self::AddSeveral
+                | Self::Remove
+                | Self::Order
+                | Self::Recording
+                | Self::Slot(_)
         )
     }
 }

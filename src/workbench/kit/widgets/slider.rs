@@ -23,6 +23,8 @@ const NUMBER: f32 = 70.0;
 const SNAP: f32 = 4.0;
 /// Marks of just noticeable differences on either side.
 const MOST_MARKS: u8 = 8;
+/// What a wheel that scrolls smoothly turns in a notch, points.
+const NOTCH: f32 = 40.0;
 /// How much finer Shift moves.
 const FINE: f64 = 0.1;
 
@@ -122,12 +124,48 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
         let share = f64::from((pointer.x - span(rail).left()) / span(rail).width());
         return Some(scale.stepped(scale.value_at(share)));
     }
+    let notches = wheel_notches(ui, response);
+    if notches != 0.0 {
+        let size = scale
+            .noticed
+            .map_or(scale.step, |noticed| noticed.max(scale.step));
+        let size = if fine { scale.step } else { size };
+        return Some(scale.stepped(value + notches * size));
+    }
     let steps = key_steps(ui, response);
     if steps != 0 {
         let size = if fine { FINE } else { 1.0 };
         return Some(scale.moved(value, f64::from(steps) * size));
     }
     asked_value(ui, response.id).map(|asked| (asked / scale.factor).clamp(scale.least, scale.most))
+}
+
+/// Notches that the wheel was turned over a slider with Ctrl held: up is more. Without Ctrl it
+/// scrolls.
+fn wheel_notches(ui: &Ui, response: &Response) -> f64 {
+    if !response.hovered() {
+        return 0.0;
+    }
+    let turned: f32 = ui.input(|input| {
+        let turns = input.events.iter().map(|event| match event {
+            egui::Event::MouseWheel {
+                unit,
+                delta,
+                modifiers,
+                ..
+            } if modifiers.command => {
+                let notch = if *unit == egui::MouseWheelUnit::Point {
+                    NOTCH
+                } else {
+                    1.0
+                };
+                delta.y / notch
+            }
+            _ => 0.0,
+        });
+        turns.sum()
+    });
+    f64::from(turned)
 }
 
 /// Steps asked for by the arrow keys and by assistive tools: up less down.

@@ -101,7 +101,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let height = (size.y - pictures_height).max(pictures_height);
     let parts = [(upper, height), (lower, pictures_height)];
     let middle = linear(tiles, LinearDir::Vertical, &parts);
-    let tuning = tabs(tiles, &[Pane::Tuning]);
+    let tuning = tabs(tiles, &[Pane::Tuning, Pane::Levels]);
     let bridge = tabs(tiles, &[Pane::Bridge, Pane::Experimenter]);
     let wave = tabs(tiles, &[Pane::DriveWave]);
     let parts = [(tuning, 0.488), (bridge, 0.327), (wave, 0.185)];
@@ -113,7 +113,13 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
     let workspace = tabs(tiles, &FRONT);
-    let controls = [Pane::Tuning, Pane::Bridge, Pane::Library, Pane::Recordings];
+    let controls = [
+        Pane::Tuning,
+        Pane::Levels,
+        Pane::Bridge,
+        Pane::Library,
+        Pane::Recordings,
+    ];
     let controls = tabs(tiles, &controls);
     let pictures = tabs(
         tiles,

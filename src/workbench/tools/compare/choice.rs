@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use crate::bench::Bench;
+use crate::bench::gain_set::GainSet;
 use crate::bench::play::resting_stroke;
 use crate::bench::recording::Recording;
 use selvedge_foundation::numerics::to_index;
 use selvedge_render::array::Method;
-use selvedge_render::scene::{ExplorationPath, PathCursor, Pose, Scene, Stroke, TICKS_PER_S};
-use selvedge_textile::tactile::{Filters, Tuning};
+use selvedge_render::scene::{
+    ExplorationPath, PathCursor, Pose, Scene, SlotLetter, Stroke, TICKS_PER_S,
+};
+use selvedge_textile::tactile::Tuning;
 
 /// Places of a path at which is looked to find the textile under it.
 const N_LOOKS: u64 = 128;
@@ -34,8 +37,8 @@ pub(crate) enum What {
 pub(crate) enum TuningChoice {
     /// The one in force.
     Live,
-    /// The one that was held.
-    Held,
+    /// What is kept in a slot.
+    Slot(SlotLetter),
     /// The one that the library comes with.
     Library,
 }
@@ -63,40 +66,6 @@ impl Default for Choice {
             place: None,
             textiles: [None, None],
             methods: [Method::Reference, Method::Table],
-        }
-    }
-}
-
-/// Everything that the pane of gains turns, as it was once.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HeldTuning {
-    tuning: Tuning,
-    filters: Filters,
-    /// Each textile's id and gain, in the order of the scene, dB.
-    gains_db: Vec<(String, f64)>,
-}
-
-impl HeldTuning {
-    /// As it is now.
-    pub(crate) fn of(scene: &Scene, tuning: Tuning) -> Self {
-        let gains = scene.textiles.iter();
-        Self {
-            tuning,
-            filters: scene.filters,
-            gains_db: gains
-                .map(|cloth| (cloth.id.clone(), cloth.gain_db))
-                .collect(),
-        }
-    }
-
-    /// Puts it into a scene. Textiles that are new at their place keep their gains.
-    fn put_into(&self, scene: &mut Scene) {
-        scene.tuning = Some(self.tuning);
-        scene.filters = self.filters;
-        for (cloth, (id, gain_db)) in scene.textiles.iter_mut().zip(&self.gains_db) {
-            if cloth.id == *id {
-                cloth.gain_db = *gain_db;
-            }
         }
     }
 }
@@ -216,7 +185,6 @@ impl Inputs {
     /// A sentence that says what is missing and what to do.
     pub(crate) fn of(
         choice: &Choice,
-        held: Option<&HeldTuning>,
         scene: &Scene,
         [live, library]: [Tuning; 2],
         route: Route,
@@ -235,12 +203,13 @@ impl Inputs {
         });
         for (index, side) in sides.iter_mut().enumerate() {
             match choice.what {
-                What::Tunings => match (choice.tunings[index], held) {
-                    (TuningChoice::Live, _) => {}
-                    (TuningChoice::Library, _) => side.scene.tuning = Some(library),
-                    (TuningChoice::Held, Some(held)) => held.put_into(&mut side.scene),
-                    (TuningChoice::Held, None) => {
-                        return Err("No tuning is held: press “hold A” to keep the present one");
+                What::Tunings => match choice.tunings[index] {
+                    TuningChoice::Live => {}
+                    TuningChoice::Library => side.scene.tuning = Some(library),
+                    TuningChoice::Slot(letter) => {
+                        let gains = GainSet::of_slot(scene, letter);
+                        let empty = "That slot is empty: keep a tuning in it in the Tuning pane";
+                        gains.ok_or(empty)?.put_into(&mut side.scene);
                     }
                 },
                 What::Textiles => {

@@ -11,7 +11,7 @@ use crate::bench::Bench;
 use crate::bench::background::{Executor, Task};
 use crate::bench::error::AppError;
 use crate::bench::recording::Recording;
-use crate::tools::compare::choice::{Choice, HeldTuning, Inputs, Route, Side, TuningChoice, What};
+use crate::tools::compare::choice::{Choice, Inputs, Route, Side, What};
 use selvedge_chart::Chart;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
@@ -51,8 +51,6 @@ enum End {
 pub(crate) struct Compare {
     /// What the user chose.
     pub choice: Choice,
-    /// The tuning that was held as A.
-    pub held_tuning: Option<HeldTuning>,
     /// Two recordings that are set against each other.
     pub(super) recorded: Option<Arc<[Recording; 2]>>,
     ended: Option<(Inputs, End)>,
@@ -191,9 +189,8 @@ impl Compare {
     pub(crate) fn inputs(&self, bench: &Bench) -> Result<Inputs, &'static str> {
         let document = &bench.document;
         let tunings = [document.tuning(), document.default_tuning()];
-        let (choice, held) = (&self.choice, self.held_tuning.as_ref());
         let route = self.route_now(bench);
-        Inputs::of(choice, held, document.scene(), tunings, route)
+        Inputs::of(&self.choice, document.scene(), tunings, route)
     }
 
     /// The path that is followed now.
@@ -208,14 +205,6 @@ impl Compare {
     pub(crate) fn set_against(&mut self, two: [Recording; 2]) {
         self.choice.what = What::Recordings;
         self.recorded = Some(Arc::new(two));
-    }
-
-    /// Holds the present tuning as A, to compare it with what comes.
-    pub(crate) fn hold(&mut self, bench: &Bench) {
-        let document = &bench.document;
-        self.held_tuning = Some(HeldTuning::of(document.scene(), document.tuning()));
-        self.choice.what = What::Tunings;
-        self.choice.tunings = [TuningChoice::Held, TuningChoice::Live];
     }
 
     /// Lets the comparison follow what was chosen: to be called while its pane is in sight. Nothing

@@ -21,10 +21,10 @@ use crate::kit::pane::framed;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::theme::colour_map::ColourMap;
-use crate::kit::widgets::bar::amplitude_bar;
+use crate::kit::widgets::bar::{amplitude_bar, colour_bar};
 use crate::kit::widgets::cells::{GAP, NUMBER_WIDTH, Places, TITLE};
 use crate::kit::widgets::limit_mark::{LIMIT_MARK, limit_words, limits_band, paint_limit_mark};
-use crate::kit::widgets::text::toggle;
+use crate::kit::widgets::text::{paint_quiet, toggle};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::Band;
 
@@ -41,6 +41,8 @@ pub(crate) struct HeatmapStyle {
     pub(crate) greys_below: bool,
     /// The contactor that is looked at closer.
     pub selected: usize,
+    /// The ends of what both bands show in this frame, µm, where the contrast is the frame's own.
+    pub(crate) own_ends_um: Option<[[f64; 2]; 2]>,
 }
 
 impl HeatmapStyle {
@@ -51,13 +53,42 @@ impl HeatmapStyle {
             has_numbers: bench.settings.preferences.has_numbers,
             greys_below: bench.selection.greys_below,
             selected: bench.selection.contactor.unwrap_or(usize::MAX),
+            own_ends_um: None,
+        }
+    }
+
+    /// Where an amplitude stands on the colours, 0…1.
+    fn share(&self, band: Band, amplitude_um: f64) -> f64 {
+        let Some([least_um, most_um]) = self.own_ends_um.map(|ends| ends[band.index()]) else {
+            return self.scale.share(amplitude_um);
+        };
+        if most_um > least_um {
+            (amplitude_um - least_um) / (most_um - least_um)
+        } else {
+            0.5
         }
     }
 }
 
+/// The least and the largest amplitude of each band on cloth, µm; `None` where nothing is.
+fn ends_um(live: &EngineView) -> Option<[[f64; 2]; 2]> {
+    let on_cloth = || live.dots.iter().filter(|dot| dot.cloth.is_some());
+    on_cloth().next()?;
+    Some([0, 1].map(|band| {
+        let um = on_cloth().map(|dot| dot.amplitude_um[band]);
+        um.fold([f64::INFINITY, 0.0], |[least, most], um| {
+            [least.min(um), most.max(um)]
+        })
+    }))
+}
+
 /// The heatmaps, which show what all tools share.
-#[derive(Debug)]
-pub(crate) struct Contactors;
+#[derive(Debug, Default)]
+pub(crate) struct Contactors {
+    /// Whether each frame is shown in its own contrast, so that the pattern inside a textile is
+    /// seen.
+    is_own_contrast: bool,
+}
 
 impl Tool for Contactors {
     fn panes(&self) -> &'static [Pane] {
@@ -65,11 +96,14 @@ impl Tool for Contactors {
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        framed(ui, 10, |ui| show(ui, context));
+        let mut style = HeatmapStyle::of(context.bench);
+        let is_own = self.is_own_contrast;
+        style.own_ends_um = is_own.then(|| ends_um(&context.bench.live)).flatten();
+        framed(ui, 10, |ui| show(ui, style, context));
     }
 
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        show_corner(ui, context);
+        self.show_corner(ui, context);
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
@@ -94,10 +128,9 @@ impl Tool for Contactors {
 }
 
 /// Shows both heatmaps and the colour bar.
-fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
+fn show(ui: &mut Ui, style: HeatmapStyle, context: &mut PaneContext<'_>) {
     let palette = Palette::in_ui(ui);
     let (scene, live) = (context.scene, &context.bench.live);
-    let style = HeatmapStyle::of(context.bench);
     let Some(grid) = scene.grid else {
         ui.label("The contactors of this display form no grid: the workspace shows them");
         return;
@@ -142,8 +175,32 @@ fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let right = places.corners[1].x + grid.1 as f32 * places.cell.x + 10.0;
     let height = grid.0 as f32 * places.cell.y - GAP;
     let bar = Rect::from_min_size(pos2(right, places.corners[1].y), vec2(8.0, height));
-    amplitude_bar(&painter, bar, style.map, style.scale);
+    match style.own_ends_um {
+        Some(ends_um) => paint_own_bar(&painter, bar, style.map, ends_um),
+        None => amplitude_bar(&painter, bar, style.map, style.scale),
+    }
     answer(&response, &places, (scene, live), context.commands);
+}
+
+/// The bar of a frame's own contrast: what both ends stand for in each band.
+fn paint_own_bar(painter: &Painter, bar: Rect, map: ColourMap, ends_um: [[f64; 2]; 2]) {
+    let palette = Palette::of(painter.ctx().theme());
+    colour_bar(painter, bar, |share| map.colour(share));
+    for band in Band::ALL {
+        let down = f32::from(u8::from(band == Band::High)) * 11.0;
+        let [least_um, most_um] = ends_um[band.index()];
+        let places = [
+            (most_um, bar.top() + 4.0 + down),
+            (least_um, bar.bottom() - 15.0 + down),
+        ];
+        for (um, y) in places {
+            let at = pos2(bar.right() + 4.0, y);
+            let (font, ink) = (theme::small_number(), palette.band(band));
+            painter.text(at, Align2::LEFT_CENTER, digits(um), font, ink);
+        }
+    }
+    let at = pos2(bar.left() - 6.0, bar.top() - 11.0);
+    paint_quiet(painter, at, Align2::LEFT_CENTER, "own µm");
 }
 
 /// What the finger gets of a band: where all contactors fare alike in it, what they do.
@@ -170,52 +227,63 @@ fn paint_title(painter: &Painter, corner: Pos2, (band, on_finger): (Band, OnFing
     }
 }
 
-/// What stands over the heatmaps: numbers, the scale's lock and its top.
-fn show_corner(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let bench = &mut *context.bench;
-    let before = HeatmapStyle::of(bench);
-    let (mut style, scale) = (before, before.scale);
-    style.has_numbers ^= toggle(ui, "123", before.has_numbers, "Numbers in the cells (N)");
-    let tip = "Hollow and grey what is below the threshold of detection, by a model";
-    style.greys_below ^= toggle(ui, "SL", before.greys_below, tip);
-    let (word, tip) = if scale.is_locked() {
-        (
-            "fixed",
-            "The scale of amplitudes is fixed everywhere; click to let it follow them",
-        )
-    } else {
-        (
-            "auto",
-            "The scale of amplitudes follows them everywhere; click to fix it",
-        )
-    };
-    if toggle(ui, word, scale.is_locked(), tip) {
-        style.scale = scale.with_lock(!scale.is_locked());
-    }
-    let tops = [
-        ("−", 0.4, "A scale that ends lower, fixed"),
-        ("+", 2.0, "A scale that ends higher, fixed"),
-    ];
-    for (sign, factor, tip) in tops.into_iter().rev() {
-        if toggle(ui, sign, false, tip) {
-            style.scale = scale.locked_at(scale.most_um() * factor);
+impl Contactors {
+    /// What stands over the heatmaps: numbers, the contrast, the scale's top.
+    fn show_corner(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        let bench = &mut *context.bench;
+        let before = HeatmapStyle::of(bench);
+        let (mut style, scale) = (before, before.scale);
+        style.has_numbers ^= toggle(ui, "123", before.has_numbers, "Numbers in the cells (N)");
+        let tip = "Hollow and grey what is below the threshold of detection, by a model";
+        style.greys_below ^= toggle(ui, "SL", before.greys_below, tip);
+        let (word, tip) = match (self.is_own_contrast, scale.is_locked()) {
+            (true, _) => (
+                "own",
+                "Every frame in its own contrast, which shows the pattern inside a textile; click \
+                 for the scale that all views share",
+            ),
+            (false, true) => (
+                "fixed",
+                "The scale of amplitudes is fixed everywhere; click to let it follow them",
+            ),
+            (false, false) => (
+                "auto",
+                "The scale of amplitudes follows them everywhere; click for the contrast of every \
+                 frame alone",
+            ),
+        };
+        if toggle(ui, word, self.is_own_contrast || scale.is_locked(), tip) {
+            let is_auto = !self.is_own_contrast && !scale.is_locked();
+            style.scale = scale.with_lock(self.is_own_contrast);
+            self.is_own_contrast = is_auto;
+            ui.ctx().request_repaint();
         }
-    }
-    if style != before {
-        bench.settings.preferences.has_numbers = style.has_numbers;
-        bench.selection.greys_below = style.greys_below;
-        bench.selection.scale = style.scale;
-        ui.ctx().request_repaint();
-    }
-    if bench.selection.mute_solo.is_any()
-        && toggle(
-            ui,
-            "all",
-            false,
-            "Feel everything again: end every mute and solo (H)",
-        )
-    {
-        context.commands.push(ShowCommand::HearAll.into());
+        let tops = [
+            ("−", 0.4, "A scale that ends lower, fixed"),
+            ("+", 2.0, "A scale that ends higher, fixed"),
+        ];
+        for (sign, factor, tip) in tops.into_iter().rev() {
+            if toggle(ui, sign, false, tip) {
+                style.scale = scale.locked_at(scale.most_um() * factor);
+                self.is_own_contrast = false;
+            }
+        }
+        if style != before {
+            bench.settings.preferences.has_numbers = style.has_numbers;
+            bench.selection.greys_below = style.greys_below;
+            bench.selection.scale = style.scale;
+            ui.ctx().request_repaint();
+        }
+        if bench.selection.mute_solo.is_any()
+            && toggle(
+                ui,
+                "all",
+                false,
+                "Feel everything again: end every mute and solo (H)",
+            )
+        {
+            context.commands.push(ShowCommand::HearAll.into());
+        }
     }
 }
 
@@ -251,7 +319,7 @@ fn paint_cell(
         return;
     }
     let amplitude_um = dot.amplitude_um[band.index()];
-    let share = style.scale.share(amplitude_um);
+    let share = style.share(band, amplitude_um);
     let colour = style.map.colour(share).gamma_multiply(on_finger.presence());
     if is_grey {
         // Hollow: the colour of its level is left at the edge.

@@ -107,11 +107,8 @@ fn all_at_once(design: &Design, display: &Display) -> Scene {
     }
     let placed = |id: &String| PlacedTextile {
         id: id.clone(),
-        origin_mm: selvedge_foundation::geometry::Point::default(),
         size_mm: [100.0; 2],
-        rotation_deg: 0.0,
-        gain_db: 0.0,
-        label: String::new(),
+        ..PlacedTextile::default()
     };
     Scene {
         name: "Session".to_owned(),

@@ -1,18 +1,22 @@
 //! What compression does: level in, level out, and the library's textiles as dots on the curve.
 
-use eframe::egui::{Margin, Pos2, Sense, Ui, vec2};
+use eframe::egui::{Id, Margin, Pos2, Sense, Ui, vec2};
 
+use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
 use crate::bench::view::{LibraryDot, SceneView};
 use crate::kit::pane::paint_sentence;
 use crate::kit::plot;
-use crate::kit::plot::Setting;
+use crate::kit::plot::{Drag, Setting, Shown};
+use crate::kit::widgets::scale::Scale;
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Tone, Words};
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{Band, Tuning};
 
+/// The line is not turned by a place as near to the level that it leaves alone, dB.
+const NEAREST_DB: f64 = 2.0;
 /// Height of the plot, points.
 const HEIGHT: f32 = 90.0;
 
@@ -58,17 +62,18 @@ fn chart(scene: &SceneView, reference_db: f64) -> Chart {
         ink,
         ..Series::default()
     };
+    let at = |dot: &LibraryDot| [dot.level_db, out(dot.level_db) + scene_gain_db(scene, dot)];
     let dots = |name: &str, is_placed: bool, ink| {
         let own = library.iter().filter(|dot| dot.is_placed == is_placed);
         Series {
             name: name.to_owned(),
-            points: own.map(|dot| [dot.level_db, out(dot.level_db)]).collect(),
+            points: own.map(at).collect(),
             ink,
             ..Series::default()
         }
     };
     let named = |dot: &LibraryDot| Words {
-        at: [dot.level_db, out(dot.level_db)],
+        at: at(dot),
         text: dot.name.clone(),
         tone: Tone::Aside,
     };
@@ -95,6 +100,16 @@ fn chart(scene: &SceneView, reference_db: f64) -> Chart {
         }),
         ..Chart::default()
     }
+}
+
+/// The gain that the scene gives a textile where it is placed first, dB; 0 where it is not, or is
+/// silenced.
+fn scene_gain_db(scene: &SceneView, dot: &LibraryDot) -> f64 {
+    let placed = scene
+        .placed(&dot.id)
+        .and_then(|index| scene.cloths.get(index));
+    let gain_db = placed.map_or(0.0, |cloth| cloth.gain_db);
+    if gain_db.is_finite() { gain_db } else { 0.0 }
 }
 
 fn columns(library: &[LibraryDot], gain_db: impl Fn(f64) -> f64) -> Columns {
@@ -160,6 +175,7 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
             bottom: 18,
         },
         wheel: false,
+        drag: Drag::ByPane,
         hover: false,
         has_legend: false,
         ..Setting::default()
@@ -167,7 +183,9 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let Some(shown) = plot::show(ui, rect, &chart, &setting) else {
         return;
     };
-    let out = |dot: &LibraryDot| out_db(&scene.tuning, reference_db, dot.level_db);
+    let out = |dot: &LibraryDot| {
+        out_db(&scene.tuning, reference_db, dot.level_db) + scene_gain_db(scene, dot)
+    };
     let pointer = shown.response.hover_pos();
     let distance = |dot: &&LibraryDot, at: Pos2| shown.at([dot.level_db, out(dot)]).distance(at);
     let near = pointer.and_then(|at| {
@@ -182,12 +200,53 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
             }
         }
         let words = format!(
-            "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains",
+            "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains\ndrag a \
+             textile of the scene for its gain, the line for the compression",
             dot.name,
             quantity::with_unit(dot.level_db, 1, "dB"),
             quantity::with_unit(out(dot), 1, "dB"),
         );
-        shown.response.on_hover_text_at_pointer(words);
+        shown.response.clone().on_hover_text_at_pointer(words);
+    }
+    drag(ui, &shown, (scene, reference_db), near, commands);
+}
+
+/// What is dragged since the press: a placed textile, or the line.
+fn drag(
+    ui: &Ui,
+    shown: &Shown,
+    (scene, reference_db): (&SceneView, f64),
+    near: Option<&LibraryDot>,
+    commands: &mut Commands,
+) {
+    let id = Id::unique("dragged on the curve");
+    if shown.response.drag_started() {
+        let taken = near.and_then(|dot| scene.placed(&dot.id));
+        ui.data_mut(|data| data.insert_temp(id, taken));
+    }
+    let at = shown.response.interact_pointer_pos();
+    let Some(at) = at.filter(|_| shown.response.dragged()) else {
+        return;
+    };
+    let [level_db, out_at_db] = shown.values_at(at);
+    let taken: Option<usize> = ui.data(|data| data.get_temp(id).unwrap_or_default());
+    let dot = taken.and_then(|index| {
+        let cloth = scene.cloths.get(index)?;
+        let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
+        Some((index, dot))
+    });
+    match dot {
+        Some((index, dot)) => {
+            let gain_db = out_at_db - out_db(&scene.tuning, reference_db, dot.level_db);
+            let gain_db = Scale::gain(0.0).stepped(gain_db);
+            commands.push(Edit::TextileGain(index, gain_db).into());
+        }
+        None if (level_db - reference_db).abs() > NEAREST_DB => {
+            let slope = (out_at_db - reference_db) / (level_db - reference_db);
+            let compression = Scale::share(0.0).stepped(1.0 - slope);
+            commands.push(Edit::Compression(compression).into());
+        }
+        None => {}
     }
 }
 

@@ -1,6 +1,7 @@
 //! Gains, compression and what it does to the library, and the filters in force.
 
 pub(crate) mod curve;
+pub(crate) mod slots;
 
 use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
 
@@ -19,11 +20,13 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{row, toggle};
+use crate::tools::tuning::slots::Slots;
 use selvedge_foundation::quantity;
 use selvedge_textile::tactile::{self, Band, Filters, Perception};
 
 /// What every slider can do.
-const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, a click on the number types";
+const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, Ctrl+wheel by what is just \
+                          noticed, a click on the number types";
 /// How opaque figures of the library are that are of the filters before.
 const STALE: f32 = 0.45;
 /// Bounds of the filters' width, octaves.
@@ -35,11 +38,20 @@ pub(crate) struct Tuning {
     /// How the textile felt that is under the display or was last, so that marks do not come and go
     /// while the display moves over gaps.
     last_felt: Option<Perception>,
+    slots: Slots,
 }
 
 impl Tool for Tuning {
     fn panes(&self) -> &'static [Pane] {
         &[Pane::Tuning]
+    }
+
+    fn logic(&mut self, bench: &mut Bench) {
+        self.slots.follow(bench);
+    }
+
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.slots.leave_scene();
     }
 
     fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -61,6 +73,7 @@ impl Tool for Tuning {
 
 impl Tuning {
     fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.slots.show(ui, context);
         let (scene, commands) = (context.scene, &mut *context.commands);
         let (live, mute_solo) = (&context.bench.live, &context.bench.selection.mute_solo);
         let palette = Palette::in_ui(ui);

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::bench::gain_set::GainSet;
+use crate::tools::compare::choice::TuningChoice;
 use crate::tools::compare::export::over_time_chart;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
-use selvedge_render::scene::{ExplorationPath, PathRow, Scene, Stroke};
+use selvedge_render::scene::{ExplorationPath, PathRow, Scene, SlotLetter, Stroke};
 use selvedge_textile::tactile::Tuning;
 
 fn tunings() -> [Tuning; 2] {
@@ -28,8 +30,7 @@ fn route(x_mm: f64, y_mm: f64, n_ticks: u64) -> Route {
 }
 
 fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
-    let held = HeldTuning::of(scene, Tuning::default());
-    Inputs::of(choice, Some(&held), scene, tunings(), route).unwrap()
+    Inputs::of(choice, scene, tunings(), route).unwrap()
 }
 
 fn threads() -> Executor {
@@ -77,33 +78,25 @@ fn each_kind_of_choice_changes_that_and_nothing_else() {
 }
 
 #[test]
-fn a_held_tuning_keeps_gains_and_filters_as_they_were() {
+fn a_slot_is_compared_as_it_was_kept_and_an_empty_one_is_refused() {
     let loaded = LoadedScene::shipped().unwrap();
     let mut scene = loaded.scene().clone();
     scene.textiles[0].gain_db = -4.0;
-    let held = HeldTuning::of(&scene, Tuning::default());
+    GainSet::of(&scene, tunings()[1]).keep_in(&mut scene, SlotLetter::D);
     scene.textiles[0].gain_db = 2.0;
-    scene.textiles[1].id = "denim".to_owned();
-    scene.textiles[1].gain_db = 5.0;
-    scene.filters = selvedge_textile::tactile::Filters::Receptor;
-    let choice = Choice {
-        tunings: [TuningChoice::Held, TuningChoice::Live],
+    let choice = |letter| Choice {
+        tunings: [TuningChoice::Slot(letter), TuningChoice::Live],
         ..Choice::default()
     };
     let path = route(40.0, 40.0, 40);
-    let inputs = Inputs::of(&choice, Some(&held), &scene, tunings(), path.clone()).unwrap();
-    let [a, b] = inputs.sides;
+    let [a, b] = asked(&choice(SlotLetter::D), &scene, path.clone()).sides;
     assert_eq!(a.scene.textiles[0].gain_db, -4.0);
-    assert_eq!(
-        a.scene.textiles[1].gain_db, 5.0,
-        "another textile lies there"
-    );
-    assert_eq!(a.scene.filters, loaded.scene().filters);
-    assert_eq!(b.scene.filters, scene.filters);
-    let none = Inputs::of(&choice, None, &scene, tunings(), path.clone());
-    assert!(none.unwrap_err().contains("hold A"));
+    assert_eq!(a.scene.tuning, Some(tunings()[1]));
+    assert_eq!(b.scene.textiles[0].gain_db, 2.0);
+    let none = Inputs::of(&choice(SlotLetter::E), &scene, tunings(), path.clone());
+    assert!(none.unwrap_err().contains("empty"));
     scene.textiles.clear();
-    let none = Inputs::of(&choice, Some(&held), &scene, tunings(), path);
+    let none = Inputs::of(&choice(SlotLetter::D), &scene, tunings(), path);
     assert!(none.unwrap_err().contains("Place a textile"));
 }
 

@@ -3,15 +3,17 @@
 use eframe::egui::{Label, Ui, vec2};
 
 use crate::bench::Bench;
+use crate::bench::gain_set::slot;
 use crate::bench::recording::Recording;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::list;
-use crate::kit::widgets::text::{line, paint_quiet, small, toggle, toggles};
+use crate::kit::widgets::text::{line, paint_quiet, quiet, small, toggle, toggles};
 use crate::tools::compare::choice::{Choice, Route, TuningChoice, What};
 use crate::tools::compare::comparison::{Compare, Standing};
 use selvedge_foundation::quantity::fixed;
 use selvedge_render::array::Method;
+use selvedge_render::scene::Scene;
 
 /// Height of a row, points.
 const LINE: f32 = 20.0;
@@ -41,7 +43,7 @@ const KINDS: [(What, &str, &str); 4] = [
 /// Methods that are offered.
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
 
-/// What stands over the pane: hold A, compare or stop.
+/// What stands over the pane: compare or stop.
 pub(crate) fn show_corner(ui: &mut Ui, compare: &mut Compare, bench: &Bench) {
     let standing = compare.standing(&compare.inputs(bench));
     let is_running = matches!(standing, Standing::Running(_));
@@ -59,12 +61,7 @@ pub(crate) fn show_corner(ui: &mut Ui, compare: &mut Compare, bench: &Bench) {
     } else if is_pressed {
         compare.run(bench);
     }
-    let tip = "Hold the present tuning as A, to compare it with what comes";
-    let holds = toggle(ui, "hold A", false, tip);
-    if holds {
-        compare.hold(bench);
-    }
-    if is_pressed || holds {
+    if is_pressed {
         ui.ctx().request_repaint();
     }
 }
@@ -94,7 +91,7 @@ pub(crate) fn show(
         ui.spacing_mut().item_spacing.x = STEP;
         ui.spacing_mut().interact_size.y = LINE;
         match before.what {
-            What::Tunings => show_tunings(ui, choice, compare.held_tuning.is_some()),
+            What::Tunings => show_tunings(ui, choice, context.bench.document.scene()),
             What::Textiles => {
                 let place = before.place_in(context.bench.document.scene(), route);
                 show_textiles(ui, choice, place, context);
@@ -155,26 +152,34 @@ fn status(standing: &Standing, route: &Route, take: Option<&str>) -> (String, bo
     (words, false)
 }
 
-fn show_tunings(ui: &mut Ui, choice: &mut Choice, is_held: bool) {
+fn show_tunings(ui: &mut Ui, choice: &mut Choice, scene: &Scene) {
     let width = widths(ui, 2, 2);
     let name = |tuning| match tuning {
-        TuningChoice::Live => "this tuning",
-        TuningChoice::Held => "held tuning",
-        TuningChoice::Library => "library’s tuning",
+        TuningChoice::Live => "this tuning".to_owned(),
+        TuningChoice::Library => "library’s tuning".to_owned(),
+        TuningChoice::Slot(letter) => {
+            let called = slot(scene, letter).map_or("", |slot| &*slot.name);
+            format!("slot {} {called}", letter.name())
+                .trim_end()
+                .to_owned()
+        }
     };
+    let slots = scene
+        .slots
+        .iter()
+        .map(|slot| TuningChoice::Slot(slot.letter));
+    let offered: Vec<_> = [TuningChoice::Live, TuningChoice::Library]
+        .into_iter()
+        .chain(slots)
+        .collect();
     for (index, side) in ["A", "B"].into_iter().enumerate() {
         let chosen = &mut choice.tunings[index];
-        combo(ui, side, width, name(*chosen), |ui| {
-            for tuning in [
-                TuningChoice::Live,
-                TuningChoice::Held,
-                TuningChoice::Library,
-            ] {
-                let is_there = tuning != TuningChoice::Held || is_held;
-                ui.add_enabled_ui(is_there, |ui| {
-                    let response = ui.selectable_value(chosen, tuning, name(tuning));
-                    response.on_disabled_hover_text("None is held: press “hold A”");
-                });
+        combo(ui, side, width, &name(*chosen), |ui| {
+            for &tuning in &offered {
+                ui.selectable_value(chosen, tuning, name(tuning));
+            }
+            if scene.slots.is_empty() {
+                ui.label(quiet("Slots A to H of the Tuning pane keep more"));
             }
         });
     }
