@@ -268,6 +268,22 @@ mod tests {
     }
 
     #[test]
+    fn a_step_says_what_it_turned_and_what_going_there_would_turn() {
+        let mut document = document();
+        document.edit(&Edit::MasterGain(-1.0), at(1)).unwrap();
+        document.edit(&Edit::Compression(0.25), at(2)).unwrap();
+        let both = |own: &str, from_now: &str| [own.to_owned(), from_now.to_owned()];
+        let back = "master −1.0 → −3.0 dB, compression 25 → 0 %";
+        assert_eq!(document.turned_by(0), both("", back));
+        let first = both("master −3.0 → −1.0 dB", "compression 25 → 0 %");
+        assert_eq!(document.turned_by(1), first);
+        assert_eq!(document.turned_by(2), both("compression 0 → 25 %", ""));
+        document.step_to(0);
+        assert_eq!(document.turned_by(1)[0], "master −3.0 → −1.0 dB");
+        assert_eq!(document.turned_by(0), both("", ""));
+    }
+
+    #[test]
     fn saving_is_no_step_of_undo() {
         let folder = ScratchFolder::made("document");
         let path = folder.join("a.scene.toml");

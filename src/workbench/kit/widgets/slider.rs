@@ -388,6 +388,41 @@ mod tests {
     }
 
     #[test]
+    fn the_wheel_with_ctrl_turns_by_what_is_just_noticed_and_alone_scrolls() {
+        use egui_kittest::kittest::Queryable as _;
+        let scale = Scale::gain(0.0).with_noticed(Some(2.2));
+        let show = move |ui: &mut Ui, value: &mut f64| {
+            let (new, _) = slider_row(ui, "Master", Color32::WHITE, scale, *value);
+            *value = new.unwrap_or(*value);
+        };
+        let mut harness = egui_kittest::Harness::builder()
+            .with_size(vec2(400.0, 60.0))
+            .build_ui_state(show, -3.0);
+        harness.run();
+        let at = harness
+            .get_by_role_and_label(accesskit::Role::Slider, "Master")
+            .rect()
+            .center();
+        for (modifiers, expected) in [
+            (egui::Modifiers::NONE, -3.0),
+            (egui::Modifiers::COMMAND, -0.8),
+            (egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, -0.7),
+        ] {
+            harness.event(egui::Event::PointerMoved(at));
+            harness.event(egui::Event::ModifiersChanged(modifiers));
+            harness.event(egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Line,
+                delta: vec2(0.0, 1.0),
+                phase: egui::TouchPhase::Move,
+                modifiers,
+            });
+            harness.run();
+            let value = *harness.state();
+            assert!((value - expected).abs() < 1e-9, "{modifiers:?}: {value}");
+        }
+    }
+
+    #[test]
     fn marks_stand_at_whole_just_noticeable_differences_and_on_the_rail() {
         let gain = Scale::gain(0.0);
         assert_eq!(marks(&gain, -26.0, 2.5)[..3], [-28.5, -23.5, -21.0]);

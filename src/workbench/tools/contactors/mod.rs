@@ -431,3 +431,44 @@ fn words(index: usize, dot: &Dot, scene: &SceneView, perceptual_level: &Perceptu
          limits{limited}{on_finger}\nclick to look closer"
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frames_own_contrast_spreads_each_band_over_all_colours() {
+        let dot = |cloth, amplitude_um| Dot {
+            cloth,
+            amplitude_um,
+            ..Dot::default()
+        };
+        let on = Some(0);
+        let dots = vec![
+            dot(on, [4.0, 1.0]),
+            dot(None, [0.0; 2]),
+            dot(on, [5.0, 1.0]),
+        ];
+        let live = EngineView {
+            dots,
+            ..EngineView::default()
+        };
+        assert_eq!(
+            ends_um(&live),
+            Some([[4.0, 5.0], [1.0, 1.0]]),
+            "on cloth alone"
+        );
+        let style = HeatmapStyle {
+            map: ColourMap::default(),
+            scale: AmplitudeScale::default(),
+            has_numbers: false,
+            greys_below: false,
+            selected: 0,
+            own_ends_um: ends_um(&live),
+        };
+        let low = [4.0, 4.5, 5.0].map(|um| style.share(Band::Low, um));
+        assert_eq!(low, [0.0, 0.5, 1.0]);
+        assert_eq!(style.share(Band::High, 1.0), 0.5, "all alike");
+        assert_eq!(ends_um(&EngineView::default()), None);
+    }
+}
