@@ -118,8 +118,9 @@ impl Document {
         self.history.steps(&self.scene)
     }
 
-    /// The pane that shows what lies between the scene as it is and as it was after so many steps.
-    pub(crate) fn pane_of(&self, n_done: usize) -> Option<Pane> {
+    /// The panes of which each shows what lies between the scene as it is and as it was after so many
+    /// steps.
+    pub(crate) fn panes_of(&self, n_done: usize) -> Option<&'static [Pane]> {
         let there = self.history.state_after(n_done, &self.scene)?;
         let lies = |scene: &Scene| -> Vec<PlacedTextile> {
             let untuned = |cloth: &PlacedTextile| PlacedTextile {
@@ -130,9 +131,9 @@ impl Document {
         };
         let is_moved = lies(there) != lies(&self.scene);
         Some(if is_moved {
-            Pane::Workspace
+            &[Pane::Workspace]
         } else {
-            Pane::Tuning
+            &[Pane::Tuning, Pane::Levels]
         })
     }
 

@@ -144,7 +144,8 @@ mod tests {
 
     fn edit(scene: &mut Scene, edits: impl IntoIterator<Item = Edit>) {
         for edit in edits {
-            apply(&edit, scene, Tuning::default());
+            let tuning = scene.tuning.unwrap_or_default();
+            apply(&edit, scene, tuning);
         }
     }
 

@@ -33,11 +33,14 @@ impl Workbench {
         if n_done == steps.n_done || n_done > steps.names.len() {
             return;
         }
-        match self.bench.document.pane_of(n_done) {
-            Some(pane) if !self.shell.shows(pane) => {
+        match self.bench.document.panes_of(n_done) {
+            Some([pane, others @ ..])
+                if !self.shell.shows(*pane)
+                    && !others.iter().any(|pane| self.shell.shows(*pane)) =>
+            {
                 let is_back = n_done < steps.n_done;
                 let step = if is_back { steps.undo() } else { steps.redo() };
-                self.bring_in_sight(pane, step);
+                self.bring_in_sight(*pane, step);
             }
             _ => self.bench.step_to(n_done),
         }

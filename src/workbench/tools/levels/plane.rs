@@ -1,6 +1,6 @@
 //! The scene's textiles in the plane of both bands: dragged along the diagonal, which is their gain.
 
-use eframe::egui::{Id, Margin, Sense, Ui};
+use eframe::egui::{Id, Margin, Pos2, Sense, Ui};
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Part, ShowCommand};
@@ -119,14 +119,16 @@ pub(crate) fn show(
         .response
         .interact_pointer_pos()
         .or(shown.response.hover_pos());
-    let near = pointer.and_then(|at| {
+    let near_to = |at: Pos2| {
         let distance = |one: &&Placed| shown.at(one.row.level_db).distance(at);
         let near = placed.iter().filter(|one| distance(one) < NEAR);
         near.min_by(|one, other| distance(one).total_cmp(&distance(other)))
-    });
+    };
+    let near = pointer.and_then(near_to);
     let id = Id::unique("dragged level");
     if shown.response.drag_started() {
-        let taken = near.map(|one| one.index);
+        let pressed_at = ui.input(|input| input.pointer.press_origin());
+        let taken = pressed_at.and_then(near_to).map(|one| one.index);
         ui.data_mut(|data| data.insert_temp(id, taken));
     }
     let dragged: Option<usize> = ui.data(|data| data.get_temp(id).unwrap_or_default());

@@ -188,10 +188,11 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     };
     let pointer = shown.response.hover_pos();
     let distance = |dot: &&LibraryDot, at: Pos2| shown.at([dot.level_db, out(dot)]).distance(at);
-    let near = pointer.and_then(|at| {
+    let near_to = |at: Pos2| {
         let near = scene.library.iter().filter(|dot| distance(dot, at) < 8.0);
         near.min_by(|a, b| distance(a, at).total_cmp(&distance(b, at)))
-    });
+    };
+    let near = pointer.and_then(near_to);
     if let Some(dot) = near {
         if let Some(index) = scene.placed(&dot.id) {
             commands.push(ShowCommand::Hover(Part::Cloth(index)).into());
@@ -208,7 +209,9 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
         );
         shown.response.clone().on_hover_text_at_pointer(words);
     }
-    drag(ui, &shown, (scene, reference_db), near, commands);
+    let pressed_at = ui.input(|input| input.pointer.press_origin());
+    let pressed = pressed_at.and_then(near_to);
+    drag(ui, &shown, (scene, reference_db), pressed, commands);
 }
 
 /// What is dragged since the press: a placed textile, or the line.
@@ -216,12 +219,12 @@ fn drag(
     ui: &Ui,
     shown: &Shown,
     (scene, reference_db): (&SceneView, f64),
-    near: Option<&LibraryDot>,
+    pressed: Option<&LibraryDot>,
     commands: &mut Commands,
 ) {
     let id = Id::unique("dragged on the curve");
     if shown.response.drag_started() {
-        let taken = near.and_then(|dot| scene.placed(&dot.id));
+        let taken = pressed.and_then(|dot| scene.placed(&dot.id));
         ui.data_mut(|data| data.insert_temp(id, taken));
     }
     let at = shown.response.interact_pointer_pos();

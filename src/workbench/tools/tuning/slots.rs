@@ -90,6 +90,7 @@ impl Slots {
         });
         if bench.selection.held_gains != matched {
             bench.selection.held_gains = matched;
+            bench.send_gains();
             bench.ctx.request_repaint();
         }
     }
