@@ -266,7 +266,7 @@ fn a_real_server_plays_320_hz_and_one_that_is_killed_is_missed_and_found_again()
     // A busy machine drops some: what is whole is 320 Hz and nothing else.
     let is_silent = |part: &[f32]| part.iter().all(|x| x.abs() < 1e-6);
     let past_fade = left[2 * SOUND_RATE_HZ as usize..].chunks_exact(4800);
-    let whole = past_fade.filter(|part| !part.windows(48).any(is_silent));
+    let whole = past_fade.filter(|part| !part.windows(4).any(is_silent));
     let mut n_whole = 0;
     for part in whole {
         let part: Vec<f64> = part.iter().copied().map(f64::from).collect();
