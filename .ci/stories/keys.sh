@@ -62,13 +62,14 @@ await 10 looks_like again 20000 || fail "two clicks on a tab do not bring the pa
 # Sound that nothing plays greys the loudspeaker, and one line says why, until it is off again.
 loudspeaker() { import -window root -crop 40x30+1160+8 +repage "$work/look-$1.png"; }
 loudspeaker off
+look quiet
 slowly 'key ctrl+m'
-await 10 differs again 1500 || fail "nothing says that nothing is heard"
+await 10 differs quiet 1500 || fail "nothing says that nothing is heard"
 shot unheard
 loudspeaker unheard
 [ "$(differ off unheard)" -gt 20 ] || fail "the loudspeaker looks as before"
 slowly 'key ctrl+m'
-await 10 looks_like again 1500 || fail "the line stays though sound is off"
+await 10 looks_like quiet 1500 || fail "the line stays though sound is off"
 loudspeaker silent
 [ "$(differ off silent)" -lt 20 ] || fail "Ctrl+M twice changes the loudspeaker"
 # Full screen and back: without a window manager the window stays as it is, and keeps its keys.
