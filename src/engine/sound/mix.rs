@@ -45,9 +45,10 @@ const HELD_TICKS: u32 = 3;
 /// How strong `[40 Hz, 320 Hz]` are on the left and on the right, µm.
 pub type StereoLevels = [[f32; 2]; 2];
 
-/// What each side hears of a display: where its middle is and where that of the workspace, and of
-/// each contactor where it is, mm, and its amplitudes `[A40, A320]`, µm; all of them, or one
-/// `alone`. What is no amplitude is 0.
+/// What each side hears of a display: of all its contactors, or of one `alone`.
+///
+/// Told are where its middle is and where that of the workspace, and of each contactor where it is,
+/// mm, and its amplitudes `[A40, A320]`, µm. What is no amplitude is 0.
 pub fn stereo_levels(
     [middle_mm, centre_mm]: [f64; 2],
     contactors: impl ExactSizeIterator<Item = (f64, [f32; 2])> + Clone,
@@ -60,7 +61,10 @@ pub fn stereo_levels(
     let finger = share(middle_mm - centre_mm, centre_mm);
     let places = contactors.clone().map(|(x_mm, _)| (x_mm - middle_mm).abs());
     let widest_mm = places.fold(0.0, f64::max);
-    let n_heard = alone.map_or(contactors.len(), |_| 1).max(1) as f64;
+    let n_heard = match alone {
+        Some(_) => 1,
+        None => contactors.len().max(1),
+    };
     let mut power = [[0.0; 2]; 2];
     for (index, (x_mm, amplitudes_um)) in contactors.enumerate() {
         if alone.is_some_and(|alone| alone != index) {
@@ -80,7 +84,7 @@ pub fn stereo_levels(
             }
         }
     }
-    power.map(|side| side.map(|sum: f64| single((2.0 * sum / n_heard).sqrt())))
+    power.map(|side| side.map(|sum: f64| single((2.0 * sum / n_heard as f64).sqrt())))
 }
 
 /// The engine's end: what is felt at every tick.
@@ -417,7 +421,7 @@ mod tests {
         let alone = |index| stereo_levels([0.0, 130.0], row.clone(), Some(index));
         let within = |x: f32, y: f32| (x - y).abs() < 1e-5;
         let mono = |[left, right]: StereoLevels, band: usize| {
-            ((left[band].powi(2) + right[band].powi(2)) / 2.0).sqrt()
+            f32::midpoint(left[band].powi(2), right[band].powi(2)).sqrt()
         };
         for (index, um) in [[9.0, 9.0], [2.0, 5.0], [4.0, 0.0]].into_iter().enumerate() {
             let found = alone(index);
