@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# Everything by keys, and panes by two clicks: found by name, the guide, the list of keys, from pane to pane, one pane alone.
+# Everything by keys, and panes by two clicks: found by name, the guide, the list of keys, from pane to pane, one pane alone,
+# sound on a machine that plays none.
 . "$(dirname "$0")/lib.sh"
 display
-start
+# No server of sound, and a card that nobody has.
+mkdir "$work/bin"
+printf '#!/bin/sh\nexit 1\n' > "$work/bin/aplay"
+chmod +x "$work/bin/aplay"
+PATH=$work/bin:$PATH PULSE_SERVER=$work/none start
 slowly 'key Escape'
 # A textile of another library, found by a few letters and laid into the scene.
 slowly 'key ctrl+k' "type --delay 30 'poplin'"
@@ -54,6 +59,19 @@ await 10 differs again 200000 || fail "two clicks on a tab show no pane alone"
 shot double-click
 double_click 30 56
 await 10 looks_like again 20000 || fail "two clicks on a tab do not bring the panes back"
+# Sound that nothing plays greys the loudspeaker, and one line says why, until it is off again.
+loudspeaker() { import -window root -crop 40x30+1160+8 +repage "$work/look-$1.png"; }
+loudspeaker off
+look quiet
+slowly 'key ctrl+m'
+await 10 differs quiet 1500 || fail "nothing says that nothing is heard"
+shot unheard
+loudspeaker unheard
+[ "$(differ off unheard)" -gt 20 ] || fail "the loudspeaker looks as before"
+slowly 'key ctrl+m'
+await 10 looks_like quiet 1500 || fail "the line stays though sound is off"
+loudspeaker silent
+[ "$(differ off silent)" -lt 20 ] || fail "Ctrl+M twice changes the loudspeaker"
 # Full screen and back: without a window manager the window stays as it is, and keeps its keys.
 slowly 'key F11' 'key F11'
 await 10 looks_like again 20000 || fail "F11 twice changes the window"

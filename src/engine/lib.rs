@@ -70,7 +70,8 @@ pub use snapshot::{
     RenderingView, Snapshot,
 };
 pub use sound::{
-    SOUND_RATE_HZ, Sonifier, SoundFeed, SoundOutput, SoundSource, SoundState, sonification,
+    SOUND_RATE_HZ, Sonifier, SoundControl, SoundFeed, SoundOutput, SoundSource, SoundState,
+    StereoLevels, sonification, stereo_levels,
 };
 pub use stop::StopSwitch;
 pub use tap::Tap;

@@ -11,9 +11,10 @@
 
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rtrb::{Consumer, Producer, RingBuffer};
+use triple_buffer::{Input, Output, triple_buffer};
 
 use super::player::{SOUND_RATE_HZ, SoundSource};
 use selvedge_foundation::quantity::factor_of_gain;
@@ -42,25 +43,34 @@ const WAITING: usize = 2;
 const HELD_TICKS: u32 = 3;
 
 /// How strong `[40 Hz, 320 Hz]` are on the left and on the right, µm.
-pub(crate) type StereoLevels = [[f32; 2]; 2];
+pub type StereoLevels = [[f32; 2]; 2];
 
-/// What each side hears of contactors: where each is, −1 (left) to 1, and its amplitudes
-/// `[A40, A320]`, µm. `finger` is where the display is, −1 to 1. What is no amplitude is 0.
-pub(crate) fn stereo_levels(
-    finger: f64,
-    contactors: impl ExactSizeIterator<Item = (f64, [f32; 2])>,
+/// What each side hears of a display: of all its contactors, or of one `alone`.
+///
+/// Told are where its middle is and where that of the workspace, and of each contactor where it is,
+/// mm, and its amplitudes `[A40, A320]`, µm. What is no amplitude is 0.
+pub fn stereo_levels(
+    [middle_mm, centre_mm]: [f64; 2],
+    contactors: impl ExactSizeIterator<Item = (f64, [f32; 2])> + Clone,
+    alone: Option<usize>,
 ) -> StereoLevels {
-    let within = |share: f64| {
-        if share.is_nan() {
-            0.0
-        } else {
-            share.clamp(-1.0, 1.0)
-        }
+    let share = |x: f64, of: f64| match x / of.max(1e-9) {
+        share if share.is_nan() => 0.0,
+        share => share.clamp(-1.0, 1.0),
     };
-    let n_contactors = contactors.len().max(1) as f64;
+    let finger = share(middle_mm - centre_mm, centre_mm);
+    let places = contactors.clone().map(|(x_mm, _)| (x_mm - middle_mm).abs());
+    let widest_mm = places.fold(0.0, f64::max);
+    let n_heard = match alone {
+        Some(_) => 1,
+        None => contactors.len().max(1),
+    };
     let mut power = [[0.0; 2]; 2];
-    for (place, amplitudes_um) in contactors {
-        let pan = PAN_FINGER * within(finger) + PAN_CONTACTOR * within(place);
+    for (index, (x_mm, amplitudes_um)) in contactors.enumerate() {
+        if alone.is_some_and(|alone| alone != index) {
+            continue;
+        }
+        let pan = PAN_FINGER * finger + PAN_CONTACTOR * share(x_mm - middle_mm, widest_mm);
         let (right, left) = ((pan + 1.0) * FRAC_PI_4).sin_cos();
         for (side, gain) in power.iter_mut().zip([left, right]) {
             for (sum, um) in side.iter_mut().zip(amplitudes_um) {
@@ -74,17 +84,57 @@ pub(crate) fn stereo_levels(
             }
         }
     }
-    power.map(|side| side.map(|sum: f64| single((2.0 * sum / n_contactors).sqrt())))
+    power.map(|side| side.map(|sum: f64| single((2.0 * sum / n_heard as f64).sqrt())))
 }
 
 /// The engine's end: what is felt at every tick.
 #[derive(Debug)]
-pub struct SoundFeed(Producer<StereoLevels>);
+pub struct SoundFeed {
+    ring: Producer<StereoLevels>,
+    choices: Arc<Choices>,
+}
 
 impl SoundFeed {
     /// Hands over a tick; one that finds no room is lost.
     pub(crate) fn push(&mut self, levels: StereoLevels) {
-        let _full = self.0.push(levels);
+        let _full = self.ring.push(levels);
+    }
+
+    /// The contactor that alone is heard.
+    pub(crate) fn alone(&self) -> Option<usize> {
+        let alone = self.choices.alone.load(Ordering::Relaxed);
+        Some(alone).filter(|alone| *alone != ALL)
+    }
+}
+
+/// What is chosen while it plays.
+#[derive(Debug)]
+struct Choices {
+    as_driven: AtomicBool,
+    alone: AtomicUsize,
+}
+
+/// No contactor alone.
+const ALL: usize = usize::MAX;
+
+/// The end of whoever chooses what is heard.
+#[derive(Debug)]
+pub struct SoundControl {
+    choices: Arc<Choices>,
+    scrub: Input<Option<StereoLevels>>,
+}
+
+impl SoundControl {
+    /// Whether 40 Hz itself sounds in place of its overtones; which contactor alone is heard.
+    pub fn choose(&self, as_driven: bool, alone: Option<usize>) {
+        self.choices.as_driven.store(as_driven, Ordering::Relaxed);
+        let alone = alone.unwrap_or(ALL);
+        self.choices.alone.store(alone, Ordering::Relaxed);
+    }
+
+    /// Lets another moment be heard in place of what is felt, until there is none.
+    pub fn scrub(&mut self, moment: Option<StereoLevels>) {
+        self.scrub.write(moment);
     }
 }
 
@@ -92,7 +142,8 @@ impl SoundFeed {
 #[derive(Debug)]
 pub struct Sonifier {
     ring: Consumer<StereoLevels>,
-    as_driven: Arc<AtomicBool>,
+    scrubbed: Output<Option<StereoLevels>>,
+    choices: Arc<Choices>,
     carriers: Carriers,
     /// The levels at the beginning and at the end of this tick.
     from: StereoLevels,
@@ -105,13 +156,18 @@ pub struct Sonifier {
     n_missed: u32,
 }
 
-/// Both ends, and the switch between overtones and 40 Hz *as driven*.
-pub fn sonification() -> (SoundFeed, Sonifier, Arc<AtomicBool>) {
-    let (feed, ring) = RingBuffer::new(MAX_TICKS);
-    let as_driven = Arc::new(AtomicBool::new(false));
+/// The ends of one sound.
+pub fn sonification() -> (SoundFeed, Sonifier, SoundControl) {
+    let (felt, ring) = RingBuffer::new(MAX_TICKS);
+    let (scrub, scrubbed) = triple_buffer(&None);
+    let choices = Arc::new(Choices {
+        as_driven: AtomicBool::new(false),
+        alone: AtomicUsize::new(ALL),
+    });
     let sonifier = Sonifier {
         ring,
-        as_driven: Arc::clone(&as_driven),
+        scrubbed,
+        choices: Arc::clone(&choices),
         carriers: Carriers::new(),
         from: StereoLevels::default(),
         to: StereoLevels::default(),
@@ -119,27 +175,32 @@ pub fn sonification() -> (SoundFeed, Sonifier, Arc<AtomicBool>) {
         at: 0,
         n_missed: HELD_TICKS,
     };
-    (SoundFeed(feed), sonifier, as_driven)
+    let feed = SoundFeed {
+        ring: felt,
+        choices: Arc::clone(&choices),
+    };
+    (feed, sonifier, SoundControl { choices, scrub })
 }
 
 impl Sonifier {
     fn begin_tick(&mut self) {
         self.from = self.to;
-        self.is_literal = self.as_driven.load(Ordering::Relaxed);
+        self.is_literal = self.choices.as_driven.load(Ordering::Relaxed);
+        let scrubbed = *self.scrubbed.read();
+        // What piled up while nobody asked is old; all of it is while another moment is heard.
         let n_waiting = self.ring.slots();
-        if n_waiting == 0 {
-            self.n_missed = self.n_missed.saturating_add(1);
-            if self.n_missed > HELD_TICKS {
-                self.to = StereoLevels::default();
-            }
+        let n_left = if scrubbed.is_some() { 0 } else { WAITING - 1 };
+        let n_taken = n_waiting.saturating_sub(n_left).max(n_waiting.min(1));
+        let chunk = self.ring.read_chunk(n_taken).ok();
+        let felt = chunk.and_then(|chunk| chunk.into_iter().last());
+        if let Some(levels) = scrubbed.or(felt) {
+            (self.to, self.n_missed) = (levels, 0);
             return;
         }
-        // What piled up while nobody asked is old.
-        let n_old = n_waiting.saturating_sub(WAITING);
-        if let Ok(chunk) = self.ring.read_chunk(n_old + 1) {
-            self.to = chunk.into_iter().last().unwrap_or_default();
+        self.n_missed = self.n_missed.saturating_add(1);
+        if self.n_missed > HELD_TICKS {
+            self.to = StereoLevels::default();
         }
-        self.n_missed = 0;
     }
 }
 
@@ -208,8 +269,8 @@ mod tests {
 
     /// What is heard of these ticks, in blocks as a server asks for them.
     fn heard(ticks: &[StereoLevels], is_literal: bool) -> Vec<[f32; 2]> {
-        let (mut feed, mut sonifier, as_driven) = sonification();
-        as_driven.store(is_literal, Ordering::Relaxed);
+        let (mut feed, mut sonifier, control) = sonification();
+        control.choose(is_literal, None);
         let mut all = Vec::new();
         for tick in ticks {
             feed.push(*tick);
@@ -319,29 +380,63 @@ mod tests {
     }
 
     #[test]
-    fn both_sides_are_alike_in_the_middle_and_each_is_louder_on_its_own() {
-        let row = |side: f64| {
-            [-side, -0.3, 0.3, side]
-                .map(|x| (x, [2.0, 5.0]))
-                .into_iter()
+    fn another_moment_is_heard_in_place_of_what_is_felt_until_there_is_none() {
+        let (mut feed, mut sonifier, mut control) = sonification();
+        let mut block = vec![[0.0; 2]; 10 * TICK];
+        let mut last_tick = |feed: &mut SoundFeed, felt_um: f32| {
+            for part in block.chunks_mut(TICK) {
+                feed.push([[0.0, felt_um]; 2]);
+                sonifier.fill(part);
+            }
+            peak(&block[9 * TICK..])
         };
-        let [left, right] = stereo_levels(0.0, row(1.0));
+        let um = |peak: f32| f64::from(peak) / factor_of_gain(REFERENCE_DB) * REFERENCE_UM;
+        assert!((um(last_tick(&mut feed, 3.0)) - 3.0).abs() < 0.01);
+        control.scrub(Some([[0.0, 7.0]; 2]));
+        assert!((um(last_tick(&mut feed, 3.0)) - 7.0).abs() < 0.01);
+        control.scrub(Some([[0.0; 2]; 2]));
+        assert_eq!(last_tick(&mut feed, 3.0), 0.0);
+        control.scrub(None);
+        last_tick(&mut feed, 0.0);
+        assert_eq!(peak(&block), 0.0, "what was felt meanwhile is old");
+    }
+
+    #[test]
+    fn both_sides_are_alike_in_the_middle_and_each_is_louder_on_its_own() {
+        let row = |middle_mm: f64| [-3.0, -1.0, 1.0, 3.0].map(|x| (middle_mm + x, [2.0, 5.0]));
+        let [left, right] = stereo_levels([130.0; 2], row(130.0).into_iter(), None);
         for (left, right) in left.into_iter().zip(right) {
             assert!((left - right).abs() < 1e-6);
         }
         assert!((left[1] - 5.0).abs() < 1e-5, "the rms of all of them");
-        let [left, right] = stereo_levels(-1.0, row(1.0));
+        let [left, right] = stereo_levels([0.0, 130.0], row(0.0).into_iter(), None);
         assert!(left[0] > 2.0 * right[0] && right[0] > 0.0);
-        let [left, right] = stereo_levels(0.0, [(1.0, [3.0, 3.0])].into_iter());
-        assert!(right[0] > left[0]);
-        assert_eq!(stereo_levels(0.5, std::iter::empty()), [[0.0; 2]; 2]);
+        let nobody = std::iter::empty();
+        assert_eq!(stereo_levels([0.0, 130.0], nobody, None), [[0.0; 2]; 2]);
+    }
+
+    #[test]
+    fn a_contactor_alone_is_as_loud_as_it_is_at_its_place_and_no_other_is_heard() {
+        let row = [(-3.0, [9.0, 9.0]), (0.0, [2.0, 5.0]), (3.0, [4.0, 0.0])].into_iter();
+        let alone = |index| stereo_levels([0.0, 130.0], row.clone(), Some(index));
+        let within = |x: f32, y: f32| (x - y).abs() < 1e-5;
+        let mono = |[left, right]: StereoLevels, band: usize| {
+            f32::midpoint(left[band].powi(2), right[band].powi(2)).sqrt()
+        };
+        for (index, um) in [[9.0, 9.0], [2.0, 5.0], [4.0, 0.0]].into_iter().enumerate() {
+            let found = alone(index);
+            assert!(within(mono(found, 0), um[0]) && within(mono(found, 1), um[1]));
+        }
+        let to_the_right = |[left, right]: StereoLevels| right[0] / left[0];
+        assert!(to_the_right(alone(0)) < to_the_right(alone(2)));
+        assert_eq!(alone(3), [[0.0; 2]; 2], "there is none");
     }
 
     #[test]
     fn what_is_no_amplitude_is_silent() {
         for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -3.0] {
             let contactors = [(f64::NAN, [wrong, 0.0]), (0.0, [0.0, wrong])];
-            let levels = stereo_levels(f64::NAN, contactors.into_iter());
+            let levels = stereo_levels([f64::NAN; 2], contactors.into_iter(), None);
             assert_eq!(levels, [[0.0; 2]; 2], "{wrong}");
         }
     }
@@ -357,7 +452,7 @@ mod tests {
                 let places = [f64::NAN, -7.0, 0.2, 1.0].into_iter();
                 let um = tick.map(|bands| bands.map(f32::from_bits));
                 let contactors: Vec<_> = places.zip(um).collect();
-                stereo_levels(finger, contactors.into_iter())
+                stereo_levels([finger, 2.0], contactors.into_iter(), None)
             };
             let levels: Vec<StereoLevels> = ticks.iter().map(level).collect();
             let frames = heard(&levels, is_literal);

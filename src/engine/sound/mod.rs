@@ -26,8 +26,7 @@ mod system;
 #[cfg(target_os = "linux")]
 mod tests;
 
-pub(crate) use mix::stereo_levels;
-pub use mix::{Sonifier, SoundFeed, sonification};
+pub use mix::{Sonifier, SoundControl, SoundFeed, StereoLevels, sonification, stereo_levels};
 pub use player::{SOUND_RATE_HZ, SoundSource, SoundState};
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};

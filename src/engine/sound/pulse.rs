@@ -182,13 +182,13 @@ fn latency(timing: &PlaybackLatency) -> Duration {
 
 /// In words; a read that took too long is a server that does not answer.
 fn described(error: &ClientError) -> String {
-    let io = match error {
-        ClientError::Io(io) | ClientError::Protocol(ProtocolError::Io(io)) => io,
-        error => return error.to_string(),
-    };
-    match io.kind() {
-        std::io::ErrorKind::WouldBlock => "the server of sound does not answer".to_owned(),
-        _ => io.to_string(),
+    match error {
+        ClientError::Disconnected => "the server of sound has gone".to_owned(),
+        ClientError::Io(io) | ClientError::Protocol(ProtocolError::Io(io)) => match io.kind() {
+            std::io::ErrorKind::WouldBlock => "the server of sound does not answer".to_owned(),
+            _ => io.to_string(),
+        },
+        error => error.to_string(),
     }
 }
 

@@ -244,28 +244,18 @@ fn recorded(server: &Server, output: &SoundOutput, seconds: usize) -> Vec<f32> {
     thread::sleep(Duration::from_secs(3));
     blocks.try_iter().for_each(drop);
     output.set_level(1.0);
-    let raised = Instant::now();
-    let (mut left, mut first_ms) = (Vec::new(), None);
+    let mut left = Vec::new();
     while left.len() < seconds * SOUND_RATE_HZ as usize {
         let bytes = blocks.recv_timeout(Duration::from_secs(20)).unwrap();
         let float = |frame: &[u8]| f32::from_le_bytes(frame[..4].try_into().unwrap());
-        let new = bytes.chunks_exact(8).map(float);
-        let n_before = left.len();
-        left.extend(new);
-        if first_ms.is_none() && left[n_before..].iter().any(|x| x.abs() > 1e-3) {
-            first_ms = Some(raised.elapsed().as_millis());
-        }
+        left.extend(bytes.chunks_exact(8).map(float));
     }
-    println!(
-        "level raised to sample at a reader of the monitor {first_ms:?} ms, server says {:?}",
-        output.state()
-    );
     drop(recorder);
     left
 }
 
 #[test]
-fn a_real_server_plays_320_hz_without_a_gap_and_one_that_is_killed_is_missed_and_found_again() {
+fn a_real_server_plays_320_hz_and_one_that_is_killed_is_missed_and_found_again() {
     let Some(mut server) = Server::started("pulse") else {
         return;
     };
@@ -273,23 +263,21 @@ fn a_real_server_plays_320_hz_without_a_gap_and_one_that_is_killed_is_missed_and
     let state = awaited(&output, |state| *state != SoundState::Opening);
     assert!(matches!(state, SoundState::Playing { .. }), "{state:?}");
     let left = recorded(&server, &output, 4);
-    // Past the fade, whole periods.
-    let tail = &left[left.len() - 2 * SOUND_RATE_HZ as usize..];
-    let tail: Vec<f64> = tail.iter().copied().map(f64::from).collect();
-    let spectrum = RealTransform::new(tail.len()).forward(&tail);
-    let all: f64 = spectrum.iter().map(Complex::norm_sqr).sum();
-    let rest = all - spectrum[640].norm_sqr();
-    let amplitude = 2.0 * spectrum[640].norm() / tail.len() as f64;
-    let n_silent = tail
-        .windows(48)
-        .filter(|part| part.iter().all(|x| x.abs() < 1e-6));
-    let n_silent = n_silent.count();
-    let rest_db = 10.0 * (rest.max(1e-30) / all).log10();
-    println!("320 Hz: {amplitude}, everything else {rest_db:.1} dB, {n_silent} silent ms");
-    if n_silent == 0 {
+    // A busy machine drops some: what is whole is 320 Hz and nothing else.
+    let is_silent = |part: &[f32]| part.iter().all(|x| x.abs() < 1e-6);
+    let past_fade = left[2 * SOUND_RATE_HZ as usize..].chunks_exact(4800);
+    let whole = past_fade.filter(|part| !part.windows(4).any(is_silent));
+    let mut n_whole = 0;
+    for part in whole {
+        let part: Vec<f64> = part.iter().copied().map(f64::from).collect();
+        let spectrum = RealTransform::new(part.len()).forward(&part);
+        let power: f64 = spectrum.iter().map(Complex::norm_sqr).sum();
+        let amplitude = 2.0 * spectrum[32].norm() / part.len() as f64;
         assert!((amplitude - 0.5).abs() < 1e-3, "{amplitude}");
-        assert!(rest_db < -80.0, "{rest_db}");
+        assert!(power - spectrum[32].norm_sqr() < 1e-8 * power);
+        n_whole += 1;
     }
+    assert!(n_whole >= 5, "{n_whole}");
     server.end();
     awaited(&output, |state| matches!(state, SoundState::Absent(_)));
     drop(fs::remove_file(server.socket()));

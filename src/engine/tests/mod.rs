@@ -9,6 +9,7 @@ mod lift;
 mod mask;
 mod seek;
 mod shown;
+mod sound;
 mod tick_samples;
 mod update;
 mod vibration;

@@ -4,18 +4,22 @@
 //! answers away, and wherever the toolkit's clock drives the engine. Where the system plays nothing
 //! one notice says so; the rest stands at the button.
 
-use std::sync::atomic::Ordering;
-
-use crate::bench::sound::{Output, Sound};
+use crate::bench::notices::Until;
+use crate::bench::on_finger::OnFinger;
+use crate::bench::sound::Sound;
 use crate::bench::{Bench, FRAME};
-use selvedge_engine::{Command, SoundOutput, SoundState, sonification};
+use selvedge_device::Coder;
+use selvedge_engine::{
+    Command, SoundOutput, SoundState, StereoLevels, sonification, stereo_levels,
+};
+use selvedge_foundation::numerics::to_single;
 
 impl Bench {
     /// Lets sound follow what the user chose. To be called every frame.
     pub(crate) fn follow_sound(&mut self) {
         let chosen = self.settings.preferences.sound;
         let is_wanted = chosen.is_on && !self.has_session() && !self.is_stepped();
-        match (self.device.sound.output.is_some(), is_wanted) {
+        match (self.device.sound.playing.is_some(), is_wanted) {
             (false, true) => self.begin_sound(),
             (true, false) => {
                 self.device.sound = Sound::default();
@@ -23,26 +27,62 @@ impl Bench {
             }
             _ => {}
         }
+        let (alone, scrubbed) = (self.heard_alone(), self.scrubbed_levels());
         let sound = &mut self.device.sound;
-        let Some(playing) = &sound.output else { return };
-        playing.output.set_level(chosen.loudness.share());
-        playing.as_driven.store(chosen.as_driven, Ordering::Relaxed);
-        match playing.output.state() {
+        let Some((output, control)) = &mut sound.playing else {
+            return;
+        };
+        output.set_level(chosen.loudness.share());
+        control.choose(chosen.as_driven, alone);
+        control.scrub(scrubbed);
+        match output.state() {
             SoundState::Opening => self.ctx.request_repaint_after(FRAME),
             SoundState::Playing { .. } => sound.is_told = false,
             SoundState::Absent(why) => {
                 if !std::mem::replace(&mut sound.is_told, true) {
-                    self.notices.give(format!("Nothing is heard: {why}"));
+                    let words = format!("Nothing is heard (tried again every 2 s): {why}");
+                    self.notices.give_until(Until::Heard, words);
                 }
             }
         }
     }
 
+    /// The contactor that alone is heard, if one is.
+    pub(crate) fn heard_alone(&self) -> Option<usize> {
+        let is_alone = self.settings.preferences.sound.is_on && self.device.sound.is_alone;
+        self.selection.contactor.filter(|_| is_alone)
+    }
+
+    /// Lets the chosen contactor alone be heard, and what was off with it, or all of them again.
+    pub(crate) fn hear_alone(&mut self, is_alone: bool) {
+        self.device.sound.is_alone = is_alone;
+        self.settings.preferences.sound.is_on |= is_alone;
+    }
+
+    /// What is heard of the tick that every view shows, while the line of time is dragged.
+    pub(crate) fn scrubbed_levels(&mut self) -> Option<StereoLevels> {
+        if !std::mem::take(&mut self.device.sound.is_scrubbed) {
+            return None;
+        }
+        let dots = &self.live.dots;
+        let coder = Coder::new(self.engine.profile(), dots.len());
+        let contactors = dots.iter().enumerate().map(|(index, dot)| {
+            let felt = [0, 1].map(|band| match dot.on_finger[band] {
+                OnFinger::Muted => 0.0,
+                _ => to_single(dot.amplitude_um[band]),
+            });
+            (dot.position.x_mm, coder.limited_um(index, felt))
+        });
+        let centre_mm = self.document.scene().size_mm[0] / 2.0;
+        let middles_mm = [self.live.pose.position.x_mm, centre_mm];
+        Some(stereo_levels(middles_mm, contactors, self.heard_alone()))
+    }
+
     fn begin_sound(&mut self) {
-        let (feed, sonifier, as_driven) = sonification();
+        let (feed, sonifier, control) = sonification();
         match SoundOutput::open(Box::new(sonifier)) {
             Ok(output) => {
-                self.device.sound.output = Some(Output { output, as_driven });
+                self.device.sound.playing = Some((output, control));
                 self.send(Command::SetSound(Some(Box::new(feed))));
             }
             Err(error) => {
@@ -82,5 +122,21 @@ mod tests {
         assert_eq!(window.bench.settings.preferences.sound, chosen);
         window.bench.follow_sound();
         assert_eq!(window.bench.device.sound.state(), None);
+    }
+
+    #[test]
+    fn one_contactor_alone_is_heard_until_all_are_or_sound_is_off() {
+        let ctx = eframe::egui::Context::default();
+        let mut window = Workbench::new(&ctx, None, Drive::Stepped).unwrap();
+        window.bench.hear_alone(true);
+        assert!(window.bench.settings.preferences.sound.is_on);
+        window.dispatch(ShowCommand::SelectContactor(3).into());
+        assert_eq!(window.bench.heard_alone(), Some(3), "the chosen one");
+        window.dispatch(ShowCommand::ToggleSound.into());
+        assert_eq!(window.bench.heard_alone(), None, "nothing is heard");
+        window.bench.hear_alone(true);
+        window.bench.hear_alone(false);
+        assert_eq!(window.bench.heard_alone(), None);
+        assert!(window.bench.settings.preferences.sound.is_on, "all are");
     }
 }

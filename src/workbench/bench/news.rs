@@ -7,7 +7,7 @@ use eframe::egui;
 use crate::bench::notices::Until;
 use crate::bench::view::BridgePhase;
 use crate::bench::{Bench, FRAME, query};
-use selvedge_engine::TICKS_PER_S;
+use selvedge_engine::{SoundState, TICKS_PER_S};
 
 /// At most as many notices are taken in a frame as anybody can be told of.
 const MOST_NOTICES: usize = 64;
@@ -50,6 +50,7 @@ impl Bench {
         let is_in_time = (self.live.bridge.as_ref()).is_none_or(|bridge| bridge.depth <= 1);
         let (records, has_session) = (self.live.play.is_recording, self.has_session());
         let has_input = self.exploration.sources.chosen().is_some();
+        let is_unheard = matches!(self.device.sound.state(), Some(SoundState::Absent(_)));
         let now_s = ctx.input(|input| input.time);
         let next_s = self.notices.follow(now_s, |until| match until {
             Until::PutAway | Until::Read => false,
@@ -59,6 +60,7 @@ impl Bench {
             Until::SessionOver => !has_session,
             Until::InputChosen => has_input,
             Until::InTime => is_in_time,
+            Until::Heard => !is_unheard,
         });
         if let Some(next_s) = next_s {
             ctx.request_repaint_after(Duration::from_secs_f64(next_s));

@@ -25,6 +25,8 @@ pub(crate) enum Until {
     InputChosen,
     /// Once frames come in time again.
     InTime,
+    /// Once sound plays, or is off.
+    Heard,
 }
 
 /// A sentence for the user.

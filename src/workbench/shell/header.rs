@@ -162,14 +162,23 @@ fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
 /// Whether what is felt is heard; grey, with the reason, where it cannot be.
 fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let palette = Palette::in_ui(ui);
-    let is_on = bench.settings.preferences.sound.is_on;
+    let chosen = bench.settings.preferences.sound;
     let command: Command = ShowCommand::ToggleSound.into();
     let key = hint(ui.ctx(), &command);
-    let state = bench.device.sound.state();
-    let (is_heard, ink, tip) = match (is_on, state) {
-        (false, _) => (false, palette.dim, format!("Hear what is felt ({key})")),
-        (true, Some(SoundState::Absent(why))) => (false, palette.dim, format!("Not heard: {why}")),
-        (true, state) => {
+    let is_allowed = !bench.has_session();
+    let (is_heard, tip) = match bench.device.sound.state() {
+        Some(SoundState::Absent(why)) => (false, format!("Not heard: {why}. Off: {key}")),
+        _ if !chosen.is_on => (false, format!("Hear what is felt ({key})")),
+        state => {
+            let what = bench.heard_alone().map_or_else(
+                || "What is felt".to_owned(),
+                |contactor| format!("Contactor {contactor} alone"),
+            );
+            let low = if chosen.as_driven {
+                "as driven"
+            } else {
+                "made audible by overtones"
+            };
             let later = match state {
                 Some(SoundState::Playing {
                     latency: Some(latency),
@@ -178,29 +187,26 @@ fn show_sound(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
                 _ => String::new(),
             };
             let tip = format!(
-                "What is felt is heard{later}, 40 Hz made audible by overtones. Off: {key}. \
-                 Louder, quieter, as driven: View, Sound"
+                "{what} is heard{later}, 40 Hz {low}. Off: {key}. Louder, quieter, as driven: \
+                 View, Sound"
             );
-            (true, palette.text, tip)
+            (true, tip)
         }
     };
     let button = Button::new("").min_size(vec2(ROW, ROW));
-    let response = ui.add_enabled(!bench.has_session(), button.frame_when_inactive(false));
-    paint_loudspeaker(ui, response.rect.center(), (is_heard, ink));
-    response.widget_info(|| {
-        WidgetInfo::selected(
-            egui::Role::CheckBox,
-            ui.is_enabled(),
-            is_on,
-            "Sound of what is felt",
-        )
-    });
+    let response = ui.add_enabled(is_allowed, button.frame_when_inactive(false));
+    let ink = if is_allowed && is_heard == chosen.is_on {
+        palette.text
+    } else {
+        palette.dim
+    };
+    paint_loudspeaker(ui, response.rect.center(), (is_heard && is_allowed, ink));
+    let name = "Sound of what is felt";
+    response
+        .widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, is_allowed, chosen.is_on, name));
     let why = "No sound while a session is held: it changes what is felt and gives answers away";
-    if response
-        .on_disabled_hover_text(why)
-        .on_hover_text(tip)
-        .clicked()
-    {
+    let response = response.on_disabled_hover_text(why).on_hover_text(tip);
+    if response.clicked() {
         commands.push(command);
     }
 }

@@ -300,6 +300,35 @@ fn a_value_that_is_not_understood_spoils_only_itself() {
 }
 
 #[test]
+fn sound_is_off_at_first_and_remembered_and_a_bad_value_costs_only_itself() {
+    let read = |text: &str| Preferences::from_text(text, path()).unwrap();
+    assert_eq!(read("").0.sound, SoundPreferences::default());
+    assert!(!SoundPreferences::default().is_on);
+    let text = "sound_on = true\nsound_volume = \"loud\"\nsound_as_driven = true\n";
+    let chosen = read(text).0.sound;
+    assert!(chosen.is_on && chosen.as_driven && chosen.loudness == Loudness::Loud);
+    let spoilt = [
+        ("sound_on = true", "sound_on = \"yes\"", 1),
+        ("\"loud\"", "\"deafening\"", 2),
+        ("as_driven = true", "as_driven = 7", 3),
+    ];
+    for (good, bad, line) in spoilt {
+        let (preferences, odd) = read(&text.replace(good, bad));
+        let at_first = SoundPreferences::default();
+        let others = SoundPreferences {
+            is_on: chosen.is_on && line != 1,
+            loudness: if line == 2 {
+                at_first.loudness
+            } else {
+                chosen.loudness
+            },
+            as_driven: chosen.as_driven && line != 3,
+        };
+        assert_eq!((preferences.sound, odd), (others, Some(line)), "{bad}");
+    }
+}
+
+#[test]
 fn odd_numbers_are_brought_within_bounds() {
     let text = "zoom_percent = 900\namplitude_top_um = nan\npixels_per_mm = inf\n";
     let (preferences, odd) = Preferences::from_text(text, path()).unwrap();

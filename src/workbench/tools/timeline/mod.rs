@@ -41,7 +41,7 @@ use crate::kit::theme::STEP;
 use crate::tools::timeline::lanes::LaneStyle;
 use crate::tools::timeline::scope::extent;
 use crate::tools::timeline::span::Span;
-use crate::tools::timeline::state::Timeline;
+use crate::tools::timeline::state::{Drag, Timeline};
 use crate::tools::timeline::transport::TransportView;
 use selvedge_foundation::quantity;
 
@@ -64,6 +64,7 @@ impl Bar for Timeline {
         let view = TransportView::of(context.bench);
         let mut height = kept.scales.timeline_height;
         show(ui, &view, (&mut style, &mut height), self, context.commands);
+        context.bench.device.sound.is_scrubbed = self.drag == Some(Drag::Scrub);
         if let Some(back) = &context.bench.past.look_back {
             let ago = quantity::with_unit(back.ago_s, 2, "s");
             frame_as_past(

@@ -308,6 +308,57 @@ fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
 }
 
 #[test]
+fn while_the_ruler_is_dragged_the_tick_that_is_shown_is_heard_and_no_longer() {
+    let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    desk.dispatch(PlayCommand::Toggle);
+    desk.pass_ticks(10);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass_ticks(400);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass(3);
+    let pointer = |at, pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    for source in [PlaySource::Stroke, PlaySource::Recording] {
+        desk.dispatch(PlayCommand::Source(source));
+        desk.pass(2);
+        let [from, to] = [1000.0, 1100.0].map(|x| pos2(x, 744.0));
+        desk.events = vec![Event::PointerMoved(from)];
+        desk.pass(1);
+        desk.events = vec![pointer(from, true)];
+        desk.pass(2);
+        desk.events = vec![Event::PointerMoved(to)];
+        desk.pass(3);
+        let bench = &mut desk.workbench.bench;
+        let sought = match &bench.past.look_back {
+            Some(back) => back.column,
+            None => bench.live.play.tick,
+        };
+        assert!((100..400).contains(&sought), "{source:?} {sought}");
+        // Left and right share the power of every contactor.
+        let shown = bench.live.dots.iter().map(|dot| dot.amplitude_um);
+        let power = shown.fold([0.0; 2], |sum, um| {
+            [0, 1].map(|band| sum[band] + um[band].powi(2))
+        });
+        let [left, right] = bench.scrubbed_levels().unwrap();
+        for band in 0..2 {
+            let heard = f64::from(left[band].powi(2) + right[band].powi(2));
+            let wanted = power[band] / 12.0;
+            assert!(
+                wanted > 1.0 && (heard / wanted - 1.0).abs() < 1e-4,
+                "{source:?}"
+            );
+        }
+        desk.events = vec![pointer(to, false)];
+        desk.pass(2);
+        assert_eq!(desk.workbench.bench.scrubbed_levels(), None);
+    }
+}
+
+#[test]
 fn a_still_bar_asks_for_no_frame() {
     let mut window = Window::new();
     let take = recorded();

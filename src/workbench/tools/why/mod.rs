@@ -50,7 +50,7 @@ impl Tool for Why {
         framed(ui, 10, |ui| view::show(ui, self.shown.as_ref(), filters));
     }
 
-    /// Copy, freeze, and the contactors beside.
+    /// Copy, freeze, hear, and the contactors beside.
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let Some(shown) = &self.shown else {
             return;
@@ -61,6 +61,12 @@ impl Tool for Why {
         let tip = "Hold the explanation while everything else goes on";
         if toggle(ui, "freeze", self.is_frozen, tip) {
             self.is_frozen = !self.is_frozen;
+            ui.ctx().request_repaint();
+        }
+        let is_alone = context.bench.heard_alone().is_some();
+        let tip = "Hear this contactor alone, or all of them again";
+        if toggle(ui, "hear", is_alone, tip) {
+            context.bench.hear_alone(!is_alone);
             ui.ctx().request_repaint();
         }
         let n_contactors = context.bench.live.dots.len();

@@ -17,6 +17,7 @@ use crate::tools::experiment::participant;
 use crate::tools::experiment::played_noise::NOISE_DB;
 use crate::tools::experiment::state::{Experiment, ParticipantsWindow};
 use selvedge_engine::SoundState;
+use selvedge_foundation::quantity;
 
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, experiment: &mut Experiment, context: &mut PaneContext<'_>) {
@@ -98,7 +99,7 @@ fn show_player(ui: &mut Ui, experiment: &mut Experiment, bench: &Bench) {
         let value = DragValue::new(&mut experiment.played.level_db)
             .range(least..=most)
             .speed(0.2)
-            .fixed_decimals(0)
+            .custom_formatter(|level_db, _| quantity::fixed(level_db, 0))
             .suffix(" dB");
         let response = ui.add(value);
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "Level of the noise"));
