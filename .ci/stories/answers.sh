@@ -58,9 +58,9 @@ DESIGNS
 
 # The value in the last row of a column, or of a difference of two.
 value() {
-  awk -F, -v wanted="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+  awk -F, -v OFMT=%.12g -v wanted="$1" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
     $2 == "trial" { n = split(wanted, names, "-"); found = $at[names[1]]; if (n > 1) found -= $at[names[2]] }
-    END { print found }' "$log"
+    END { if (found ~ /^[-0-9.]+$/) found += 0; print found }' "$log"
 }
 rows() { awk -F, '$2 == "trial"' "$log" | wc -l; }
 has_rows() { [ "$(rows)" -ge "$1" ]; }
@@ -73,7 +73,7 @@ begin() {
   [ -e "$text" ] || text=$root/src/experiment/analysis/tests/designs/$1.toml
   rm -rf "$study"
   mkdir -p "$study" "$XDG_CONFIG_HOME/selvedge"
-  sed -z "s/textiles = \[[^]]*\]/$four/; s/for_s = [0-9.]*/for_s = 0.5/g; s/reference = \"real-cloth\"//" "$text" > "$work/$1.toml"
+  sed -zE "s/textiles = \[([^]\"]*\"){9,}[^]]*\]/$four/; s/for_s = [0-9.]*/for_s = 0.5/g; s/reference = \"real-cloth\"//" "$text" > "$work/$1.toml"
   cat > "$XDG_CONFIG_HOME/selvedge/settings.toml" << SETTINGS
 sessions_folder = "$study"
 experiment_design = "$work/$1.toml"
@@ -146,7 +146,7 @@ trial() {
 plays_again() {
   look still
   xdotool key space
-  await 1.5 differs still 500
+  await 2 differs still 500
 }
 
 display

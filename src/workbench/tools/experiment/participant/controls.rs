@@ -262,7 +262,7 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Ac
             .font(theme::large())
             .char_limit(12)
             .margin(egui::Margin::symmetric(12, 10))
-            .desired_width(140.0);
+            .desired_width(168.0);
         let response = ui.add(field).labelled_by(label.id);
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.changed() {

@@ -102,7 +102,7 @@ fn an_answer_waits_until_everything_was_felt() {
 /// What goes wrong in the middle of a presentation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fault {
-    /// The frames of six ticks in a row are late.
+    /// The frames of four ticks in a row are late.
     Late,
     /// The array is disarmed.
     Disarmed,
@@ -127,7 +127,7 @@ impl Fault {
 
     fn happen(self, window: &mut Headless) {
         match self {
-            Self::Late => std::thread::sleep(Duration::from_millis(150)),
+            Self::Late => std::thread::sleep(Duration::from_millis(110)),
             Self::Disarmed => window.dispatch(DeviceCommand::Disarm),
             Self::Limited => limit(window, 0.0),
             Self::Unplugged => {}
@@ -146,8 +146,7 @@ impl Fault {
     /// An array that presents everything again.
     fn mend(self, window: &mut Headless) {
         match self {
-            Self::Late => {}
-            Self::Disarmed => arm(window),
+            Self::Late | Self::Disarmed => {}
             Self::Limited => {
                 window.dispatch(DeviceCommand::Disarm);
                 wait(window, "rest", |window| {
@@ -155,13 +154,10 @@ impl Fault {
                     bridge.is_some_and(|bridge| bridge.phase == BridgePhase::Ready)
                 });
                 limit(window, 50.0);
-                arm(window);
             }
-            Self::Unplugged => {
-                window.dispatch(DeviceCommand::ConnectEmulator);
-                arm(window);
-            }
+            Self::Unplugged => window.dispatch(DeviceCommand::ConnectEmulator),
         }
+        arm(window);
     }
 }
 
@@ -272,7 +268,9 @@ fn void_by(fault: Fault, window: &mut Headless, (marks, folder): (&[Mark], &Fold
             return;
         }
     }
-    panic!("{fault:?} voids nothing")
+    let rows = rows(folder);
+    let voided: Vec<&str> = rows.iter().map(|row| row.presentation.void.as_str()).collect();
+    panic!("{fault:?} voids nothing: {voided:?}")
 }
 
 /// Feels all that lies there and answers, until that counts: a busy machine may void some.
