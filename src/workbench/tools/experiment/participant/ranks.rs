@@ -72,7 +72,9 @@ fn name(ui: &Ui, response: &Response, label: &str) {
 /// the other end.
 fn paint_end(ui: &Ui, rect: Rect, away: Align, words: &str) {
     let dim = Palette::in_ui(ui).dim;
-    let galley = ui.painter().layout_no_wrap(words.to_owned(), theme::body(), dim);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(words.to_owned(), theme::body(), dim);
     let is_narrow = galley.size().x <= rect.width();
     let across = if is_narrow { Align::Center } else { away };
     let below = rect.translate(vec2(0.0, SIDE + 4.0));

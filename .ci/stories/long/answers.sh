@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Every key that a participant's screen prints, pressed for real: each kind of design is tried as a pilot, and the log
-# says of every key whether it did what it says. The same in a window of the participant's own: answers-apart.
-. "$(dirname "$0")/lib.sh"
-root=$(realpath "$(dirname "$0")/../..")
+# says of every key whether it did what it says. The same in a window of the participant's own: answers-apart. Told when
+# they are asked for: SELVEDGE_SHOTS=FOLDER bash .ci/stories/long/answers.sh PROGRAM
+. "$(dirname "$0")/../lib.sh"
+root=$(realpath "$(dirname "$0")/../../..")
 where=${where:-within}
 study=$work/study
 four='textiles = ["silk-crepe", "wool-twill", "jute-plain", "denim"]'
