@@ -177,3 +177,117 @@ fn every_interval_is_played_to_its_end_and_its_onset_told() {
     let onset_ns = watch.presentation(5).onset_ns;
     assert_eq!(onset_ns, Some(24 * TICK_NS + 5), "behind the silence");
 }
+
+/// The first trial of a design of the program, or of those that the analysis is tried with.
+fn first_trial(name: &str) -> (Design, Task) {
+    let composed = concat!(env!("CARGO_MANIFEST_DIR"), "/analysis/tests/designs");
+    let design = Design::shipped(name).unwrap_or_else(|| {
+        let path = format!("{composed}/{name}.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        Design::from_toml(&text, std::path::Path::new(&path)).unwrap()
+    });
+    let subject = crate::design::Subject {
+        pseudonym: "p01".to_owned(),
+        nth: 0,
+        session: 1,
+    };
+    let procedure = crate::Procedure::of(&design, &subject).unwrap();
+    let task = procedure.trial().unwrap().task.clone();
+    (design, task)
+}
+
+/// Everything of a trial from its first tick to its last: each place felt for a second,
+/// every step played.
+fn whole(design: &Design, task: &Task) -> Vec<PresentedTick> {
+    let felt = Layout::of(design, task)
+        .places
+        .into_iter()
+        .flat_map(|place| {
+            let position = Point::new(place.origin_mm.x_mm + 50.0, place.origin_mm.y_mm + 50.0);
+            let tick = PresentedTick {
+                position,
+                speed_mm_per_s: 30.0,
+                ..STILL
+            };
+            std::iter::repeat_n(tick, 41)
+        });
+    let played = (1..).zip(vibrations(design, task)).flat_map(|(nth, step)| {
+        let tick = PresentedTick {
+            vibration: Some(nth),
+            ..STILL
+        };
+        std::iter::repeat_n(tick, step.n_ticks as usize)
+    });
+    felt.chain(played).collect()
+}
+
+#[test]
+fn no_fault_in_the_middle_of_any_kind_of_trial_is_made_good_by_what_follows() {
+    // What the counters add at a tick after the middle, and whether its frame was sent.
+    type Fault = fn(usize) -> (u64, u64, bool);
+    let faults: [(&str, Fault); 4] = [
+        ("not armed", |nth| (0, 0, nth > 0)),
+        ("in a row", |nth| (if nth == 0 { 3 } else { 0 }, 0, true)),
+        ("without their frame", |nth| {
+            (if nth < 10 && nth % 2 == 0 { 2 } else { 0 }, 0, true)
+        }),
+        ("limits changed", |nth| {
+            (0, if nth == 0 { 2000 } else { 0 }, true)
+        }),
+    ];
+    let kinds = [
+        "ranking-virtual-target",
+        "odd-one-out",
+        "gain-matching",
+        "adjustment-two-gains",
+        "real-or-generated",
+        "rating",
+        "magnitude",
+        "jnd-40",
+        "threshold-320",
+        "abx",
+        "best-worst",
+        "ranked-threes",
+        "same-different",
+        "gain-yes-no",
+        "compression-staircase",
+        "equality-constant",
+        "masked-threshold",
+        "free-sorting",
+        "dissimilarity",
+        "preference",
+        "triangle",
+    ];
+    for kind in kinds {
+        let (design, task) = first_trial(kind);
+        let ticks = whole(&design, &task);
+        let mut sound = Watch::of(&design, &task, Proof::Array);
+        assert_eq!(shown(&mut sound, ticks.clone()), Standing::Valid, "{kind}");
+        let is_adjusted = !design.composition.parameters().is_empty();
+        for (words, fault) in faults {
+            let mut watch = Watch::of(&design, &task, Proof::Array);
+            let mut ticks = ticks.clone();
+            let middle = ticks.len() / 2;
+            let (mut n_missed, mut n_limited) = (STILL.n_missed, STILL.n_limited);
+            for (nth, tick) in ticks[middle..].iter_mut().enumerate() {
+                let (missed, limited, is_sent) = fault(nth);
+                (n_missed, n_limited) = (n_missed + missed, n_limited + limited);
+                let felt = *tick;
+                *tick = PresentedTick {
+                    is_sent,
+                    n_missed,
+                    n_limited,
+                    ..felt
+                };
+            }
+            let standing = shown(&mut watch, ticks);
+            if words == "limits changed" && is_adjusted {
+                assert_eq!(standing, Standing::Valid, "{kind}: levels may be turned up");
+                continue;
+            }
+            assert!(void(&standing).contains(words), "{kind}: {standing:?}");
+            let row = watch.presentation(0);
+            assert_eq!(row.validity(), Validity::Void, "{kind}: {words}");
+        }
+    }
+}

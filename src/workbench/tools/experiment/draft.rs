@@ -261,7 +261,9 @@ impl Draft {
             (Self::Ratings { values, scales }, Mark::Rate(at, to)) => {
                 if let (Some(value), Some(scale)) = (values.get_mut(*at), scales.get(*at)) {
                     let [low, high] = scale.bounds();
-                    *value = Some(to.clamp(low, high)).filter(|value| value.is_finite());
+                    // A pixel is coarser than a hundredth.
+                    let to = (100.0 * to.clamp(low, high)).round() / 100.0;
+                    *value = Some(to).filter(|value| value.is_finite());
                 }
             }
             _ => {}

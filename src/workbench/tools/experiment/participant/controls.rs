@@ -164,8 +164,11 @@ fn show_choices(
 }
 
 /// A button for each position, which goes to the next pile with every press; piles have letters.
+/// The first has the keys while nothing else has them, and Enter belongs to the answer as a whole.
 fn show_piles(ui: &mut Ui, trial: &TrialView<'_>, piles: &[Option<usize>], acts: &mut Vec<Act>) {
     let letter = |pile: usize| char::from(b'A' + u8::try_from(pile).unwrap_or(25).min(25));
+    let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+    let is_free = trial.is_open && !is_entered && ui.memory(|memory| memory.focused().is_none());
     let all: Vec<(usize, &Option<usize>)> = piles.iter().enumerate().collect();
     for some in all.chunks(PILES_A_ROW) {
         row(ui, count(some.len()) * 80.0, |ui| {
@@ -173,7 +176,13 @@ fn show_piles(ui: &mut Ui, trial: &TrialView<'_>, piles: &[Option<usize>], acts:
                 let of = pile.map_or_else(|| "·".to_owned(), |pile| letter(pile).to_string());
                 let words = format!("{} {of}", at + 1);
                 let label = format!("Fabric {}: pile {of}", at + 1);
-                if big::button(ui, (&words, &label), 64.0, pile.is_some()).clicked() {
+                let button = big::button(ui, (&words, &label), 64.0, pile.is_some());
+                if is_free && *at == 0 {
+                    button.request_focus();
+                }
+                if is_entered && button.has_focus() {
+                    button.surrender_focus();
+                } else if button.clicked() {
                     acts.push(Act::Mark(Mark::NextPile(*at)));
                 }
             }
@@ -253,7 +262,7 @@ fn show_number(ui: &mut Ui, trial: &TrialView<'_>, text: &str, acts: &mut Vec<Ac
             .font(theme::large())
             .char_limit(12)
             .margin(egui::Margin::symmetric(12, 10))
-            .desired_width(140.0);
+            .desired_width(168.0);
         let response = ui.add(field).labelled_by(label.id);
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if response.changed() {

@@ -64,13 +64,12 @@ pub(super) fn take_space(ui: &Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     }
 }
 
-/// Which keys answer, for whoever has no pointer.
+/// Which keys answer, for whoever has no pointer; once all is answered, what it still waits for.
 pub(crate) fn hint(trial: &TrialView<'_>) -> String {
-    let sure = |sure: &Sure| match (sure.n_grades, sure.words.is_empty()) {
-        (0, _) => String::new(),
-        (n, true) => format!(", then 1 to {n} for how sure you are"),
-        (_, false) => format!(", then {}", names(&sure.words)),
-    };
+    let missing = trial.missing.as_deref().filter(|what| !what.is_empty());
+    if let (Some(what), Ok(_)) = (missing, trial.draft.answer()) {
+        return format!("Not yet: {what}");
+    }
     let keys = match trial.draft {
         Draft::Nothing => return String::new(),
         Draft::Order(order) if order.has_ends_alone => {
@@ -81,17 +80,16 @@ pub(crate) fn hint(trial: &TrialView<'_>) -> String {
             )
         }
         Draft::Order(order) => format!("1 to {} in order, Backspace takes back", order.n),
-        Draft::Choose {
-            n,
-            words,
-            sure: said,
-            ..
-        } if words.is_empty() => {
-            format!("1 to {n}{}", sure(said))
+        Draft::Choose { n, words, sure, .. } => {
+            let [positions, grades] = choice_keys((*n, words), sure);
+            match (names(&positions), names(&grades)) {
+                (choice, sure) if sure.is_empty() => choice,
+                (choice, grade) if sure.words.is_empty() => {
+                    format!("{choice}, then {grade} for how sure you are")
+                }
+                (choice, grade) => format!("{choice}, then {grade}"),
+            }
         }
-        Draft::Choose {
-            words, sure: said, ..
-        } => format!("{}{}", names(words), sure(said)),
         Draft::Piles(_) => "Tab for the next one, Space for its pile".to_owned(),
         Draft::Adjust { parameters, .. } => match parameters.len() {
             0 | 1 => "up and down".to_owned(),
@@ -113,23 +111,34 @@ pub(crate) fn hint(trial: &TrialView<'_>) -> String {
     format!("Keys: {keys}{again}{end}")
 }
 
-/// The key of each word: its first letter that is a key and begins no word before it.
-fn keys_of(words: &[String]) -> Vec<Key> {
-    let mut keys = Vec::new();
+/// The keys of positions or words, and those of grades. Where both are digits, they choose first.
+fn choice_keys((n, words): (usize, &[String]), sure: &Sure) -> [Vec<Key>; 2] {
+    let digits = |n: usize| DIGITS.into_iter().take(n).collect();
+    let positions: Vec<Key> = letters(words, &[]).unwrap_or_else(|| digits(n));
+    let grades = letters(&sure.words, &positions);
+    let grades = grades.unwrap_or_else(|| digits(usize::from(sure.n_grades)));
+    [positions, grades]
+}
+
+/// The key of each word: its first letter that is a key and no other word's; `None` where there are
+/// no words, or one has no such letter.
+fn letters(words: &[String], taken: &[Key]) -> Option<Vec<Key>> {
+    let mut keys = taken.to_vec();
     for word in words {
         let letters = word
             .chars()
             .map(|letter| letter.to_ascii_uppercase().to_string());
         let mut known = letters.filter_map(|letter| Key::from_name(&letter));
-        keys.extend(known.find(|key| !keys.contains(key)));
+        keys.push(known.find(|key| !keys.contains(key))?);
     }
-    keys
+    (!words.is_empty()).then(|| keys.split_off(taken.len()))
 }
 
-/// Those keys as a sentence has them: `E, N or H`.
-fn names(words: &[String]) -> String {
-    let keys: Vec<&str> = keys_of(words).into_iter().map(Key::name).collect();
+/// Those keys as a sentence has them: `E, N or H`, `1 to 3`.
+fn names(keys: &[Key]) -> String {
+    let keys: Vec<&str> = keys.iter().map(|key| key.name()).collect();
     match keys.as_slice() {
+        ["1", .., last] => format!("1 to {last}"),
         [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
         keys => keys.concat(),
     }
@@ -147,31 +156,22 @@ fn marks(draft: &Draft, is_pressed: impl Fn(Key) -> bool) -> Vec<Mark> {
             }
         }
         Draft::Choose {
+            n,
             words,
             position,
             sure,
-            ..
         } => {
-            let named = |words: &[String]| -> Vec<usize> {
-                let keys = (0..).zip(keys_of(words));
-                keys.filter(|(_, key)| is_pressed(*key))
-                    .map(|(at, _)| at)
-                    .collect()
-            };
-            let grade = |at: usize| u8::try_from(at + 1).ok().map(Mark::Confidence);
-            marks.extend(named(words).into_iter().map(Mark::Place));
-            marks.extend(named(&sure.words).into_iter().filter_map(grade));
-            // Once one is chosen, digits say how sure that is.
-            let is_next = position.is_some() && sure.n_grades > 0 && sure.words.is_empty();
-            let is_sure = !words.is_empty() || is_next;
-            let mark = |at: usize| {
-                if is_sure {
-                    grade(at)
-                } else {
-                    Some(Mark::Place(at))
-                }
-            };
-            marks.extend(digits().filter_map(|(at, _)| mark(at)));
+            let [positions, grades] = choice_keys((*n, words), sure);
+            let is_shared = positions.first() == grades.first();
+            let is_next = is_shared && position.is_some();
+            if !is_next {
+                let pressed = (0..).zip(positions).filter(|(_, key)| is_pressed(*key));
+                marks.extend(pressed.map(|(at, _)| Mark::Place(at)));
+            }
+            if is_next || !is_shared {
+                let pressed = (1..).zip(grades).filter(|(_, key)| is_pressed(*key));
+                marks.extend(pressed.map(|(grade, _)| Mark::Confidence(grade)));
+            }
         }
         Draft::Adjust { .. } => {
             let turns = [
@@ -262,5 +262,32 @@ mod tests {
         };
         let words = "Keys: R or G, then 1 to 3 for how sure you are, Enter for Done";
         assert_eq!(hint(&trial), words);
+        let mut answered = draft.clone();
+        answered.take(&Mark::Place(0), 0.0);
+        answered.take(&Mark::Confidence(1), 0.0);
+        let waits = TrialView {
+            draft: &answered,
+            missing: Some("number 1 was not felt for 1 s yet".to_owned()),
+            ..trial
+        };
+        assert_eq!(hint(&waits), "Not yet: number 1 was not felt for 1 s yet");
+    }
+
+    #[test]
+    fn no_key_is_two_words_and_words_without_letters_have_digits() {
+        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+        let keys = |choices: &[&str], grades: &[&str]| {
+            let choices: Vec<String> = words(choices);
+            let sure = Sure {
+                n_grades: 3,
+                words: words(grades),
+                grade: None,
+            };
+            choice_keys((2, &choices), &sure).map(|keys| names(&keys))
+        };
+        let grades = ["easy", "normal", "hard"];
+        assert_eq!(keys(&["yes", "no"], &grades), ["Y or N", "E, O or H"]);
+        assert_eq!(keys(&["да", "нет"], &grades), ["1 to 2", "E, N or H"]);
+        assert_eq!(keys(&["yes", "yes"], &[]), ["Y or E", "1 to 3"]);
     }
 }

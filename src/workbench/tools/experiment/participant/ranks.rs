@@ -1,7 +1,7 @@
 //! Ranking: numbers that are laid in order, by drag, click or digit.
 
 use eframe::egui::{
-    self, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Align, Align2, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
 use crate::kit::theme;
@@ -53,16 +53,11 @@ fn show_rank(ui: &mut Ui, rank: usize, order: &Order, acts: &mut Vec<Act>) {
     let is_over = response.dnd_hover_payload::<usize>().is_some();
     paint_place(ui, rect, ranked, is_over || response.hovered());
     big::ring(ui, rect, &response);
-    let palette = Palette::in_ui(ui);
-    let words = match rank {
-        0 => order.ends[0].as_str(),
-        _ if rank + 1 == order.slots.len() => order.ends[1].as_str(),
-        _ => "",
-    };
-    let below = pos2(rect.center().x, rect.bottom() + 4.0);
-    let font = theme::body();
-    ui.painter()
-        .text(below, Align2::CENTER_TOP, words, font, palette.dim);
+    if rank == 0 {
+        paint_end(ui, rect, Align::Max, &order.ends[0]);
+    } else if rank + 1 == order.slots.len() {
+        paint_end(ui, rect, Align::Min, &order.ends[1]);
+    }
     if let Some(position) = response.dnd_release_payload::<usize>() {
         acts.push(Act::Mark(Mark::Rank(*position, rank)));
     }
@@ -71,6 +66,20 @@ fn show_rank(ui: &mut Ui, rank: usize, order: &Order, acts: &mut Vec<Act>) {
 fn name(ui: &Ui, response: &Response, label: &str) {
     let is_enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_enabled, label));
+}
+
+/// What an end of the ranks means, below it: in the middle, or, where that is too wide, away from
+/// the other end.
+fn paint_end(ui: &Ui, rect: Rect, away: Align, words: &str) {
+    let dim = Palette::in_ui(ui).dim;
+    let galley = ui
+        .painter()
+        .layout_no_wrap(words.to_owned(), theme::body(), dim);
+    let is_narrow = galley.size().x <= rect.width();
+    let across = if is_narrow { Align::Center } else { away };
+    let below = rect.translate(vec2(0.0, SIDE + 4.0));
+    let at = Align2([across, Align::Min]).align_size_within_rect(galley.size(), below);
+    ui.painter().galley(at.min, galley, dim);
 }
 
 /// Lets a number be dragged, and draws it under the pointer.

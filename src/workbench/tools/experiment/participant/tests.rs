@@ -229,6 +229,27 @@ fn scales_are_answered_by_keys_alone_and_whole_steps_stay_whole() {
 }
 
 #[test]
+fn piles_are_made_by_tab_and_space_and_handed_in_by_enter() {
+    let draft = Draft::Piles(vec![Some(0), Some(0), Some(1)]);
+    let mut harness = window(ParticipantView::Trial(trial(&draft)));
+    harness.run();
+    harness.key_press(Key::Space);
+    harness.run();
+    let first = Act::Mark(Mark::NextPile(0));
+    assert_eq!(marks(&harness), [first], "the first has the keys");
+    harness.state_mut().clear();
+    harness.key_press(Key::Tab);
+    harness.run();
+    harness.key_press(Key::Space);
+    harness.run();
+    assert_eq!(marks(&harness), [Act::Mark(Mark::NextPile(1))]);
+    harness.state_mut().clear();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(marks(&harness), [Act::Answer], "and not the next pile");
+}
+
+#[test]
 fn keys_go_to_the_answer_though_a_button_was_reached_by_tab() {
     let draft = odd(Some(1));
     let mut harness = window(ParticipantView::Trial(trial(&draft)));
