@@ -414,6 +414,7 @@ mod tests {
                 unit: egui::MouseWheelUnit::Line,
                 delta: vec2(0.0, 1.0),
                 phase: egui::TouchPhase::Move,
+                source: egui::MouseWheelSource::Wheel,
                 modifiers,
             });
             harness.run();
