@@ -8,9 +8,9 @@ use selvedge_statistics::{
 };
 
 /// Said wherever a group has a d′ of its own.
-pub(super) const D_PRIME_NOTE: &str = "d′ over subjects is that of all answers together, subjects' \
-    own being normal about it (its sd is how much they differ): the mean of subjects' own d′ is \
-    biased where trials are few. Its interval is by profile likelihood.";
+pub(super) const D_PRIME_NOTE: &str = "d′ over subjects follows from the mean of their shares, less \
+    what subjects who differ bend it by (its sd is how much they do): the mean of subjects' own d′ \
+    is biased where trials are few. Its interval is Wilson's over subjects, by Student's t.";
 
 impl Section {
     /// Adds means over subjects, a row of their d′, and intervals of the means by drawing subjects
@@ -31,7 +31,7 @@ impl Section {
 /// A row of d′ over subjects, from right answers and trials of each.
 pub(super) fn group_d_prime(relation: Relation, subjects: &[[u64; 2]]) -> Vec<Cell> {
     let found = relation.group(subjects);
-    let found = found.map(|d| cells![[d.mean, d.spread], d.se, d.interval]);
+    let found = found.map(|d| cells![[d.mean, d.spread, d.se, d.interval.low, d.interval.high]]);
     cells!["d′", subjects.len(), or_undefined(found, 5)]
 }
 
