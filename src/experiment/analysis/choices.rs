@@ -104,7 +104,7 @@ pub(super) fn by_subject(experiment: &Experiment<'_>) -> BySubject {
         ]);
     }
     let relation = experiment.design.composition.relation();
-    found.group = relation.map(|relation| group_d_prime(relation, &of_all));
+    found.group = relation.map(|relation| group_d_prime(of_all.len(), relation.group(&of_all)));
     found
 }
 

@@ -153,7 +153,10 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         .iter()
         .map(Subject::percent_right)
         .collect();
-    let group = Some(group_d_prime(Relation::Triangle, &counts));
+    let group = Some(group_d_prime(
+        counts.len(),
+        Relation::Triangle.group(&counts),
+    ));
     section.over_subjects(&[("right, %", percents.clone())], group, options);
     let against = "right, % against 33.3";
     let t = Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT));

@@ -117,7 +117,11 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
         .iter()
         .map(|one| [one.n_first(), one.trials.len() as u64])
         .collect();
-    section.over_subjects(&means, Some(group_d_prime(FOUR, &counts)), options);
+    section.over_subjects(
+        &means,
+        Some(group_d_prime(counts.len(), FOUR.group(&counts))),
+        options,
+    );
     let found = against_chance(all, [&percents, &d_primes, &ranks]);
     section.table(tests("tests", "Against chance", &found));
     shown.extend(Bar::mean("mean", "", &percents));

@@ -2,7 +2,7 @@
 
 use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::options::Options;
-use selvedge_statistics::detection::Relation;
+use selvedge_statistics::detection::GroupDPrime;
 use selvedge_statistics::{
     Computed, Freedom, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
 };
@@ -10,7 +10,7 @@ use selvedge_statistics::{
 /// Said wherever a group has a d′ of its own.
 pub(super) const D_PRIME_NOTE: &str = "d′ over subjects follows from the mean of their shares, less \
     what subjects who differ bend it by (its sd is how much they do): the mean of subjects' own d′ \
-    is biased where trials are few. Its interval is Wilson's over subjects, by Student's t.";
+    is biased where trials are few. Its interval is over subjects, by Student's t.";
 
 impl Section {
     /// Adds means over subjects, a row of their d′, and intervals of the means by drawing subjects
@@ -28,11 +28,10 @@ impl Section {
     }
 }
 
-/// A row of d′ over subjects, from right answers and trials of each.
-pub(super) fn group_d_prime(relation: Relation, subjects: &[[u64; 2]]) -> Vec<Cell> {
-    let found = relation.group(subjects);
+/// A row of d′ over so many subjects.
+pub(super) fn group_d_prime(n: usize, found: Computed<GroupDPrime>) -> Vec<Cell> {
     let found = found.map(|d| cells![[d.mean, d.spread, d.se, d.interval.low, d.interval.high]]);
-    cells!["d′", subjects.len(), or_undefined(found, 5)]
+    cells!["d′", n, or_undefined(found, 5)]
 }
 
 /// Columns of [`tests`].

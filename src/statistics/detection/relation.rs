@@ -37,6 +37,26 @@ pub struct GroupDPrime {
     pub se: f64,
 }
 
+/// Shares of subjects, and how much of their variance is the chance of few trials: p(1 − p)/n.
+pub(super) struct Shares {
+    pub(super) own: Vec<f64>,
+    pub(super) by_chance: f64,
+}
+
+impl Shares {
+    pub(super) fn of(subjects: &[[u64; 2]]) -> Computed<Self> {
+        if subjects.iter().any(|[count, n]| *n < 2 || count > n) {
+            return undefined("a subject has less than two trials");
+        }
+        let share = |[count, n]: &[u64; 2]| *count as f64 / *n as f64;
+        let by_chance = |own: &[u64; 2]| share(own) * (1.0 - share(own)) / (own[1] as f64 - 1.0);
+        Ok(Self {
+            own: subjects.iter().map(share).collect(),
+            by_chance: subjects.iter().map(by_chance).sum::<f64>() / subjects.len() as f64,
+        })
+    }
+}
+
 impl Relation {
     /// The share of right answers by guessing.
     pub fn chance(self) -> f64 {
@@ -140,14 +160,9 @@ impl Relation {
     /// Fewer than two subjects, one without two trials, all of all answers right, or as
     /// [`Self::share`].
     pub fn group(self, subjects: &[[u64; 2]]) -> Computed<GroupDPrime> {
-        if subjects.iter().any(|[right, n]| *n < 2 || right > n) {
-            return undefined("a subject has less than two trials");
-        }
+        let Shares { own, by_chance } = Shares::of(subjects)?;
+        let shares = Summary::of(&own)?;
         let n_trials: f64 = subjects.iter().map(|[_, n]| *n as f64).sum();
-        let share = |[right, n]: &[u64; 2]| *right as f64 / *n as f64;
-        let shares = Summary::of(&subjects.iter().map(share).collect::<Vec<f64>>())?;
-        let by_chance = |own: &[u64; 2]| share(own) * (1.0 - share(own)) / (own[1] as f64 - 1.0);
-        let by_chance = subjects.iter().map(by_chance).sum::<f64>() / subjects.len() as f64;
         let p = shares.mean;
         let at = self.d_prime(p)?;
         let step = 1e-3;
