@@ -35,12 +35,6 @@ impl Correction {
 /// d′ from the share of correct choices.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// Correct choices.
-    pub correct: u64,
-    /// Trials.
-    pub trials: u64,
-    /// Share expected of a guess.
-    pub chance: f64,
     /// The share that d′ follows from.
     pub share: f64,
     /// What was done about a share of 0 or 1; `None` if it was neither.

@@ -45,9 +45,6 @@ pub fn same_different(hits: [u64; 2], false_alarms: [u64; 2]) -> Computed<Choice
     let slope = (share(d_prime + step) - share(d_prime - step)) / (2.0 * step);
     let se = (h * (1.0 - h) / hits[1] as f64).sqrt() / slope;
     Ok(Choice {
-        correct: hits[0] + false_alarms[1] - false_alarms[0],
-        trials: hits[1] + false_alarms[1],
-        chance: 0.5,
         share: h,
         correction: Some(correction),
         d_prime,

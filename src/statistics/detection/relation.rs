@@ -132,9 +132,6 @@ impl Relation {
             })
         });
         Ok(Choice {
-            correct: right,
-            trials,
-            chance: self.chance(),
             share,
             correction: is_extreme.then_some(correction),
             d_prime,
