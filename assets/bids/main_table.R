@@ -37,7 +37,7 @@ for (i in seq_len(nrow(printed))) {
   if (length(values) != as.integer(row$n)) stop(key, ": ", length(values), " rows, ", row$n, " were counted")
   again <- if (row$is_geometric == "1") exp(mean(log(values))) else mean(values)
   largest <- max(largest, abs(again - as.numeric(row$mean)) / max(1, abs(again)))
-  cat(key, length(values), formatC(again, digits = 12, format = "g"), sep = "\t")
+  cat(key, length(values), sprintf("%.12g", again), sep = "\t")
   cat("\n")
 }
 if (length(cells) != nrow(printed)) stop("cells are missing in main-table.tsv")

@@ -6,11 +6,10 @@
 use std::collections::BTreeMap;
 
 use super::ExperimentError;
-use super::design::{Design, Form, Kind, Sets, Subject};
+use super::design::{Design, Kind, Sets, Subject};
 use super::procedure::Procedure;
 use super::trial::Trial;
 use selvedge_foundation::numerics::Random;
-use selvedge_statistics::detection::{abx_share, choice_share, triangle_share};
 use selvedge_statistics::{Summary, one_sample_t};
 
 /// Simulated studies that power is a share of.
@@ -261,21 +260,17 @@ fn wrong_together(design: &Design, sessions: &[Vec<Trial>]) -> Option<Balance> {
 /// The share of right answers at a distance d′; `None` where nothing is right or wrong.
 fn share_right(design: &Design, d_prime: f64) -> Option<(f64, f64)> {
     let composition = &design.composition;
-    let m = u32::try_from(composition.n_choices()).unwrap_or(2);
-    let chance = 1.0 / f64::from(m);
-    let share = match (composition.kind(), composition.order.sets) {
-        (Kind::Ranking, _) => choice_share(d_prime, 4).ok()?,
-        (Kind::OddOneOut, _) | (Kind::Choice, Sets::Triads) => triangle_share(d_prime),
-        (Kind::Choice, Sets::Targets) => abx_share(d_prime),
+    let share = match composition.relation() {
+        Some(relation) => relation.share(d_prime).ok()?,
         // Yes and no without bias: half of d′ on either side of the criterion.
-        (Kind::Judgement | Kind::Choice, Sets::Each) => {
+        None if composition.order.sets == Sets::Each
+            && matches!(composition.kind(), Kind::Judgement | Kind::Choice) =>
+        {
             selvedge_statistics::normal_lower(0.5 * d_prime)
         }
-        (Kind::Judgement | Kind::Choice, _) if composition.response.form != Form::SameDifferent => {
-            choice_share(d_prime, m).ok()?
-        }
-        _ => return None,
+        None => return None,
     };
+    let chance = 1.0 / composition.n_choices() as f64;
     Some((share, chance))
 }
 

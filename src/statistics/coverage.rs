@@ -4,7 +4,7 @@
 use selvedge_foundation::numerics::Random;
 
 use crate::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
-use crate::detection::{Answers, Correction, choice_share, forced_choice, yes_no};
+use crate::detection::{Answers, Correction, Relation, choice_share, yes_no};
 use crate::procrustes::protest;
 use crate::properties::{BestTurn, PropertyVector};
 use crate::psychometric::stevens::{Estimate, stevens};
@@ -47,23 +47,25 @@ fn assert_within(band: [f64; 2], seed: u64, trials: &[Trial]) {
 /// Studies without an effect that every test is tried on.
 const N_NULL: u32 = 2000;
 
-/// A test, and one study without an effect: whether the test finds one.
-type Null = (&'static str, fn(&mut Random) -> Computed<bool>);
+/// A test, in what share of studies without an effect it is to find one, and such a study: whether
+/// it does.
+type Null = (&'static str, f64, fn(&mut Random) -> Computed<bool>);
 
-/// Refuses tests that find more than 5 % of what is not there, give or take what chance leaves of so
-/// many studies (99.9 % of a binomial), and tests that hardly find any.
+/// Refuses tests that find more or less of what is not there than is stated: beyond the interval
+/// that 999 of 1000 binomials of so many studies lie in.
 fn assert_false_positives(seed: u64, tests: &[Null]) {
-    let most = 100.0 * (ALPHA + 3.29 * (ALPHA * (1.0 - ALPHA) / f64::from(N_NULL)).sqrt());
-    for (name, study) in tests {
+    let mut wrong = Vec::new();
+    for (name, expected, study) in tests {
         let mut random = Random::new(seed).branch(name);
-        let n_found = (0..N_NULL).filter(|_| study(&mut random).unwrap()).count();
-        let percent = 100.0 * n_found as f64 / f64::from(N_NULL);
-        println!("{name}: {n_found} of {N_NULL} studies, {percent:.2} %");
-        assert!(
-            (2.5..=most).contains(&percent),
-            "{name}: {percent} of {most}"
-        );
+        let n_found = (0..N_NULL).filter(|_| study(&mut random).unwrap()).count() as u64;
+        let chance = exact_binomial(n_found, N_NULL.into(), *expected, Sides::Two);
+        let chance = chance.unwrap().p;
+        println!("{name}: {n_found} of {N_NULL} studies, {expected} stated; p = {chance:.3}");
+        if chance < 0.001 {
+            wrong.push(*name);
+        }
     }
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 #[test]
@@ -118,7 +120,8 @@ fn intervals_of_d_primes_and_of_thresholds_hold_the_truth() {
         }),
         ("d′ of four alternatives", 60, |random| {
             let correct = successes(random, 80, choice_share(1.0, 4)?);
-            let found = forced_choice(u64::from(correct), 80, 4, Correction::LogLinear)?;
+            let four = Relation::Alternatives(4);
+            let found = four.choice(u64::from(correct), 80, Correction::LogLinear)?;
             Ok(found.interval?.holds(1.0))
         }),
         ("threshold, posterior", 150, |random| {
@@ -131,62 +134,63 @@ fn intervals_of_d_primes_and_of_thresholds_hold_the_truth() {
     assert_within([90.0, 99.0], 1, trials);
 }
 
+/// Of exact tests so few results are possible that none has 5 %: what the next below has is stated.
 const TESTS: &[Null] = &[
-    ("t, one sample", |random| {
+    ("t, one sample", ALPHA, |random| {
         let sample = Summary::of(&normals::<N>(random, 25.0, 8.0))?;
         rejects(one_sample_t(&sample, 25.0))
     }),
-    ("t, paired", |random| {
+    ("t, paired", ALPHA, |random| {
         let [a, b] = correlated(random);
         rejects(paired_t(&a, &b))
     }),
-    ("t, Welch, spreads 1 : 3", |random| {
+    ("t, Welch, spreads 1 : 3", ALPHA, |random| {
         let a = Summary::of(&normals::<N>(random, 0.0, 1.0))?;
         let b = Summary::of(&normals::<N>(random, 0.0, 3.0))?;
         rejects(two_sample_t(&a, &b).map(|tests| tests.welch))
     }),
-    ("t, Student, two samples", |random| {
+    ("t, Student, two samples", ALPHA, |random| {
         let [a, b] = [(); 2].map(|()| Summary::of(&normals::<N>(random, 0.0, 1.0)));
         rejects(two_sample_t(&a?, &b?).map(|tests| tests.student))
     }),
-    ("equivalence, at its bound", |random| {
+    ("equivalence, at its bound", ALPHA, |random| {
         let sample = Summary::of(&normals::<12>(random, 1.0, 0.5))?;
         Ok(tost(&sample, [-1.0, 1.0], ALPHA)?.p < ALPHA)
     }),
-    ("Wilcoxon, differences of pairs", |random| {
+    ("Wilcoxon, differences of pairs", 10.0 / 256.0, |random| {
         let [a, b] = correlated(random);
         let differences: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
         rejects(wilcoxon_signed_rank(&differences, 0.0))
     }),
-    ("binomial, 80 trials", |random| {
+    ("binomial, 80 trials", 0.0499, |random| {
         // 27 hits or more have a probability of 0.0499.
         let hits = u64::from(successes(random, 80, 0.25));
         rejects(exact_binomial(hits, 80, 0.25, Sides::Greater))
     }),
-    ("PROTEST", |random| {
+    ("PROTEST", ALPHA, |random| {
         let [a, b] = [(); 2].map(|()| clouds(random));
         Ok(protest(&a, &b, 39, random)? <= ALPHA)
     }),
-    ("sign flips", |random| {
+    ("sign flips", 12.0 / 256.0, |random| {
         rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))
     }),
-    ("property of a map, F", |random| {
+    ("property of a map, F", ALPHA, |random| {
         let (map, property) = (clouds(random), normals::<7>(random, 0.0, 1.0));
         let found = PropertyVector::of(&map, &property)?;
         let [df, df_error] = found.df.map(|df| df as f64);
         Ok(f_upper(found.f, df, df_error)? < ALPHA)
     }),
-    ("turn of a map", |random| {
+    ("turn of a map", ALPHA, |random| {
         let map = clouds(random);
         let [x, y] = [(); 2].map(|()| normals::<7>(random, 0.0, 1.0));
         let turn = BestTurn::of(&map, [&x, &y])?;
         Ok(turn.p_values(&map, [&x, &y], 39, random)?[0] <= ALPHA)
     }),
-    ("correlation, Spearman", |random| {
+    ("correlation, Spearman", ALPHA, |random| {
         let [x, y] = [(); 2].map(|()| normals::<16>(random, 0.0, 1.0));
         rejects(spearman(&x, &y))
     }),
-    ("correlation, Pearson", |random| {
+    ("correlation, Pearson", ALPHA, |random| {
         let [x, y] = [(); 2].map(|()| normals::<16>(random, 0.0, 1.0));
         rejects(pearson(&x, &y))
     }),
@@ -198,38 +202,46 @@ fn tests_find_no_more_than_their_level_where_nothing_is() {
 }
 
 const ANALYSES_OF_VARIANCE: &[Null] = &[
-    ("one way", |random| rejects(one_way(&groups(random)))),
-    ("Welch", |random| rejects(welch(&groups(random)))),
-    ("Kruskal–Wallis", |random| {
+    ("one way", ALPHA, |random| rejects(one_way(&groups(random)))),
+    ("Welch", ALPHA, |random| rejects(welch(&groups(random)))),
+    ("Kruskal–Wallis", ALPHA, |random| {
         rejects(kruskal_wallis(&groups(random)))
     }),
-    ("Friedman", |random| {
+    ("Friedman", ALPHA, |random| {
         let rows = (0..N).map(|_| normals::<4>(random, 0.0, 1.0).to_vec());
         rejects(friedman(&rows.collect::<Vec<_>>()))
     }),
-    ("two way, spherical, Huynh–Feldt", |random| {
+    ("two way, spherical, Huynh–Feldt", ALPHA, |random| {
         two_way(random, (1, false), |s| s.p_huynh_feldt.clone())
     }),
-    ("two way, of two levels", |random| {
+    ("two way, of two levels", ALPHA, |random| {
         two_way(random, (0, true), |s| s.p_greenhouse_geisser.clone())
     }),
-    ("two way, both together, Greenhouse–Geisser", |random| {
-        two_way(random, (2, true), |s| s.p_greenhouse_geisser.clone())
-    }),
-    ("two way, not spherical, Greenhouse–Geisser", |random| {
-        two_way(random, (1, true), |s| s.p_greenhouse_geisser.clone())
-    }),
-    ("within subjects, one way, Greenhouse–Geisser", |random| {
-        let table = table(random, &[("material", 4)], true)?;
-        let p = |s: &Sphericity| s.p_greenhouse_geisser.clone();
-        Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
-    }),
-    ("within subjects, one way, Huynh–Feldt", |random| {
+    (
+        "two way, both together, Greenhouse–Geisser",
+        ALPHA,
+        |random| two_way(random, (2, true), |s| s.p_greenhouse_geisser.clone()),
+    ),
+    (
+        "two way, not spherical, Greenhouse–Geisser",
+        ALPHA,
+        |random| two_way(random, (1, true), |s| s.p_greenhouse_geisser.clone()),
+    ),
+    (
+        "within subjects, one way, Greenhouse–Geisser",
+        ALPHA,
+        |random| {
+            let table = table(random, &[("material", 4)], true)?;
+            let p = |s: &Sphericity| s.p_greenhouse_geisser.clone();
+            Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
+        },
+    ),
+    ("within subjects, one way, Huynh–Feldt", ALPHA, |random| {
         let table = table(random, &[("material", 4)], false)?;
         let p = |s: &Sphericity| s.p_huynh_feldt.clone();
         Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
     }),
-    ("Holm, any of six pairs", |random| {
+    ("Holm, any of six pairs", ALPHA, |random| {
         let rows: Vec<Vec<f64>> = groups(random);
         let any = every_pair(&rows)?
             .into_iter()

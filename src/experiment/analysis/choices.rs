@@ -5,11 +5,8 @@ use super::draw::{Bar, share_bars};
 use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, percent_of};
 use super::options::Options;
-use super::tables::tests;
-use crate::design::{Form, Sets};
-use selvedge_statistics::detection::{
-    Choice, Correction, abx, forced_choice, same_different, triangle,
-};
+use super::tables::{D_PRIME_NOTE, group_d_prime, tests};
+use selvedge_statistics::detection::{Choice, Correction, Relation, same_different};
 use selvedge_statistics::{
     Computed, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
 };
@@ -70,6 +67,8 @@ pub(super) struct BySubject {
     pub(super) table: Table,
     percents: Vec<f64>,
     pub(super) d_primes: Vec<f64>,
+    /// The row of d′ over subjects, where a relation gives it.
+    pub(super) group: Option<Vec<Cell>>,
     shown: Vec<Bar>,
 }
 
@@ -80,11 +79,14 @@ pub(super) fn by_subject(experiment: &Experiment<'_>) -> BySubject {
         table: Table::new("subjects", "Right answers by subject", &SUBJECTS),
         percents: Vec::new(),
         d_primes: Vec::new(),
+        group: None,
         shown: Vec::new(),
     };
+    let mut of_all = Vec::new();
     for subject in &experiment.subjects {
         let counts = Counts::of(subject);
         let (right, n) = (counts.right, counts.n);
+        of_all.push([right, n]);
         let choice = sensitivity(experiment, &counts);
         found.percents.push(100.0 * right as f64 / n.max(1) as f64);
         found
@@ -101,6 +103,8 @@ pub(super) fn by_subject(experiment: &Experiment<'_>) -> BySubject {
             or_undefined(choice.map(|choice| choice_cells(&choice)), 4)
         ]);
     }
+    let relation = experiment.design.composition.relation();
+    found.group = relation.map(|relation| group_d_prime(of_all.len(), relation.group(&of_all)));
     found
 }
 
@@ -112,23 +116,28 @@ pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Se
     section.note(format!(
         "Chance is {} %. {} Intervals of shares are Wilson's, p is exact (binomial).",
         selvedge_foundation::quantity::fixed(100.0 * chance, 1),
-        relation(experiment)
+        described(composition.relation())
     ));
     let BySubject {
         table,
         percents,
         d_primes,
+        group,
         shown,
     } = by_subject(experiment);
     section.table(table);
-    let means = [("right, %", percents.clone()), ("d′", d_primes.clone())];
-    section.over_subjects(&means, options);
+    let mut means = vec![("right, %", percents.clone())];
+    if group.is_none() {
+        means.push(("d′", d_primes));
+    } else {
+        section.note(D_PRIME_NOTE);
+    }
+    section.over_subjects(&means, group, options);
     let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
     let what = "right, % against chance";
     let found = [
         (what, t(&percents, 100.0 * chance)),
         (what, wilcoxon_signed_rank(&percents, 100.0 * chance)),
-        ("d′ against 0", t(&d_primes, 0.0)),
     ];
     section.table(tests("tests", "Against guessing", &found));
     let title = experiment.titled("right answers");
@@ -143,31 +152,23 @@ fn choice_cells(choice: &Choice) -> Vec<Cell> {
 }
 
 /// What d′ is here.
-fn relation(experiment: &Experiment<'_>) -> &'static str {
-    let composition = &experiment.design.composition;
-    match (&composition.response.form, composition.order.sets) {
-        (Form::SameDifferent, _) => {
+fn described(relation: Option<Relation>) -> &'static str {
+    match relation {
+        None => {
             "d′ is that of an observer who goes by the difference of both, from pairs called \
              different where they are and where they are not."
         }
-        (_, Sets::Triads) => "d′ is that of the triangle test; below chance it is 0.",
-        (_, Sets::Targets) => {
+        Some(Relation::Triangle) => "d′ is that of the triangle test; below chance it is 0.",
+        Some(Relation::Abx) => {
             "d′ is that of ABX without bias, by independent looks at each; below chance it is 0."
         }
-        _ => "d′ is that of forced choice without bias.",
+        Some(Relation::Alternatives(_)) => "d′ is that of forced choice without bias.",
     }
 }
 
 fn sensitivity(experiment: &Experiment<'_>, counts: &Counts) -> Computed<Choice> {
-    let composition = &experiment.design.composition;
-    let (right, n, correction) = (counts.right, counts.n, Correction::LogLinear);
-    match (&composition.response.form, composition.order.sets) {
-        (Form::SameDifferent, _) => same_different(counts.hits, counts.false_alarms),
-        (_, Sets::Triads) => triangle(right, n, correction),
-        (_, Sets::Targets) => abx(right, n, correction),
-        _ => {
-            let m = u32::try_from(composition.n_choices()).unwrap_or(2);
-            forced_choice(right, n, m, correction)
-        }
+    match experiment.design.composition.relation() {
+        Some(relation) => relation.choice(counts.right, counts.n, Correction::LogLinear),
+        None => same_different(counts.hits, counts.false_alarms),
     }
 }

@@ -6,6 +6,7 @@ use super::map::Mapping;
 use super::model::{Section, Table, cells, known};
 use super::options::Options;
 use super::properties::Measures;
+use super::rating;
 use super::tables::{SUMMARY, matrix, summary_cells};
 use crate::{AnswerValue, Record};
 use selvedge_foundation::progress::{Cancelled, Progress};
@@ -72,7 +73,7 @@ pub(super) fn sections(
             }
         })
         .collect();
-    let together = over_subjects(&subjects, n * n);
+    let together = rating::means(&subjects, n * n);
     let mut sections = vec![if is_sorted {
         piles(experiment, &names, &together)
     } else {
@@ -99,14 +100,6 @@ fn equalised(values: Vec<Option<f64>>) -> Vec<Option<f64>> {
     let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
     let over = |value: f64| if mean > 0.0 { value / mean } else { value };
     values.into_iter().map(|value| value.map(over)).collect()
-}
-
-fn over_subjects(subjects: &[Vec<Option<f64>>], n_cells: usize) -> Vec<Option<f64>> {
-    let mean = |at: usize| {
-        let values: Vec<f64> = subjects.iter().filter_map(|own| own[at]).collect();
-        selvedge_statistics::mean(&values).ok()
-    };
-    (0..n_cells).map(mean).collect()
 }
 
 fn ratings(

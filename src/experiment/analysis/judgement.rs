@@ -5,10 +5,10 @@ use super::answers::judgements;
 use super::included_trials::{Experiment, Subject};
 use super::model::{Section, Table, cells, or_undefined};
 use super::options::Options;
-use super::tables::tests;
+use super::tables::{D_PRIME_NOTE, group_d_prime, tests};
 use super::{choices, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::Sets;
-use selvedge_statistics::detection::{Answers, Correction, yes_no};
+use selvedge_statistics::detection::{Answers, Correction, group_yes_no, yes_no};
 use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
 pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
@@ -35,22 +35,25 @@ fn percents(experiment: &Experiment<'_>) -> Vec<f64> {
 
 fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) -> Section {
     let mut section = experiment.section("sensitivity", "sensitivity and bias");
-    let (table, d_primes) = if is_pair {
+    let (table, d_primes, group) = if is_pair {
         section.note("The real one of two was to be found: d′ of two alternatives without bias.");
         let found = choices::by_subject(experiment);
-        (found.table, found.d_primes)
+        (found.table, found.d_primes, found.group)
     } else {
         section.note(
             "A hit is a real one called real, a false alarm a generated one called real. Rates \
              enter z with the log-linear correction, (count + ½)/(n + 1); counts are as they \
              were. c > 0: rather not called real.",
         );
-        yes_no_table(experiment)
+        let (table, d_primes) = yes_no_table(experiment);
+        let answers: Vec<Answers> = experiment.subjects.iter().map(counts).collect();
+        let group = group_d_prime(answers.len(), group_yes_no(&answers));
+        (table, d_primes, Some(group))
     };
+    section.note(D_PRIME_NOTE);
     section.table(table);
     let percents = percents(experiment);
-    let means = [("right, %", percents.clone()), ("d′", d_primes.clone())];
-    section.over_subjects(&means, options);
+    section.over_subjects(&[("right, %", percents.clone())], group, options);
     let t = |values: &[f64], at| Summary::of(values).and_then(|s| one_sample_t(&s, at));
     let from_half: Vec<f64> = percents.iter().map(|p| p - 50.0).collect();
     let rights = experiment.subjects.iter().map(Subject::n_right);

@@ -1,7 +1,7 @@
 //! What a judgement that finds nothing does say: equivalence, and what would have been found.
 
 use super::draw::scatter;
-use super::included_trials::{Experiment, Subject};
+use super::included_trials::Experiment;
 use super::judgement_cells::differences_of_conditions;
 use super::model::{Drawn, Section, Table, cells, or_undefined};
 use selvedge_chart::{Axis, Series, Style};
@@ -25,7 +25,8 @@ pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section 
          90 % lies inside the bounds exactly when p < 0.05."
     ));
     section.table(equivalence(experiment, percents));
-    let n_trials = trials(experiment);
+    let subjects = experiment.subjects.iter();
+    let n_trials: Vec<f64> = subjects.map(|subject| subject.n_right().1 as f64).collect();
     let curve = Curve::of(percents, &n_trials);
     section.note(curve.describe(percents.len()));
     section.table(curve.table());
@@ -72,15 +73,6 @@ fn equivalence(experiment: &Experiment<'_>, percents: &[f64]) -> Table {
         enter(&what, &differences, 0.0);
     }
     table
-}
-
-/// Judgements of every subject.
-fn trials(experiment: &Experiment<'_>) -> Vec<f64> {
-    let of = |subject: &Subject<'_>| {
-        let judged = subject.trials().filter(|r| r.is_correct.is_some());
-        judged.count() as f64
-    };
-    experiment.subjects.iter().map(of).collect()
 }
 
 /// The power of the two-sided t test of right answers against 50 %, by the true share.

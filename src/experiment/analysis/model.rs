@@ -120,13 +120,14 @@ impl Table {
         self
     }
 
-    /// Adds a row; cells that are missing are undefined, and no probability is 0.
+    /// Adds a row; cells that are missing are undefined, and no probability is smaller than it can
+    /// be told.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         let missing = || Cell::Undefined("no value".to_owned());
         row.resize_with(self.columns.len(), missing);
         for (cell, column) in row.iter_mut().zip(&self.columns) {
-            if column.is_probability() && cell.number().is_some_and(|p| p <= 0.0) {
+            if column.is_probability() && cell.number().is_some_and(|p| p < 1e-12) {
                 *cell = Cell::none(LEAST_PROBABILITY);
             }
         }

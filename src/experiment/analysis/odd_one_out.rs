@@ -9,11 +9,11 @@ use super::model::{Cell, Section, Table, cells, known, percent_interval, percent
 use super::odd_one_out_craven::Craven;
 use super::options::Options;
 use super::properties::Measures;
-use super::tables::{SUMMARY, matrix, summary_cells, tests};
+use super::tables::{D_PRIME_NOTE, SUMMARY, group_d_prime, matrix, summary_cells, tests};
 use super::{odd_one_out_craven, odd_one_out_variants};
 use crate::design::{Composition, Confidence};
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_statistics::detection::{Correction, triangle};
+use selvedge_statistics::detection::{Correction, Relation};
 use selvedge_statistics::mds::{Loss, Ties};
 use selvedge_statistics::ranking::{Grade, GradeWeights, OddOneOut, TriadAnswer};
 use selvedge_statistics::variance::friedman;
@@ -111,7 +111,7 @@ const SHARES: [(&str, &str); 11] = [
 
 fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell> {
     let (right, n) = (n_right(answers), answers.len() as u64);
-    let choice = triangle(right, n, Correction::LogLinear);
+    let choice = Relation::Triangle.choice(right, n, Correction::LogLinear);
     cells![
         subject,
         session,
@@ -131,6 +131,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         "Chance is ⅓. d′ is that of the triangle test without bias; below chance it is 0. \
          Intervals of shares are Wilson's, p is exact (binomial).",
     );
+    section.note(D_PRIME_NOTE);
     let mut table = Table::new("subjects", "Right answers by subject and session", &SHARES);
     let mut shown = Vec::new();
     for subject in &experiment.subjects {
@@ -145,8 +146,18 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
         shown.push(Bar::share(subject.name, n_right(&all), all.len() as u64));
     }
     section.table(table);
-    let (percents, d_primes) = scores(experiment);
-    section.over_subjects(&[("right, %", percents.clone()), ("d′", d_primes)], options);
+    let subjects = experiment.subjects.iter();
+    let counts: Vec<[u64; 2]> = subjects.map(|one| one.n_right().into()).collect();
+    let percents: Vec<f64> = experiment
+        .subjects
+        .iter()
+        .map(Subject::percent_right)
+        .collect();
+    let group = Some(group_d_prime(
+        counts.len(),
+        Relation::Triangle.group(&counts),
+    ));
+    section.over_subjects(&[("right, %", percents.clone())], group, options);
     let against = "right, % against 33.3";
     let t = Summary::of(&percents).and_then(|s| one_sample_t(&s, CHANCE_PERCENT));
     let found = [
@@ -170,17 +181,6 @@ fn of_session(session: &Session<'_>) -> Vec<TriadAnswer> {
         .iter()
         .filter_map(|r| triad_answer(r))
         .collect()
-}
-
-/// Every subject's right answers, %, and d′.
-fn scores(experiment: &Experiment<'_>) -> (Vec<f64>, Vec<f64>) {
-    let all: Vec<_> = experiment.subjects.iter().map(triads).collect();
-    let d_prime = |own: &Vec<TriadAnswer>| {
-        let choice = triangle(n_right(own), own.len() as u64, Correction::LogLinear);
-        choice.ok().map(|choice| choice.d_prime)
-    };
-    let percents = all.iter().map(|own| percent(own)).collect();
-    (percents, all.iter().filter_map(d_prime).collect())
 }
 
 /// Whether sessions differ, over subjects who took part in as many.

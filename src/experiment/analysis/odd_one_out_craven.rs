@@ -5,7 +5,7 @@ use super::included_trials::Experiment;
 use super::model::{Cell, Section, Table, cells, known, or_undefined};
 use super::tables::matrix;
 use selvedge_statistics::Computed;
-use selvedge_statistics::detection::{Choice, Correction, triangle};
+use selvedge_statistics::detection::{Choice, Correction, Relation};
 use selvedge_statistics::ranking::{OddOneOut, PairTally};
 
 /// Distances of all pairs.
@@ -20,7 +20,7 @@ pub(super) struct Craven {
 
 fn choice(pair: &PairTally) -> Computed<Choice> {
     let (right, n) = (pair.n_correct() as u64, pair.n() as u64);
-    triangle(right, n, Correction::LogLinear)
+    Relation::Triangle.choice(right, n, Correction::LogLinear)
 }
 
 impl Craven {

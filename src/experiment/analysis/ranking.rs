@@ -9,17 +9,19 @@ use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval};
 use super::options::Options;
 use super::pairs::{NOTE, Pairs};
 use super::properties::Measures;
-use super::tables::tests;
+use super::tables::{D_PRIME_NOTE, group_d_prime, tests};
 use super::{ranking_confusions, ranking_scale};
 use crate::design::Standard;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_statistics::detection::{Choice, Correction, forced_choice};
+use selvedge_statistics::detection::{Choice, Correction, Relation};
 use selvedge_statistics::mds::{Loss, Ties};
 use selvedge_statistics::ranking::{MeanRanks, Preferences, RankTrial};
 use selvedge_statistics::{
     Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
 };
 
+/// The target among four.
+const FOUR: Relation = Relation::Alternatives(4);
 /// The mean rank that guesses give the target.
 const CHANCE_RANK: f64 = 2.5;
 
@@ -93,12 +95,13 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
         "Identified: the target was ranked first, chance 25 %. Intervals of shares are Wilson's, p \
          is exact (binomial); d′ of four alternatives without bias, its interval from Wilson's.",
     );
+    section.note(D_PRIME_NOTE);
     let mut table = Table::new("subjects", "Identification by subject", &SUBJECTS);
     let mut d_primes = Vec::new();
     let mut shown = Vec::new();
     for one in all {
         let (hits, n) = (one.n_first(), one.trials.len() as u64);
-        let choice = forced_choice(hits, n, 4, Correction::LogLinear);
+        let choice = FOUR.choice(hits, n, Correction::LogLinear);
         table.push(subject_row(one, &choice));
         d_primes.extend(choice.ok().map(|c| c.d_prime));
         shown.push(Bar::share(one.subject, hits, n));
@@ -108,10 +111,17 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
     let ranks: Vec<f64> = all.iter().map(Rankings::mean_rank).collect();
     let means = [
         ("targets identified, %", percents.clone()),
-        ("d′", d_primes.clone()),
         ("mean rank of the target", ranks.clone()),
     ];
-    section.over_subjects(&means, options);
+    let counts: Vec<[u64; 2]> = all
+        .iter()
+        .map(|one| [one.n_first(), one.trials.len() as u64])
+        .collect();
+    section.over_subjects(
+        &means,
+        Some(group_d_prime(counts.len(), FOUR.group(&counts))),
+        options,
+    );
     let found = against_chance(all, [&percents, &d_primes, &ranks]);
     section.table(tests("tests", "Against chance", &found));
     shown.extend(Bar::mean("mean", "", &percents));

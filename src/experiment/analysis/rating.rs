@@ -35,8 +35,8 @@ fn ratings(experiment: &Experiment<'_>, scale: usize) -> Subjects {
     experiment.subjects.iter().map(of).collect()
 }
 
-/// Of every stimulus that anybody rated, in the order of the design.
-fn means(subjects: &Subjects, n_items: usize) -> Vec<Option<f64>> {
+/// Over subjects, of every stimulus or pair that anybody rated, in the order of the design.
+pub(super) fn means(subjects: &[Vec<Option<f64>>], n_items: usize) -> Vec<Option<f64>> {
     let of = |item: usize| {
         let values: Vec<f64> = subjects.iter().filter_map(|s| s[item]).collect();
         mean(&values).ok()

@@ -2,20 +2,36 @@
 
 use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::options::Options;
+use selvedge_statistics::detection::GroupDPrime;
 use selvedge_statistics::{
     Computed, Freedom, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
 };
 
+/// Said wherever a group has a d′ of its own.
+pub(super) const D_PRIME_NOTE: &str = "d′ over subjects follows from the mean of their shares, less \
+    what subjects who differ bend it by (its sd is how much they do): the mean of subjects' own d′ \
+    is biased where trials are few. Its interval is over subjects, by Student's t.";
+
 impl Section {
-    /// Adds means over subjects, and their intervals by drawing subjects again.
+    /// Adds means over subjects, a row of their d′, and intervals of the means by drawing subjects
+    /// again.
     pub(super) fn over_subjects<S: AsRef<str>>(
         &mut self,
         means: &[(S, Vec<f64>)],
+        d_prime: Option<Vec<Cell>>,
         options: &Options,
     ) {
-        self.table(summaries("group", "Over subjects", means));
+        let mut table = summaries("group", "Over subjects", means);
+        table.rows.extend(d_prime);
+        self.table(table);
         self.table(resampled(means, options.resampling()));
     }
+}
+
+/// A row of d′ over so many subjects.
+pub(super) fn group_d_prime(n: usize, found: Computed<GroupDPrime>) -> Vec<Cell> {
+    let found = found.map(|d| cells![[d.mean, d.spread, d.se, d.interval.low, d.interval.high]]);
+    cells!["d′", n, or_undefined(found, 5)]
 }
 
 /// Columns of [`tests`].

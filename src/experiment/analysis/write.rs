@@ -88,11 +88,8 @@ fn table_text(table: &Table, stem: &str, page: &mut Vec<String>) {
     let mut reasons: Vec<&str> = Vec::new();
     for cells in &table.rows {
         let mut described = Vec::with_capacity(n_columns);
-        for (cell, column) in cells.iter().zip(&table.columns) {
+        for cell in cells {
             described.push(match cell {
-                Cell::Number(p) if column.is_probability() && *p < 1e-12 => {
-                    LEAST_PROBABILITY.to_owned()
-                }
                 Cell::Undefined(reason) if reason == LEAST_PROBABILITY => reason.clone(),
                 Cell::Number(value) => readable(*value),
                 Cell::Text(text) => plain(text),

@@ -2,6 +2,7 @@
 
 use super::{Composition, Form, Seeks, Sets, Shown};
 use crate::named::named;
+use selvedge_statistics::detection::Relation;
 
 named! { "kind",
     /// What a composition amounts to, by which it is called and analysed.
@@ -36,6 +37,23 @@ named! { "kind",
 }
 
 impl Composition {
+    /// How shares of right answers follow from d′; `None` where nothing is right, or a criterion
+    /// decides with it.
+    pub(crate) fn relation(&self) -> Option<Relation> {
+        let has_criterion = matches!(self.response.form, Form::SameDifferent | Form::Words(_));
+        match (self.kind(), self.order.sets) {
+            (Kind::Ranking, _) => Some(Relation::Alternatives(4)),
+            (Kind::OddOneOut, _) | (Kind::Choice, Sets::Triads) => Some(Relation::Triangle),
+            (Kind::Choice, Sets::Targets) => Some(Relation::Abx),
+            (Kind::Judgement | Kind::Choice, _) if !has_criterion => {
+                u32::try_from(self.n_choices())
+                    .ok()
+                    .map(Relation::Alternatives)
+            }
+            _ => None,
+        }
+    }
+
     /// What it amounts to.
     pub fn kind(&self) -> Kind {
         let has_two = self.presentation.n > 1;

@@ -1,8 +1,7 @@
 //! What kinds of trials with right and wrong answers have in common: the correction of shares that
-//! have no z, and d′ from a share by a relation that is turned round.
+//! have no z, what is found of one subject, and how a relation is turned round.
 
-use crate::interval::wilson;
-use crate::{Computed, Interval, Undefined};
+use crate::{Computed, Interval};
 
 /// What is done about shares of 0 and 1, whose z is infinite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,12 +35,6 @@ impl Correction {
 /// d′ from the share of correct choices.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// Correct choices.
-    pub correct: u64,
-    /// Trials.
-    pub trials: u64,
-    /// Share expected of a guess.
-    pub chance: f64,
     /// The share that d′ follows from.
     pub share: f64,
     /// What was done about a share of 0 or 1; `None` if it was neither.
@@ -54,55 +47,6 @@ pub struct Choice {
     pub se: Computed,
     /// d′ of the ends of Wilson's interval of the share at 95 %.
     pub interval: Computed<Interval>,
-}
-
-/// The relation of d′ and share of one kind of trial.
-pub(super) struct Relation<'a> {
-    pub(super) chance: f64,
-    pub(super) share_of: &'a dyn Fn(f64) -> f64,
-    pub(super) d_prime_of: &'a dyn Fn(f64) -> Computed,
-}
-
-impl Relation<'_> {
-    pub(super) fn choice(
-        &self,
-        correct: u64,
-        trials: u64,
-        correction: Correction,
-    ) -> Computed<Choice> {
-        let ends = wilson(correct, trials, 0.95)?;
-        let is_extreme = correct == 0 || correct == trials;
-        let share = if is_extreme {
-            correction.share(correct, trials)
-        } else {
-            correct as f64 / trials as f64
-        };
-        let d_prime = (self.d_prime_of)(share)?;
-        let step = 1e-4;
-        let slope =
-            ((self.share_of)(d_prime + step) - (self.share_of)(d_prime - step)) / step / 2.0;
-        let se = (share * (1.0 - share) / trials as f64).sqrt() / slope;
-        let interval = (self.d_prime_of)(ends.low).and_then(|low| {
-            Ok(Interval {
-                low,
-                high: (self.d_prime_of)(ends.high)?,
-                level: ends.level,
-            })
-        });
-        Ok(Choice {
-            correct,
-            trials,
-            chance: self.chance,
-            share,
-            correction: is_extreme.then_some(correction),
-            d_prime,
-            is_below_chance: share < self.chance,
-            se: (slope > 1e-6)
-                .then_some(se)
-                .ok_or_else(|| Undefined::because("the share hardly changes with d′ here")),
-            interval,
-        })
-    }
 }
 
 /// The place where a rising function reaches `target`, by halving to 1e-12.

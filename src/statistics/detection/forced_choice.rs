@@ -1,11 +1,8 @@
 //! One of m alternatives is right and the strongest is chosen, without bias to any.
 
-use super::choice::{Choice, Correction, Relation, integral, inverted};
+use super::choice::integral;
 use crate::distribution::{normal_density, normal_lower};
 use crate::{Computed, undefined};
-
-/// Beyond these shares d′ has no digits that mean anything.
-const SHARES: [f64; 2] = [1e-9, 1.0 - 1e-9];
 
 /// The share of correct choices among `m` ≥ 2 alternatives at a distance d′:
 /// ∫ φ(x − d′) Φ(x)^(m−1) dx (Green & Swets 1966).
@@ -26,42 +23,10 @@ fn share(d_prime: f64, m: u32) -> f64 {
     integral(at, [-9.0, 9.0 + (-d_prime).clamp(0.0, 20.0)])
 }
 
-/// The d′ of a share of correct choices among `m` alternatives, to 1e-10; negative below chance.
-///
-/// # Errors
-/// As [`choice_share`]; a share within 1e-9 of 0 or 1 or outside.
-pub(crate) fn d_prime_of_share(correct: f64, m: u32) -> Computed {
-    choice_share(0.0, m)?;
-    if !(SHARES[0]..=SHARES[1]).contains(&correct) {
-        let reason = format!("a share of {correct} among {m} alternatives has no finite d′");
-        return undefined(reason);
-    }
-    Ok(inverted(|d| share(d, m), correct, [-30.0, 30.0]))
-}
-
-/// d′ of one subject's choices among `m` alternatives, with its error and interval. Only shares of
-/// 0 and 1 are corrected.
-///
-/// # Errors
-/// No trials, more correct than trials, fewer than two alternatives.
-pub fn forced_choice(
-    correct: u64,
-    trials: u64,
-    m: u32,
-    correction: Correction,
-) -> Computed<Choice> {
-    choice_share(0.0, m)?;
-    let relation = Relation {
-        chance: 1.0 / f64::from(m),
-        share_of: &|d| share(d, m),
-        d_prime_of: &|share| d_prime_of_share(share, m),
-    };
-    relation.choice(correct, trials, correction)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detection::{Correction, Relation};
     use selvedge_foundation::numerics::Random;
     use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -74,7 +39,7 @@ mod tests {
                 (found / closed - 1.0).abs() < 1e-12,
                 "{d}: {found} for {closed}"
             );
-            let back = d_prime_of_share(closed, 2)?;
+            let back = Relation::Alternatives(2).d_prime(closed)?;
             assert!((back - d).abs() < 1e-10, "{back} for {d}");
         }
         Ok(())
@@ -100,7 +65,7 @@ mod tests {
 
     #[test]
     fn four_alternatives_agree_with_a_simulated_observer_and_lead_back() -> Computed<()> {
-        let d = d_prime_of_share(0.413, 4)?;
+        let d = Relation::Alternatives(4).d_prime(0.413)?;
         assert!((choice_share(d, 4)? - 0.413).abs() < 1e-13, "{d}");
         let mut random = Random::new(12);
         let n = 100_000;
@@ -112,7 +77,7 @@ mod tests {
         let found = n_right as f64 / f64::from(n);
         assert!((found - 0.413).abs() < 0.005, "{found}");
         for share in [1e-6, 0.01, 0.2, 0.641, 0.999_999] {
-            let back = choice_share(d_prime_of_share(share, 4)?, 4)?;
+            let back = choice_share(Relation::Alternatives(4).d_prime(share)?, 4)?;
             assert!((back / share - 1.0).abs() < 1e-10, "{back} for {share}");
         }
         Ok(())
@@ -120,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_subject_below_chance_has_a_negative_distance_and_a_flag() -> Computed<()> {
-        let found = forced_choice(15, 80, 4, Correction::LogLinear)?;
+        let found = Relation::Alternatives(4).choice(15, 80, Correction::LogLinear)?;
         assert!(found.d_prime < 0.0 && found.is_below_chance, "{found:?}");
         assert!(found.correction.is_none(), "neither 0 nor 1");
         let interval = found.interval?;
@@ -135,7 +100,7 @@ mod tests {
     #[test]
     fn two_alternatives_have_the_error_of_the_normal() -> Computed<()> {
         // d′ = √2 z(Pc): error √2 √(pq/n)/φ(z).
-        let found = forced_choice(60, 80, 2, Correction::LogLinear)?;
+        let found = Relation::Alternatives(2).choice(60, 80, Correction::LogLinear)?;
         let z = crate::normal_quantile(0.75)?;
         let error = SQRT_2 * (0.75_f64 * 0.25 / 80.0).sqrt() / normal_density(z);
         assert!((found.se? / error - 1.0).abs() < 1e-6, "{error}");
@@ -144,21 +109,25 @@ mod tests {
 
     #[test]
     fn all_right_is_corrected_and_nothing_is_not_computable() -> Computed<()> {
-        let all = forced_choice(80, 80, 4, Correction::LogLinear)?;
+        let all = Relation::Alternatives(4).choice(80, 80, Correction::LogLinear)?;
         assert_eq!(all.correction, Some(Correction::LogLinear));
         assert_eq!(all.share, 80.5 / 81.0);
         assert!(all.interval.is_err(), "its upper end is infinite");
-        let clipped = forced_choice(0, 80, 4, Correction::Clip)?;
+        let clipped = Relation::Alternatives(4).choice(0, 80, Correction::Clip)?;
         assert_eq!(clipped.share, 0.5 / 80.0);
         assert!(
-            forced_choice(0, 0, 4, Correction::Clip).is_err(),
+            Relation::Alternatives(4)
+                .choice(0, 0, Correction::Clip)
+                .is_err(),
             "no trials"
         );
         assert!(
-            forced_choice(1, 2, 1, Correction::Clip).is_err(),
+            Relation::Alternatives(1)
+                .choice(1, 2, Correction::Clip)
+                .is_err(),
             "no choice"
         );
-        assert!(d_prime_of_share(1.0, 4).is_err(), "infinite");
+        assert!(Relation::Alternatives(4).d_prime(1.0).is_err(), "infinite");
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Two intervals and a third that is one of them (ABX), and two that are the same or different.
 
-use super::choice::{Choice, Correction, Relation, inverted};
+use super::choice::{Choice, Correction, inverted};
 use crate::distribution::{normal_lower, normal_quantile};
 use crate::interval::wilson;
 use crate::{Computed, Interval, undefined};
@@ -13,26 +13,6 @@ const MOST: f64 = 30.0;
 pub fn abx_share(d_prime: f64) -> f64 {
     let (between, within) = (d_prime / 2.0_f64.sqrt(), d_prime / 2.0);
     normal_lower(between) * normal_lower(within) + normal_lower(-between) * normal_lower(-within)
-}
-
-/// d′ of one subject's matches of X with A or B, with its error and interval. Up to chance it is 0.
-///
-/// # Errors
-/// No trials, more correct than trials.
-pub fn abx(correct: u64, trials: u64, correction: Correction) -> Computed<Choice> {
-    let d_prime_of = |share: f64| match share {
-        share if !(0.0..=1.0 - 1e-9).contains(&share) => {
-            undefined(format!("a share of {share} of matches has no finite d′"))
-        }
-        share if share <= 0.5 => Ok(0.0),
-        share => Ok(inverted(abx_share, share, [0.0, MOST])),
-    };
-    let relation = Relation {
-        chance: 0.5,
-        share_of: &abx_share,
-        d_prime_of: &d_prime_of,
-    };
-    relation.choice(correct, trials, correction)
 }
 
 /// d′ of one subject who calls pairs different whose sensations lie farther apart than a criterion
@@ -65,9 +45,6 @@ pub fn same_different(hits: [u64; 2], false_alarms: [u64; 2]) -> Computed<Choice
     let slope = (share(d_prime + step) - share(d_prime - step)) / (2.0 * step);
     let se = (h * (1.0 - h) / hits[1] as f64).sqrt() / slope;
     Ok(Choice {
-        correct: hits[0] + false_alarms[1] - false_alarms[0],
-        trials: hits[1] + false_alarms[1],
-        chance: 0.5,
         share: h,
         correction: Some(correction),
         d_prime,
@@ -88,6 +65,7 @@ pub fn same_different(hits: [u64; 2], false_alarms: [u64; 2]) -> Computed<Choice
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detection::Relation;
     use selvedge_foundation::numerics::Random;
 
     #[test]
@@ -104,11 +82,19 @@ mod tests {
             let n_right = (0..n).filter(is_right).count() as u64;
             let found = n_right as f64 / n as f64;
             assert!((found - abx_share(d)).abs() < 0.007, "{d}: {found}");
-            let back = abx(n_right, n, Correction::LogLinear).unwrap();
+            let back = Relation::Abx
+                .choice(n_right, n, Correction::LogLinear)
+                .unwrap();
             assert!((back.d_prime - d).abs() < 0.06, "{d}: {back:?}");
         }
-        assert_eq!(abx(3, 10, Correction::LogLinear).unwrap().d_prime, 0.0);
-        assert!(abx(0, 0, Correction::LogLinear).is_err());
+        assert_eq!(
+            Relation::Abx
+                .choice(3, 10, Correction::LogLinear)
+                .unwrap()
+                .d_prime,
+            0.0
+        );
+        assert!(Relation::Abx.choice(0, 0, Correction::LogLinear).is_err());
     }
 
     #[test]

@@ -2,19 +2,22 @@
 //!
 //! Distances are d′: the difference of the means of two normal distributions in units of their
 //! common standard deviation. Pooling subjects before the transformation makes d′ too small, so
-//! each subject has a d′ of its own.
+//! each subject has a d′ of its own; the mean of these is biased where trials are few, so a group
+//! has one from all answers ([`Relation::group`], [`group_yes_no`]).
 
 mod choice;
 mod forced_choice;
 mod matching;
+mod relation;
 mod roc;
 mod triangle;
 mod yes_no;
 
 pub(crate) use choice::inverted;
 pub use choice::{Choice, Correction};
-pub use forced_choice::{choice_share, forced_choice};
-pub use matching::{abx, abx_share, same_different};
+pub use forced_choice::choice_share;
+pub use matching::{abx_share, same_different};
+pub use relation::{GroupDPrime, Relation};
 pub use roc::{Roc, roc};
-pub use triangle::{triangle, triangle_share};
-pub use yes_no::{Answers, YesNo, yes_no};
+pub use triangle::triangle_share;
+pub use yes_no::{Answers, YesNo, group_yes_no, yes_no};

@@ -1,10 +1,6 @@
 //! The triangle test: two alike and one odd, the odd one is to be found.
 
-use super::choice::{Choice, Correction, Relation, inverted};
 use crate::distribution::{normal_density, normal_lower};
-use crate::{Computed, undefined};
-
-const CHANCE: f64 = 1.0 / 3.0;
 
 /// The share of correct triads at a distance d′ (Ura 1960; Ennis 1990):
 /// 2 ∫₀^∞ [Φ(−x√3 + d′√⅔) + Φ(−x√3 − d′√⅔)] φ(x) dx.
@@ -35,43 +31,17 @@ pub fn triangle_share(d_prime: f64) -> f64 {
     2.0 * half * (0..72).map(piece).sum::<f64>()
 }
 
-/// The d′ of a share of correct triads. Up to chance, ⅓, it is 0: no distance makes the odd one
-/// harder to find than a guess, and 0 is the most likely.
-///
-/// # Errors
-/// A share outside 0 … 1 − 1e-9.
-fn triangle_d_prime(correct: f64) -> Computed {
-    if !(0.0..=1.0 - 1e-9).contains(&correct) {
-        return undefined(format!("a share of {correct} of triads has no finite d′"));
-    }
-    if correct <= CHANCE {
-        return Ok(0.0);
-    }
-    Ok(inverted(triangle_share, correct, [0.0, 30.0]))
-}
-
-/// d′ of one subject's triads, with its error and interval. Only shares of 0 and 1 are corrected.
-///
-/// # Errors
-/// No trials, more correct than trials.
-pub fn triangle(correct: u64, trials: u64, correction: Correction) -> Computed<Choice> {
-    let relation = Relation {
-        chance: CHANCE,
-        share_of: &triangle_share,
-        d_prime_of: &triangle_d_prime,
-    };
-    relation.choice(correct, trials, correction)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Computed;
+    use crate::detection::{Correction, Relation};
     use selvedge_foundation::numerics::Random;
 
     #[test]
     fn without_a_difference_a_third_is_right_and_far_apart_all() {
         assert!(
-            (triangle_share(0.0) - CHANCE).abs() < 1e-14,
+            (triangle_share(0.0) - 1.0 / 3.0).abs() < 1e-14,
             "{}",
             triangle_share(0.0)
         );
@@ -108,7 +78,7 @@ mod tests {
     #[test]
     fn shares_lead_back_to_their_distance() -> Computed<()> {
         for d in [0.2, 1.0, 2.5, 5.0] {
-            let back = triangle_d_prime(triangle_share(d))?;
+            let back = Relation::Triangle.d_prime(triangle_share(d))?;
             assert!((back - d).abs() < 1e-10, "{back} for {d}");
         }
         Ok(())
@@ -116,14 +86,17 @@ mod tests {
 
     #[test]
     fn below_chance_the_distance_is_none_and_flagged() -> Computed<()> {
-        let found = triangle(5, 21, Correction::LogLinear)?;
+        let found = Relation::Triangle.choice(5, 21, Correction::LogLinear)?;
         assert!(found.is_below_chance, "{found:?}");
         assert_eq!(found.d_prime, 0.0);
         assert!(found.se.is_err(), "the share does not change there");
-        let all = triangle(21, 21, Correction::LogLinear)?;
+        let all = Relation::Triangle.choice(21, 21, Correction::LogLinear)?;
         assert_eq!(all.correction, Some(Correction::LogLinear));
-        assert!(triangle(0, 0, Correction::Clip).is_err(), "no trials");
-        assert!(triangle_d_prime(1.0).is_err(), "infinite");
+        assert!(
+            Relation::Triangle.choice(0, 0, Correction::Clip).is_err(),
+            "no trials"
+        );
+        assert!(Relation::Triangle.d_prime(1.0).is_err(), "infinite");
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Task;
-use selvedge_statistics::detection::{Correction, triangle};
+use selvedge_statistics::detection::{Correction, Relation};
 use selvedge_statistics::normal_quantile;
 
 #[test]
@@ -159,7 +159,10 @@ fn distances_after_craven_are_those_of_the_shares_of_pairs() {
     let analysis = analysed(&found);
     let pairs = table(&analysis, "odd-one-out-craven", "pairs");
     assert_eq!(value(pairs, 0, "right"), 3.0);
-    let expected = triangle(3, 4, Correction::Clip).unwrap().d_prime;
+    let expected = Relation::Triangle
+        .choice(3, 4, Correction::Clip)
+        .unwrap()
+        .d_prime;
     assert!(
         (value(pairs, 0, "distance") - expected).abs() < 1e-9,
         "{pairs:?}"
@@ -167,7 +170,10 @@ fn distances_after_craven_are_those_of_the_shares_of_pairs() {
     assert_eq!(pairs.cell(0, "correction"), Some(&Cell::from("none")));
     assert_eq!(value(pairs, 1, "distance"), 0.0);
     assert_eq!(pairs.cell(1, "below_chance"), Some(&Cell::from("yes")));
-    let ceiling = triangle(4, 4, Correction::LogLinear).unwrap().d_prime;
+    let ceiling = Relation::Triangle
+        .choice(4, 4, Correction::LogLinear)
+        .unwrap()
+        .d_prime;
     assert!(
         (value(pairs, 2, "distance") - ceiling).abs() < 1e-9,
         "{pairs:?}"

@@ -350,6 +350,15 @@ pub(crate) const BLOCKS: [Block; 9] = [
                 ("least right", "0 to 1"),
                 Holds::Number,
             ),
+            Field::new(
+                ("rules", "least_share_caught"),
+                ("least caught", "0 to 1 of catch trials"),
+                Holds::Number,
+            )
+            .when(|keys| {
+                let catches = keys.value(("order", 0, "catch_trials"));
+                catches.is_some() && !asks(keys, &["choice"])
+            }),
         ],
         rows: &[],
     },
@@ -379,6 +388,11 @@ pub(crate) const STIMULUS: Rows = Rows {
         Field::new(
             ("stimulus", "condition"),
             ("condition", "none"),
+            Holds::Words,
+        ),
+        Field::new(
+            ("stimulus", "group"),
+            ("group", "none; seen, unseen"),
             Holds::Words,
         ),
         Field::new(("stimulus", "gain_db"), ("gain", "0 dB"), Holds::Number),

@@ -84,6 +84,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::tools::experiment::builder::block_list::STIMULUS;
     use crate::tools::experiment::builder::blocks::Holds;
     use selvedge_experiment::design::{Design, names_of};
 
@@ -111,6 +112,26 @@ mod tests {
             settle(&mut settled);
             let after = read(&settled).unwrap();
             assert_eq!(before.composition, after.composition, "{name}");
+        }
+    }
+
+    #[test]
+    fn every_key_of_rules_and_of_stimuli_stands_in_a_block() {
+        let rules = BLOCKS.iter().flat_map(|block| block.fields);
+        let stated: Vec<&str> = rules
+            .chain(STIMULUS.fields)
+            .map(|field| field.key)
+            .collect();
+        for table in ["rules", "stimulus"] {
+            let mut keys = keys("real-or-generated");
+            keys.set((table, 0, "unheard-of"), Some(&1.into()));
+            // The reader names the keys that it knows.
+            let line = read(&keys).unwrap_err();
+            let known: Vec<&str> = line.split('`').skip(3).step_by(2).collect();
+            assert!(known.len() > 3, "{line}");
+            for key in known {
+                assert!(stated.contains(&key), "{table}.{key}: {line}");
+            }
         }
     }
 
