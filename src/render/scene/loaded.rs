@@ -188,7 +188,6 @@ fn levels_db(textiles: &[Arc<Textile>], filters: &Filters) -> Vec<Option<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::geometry::Point;
 
     fn placed(id: &str) -> PlacedTextile {
         PlacedTextile {

@@ -7,37 +7,31 @@ use serde::{Deserialize, Serialize};
 
 use selvedge_textile::tactile::Tuning;
 
-/// The name of a slot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[allow(missing_docs)]
-pub enum SlotLetter {
-    A,
-    B,
-    C,
-    D,
-    E,
-    F,
-    G,
-    H,
-}
-
-impl SlotLetter {
-    /// All, in the order of the alphabet.
-    pub const ALL: [Self; 8] = [
-        Self::A,
-        Self::B,
-        Self::C,
-        Self::D,
-        Self::E,
-        Self::F,
-        Self::G,
-        Self::H,
-    ];
-
-    /// As files and people write it.
-    pub fn name(self) -> &'static str {
-        ["A", "B", "C", "D", "E", "F", "G", "H"][self as usize]
+selvedge_foundation::named! {
+    /// The name of a slot.
+    #[derive(
+        Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+    )]
+    pub enum SlotLetter {
+        /// The first.
+        A = "A",
+        /// The second.
+        B = "B",
+        /// The third.
+        C = "C",
+        /// The fourth.
+        D = "D",
+        /// The fifth.
+        E = "E",
+        /// The sixth.
+        F = "F",
+        /// The seventh.
+        G = "G",
+        /// The last.
+        H = "H",
     }
+    /// As files and people write it.
+    pub fn name;
 }
 
 /// A tuning that is kept under a letter.

@@ -62,7 +62,7 @@ pub(crate) enum Target {
     /// All gains.
     Gains,
     /// What level a textile is to have.
-    TargetLevel(usize, Band),
+    WantedLevel(usize, Band),
     /// What a slot keeps; never joined.
     Slot(SlotLetter),
     /// What a slot is called.
@@ -98,7 +98,7 @@ impl Edit {
             Self::Compression(_) => Target::Compression,
             Self::TextileGain(index, _) => Target::TextileGain(index),
             Self::Gains(_) => Target::Gains,
-            Self::TargetLevel(index, band, _) => Target::TargetLevel(index, band),
+            Self::TargetLevel(index, band, _) => Target::WantedLevel(index, band),
             Self::KeepSlot(letter) | Self::EmptySlot(letter) => Target::Slot(letter),
             Self::SlotWords(letter, _) => Target::SlotWords(letter),
             Self::Filters(_) => Target::Filters,
@@ -125,7 +125,7 @@ impl Target {
             Self::Compression => "compression",
             Self::TextileGain(_) => "textile gain",
             Self::Gains => "all gains",
-            Self::TargetLevel(..) => "target level",
+            Self::WantedLevel(..) => "target level",
             Self::Slot(_) => "slot of a tuning",
             Self::SlotWords(_) => "name of a slot",
             Self::Filters => "filters",

@@ -27,17 +27,15 @@ pub(crate) fn chart(placed: &[Placed], change: Option<&Change>) -> Chart {
     };
     let leads = placed.iter().filter_map(|one| {
         let from = at(one)?;
-        let to = match change {
-            Some(change) => {
+        let to = change.map_or_else(
+            || [0, 1].map(|band| one.row.target_db[band].unwrap_or(from[band])),
+            |change| {
                 let own_db = change.own_db.get(one.index).copied().unwrap_or(0.0);
                 [0, 1].map(|band| from[band] + change.master_db + change.band_db[band] + own_db)
-            }
-            None => {
-                let target = one.row.target_db;
-                [0, 1].map(|band| target[band].unwrap_or(from[band]))
-            }
-        };
-        (from != to).then(|| Series {
+            },
+        );
+        let is_led = (0..2).any(|band| from[band].total_cmp(&to[band]).is_ne());
+        is_led.then(|| Series {
             points: vec![from, to],
             style: Style::Line,
             ink: Ink::Grey,
@@ -118,7 +116,7 @@ pub(crate) fn show(
     let pointer = shown
         .response
         .interact_pointer_pos()
-        .or(shown.response.hover_pos());
+        .or_else(|| shown.response.hover_pos());
     let near_to = |at: Pos2| {
         let distance = |one: &&Placed| shown.at(one.row.level_db).distance(at);
         let near = placed.iter().filter(|one| distance(one) < NEAR);

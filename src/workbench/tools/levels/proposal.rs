@@ -60,6 +60,7 @@ impl Peaks {
 
 /// A change of gains, dB.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[expect(clippy::struct_field_names, reason = "units are in names")]
 pub(crate) struct Change {
     /// Of everything.
     pub(crate) master_db: f64,
@@ -80,8 +81,7 @@ pub(crate) fn propose(rows: &[Row]) -> Change {
     });
     let over_db = over.fold(0.0, f64::max);
     change.master_db -= (over_db / STEP_DB).ceil() * STEP_DB;
-    let tenths = |db: f64| (db / STEP_DB).round() / (1.0 / STEP_DB).round();
-    change.master_db = tenths(change.master_db);
+    change.master_db = in_steps(change.master_db);
     change
 }
 
@@ -137,8 +137,7 @@ fn noticeable(mut change: Change, rows: &[Row]) -> Change {
         .fold(f64::INFINITY, f64::min);
     let kept = |db: f64, noticed_db: f64| {
         let is_noticed = db.abs() > noticed_db;
-        let tenths = (db / STEP_DB).round() / (1.0 / STEP_DB).round();
-        if is_noticed { tenths } else { 0.0 }
+        if is_noticed { in_steps(db) } else { 0.0 }
     };
     change.master_db = kept(change.master_db, least);
     change.band_db = change.band_db.map(|db| kept(db, least));
@@ -146,6 +145,11 @@ fn noticeable(mut change: Change, rows: &[Row]) -> Change {
         *own_db = kept(*own_db, row.noticed_db);
     }
     change
+}
+
+/// Whole steps, as short in files as on the screen.
+fn in_steps(db: f64) -> f64 {
+    (db / STEP_DB).round() / (1.0 / STEP_DB).round()
 }
 
 fn mean_of(values: impl Iterator<Item = f64>) -> Option<f64> {

@@ -183,6 +183,16 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     let Some(shown) = plot::show(ui, rect, &chart, &setting) else {
         return;
     };
+    answer(ui, &shown, (scene, reference_db), commands);
+}
+
+/// Names the dot under the pointer, and takes clicks and drags.
+fn answer(
+    ui: &Ui,
+    shown: &Shown,
+    (scene, reference_db): (&SceneView, f64),
+    commands: &mut Commands,
+) {
     let out = |dot: &LibraryDot| {
         out_db(&scene.tuning, reference_db, dot.level_db) + scene_gain_db(scene, dot)
     };
@@ -211,7 +221,7 @@ pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
     }
     let pressed_at = ui.input(|input| input.pointer.press_origin());
     let pressed = pressed_at.and_then(near_to);
-    drag(ui, &shown, (scene, reference_db), pressed, commands);
+    drag(ui, shown, (scene, reference_db), pressed, commands);
 }
 
 /// What is dragged since the press: a placed textile, or the line.

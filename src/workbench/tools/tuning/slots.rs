@@ -147,7 +147,7 @@ impl Slots {
         context: &mut PaneContext<'_>,
     ) {
         let kept = slot(scene, letter);
-        let response = letter_button(ui, letter, kept.is_some(), self.chosen == Some(letter));
+        let response = letter_button(ui, letter, [kept.is_some(), self.chosen == Some(letter)]);
         if response.is_pointer_button_down_on() && kept.is_some() {
             self.pointed = Some(Held::Slot(letter));
             ui.ctx().request_repaint();
@@ -320,10 +320,11 @@ impl Blind {
         let said = format!("{letter} rather than now: {slot} of {n}");
         let tested = exact_binomial(slot, n, 0.5, Sides::Two);
         let found = tested.and_then(|outcome| Ok((outcome.interval?, outcome.p)));
-        found.map_or(said.clone(), |(interval, p)| {
-            let [low, high] = [interval.low, interval.high].map(|end| fixed(100.0 * end, 0));
-            format!("{said} ({low}–{high} %, p {})", fixed(p, 3))
-        })
+        let Ok((interval, p)) = found else {
+            return said;
+        };
+        let [low, high] = [interval.low, interval.high].map(|end| fixed(100.0 * end, 0));
+        format!("{said} ({low}–{high} %, p {})", fixed(p, 3))
     }
 }
 
@@ -356,7 +357,7 @@ fn names(context: &PaneContext<'_>) -> Vec<String> {
 
 /// A letter: bright where something is kept, on white while it is pressed, with a line under the
 /// chosen one.
-fn letter_button(ui: &mut Ui, letter: SlotLetter, is_kept: bool, is_chosen: bool) -> Response {
+fn letter_button(ui: &mut Ui, letter: SlotLetter, [is_kept, is_chosen]: [bool; 2]) -> Response {
     let palette = Palette::in_ui(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
     let is_down = response.is_pointer_button_down_on() && is_kept;
