@@ -7,6 +7,7 @@ use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::tell;
 use crate::kit::widgets::text::{named, quiet};
 use crate::tools::levels::Placed;
@@ -37,7 +38,11 @@ pub(crate) fn show(
             for band in Band::ALL {
                 let name = with_unit(band.carrier_hz(), 0, "Hz");
                 ui.label(RichText::new(name).color(palette.band(band)));
-                ui.label(quiet("target"));
+                ui.label(quiet(if change.is_some() {
+                    "proposed"
+                } else {
+                    "target"
+                }));
             }
             ui.end_row();
             for one in placed {
@@ -79,50 +84,64 @@ fn show_row(ui: &mut Ui, one: &Placed, change: Option<&Change>, context: &mut Pa
         }
     });
     for band in Band::ALL {
-        show_level(ui, one, band, change, context.commands);
-        show_target(ui, one, band, context.commands);
+        show_level(ui, one, band, context.commands);
+        match change {
+            Some(change) => show_proposed(ui, one, band, change),
+            None => show_target(ui, one, band, context.commands),
+        }
     }
 }
 
 /// A level: dragging or typing turns the textile's gain.
-fn show_level(
-    ui: &mut Ui,
-    one: &Placed,
-    band: Band,
-    change: Option<&Change>,
-    commands: &mut Commands,
-) {
-    let palette = Palette::in_ui(ui);
+fn show_level(ui: &mut Ui, one: &Placed, band: Band, commands: &mut Commands) {
     let before_db = one.row.level_db[band.index()];
     if !before_db.is_finite() {
         ui.label(quiet("silent"));
         return;
     }
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        let mut level_db = before_db;
-        let value = DragValue::new(&mut level_db).speed(0.1).fixed_decimals(1);
-        let response = ui.add(value);
-        let name = format!(
-            "Level of {} at {}",
-            one.name,
-            with_unit(band.carrier_hz(), 0, "Hz")
-        );
-        named(&response, &*name);
-        if response.changed() {
-            commands.push(one.moved(level_db - before_db).into());
-        }
-        tell(
-            &response,
-            format!("{name}: drag it or click and type; both bands of a textile move together"),
-        );
-        if let Some(change) = change {
-            let own_db = change.own_db.get(one.index).copied().unwrap_or(0.0);
-            let after_db = before_db + change.master_db + change.band_db[band.index()] + own_db;
-            let words = RichText::new(format!("→ {}", fixed(after_db, 1)));
-            ui.label(words.font(theme::number()).color(palette.band(band)));
-        }
-    });
+    let mut level_db = before_db;
+    let response = ui.add(decibels(&mut level_db));
+    let name = format!(
+        "Level of {} at {}",
+        one.name,
+        with_unit(band.carrier_hz(), 0, "Hz")
+    );
+    named(&response, &*name);
+    if response.changed() {
+        commands.push(one.moved(level_db - before_db).into());
+    }
+    tell(
+        &response,
+        format!("{name}: drag it or click and type; both bands of a textile move together"),
+    );
+}
+
+/// The level that a proposal would make.
+fn show_proposed(ui: &mut Ui, one: &Placed, band: Band, change: &Change) {
+    let own_db = change.own_db.get(one.index).copied().unwrap_or(0.0);
+    let by_db = change.master_db + change.band_db[band.index()] + own_db;
+    let after_db = one.row.level_db[band.index()] + by_db;
+    let words = if after_db.is_finite() {
+        fixed(after_db, 1)
+    } else {
+        String::new()
+    };
+    let is_changed = by_db.abs() > 0.0;
+    let palette = Palette::in_ui(ui);
+    let ink = if is_changed {
+        palette.band(band)
+    } else {
+        palette.dim
+    };
+    ui.label(RichText::new(words).font(theme::number()).color(ink));
+}
+
+/// A number of decibels to drag or to type.
+fn decibels(value_db: &mut f64) -> DragValue<'_> {
+    DragValue::new(value_db)
+        .speed(0.1)
+        .custom_formatter(|db, _| fixed(db, 1))
+        .custom_parser(|text| Scale::gain(0.0).read(text))
 }
 
 /// A target: set by a click, dragged or typed, taken away by the secondary button.
@@ -148,10 +167,7 @@ fn show_target(ui: &mut Ui, one: &Placed, band: Band, commands: &mut Commands) {
         return;
     };
     let mut target_db = before_db;
-    let value = DragValue::new(&mut target_db)
-        .speed(0.1)
-        .range(TARGETS_DB[0]..=TARGETS_DB[1])
-        .fixed_decimals(1);
+    let value = decibels(&mut target_db).range(TARGETS_DB[0]..=TARGETS_DB[1]);
     let off_db = level_db - before_db;
     let is_off = off_db.is_finite() && off_db.abs() > one.row.noticed_db;
     let response: Response = ui

@@ -154,7 +154,7 @@ impl Slots {
         }
         let name = letter.name();
         if response.clicked() {
-            self.chosen = Some(letter);
+            self.chosen = (self.chosen != Some(letter)).then_some(letter);
             if kept.is_none() {
                 context.commands.push(Edit::KeepSlot(letter).into());
             }
