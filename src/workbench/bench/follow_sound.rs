@@ -25,7 +25,12 @@ impl Bench {
         }
         let sound = &mut self.device.sound;
         let Some(playing) = &sound.output else { return };
-        playing.output.set_level(chosen.loudness.share());
+        let level = if sound.is_held {
+            0.0
+        } else {
+            chosen.loudness.share()
+        };
+        playing.output.set_level(level);
         playing.as_driven.store(chosen.as_driven, Ordering::Relaxed);
         match playing.output.state() {
             SoundState::Opening => self.ctx.request_repaint_after(FRAME),

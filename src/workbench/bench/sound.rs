@@ -9,6 +9,8 @@ use selvedge_engine::{SoundOutput, SoundState};
 #[derive(Debug, Default)]
 pub(crate) struct Sound {
     pub(crate) output: Option<Output>,
+    /// Whether nothing is to be heard for now, though sound is on.
+    pub(crate) is_held: bool,
     /// Whether the user knows why nothing is heard.
     pub(crate) is_told: bool,
 }
