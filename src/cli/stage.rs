@@ -34,12 +34,10 @@ pub(super) enum StageCommand {
 pub(super) fn open(scene: Option<&Path>, operator: Option<&Path>) -> Result<(), CliError> {
     workbench::check(scene)?;
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let options = StageOptions {
-        scene: scene.map(Path::to_owned),
-        // Another order every time; which it was is in the log.
-        seed: now.map_or(1, |since| since.as_secs()),
-        ..StageOptions::read(operator)?
-    };
+    let mut options = StageOptions::read(operator)?;
+    options.scene = scene.map(Path::to_owned);
+    // Another order every time; which it was is in the log.
+    options.seed = now.map_or(1, |since| since.as_secs());
     let listen = |end: selvedge_workbench::EndSwitch| signals::on_signal(move || end.press());
     Ok(selvedge_workbench::run_stage(options, listen)?)
 }

@@ -112,7 +112,9 @@ impl Rows {
             *hits += usize::from(truth == choice);
             *n += 1;
         }
-        let all = right.values().fold((0, 0), |(hits, n), more| (hits + more.0, n + more.1));
+        let all = right
+            .values()
+            .fold((0, 0), |(hits, n), more| (hits + more.0, n + more.1));
         let chance = Some(1.0 / N_CLOTHS as f64);
         self.share("right guesses", all, chance)?;
         for (truth, counted) in right {

@@ -12,7 +12,9 @@ use std::time::Instant;
 use eframe::egui::{Context, ViewportBuilder, ViewportCommand, ViewportId};
 use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
 use winit::application::ApplicationHandler;
-use winit::event::{DeviceEvent, DeviceId, ElementState, StartCause, Touch, TouchPhase, WindowEvent};
+use winit::event::{
+    DeviceEvent, DeviceId, ElementState, StartCause, Touch, TouchPhase, WindowEvent,
+};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
@@ -193,10 +195,7 @@ fn keep_freed_memory() {
     drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
 }
 
-fn workbench(
-    cc: &eframe::CreationContext<'_>,
-    opening: Opening,
-) -> Result<Workbench, AppError> {
+fn workbench(cc: &eframe::CreationContext<'_>, opening: Opening) -> Result<Workbench, AppError> {
     let ctx = &cc.egui_ctx;
     let (mut workbench, connect) = match opening {
         Opening::Workbench(scene) => {

@@ -6,11 +6,11 @@ use std::sync::atomic::Ordering;
 
 use eframe::egui::{self, Ui};
 
+use crate::bench::Drive;
 use crate::bench::command::Commands;
 use crate::bench::error::AppError;
 use crate::bench::stage::StageOptions;
 use crate::bench::tool::PaneContext;
-use crate::bench::{Bench, Drive};
 use crate::shell::frame::feel;
 use crate::shell::window::Workbench;
 use crate::tools;
@@ -103,15 +103,18 @@ pub(crate) fn is_felt(window: &Workbench, ctx: &egui::Context) -> bool {
     window.face.is_none() || ctx.input(|input| input.pointer.primary_down())
 }
 
-/// A bench on which nothing is left over from the workbench.
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Bench;
 
     #[test]
     fn a_scene_of_three_textiles_is_refused_in_one_line() {
         let error = AppError::Stage { n_cloths: 3 }.to_string();
-        assert!(error.contains("four textiles") && error.contains('3'), "{error}");
+        assert!(
+            error.contains("four textiles") && error.contains('3'),
+            "{error}"
+        );
         let bench = Bench::new(&egui::Context::default(), None, Drive::Stepped).unwrap();
         assert!(bench.document.scene().textiles.len() >= N_CLOTHS);
     }

@@ -87,7 +87,10 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     let size = vec2(width as f32, height as f32) / scale;
     let (mut window, n_frames) = match wanted.stage {
         Some(picture) => (stage(wanted, picture, size, scale)?, N_STAGE_FRAMES),
-        None => (workbench(wanted.scene.as_deref(), theme, size, scale)?, N_FRAMES),
+        None => (
+            workbench(wanted.scene.as_deref(), theme, size, scale)?,
+            N_FRAMES,
+        ),
     };
     let theme = window.ctx.theme();
     let mut rasteriser = Rasteriser::default();
@@ -108,10 +111,8 @@ fn stage(
     size: Vec2,
     scale: f32,
 ) -> Result<Headless, AppError> {
-    let options = StageOptions {
-        scene: wanted.scene.clone(),
-        ..StageOptions::default()
-    };
+    let mut options = StageOptions::default();
+    options.scene.clone_from(&wanted.scene);
     let mut window = Headless::on_stage(options, size, scale)?;
     window.go_to(picture);
     Ok(window)

@@ -120,7 +120,11 @@ impl Game {
         self.guesses.push(Guess {
             truth: names[round.truth].clone(),
             choice: names[chosen].clone(),
-            order: round.order.iter().map(|cloth| (cloth + 1).to_string()).collect(),
+            order: round
+                .order
+                .iter()
+                .map(|cloth| (cloth + 1).to_string())
+                .collect(),
             is_heard,
             ms: milliseconds(now_s - self.asked_s),
         });
@@ -171,7 +175,11 @@ mod tests {
         let mut game = Game::new(10.0, &mut Random::new(7));
         let names = names();
         let truth = game.truth().unwrap();
-        let place = game.order().iter().position(|cloth| *cloth == truth).unwrap();
+        let place = game
+            .order()
+            .iter()
+            .position(|cloth| *cloth == truth)
+            .unwrap();
         game.choose(12.0, place, (&names, true));
         game.choose(12.1, (place + 1) % 4, (&names, true));
         assert_eq!(game.answered(12.3), Answered::Chosen(place));
@@ -214,7 +222,11 @@ mod tests {
         assert_eq!(order(5), order(5));
         assert_ne!(order(5), order(6));
         for cloth in 0..N_CLOTHS {
-            let n = order(5).iter().flatten().filter(|r| r.truth == cloth).count();
+            let n = order(5)
+                .iter()
+                .flatten()
+                .filter(|r| r.truth == cloth)
+                .count();
             assert!((15..=45).contains(&n), "cloth {cloth}: {n} of 120");
         }
     }

@@ -26,7 +26,10 @@ pub(crate) fn course(cloths: &[Ground]) -> Option<ExplorationPath> {
         steps(TOUR_S, |t_s| {
             let along = half_mm * REACH * (TAU * t_s / STROKE_S).sin();
             let across = 0.25 * half_mm * (TAU * t_s / TOUR_S).sin();
-            rows.push(row(begin_s + t_s, Point::new(middle.x_mm + along, middle.y_mm + across)));
+            rows.push(row(
+                begin_s + t_s,
+                Point::new(middle.x_mm + along, middle.y_mm + across),
+            ));
         });
         begin_s += TOUR_S;
         if cloths.len() > 1 {

@@ -50,13 +50,6 @@ pub(crate) fn filter(input: &mut RawInput, access: Access, types: bool) {
         | Event::AccessKitActionRequest(_) => true,
         _ => false,
     });
-    // Only the operator's key has any, and it says so itself.
-    let shift = input.modifiers.shift;
-    input.modifiers = if shift {
-        Modifiers::SHIFT
-    } else {
-        Modifiers::NONE
-    };
 }
 
 /// Whether these keys ask for the operator's page.
@@ -136,8 +129,12 @@ impl Senses {
 
     /// Fingers beside the first, and how fresh they are, 0…1.
     pub(crate) fn others(&self, now_s: f64) -> Vec<(Pos2, f32)> {
-        let fresh = |at_s: f64| selvedge_foundation::numerics::to_single(1.0 - (now_s - at_s) / MARKED_S);
-        self.others.iter().map(|(at, at_s)| (*at, fresh(*at_s))).collect()
+        let fresh =
+            |at_s: f64| selvedge_foundation::numerics::to_single(1.0 - (now_s - at_s) / MARKED_S);
+        self.others
+            .iter()
+            .map(|(at, at_s)| (*at, fresh(*at_s)))
+            .collect()
     }
 
     /// What was used last.
@@ -150,7 +147,13 @@ impl Senses {
         self.input == Some("touch") || now_s - self.moved_s > CURSOR_S
     }
 
-    fn touch(&mut self, (id, phase): (TouchId, TouchPhase), at: Pos2, now_s: f64, heard: &mut Heard) {
+    fn touch(
+        &mut self,
+        (id, phase): (TouchId, TouchPhase),
+        at: Pos2,
+        now_s: f64,
+        heard: &mut Heard,
+    ) {
         match phase {
             TouchPhase::Start => {
                 self.input = Some("touch");
@@ -206,10 +209,12 @@ mod tests {
         for (event, expected) in cases {
             let mut input = RawInput::default();
             input.events.push(event.clone());
-            input.dropped_files.push(eframe::egui::DroppedFile::default());
+            input
+                .hovered_files
+                .push(eframe::egui::HoveredFile::default());
             filter(&mut input, Access::Closed, false);
             assert_eq!(!input.events.is_empty(), expected, "{event:?}");
-            assert!(input.dropped_files.is_empty());
+            assert!(input.hovered_files.is_empty() && input.dropped_files.is_empty());
         }
         let mut input = RawInput::default();
         input.events = vec![key(Key::Num7, Modifiers::NONE), Event::Text("7".to_owned())];

@@ -141,7 +141,10 @@ impl Layout {
             };
             Rect::from_center_size(centre + off, vec2(side, side))
         });
-        (Rect::from_center_size(centre, vec2(middle, middle)), pictures)
+        (
+            Rect::from_center_size(centre, vec2(middle, middle)),
+            pictures,
+        )
     }
 }
 

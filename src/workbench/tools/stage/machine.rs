@@ -203,7 +203,8 @@ impl Machine {
             _ => {}
         }
         let has_visitor = self.visit.is_some();
-        self.voltage.step(now_s, device, (has_visitor, hand.is_down))
+        self.voltage
+            .step(now_s, device, (has_visitor, hand.is_down))
     }
 
     /// Does what a visitor wants with `input`: `touch`, `mouse` or `keys`.
@@ -337,7 +338,9 @@ impl Machine {
 
     /// How long this visit is, s.
     pub(crate) fn visit_s(&self) -> f64 {
-        self.visit.as_ref().map_or(0.0, |visit| self.now_s - visit.began_s)
+        self.visit
+            .as_ref()
+            .map_or(0.0, |visit| self.now_s - visit.began_s)
     }
 
     /// How long nobody has been there, s.
@@ -439,7 +442,10 @@ impl Machine {
         let (now_s, is_armed) = (self.now_s, self.device == DeviceState::Armed);
         let Some(visit) = &mut self.visit else { return };
         visit.was_armed |= is_armed;
-        if visit.tour.is_some_and(|(_, since_s)| now_s - since_s >= TOUR_S) {
+        if visit
+            .tour
+            .is_some_and(|(_, since_s)| now_s - since_s >= TOUR_S)
+        {
             visit.tour = None;
         }
         let moves = hand.is_down && hand.moved_mm > 0.0;
@@ -487,6 +493,8 @@ impl Machine {
 
     /// How long nothing has moved, s.
     fn idle_s(&self) -> f64 {
-        self.visit.as_ref().map_or(0.0, |visit| self.now_s - visit.moved_s)
+        self.visit
+            .as_ref()
+            .map_or(0.0, |visit| self.now_s - visit.moved_s)
     }
 }

@@ -18,8 +18,8 @@ mod input;
 mod layout;
 mod machine;
 mod operator;
-mod pin;
 mod pictures;
+mod pin;
 mod records;
 #[cfg(test)]
 mod tests;
@@ -171,14 +171,18 @@ impl Stage {
         let Some(path) = ghost::course(cloths) else {
             return bench.send(EngineCommand::SetSource(InputSource::Pointer));
         };
-        bench.send(EngineCommand::SetSource(InputSource::Replay(Arc::new(path))));
+        bench.send(EngineCommand::SetSource(InputSource::Replay(Arc::new(
+            path,
+        ))));
         bench.send(EngineCommand::SetLoop(motion == Motion::Ghost));
         bench.send(EngineCommand::Play);
     }
 
     /// Asks for a device that is away, every two seconds. Only the operator permits arming again.
     fn ask_for_device(&mut self, now_s: f64, device: DeviceState, bench: &mut Bench) {
-        let Some(port) = self.options.port() else { return };
+        let Some(port) = self.options.port() else {
+            return;
+        };
         let is_away = match device {
             DeviceState::Failed => true,
             DeviceState::Absent => bench.live.bridge.is_none(),
@@ -312,7 +316,9 @@ impl Stage {
         if !is_down {
             self.is_down_on_ground = false;
         }
-        let is_on_ground = self.ground_of(ui).is_some_and(|ground| at.is_some_and(|at| ground.contains(at)));
+        let is_on_ground = self
+            .ground_of(ui)
+            .is_some_and(|ground| at.is_some_and(|at| ground.contains(at)));
         if is_pressed && is_on_ground {
             self.is_down_on_ground = true;
             self.machine.act(Act::Touch, self.senses.input());
@@ -324,7 +330,8 @@ impl Stage {
             });
         if !holds {
             self.machine.act(Act::HoldFeel(false), self.senses.input());
-            self.machine.act(Act::HoldRestart(false), self.senses.input());
+            self.machine
+                .act(Act::HoldRestart(false), self.senses.input());
         }
     }
 
@@ -409,7 +416,8 @@ impl PublicFace for Stage {
         if context.bench.live.is_armed() {
             frame_as_armed(ui.ctx());
         }
-        let is_quiet = matches!(self.machine.phase(), Phase::Watching) && self.machine.fade() <= 0.0;
+        let is_quiet =
+            matches!(self.machine.phase(), Phase::Watching) && self.machine.fade() <= 0.0;
         let fps = if is_quiet { WATCHING_FPS } else { TOUCHING_FPS };
         let pause = std::time::Duration::from_secs_f64(1.0 / fps);
         ui.ctx().request_repaint_after(pause);

@@ -49,7 +49,10 @@ pub(crate) fn show(
             ("Back", Wish::Close),
         ];
         for (rect, (words, wish)) in places.into_iter().zip(acts) {
-            if brush.button(ui, rect, (words, words), Look::default()).clicked() {
+            if brush
+                .button(ui, rect, (words, words), Look::default())
+                .clicked()
+            {
                 wishes.push(wish);
             }
         }
@@ -82,14 +85,21 @@ pub(crate) fn lines(bench: &Bench, access: Access, log: String, has_pin: bool) -
         return vec!["Operator".to_owned()];
     }
     let device = &bench.device;
-    let state = bench.live.bridge.as_ref().map_or("none", |bridge| bridge.state);
+    let state = bench
+        .live
+        .bridge
+        .as_ref()
+        .map_or("none", |bridge| bridge.state);
     let name = device.target.as_deref().unwrap_or("Device");
     let mut lines = vec![format!("{name}: {state}")];
     lines.extend(device.trouble.clone());
     lines.push(format!("Sound: {}", sound_words(bench)));
     lines.push(log);
     let status = &bench.live.status;
-    lines.push(format!("Ticks missed {}, late {}", status.missed, status.late));
+    lines.push(format!(
+        "Ticks missed {}, late {}",
+        status.missed, status.late
+    ));
     let notices = bench.notices.shown().iter().rev().take(MOST_NOTICES);
     lines.extend(notices.map(|notice| notice.text.clone()));
     lines
@@ -127,7 +137,10 @@ fn show_pad(ui: &Ui, brush: &mut Brush<'_>, wishes: &mut Vec<Wish>) {
         let places = brush.layout.places::<3>(place.shrink(4.0), [25.0, 25.0]);
         for (rect, key) in places.into_iter().zip(row.chars()) {
             let words = key.to_string();
-            if brush.button(ui, rect, (&words, &words), Look::default()).clicked() {
+            if brush
+                .button(ui, rect, (&words, &words), Look::default())
+                .clicked()
+            {
                 wishes.push(match key {
                     '⌫' => Wish::Back,
                     '✔' => Wish::Enter,
@@ -137,7 +150,10 @@ fn show_pad(ui: &Ui, brush: &mut Brush<'_>, wishes: &mut Vec<Wish>) {
         }
     }
     let [_, close] = brush.layout.places::<2>(brush.layout.row, [60.0, 20.0]);
-    if brush.button(ui, close, ("Back", "Back"), Look::default()).clicked() {
+    if brush
+        .button(ui, close, ("Back", "Back"), Look::default())
+        .clicked()
+    {
         wishes.push(Wish::Close);
     }
 }

@@ -44,13 +44,15 @@ impl Stage {
             // As if the second of holding were over: a picture has no device to arm.
             self.machine.act(Act::HoldFeel(true), "keys");
             let now_s = self.machine.now_s() + 1.0;
-            self.machine.step(now_s, Hand::default(), DeviceState::Ready);
+            self.machine
+                .step(now_s, Hand::default(), DeviceState::Ready);
         }
         for cloth in [0, 1, 2] {
             self.machine.act(Act::Tour(cloth), "keys");
             let now_s = self.machine.now_s() + VISITED_S / 3.0 - 1.5;
             self.machine.step(now_s, Hand::default(), state_of(picture));
-            self.machine.step(now_s + 1.5, Hand::default(), state_of(picture));
+            self.machine
+                .step(now_s + 1.5, Hand::default(), state_of(picture));
         }
         match picture {
             StagePicture::Offered | StagePicture::Armed => self.machine.act(Act::Tour(2), "keys"),
@@ -60,9 +62,11 @@ impl Stage {
 
     fn guess(&mut self, picture: StagePicture) {
         self.machine.act(Act::Guess, "keys");
-        let mut wait = |stage: &mut Self, seconds: f64| {
+        let wait = |stage: &mut Self, seconds: f64| {
             let now_s = stage.machine.now_s() + seconds;
-            stage.machine.step(now_s, Hand::default(), DeviceState::Ready);
+            stage
+                .machine
+                .step(now_s, Hand::default(), DeviceState::Ready);
         };
         match picture {
             StagePicture::Told => {

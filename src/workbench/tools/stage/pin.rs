@@ -124,7 +124,10 @@ mod tests {
         for expected_s in [1.0, 2.0, 4.0, 8.0] {
             assert_eq!(try_pin(&mut lock, now_s, "271829"), Access::Asked);
             assert!((lock.locked_s(now_s) - expected_s).abs() < 1e-9);
-            assert_eq!(try_pin(&mut lock, now_s + 0.5 * expected_s, "271828"), Access::Asked);
+            assert_eq!(
+                try_pin(&mut lock, now_s + 0.5 * expected_s, "271828"),
+                Access::Asked
+            );
             now_s += expected_s;
         }
         assert_eq!(try_pin(&mut lock, now_s, "271828"), Access::Open);

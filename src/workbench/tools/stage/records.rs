@@ -54,13 +54,12 @@ impl Records {
             }
             return;
         };
-        let write = move |_: &mut _| {
+        self.writing = Some(executor.start("selvedge-visits", move |_progress| {
             for (visit, now) in &waiting {
                 log.write(visit, *now);
             }
             Ok(log)
-        };
-        self.writing = Some(executor.start("selvedge-visits", write));
+        }));
         if let Some(Ok(log)) = finished(&mut self.writing) {
             self.keep(log);
         }

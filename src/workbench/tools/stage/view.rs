@@ -3,9 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use eframe::egui::{
-    Align2, Pos2, Rect, Response, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
-};
+use eframe::egui::{Align2, Pos2, Rect, Response, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2};
 
 use crate::bench::paint_display;
 use crate::bench::selection::Selection;
@@ -80,7 +78,9 @@ pub(crate) fn show(ui: &mut Ui, brush: &mut Brush<'_>, shown: &Shown<'_>) -> Wis
     for (at, freshness) in &shown.others {
         let ink = brush.palette.faint.gamma_multiply(*freshness);
         let stroke = Stroke::new(3.0 * brush.layout.unit, ink);
-        brush.painter.circle_stroke(*at, 8.0 * brush.layout.mm, stroke);
+        brush
+            .painter
+            .circle_stroke(*at, 8.0 * brush.layout.mm, stroke);
     }
     let fade = to_single(shown.machine.fade());
     if fade > 0.0 {
@@ -97,9 +97,19 @@ pub(crate) fn view_of(square: Rect, scene: &SceneView, mm: f32) -> ViewTransform
         [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]
             .map(|[x, y]| cloth.workspace_from_textile.point(Point::new(x, y)))
     });
-    let start = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    let start = [
+        f64::INFINITY,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NEG_INFINITY,
+    ];
     let [left, low, right, high] = corners.fold(start, |[a, b, c, d], at| {
-        [a.min(at.x_mm), b.min(at.y_mm), c.max(at.x_mm), d.max(at.y_mm)]
+        [
+            a.min(at.x_mm),
+            b.min(at.y_mm),
+            c.max(at.x_mm),
+            d.max(at.y_mm),
+        ]
     });
     let extent_mm = (right - left).max(high - low).max(1.0) + 6.0;
     let scale = (f64::from(square.width()) / extent_mm).min(f64::from(mm));
@@ -191,7 +201,11 @@ fn show_bars(brush: &mut Brush<'_>, live: &EngineView) {
     let [above, below] = halves(brush.layout.bars);
     let n = live.dots.len().max(1) as f64;
     let rms = |band: usize| {
-        let sum: f64 = live.dots.iter().map(|dot| dot.amplitude_um[band].powi(2)).sum();
+        let sum: f64 = live
+            .dots
+            .iter()
+            .map(|dot| dot.amplitude_um[band].powi(2))
+            .sum();
         to_single((sum / n).sqrt() / FULL_BAR_UM)
     };
     let (low, high) = (brush.palette.low, brush.palette.high);
@@ -209,7 +223,9 @@ fn show_round(
 ) {
     let layout = brush.layout;
     let (question, pictures) = layout.round();
-    brush.painter.rect_filled(question, 0, brush.palette.hovered);
+    brush
+        .painter
+        .rect_filled(question, 0, brush.palette.hovered);
     let sign = question.shrink(0.3 * question.width());
     let look = (0.5 * question.height(), brush.palette.line);
     brush.line(sign, Align2::CENTER_CENTER, look, "?");
@@ -308,7 +324,10 @@ fn show_end(
         }
     }
     let [_, typed, done] = layout.places::<3>(layout.row, ROW_MM);
-    if brush.button(ui, done, ("✔", "Done"), Look::default()).clicked() {
+    if brush
+        .button(ui, done, ("✔", "Done"), Look::default())
+        .clicked()
+    {
         acts.push(Act::Done);
     }
     if shown.has_keyboard {
@@ -322,9 +341,11 @@ fn type_comment(ui: &mut Ui, brush: &Brush<'_>, (place, text): (Rect, &str), act
     let field = TextEdit::singleline(&mut text)
         .hint_text("No names, please")
         .font(eframe::egui::FontId::proportional(brush.layout.label))
-        .char_limit(selvedge_experiment::visits::LONGEST_COMMENT)
-        .vertical_align(eframe::egui::Align::Center);
-    if ui.put(place.shrink(8.0 * brush.layout.unit), field).changed() {
+        .char_limit(selvedge_experiment::visits::LONGEST_COMMENT);
+    if ui
+        .put(place.shrink(8.0 * brush.layout.unit), field)
+        .changed()
+    {
         acts.push(Act::Comment(text));
     }
 }
@@ -353,14 +374,20 @@ fn show_strip(ui: &Ui, brush: &mut Brush<'_>, shown: &Shown<'_>, acts: &mut Vec<
         }
     }
     let sound = sound_signs(shown);
-    if brush.button(ui, place(STRIP_MM), sound, Look::default()).clicked() {
+    if brush
+        .button(ui, place(STRIP_MM), sound, Look::default())
+        .clicked()
+    {
         acts.push(Act::Sound);
     }
     let look = Look {
         is_on: machine.choices().is_large,
         ..Look::default()
     };
-    if brush.button(ui, place(STRIP_MM), ("Aa", "Larger letters"), look).clicked() {
+    if brush
+        .button(ui, place(STRIP_MM), ("Aa", "Larger letters"), look)
+        .clicked()
+    {
         acts.push(Act::Large);
     }
     if !matches!(machine.phase(), Phase::Watching) {
@@ -465,8 +492,12 @@ fn corners(view: &ViewTransform, cloth: &Cloth) -> [Pos2; 4] {
 
 /// The display with its trail; the ghost and its slow dots while nobody is there.
 fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<'_>) {
-    let Some(centre) = shown.live.centre else { return };
-    let painter = brush.painter.with_clip_rect(view.rect.intersect(brush.layout.whole));
+    let Some(centre) = shown.live.centre else {
+        return;
+    };
+    let painter = brush
+        .painter
+        .with_clip_rect(view.rect.intersect(brush.layout.whole));
     let has_ghost = shown.machine.has_ghost();
     let mut view = *view;
     if has_ghost {
@@ -517,4 +548,3 @@ fn halves(rect: Rect) -> [Rect; 2] {
     let y = rect.center().y;
     [rect.with_max_y(y), rect.with_min_y(y)]
 }
-

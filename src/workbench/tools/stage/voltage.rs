@@ -156,11 +156,18 @@ mod tests {
             voltage.hold(0.0, true);
             let asked = run(&mut voltage, (0.0, 2.5), DeviceState::Ready, (true, true));
             assert_eq!(asked.len(), expected, "{asked:?}");
-            assert!(asked.iter().all(|(at, asks)| *at >= 1.0 && *asks == Switch::Arm));
+            assert!(
+                asked
+                    .iter()
+                    .all(|(at, asks)| *at >= 1.0 && *asks == Switch::Arm)
+            );
         }
         let mut voltage = permitted();
         voltage.hold(0.0, true);
-        assert_eq!(run(&mut voltage, (0.0, 0.9), DeviceState::Ready, (true, true)), []);
+        assert_eq!(
+            run(&mut voltage, (0.0, 0.9), DeviceState::Ready, (true, true)),
+            []
+        );
         voltage.hold(0.9, false);
         voltage.hold(1.0, true);
         let asked = run(&mut voltage, (1.0, 1.9), DeviceState::Ready, (true, true));
@@ -179,9 +186,17 @@ mod tests {
         armed(&mut voltage);
         let asked = run(&mut voltage, (1.3, 10.0), DeviceState::Armed, (true, true));
         assert_eq!(asked, [], "as long as a finger is down");
-        let asked = run(&mut voltage, (10.0, 40.0), DeviceState::Armed, (true, false));
+        let asked = run(
+            &mut voltage,
+            (10.0, 40.0),
+            DeviceState::Armed,
+            (true, false),
+        );
         let (at_s, asks) = asked[0];
-        assert!(asks == Switch::Disarm && (29.0..30.2).contains(&at_s), "{at_s}");
+        assert!(
+            asks == Switch::Disarm && (29.0..30.2).contains(&at_s),
+            "{at_s}"
+        );
         let mut voltage = permitted();
         armed(&mut voltage);
         run(&mut voltage, (1.3, 3.0), DeviceState::Armed, (true, true));

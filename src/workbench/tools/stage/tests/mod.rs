@@ -97,7 +97,7 @@ fn without_movement_the_ghost_hints_and_then_nobody_is_there() {
     assert_eq!(hall.machine.motion(), Motion::Finger);
     hall.pass(2.0, sleeve);
     assert!(hall.machine.has_ghost() && !hall.watches());
-    hall.pass(20.0, sleeve);
+    hall.pass(19.1, sleeve);
     assert!(hall.watches() && hall.machine.fade() > 0.0);
     hall.rest(0.4);
     assert!(hall.machine.fade() <= 0.0);
@@ -132,7 +132,11 @@ fn who_leaves_in_the_middle_of_a_guess_is_asked_and_then_gone() {
     hall.rest(29.0);
     assert_eq!(hall.machine.leaving_share(), None);
     hall.rest(2.0);
-    assert!(hall.machine.leaving_share().is_some_and(|share| share < 0.2));
+    assert!(
+        hall.machine
+            .leaving_share()
+            .is_some_and(|share| share < 0.2)
+    );
     hall.rest(15.0);
     let visit = &hall.machine.take_ended()[0];
     assert_eq!((visit.end, visit.guesses.len()), (VisitEnd::Idle, 1));
@@ -167,7 +171,10 @@ fn sound_is_off_while_nobody_is_there_and_where_it_would_give_the_answer_away() 
     hall.step(stroke(0));
     assert!(hall.machine.is_heard());
     hall.act(Act::Guess);
-    assert!(hall.machine.is_heard(), "with nothing armed it is all there is");
+    assert!(
+        hall.machine.is_heard(),
+        "with nothing armed it is all there is"
+    );
     hall.machine.voltage.permit(true);
     hall.act(Act::HoldFeel(true));
     hall.pass(1.5, stroke(0));

@@ -114,8 +114,14 @@ fn two_hundred_visits_end_in_watching_with_a_row_each_and_high_voltage_off() {
     let n = |end| visits.iter().filter(|visit| visit.end == end).count();
     assert_eq!(n(VisitEnd::Stop), 50);
     assert_eq!(n(VisitEnd::Restart), 0);
-    assert!(n(VisitEnd::Done) >= 50, "guessers and writers: {}", n(VisitEnd::Done));
-    let longest = visits.iter().map(|visit| visit.comment.text.chars().count());
+    assert!(
+        n(VisitEnd::Done) >= 50,
+        "guessers and writers: {}",
+        n(VisitEnd::Done)
+    );
+    let longest = visits
+        .iter()
+        .map(|visit| visit.comment.text.chars().count());
     assert_eq!(longest.max(), Some(200), "comments are capped");
     assert!(visits.iter().all(|visit| visit.guesses.len() <= 3));
 }

@@ -4,7 +4,9 @@ use std::any::Any;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use eframe::egui::{
+    Event, Key, Modifiers, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2,
+};
 
 use crate::bench::command::DeviceCommand;
 use crate::bench::stage::{StageOptions, StagePicture};
@@ -82,7 +84,10 @@ fn click(window: &mut Headless, at: Pos2) {
 fn find(window: &mut Headless, words: &str) -> Pos2 {
     let lines = &stage(window).drawn.lines;
     let found = lines.iter().find(|(line, _)| line == words);
-    found.unwrap_or_else(|| panic!("{words} among {lines:?}")).1.center()
+    found
+        .unwrap_or_else(|| panic!("{words} among {lines:?}"))
+        .1
+        .center()
 }
 
 fn square(window: &mut Headless) -> eframe::egui::Rect {
@@ -121,7 +126,10 @@ fn every_state_has_few_words_large_targets_and_nothing_cut_off() {
             for target in &drawn.targets {
                 assert!(whole.contains_rect(*target), "{target:?}: {why}");
                 let least = 19.9 * mm;
-                assert!(target.width() >= least && target.height() >= least, "{target:?}: {why}");
+                assert!(
+                    target.width() >= least && target.height() >= least,
+                    "{target:?}: {why}"
+                );
             }
             let heights = drawn.lines.iter().filter(|(line, _)| line.len() > 3);
             for (words, place) in heights {
@@ -140,24 +148,32 @@ fn a_touch_is_answered_in_its_frame_and_felt_while_it_is_down() {
     let at = square(&mut window).center() + vec2(-150.0, -150.0);
     window.events.push(Event::PointerMoved(at));
     window.pass(3);
-    assert!(matches!(stage(&mut window).machine.phase(), Phase::Watching), "a hand above is none");
+    assert!(
+        matches!(stage(&mut window).machine.phase(), Phase::Watching),
+        "a hand above is none"
+    );
     window.events.push(button(at, true));
     window.pass(1);
-    assert!(matches!(stage(&mut window).machine.phase(), Phase::Touching));
+    assert!(matches!(
+        stage(&mut window).machine.phase(),
+        Phase::Touching
+    ));
     stroke(&mut window, at, 40, true);
     let live = &window.workbench.bench.live;
     assert_eq!(live.play.source, Source::Pointer);
-    assert_eq!(live.cloth_under_display(), Some(0), "the first cloth is above on the left");
+    assert_eq!(
+        live.cloth_under_display(),
+        Some(0),
+        "the first cloth is above on the left"
+    );
     assert!(live.dots.iter().any(|dot| dot.amplitude_um[0] > 0.1));
 }
 
 #[test]
 fn visits_by_pointer_and_by_keys_are_on_disk_with_what_was_guessed() {
     let folder = ScratchFolder::made("stage-visits");
-    let options = StageOptions {
-        log: Some(folder.to_owned()),
-        ..with_pin()
-    };
+    let mut options = with_pin();
+    options.log = Some(folder.to_owned());
     let mut window = opened(options, FULL_HD, 1.0);
     let middle = square(&mut window).center();
     for [x, y] in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]] {
@@ -176,7 +192,11 @@ fn visits_by_pointer_and_by_keys_are_on_disk_with_what_was_guessed() {
     window.press(Modifiers::NONE, Key::Num3);
     window.pass_ticks(45 * 40);
     let visits = std::fs::read_to_string(folder.join("visits.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = visits.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = visits
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').collect())
+        .collect();
     assert_eq!(rows.len(), 2, "{visits}");
     assert!(rows[0][12] == "3" && rows[0][14] == "done", "{visits}");
     assert!(rows[1][4] == "keys" && rows[1][14] == "idle", "{visits}");
@@ -185,7 +205,10 @@ fn visits_by_pointer_and_by_keys_are_on_disk_with_what_was_guessed() {
     window.press(Modifiers::NONE, Key::Num1);
     window.workbench.end_stage();
     let visits = std::fs::read_to_string(folder.join("visits.csv")).unwrap();
-    assert!(visits.ends_with("stop\n"), "a visit that the end of the program ends: {visits}");
+    assert!(
+        visits.ends_with("stop\n"),
+        "a visit that the end of the program ends: {visits}"
+    );
 }
 
 #[test]
@@ -194,19 +217,39 @@ fn closing_asks_for_the_pin_and_escape_closes_nothing() {
     window.press(Modifiers::NONE, Key::Escape);
     assert_eq!(stage(&mut window).lock.access(), Access::Closed);
     let bench = &mut window.workbench.bench;
-    let closes = window.workbench.face.as_mut().unwrap().is_closed_by(true, bench);
+    let closes = window
+        .workbench
+        .face
+        .as_mut()
+        .unwrap()
+        .is_closed_by(true, bench);
     assert!(!closes && stage(&mut window).lock.access() == Access::Asked);
     window.press(Modifiers::NONE, Key::Escape);
     assert_eq!(stage(&mut window).lock.access(), Access::Closed);
     window.press(Modifiers::CTRL | Modifiers::SHIFT, Key::F12);
-    for key in [Key::Num2, Key::Num7, Key::Num1, Key::Num8, Key::Num2, Key::Num8, Key::Enter] {
+    for key in [
+        Key::Num2,
+        Key::Num7,
+        Key::Num1,
+        Key::Num8,
+        Key::Num2,
+        Key::Num8,
+        Key::Enter,
+    ] {
         window.press(Modifiers::NONE, key);
     }
     assert_eq!(stage(&mut window).lock.access(), Access::Open);
     let end = find(&mut window, "End program");
     click(&mut window, end);
     let bench = &mut window.workbench.bench;
-    assert!(window.workbench.face.as_mut().unwrap().is_closed_by(true, bench));
+    assert!(
+        window
+            .workbench
+            .face
+            .as_mut()
+            .unwrap()
+            .is_closed_by(true, bench)
+    );
 }
 
 #[test]
@@ -256,7 +299,10 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
     wait(&mut window, |window| window.workbench.is_ready(), "ready");
     window.press(Modifiers::NONE, Key::Num1);
     window.pass(10);
-    assert!(!stage(&mut window).machine.offers_feeling(), "nobody permits it");
+    assert!(
+        !stage(&mut window).machine.offers_feeling(),
+        "nobody permits it"
+    );
     stage(&mut window).machine.voltage.permit(true);
     window.pass(2);
     let feel = find(&mut window, "Press to feel");
@@ -270,13 +316,20 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
     for _ in 0..19 * 40 {
         window.pass(1);
     }
-    assert!(stage(&mut window).machine.is_armed(), "19 s after the finger");
+    assert!(
+        stage(&mut window).machine.is_armed(),
+        "19 s after the finger"
+    );
     for _ in 0..2 * 40 {
         window.pass(1);
     }
     wait(&mut window, |window| !is_armed(window), "off after 20 s");
     // A fresh command each time; STOP ends the visit and the screen goes on.
-    wait(&mut window, |window| window.workbench.is_ready(), "ready again");
+    wait(
+        &mut window,
+        |window| window.workbench.is_ready(),
+        "ready again",
+    );
     window.press(Modifiers::NONE, Key::Num1);
     let feel = find(&mut window, "Press to feel");
     hold(&mut window, feel, 44);
@@ -291,7 +344,10 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
         force: None,
     });
     window.pass(2);
-    assert!(matches!(stage(&mut window).machine.phase(), Phase::Watching));
+    assert!(matches!(
+        stage(&mut window).machine.phase(),
+        Phase::Watching
+    ));
     wait(&mut window, |window| !is_armed(window), "off by STOP");
     wait(
         &mut window,
@@ -302,7 +358,6 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
     window.dispatch(DeviceCommand::Disconnect);
     window.pass(4);
     window.dispatch(DeviceCommand::ConnectPort("/dev/null".into()));
-    let is_forbidden =
-        |window: &mut Headless| !stage(window).machine.voltage.is_permitted();
+    let is_forbidden = |window: &mut Headless| !stage(window).machine.voltage.is_permitted();
     wait(&mut window, is_forbidden, "forbidden by a failure");
 }
