@@ -98,7 +98,7 @@ fn a_log_that_is_full_is_counted_and_the_visits_go_on() {
     let (n, why) = log.unwritten().unwrap();
     assert!(n == 3 && why.contains("full"), "{n} {why}");
     assert_eq!(log.tally().n_visits, 12, "counted all the same");
-    log.write(&visit(Vec::new()), noon() + Duration::from_secs(86_400));
+    log.write(&visit(Vec::new()), noon() + Duration::from_hours(24));
     assert_eq!(log.unwritten().unwrap().0, 3, "another day");
 }
 

@@ -17,8 +17,8 @@ const COLUMNS: [&str; 8] = ["what", "n", "of", "value", "low", "high", "chance",
 /// What the log of a stage says.
 #[derive(Debug)]
 pub struct Totals {
-    tables: Vec<(&'static str, String)>,
-    totals: Vec<u8>,
+    logs: Vec<(&'static str, String)>,
+    table: Vec<u8>,
     n_visits: usize,
 }
 
@@ -41,8 +41,8 @@ impl Totals {
         rows.guesses(&guesses.table)?;
         rows.comments(&comments.table)?;
         Ok(Self {
-            totals: rows.0.finish()?,
-            tables: [visits, guesses, comments]
+            table: rows.0.finish()?,
+            logs: [visits, guesses, comments]
                 .map(|log| (log.name, log.text))
                 .into(),
             n_visits,
@@ -60,10 +60,10 @@ impl Totals {
     /// It cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), FileError> {
         std::fs::create_dir_all(folder).map_err(FileError::write(folder))?;
-        for (name, text) in &self.tables {
+        for (name, text) in &self.logs {
             write_atomic(&folder.join(name), text.as_bytes())?;
         }
-        write_atomic(&folder.join("totals.csv"), &self.totals)
+        write_atomic(&folder.join("totals.csv"), &self.table)
     }
 }
 

@@ -170,14 +170,7 @@ impl Bench {
         let origin = scene.map_or(Origin::Shipped, |path| Origin::File(path.to_owned()));
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
-        let (settings, complaint) = match drive {
-            Drive::Stepped => (Settings::in_memory(), None),
-            Drive::Live => Settings::of_user(),
-            Drive::OnStage => {
-                let (settings, complaint) = Settings::of_user();
-                (settings.unwritten(), complaint)
-            }
-        };
+        let (settings, complaint) = settings_of(drive);
         let opened = open(origin, settings.preferences.rendering)?;
         let scene_serial = opened.prepared.serial();
         let config = EngineConfig {
@@ -357,6 +350,18 @@ impl Bench {
 
 /// The contactor that is looked at closer until another is chosen: in the middle.
 const FIRST_CONTACTOR: usize = 9;
+
+/// The settings of a window that is driven so, and a sentence when they could not be read.
+fn settings_of(drive: Drive) -> (Settings, Option<String>) {
+    match drive {
+        Drive::Stepped => (Settings::in_memory(), None),
+        Drive::Live => Settings::of_user(),
+        Drive::OnStage => {
+            let (settings, complaint) = Settings::of_user();
+            (settings.unwritten(), complaint)
+        }
+    }
+}
 
 /// Wakes the window when there is news, at most 30 times a second.
 fn waker(ctx: &egui::Context) -> Box<dyn Fn() + Send> {

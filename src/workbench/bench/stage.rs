@@ -82,7 +82,7 @@ impl StageOptions {
             });
         };
         let mut stage = Self::from_text(&read_text(&path)?, &path)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
         let log = stage.keys.log.as_deref();
         stage.log = log.map(|log| folder.join(log)).or_else(own_stage);
         Ok(stage)

@@ -31,6 +31,32 @@ pub(crate) struct Look {
     pub(crate) is_danger: bool,
 }
 
+/// What is drawn where letters have no sign for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Tick,
+    Cross,
+    /// An arrow that goes round.
+    Anew,
+    /// A loudspeaker with so many waves, crossed out with none.
+    Sound(u8),
+}
+
+impl Sign {
+    fn of(words: &str) -> Option<Self> {
+        Some(match words {
+            "✔" => Self::Tick,
+            "✖" => Self::Cross,
+            "⟲" => Self::Anew,
+            "🔇" => Self::Sound(0),
+            "🔈" => Self::Sound(1),
+            "🔉" => Self::Sound(2),
+            "🔊" => Self::Sound(3),
+            _ => return None,
+        })
+    }
+}
+
 /// What a stage is drawn with.
 pub(crate) struct Brush<'a> {
     pub(crate) painter: Painter,
@@ -48,6 +74,9 @@ impl Brush<'_> {
         (points, ink): (f32, Color32),
         words: &str,
     ) {
+        if let Some(sign) = Sign::of(words) {
+            return self.sign(within, sign, Stroke::new(0.09 * points, ink));
+        }
         let lay = |points: f32| {
             let font = FontId::proportional(points);
             self.painter.layout_no_wrap(words.to_owned(), font, ink)
@@ -112,6 +141,52 @@ impl Brush<'_> {
             let around = rect.expand(4.0 * self.layout.unit);
             self.painter
                 .rect_stroke(around, 0, stroke, StrokeKind::Middle);
+        }
+    }
+
+    /// A sign, where the letters of the window have none.
+    fn sign(&self, within: Rect, sign: Sign, stroke: Stroke) {
+        let centre = within.center();
+        let size = 0.5 * within.width().min(within.height());
+        let at = |[x, y]: [f32; 2]| centre + size * vec2(x, y);
+        let line = |points: &[[f32; 2]]| {
+            let points = points.iter().copied().map(at).collect();
+            self.painter.line(points, stroke);
+        };
+        match sign {
+            Sign::Tick => line(&[[-0.6, 0.0], [-0.15, 0.5], [0.65, -0.5]]),
+            Sign::Cross => {
+                line(&[[-0.5, -0.5], [0.5, 0.5]]);
+                line(&[[-0.5, 0.5], [0.5, -0.5]]);
+            }
+            Sign::Anew => {
+                self.arc(centre, 0.6 * size, -0.8, stroke);
+                line(&[[-0.3, -0.85], [0.0, -0.6], [-0.3, -0.3]]);
+            }
+            Sign::Sound(n_waves) => {
+                let horn = [
+                    [-0.8, -0.2],
+                    [-0.5, -0.2],
+                    [-0.15, -0.55],
+                    [-0.15, 0.55],
+                    [-0.5, 0.2],
+                    [-0.8, 0.2],
+                    [-0.8, -0.2],
+                ];
+                line(&horn);
+                for wave in 0..n_waves {
+                    let reach = 0.25 + 0.22 * f32::from(wave);
+                    line(&[
+                        [reach - 0.1, -reach],
+                        [reach + 0.1, 0.0],
+                        [reach - 0.1, reach],
+                    ]);
+                }
+                if n_waves == 0 {
+                    line(&[[0.2, -0.3], [0.75, 0.3]]);
+                    line(&[[0.2, 0.3], [0.75, -0.3]]);
+                }
+            }
         }
     }
 

@@ -216,8 +216,10 @@ mod tests {
             assert_eq!(!input.events.is_empty(), expected, "{event:?}");
             assert!(input.hovered_files.is_empty() && input.dropped_files.is_empty());
         }
-        let mut input = RawInput::default();
-        input.events = vec![key(Key::Num7, Modifiers::NONE), Event::Text("7".to_owned())];
+        let mut input = RawInput {
+            events: vec![key(Key::Num7, Modifiers::NONE), Event::Text("7".to_owned())],
+            ..RawInput::default()
+        };
         filter(&mut input, Access::Asked, false);
         assert_eq!(input.events.len(), 1, "digits of the PIN");
         input.events.push(Event::Text("ä".to_owned()));

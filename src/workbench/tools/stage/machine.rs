@@ -450,7 +450,7 @@ impl Machine {
         }
         let moves = hand.is_down && hand.moved_mm > 0.0;
         let under_hand = hand.cloth.filter(|_| moves);
-        let stroked = under_hand.or(visit.tour.map(|(cloth, _)| cloth));
+        let stroked = under_hand.or_else(|| visit.tour.map(|(cloth, _)| cloth));
         if let Some(s) = stroked.and_then(|cloth| visit.cloth_s.get_mut(cloth)) {
             *s += passed_s;
         }

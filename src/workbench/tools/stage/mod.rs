@@ -219,7 +219,7 @@ impl Stage {
         Layout::of(whole, self.options.screen_width_mm(), is_large)
     }
 
-    fn show_operator(&mut self, ui: &Ui, bench: &mut Bench) {
+    fn show_operator(&mut self, ui: &Ui, bench: &Bench) {
         let mut drawn = Drawn::default();
         let mut brush = Brush {
             painter: ui.painter().clone(),
@@ -276,7 +276,7 @@ impl Stage {
             tally: self.records.tally(),
             is_deaf: matches!(bench.device.sound.state(), Some(SoundState::Absent(_))),
             is_resting: self.told.is_resting,
-            by_touch: self.senses.input() == "touch",
+            input: self.senses.input(),
             has_keyboard: self.senses.has_keyboard,
             others: self.senses.others(now_s),
         };

@@ -129,7 +129,7 @@ fn write(brush: &mut Brush<'_>, column: Rect, lines: &[String]) {
 /// Digits to be typed on the screen.
 fn show_pad(ui: &Ui, brush: &mut Brush<'_>, wishes: &mut Vec<Wish>) {
     let area = brush.layout.area;
-    let keys = ["123", "456", "789", "⌫0✔"];
+    let keys = ["123", "456", "789", "←0✔"];
     let height = (28.0 * brush.layout.mm).min(0.2 * area.height());
     for (nth, row) in keys.into_iter().enumerate() {
         let top = area.bottom() - (4 - nth) as f32 * height;
@@ -142,7 +142,7 @@ fn show_pad(ui: &Ui, brush: &mut Brush<'_>, wishes: &mut Vec<Wish>) {
                 .clicked()
             {
                 wishes.push(match key {
-                    '⌫' => Wish::Back,
+                    '←' => Wish::Back,
                     '✔' => Wish::Enter,
                     digit => Wish::Digit(digit),
                 });

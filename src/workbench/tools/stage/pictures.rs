@@ -4,6 +4,7 @@ use crate::bench::Bench;
 use crate::bench::stage::StagePicture;
 use crate::bench::view::{BridgePhase, BridgeView};
 use crate::tools::stage::Stage;
+use crate::tools::stage::game::Game;
 use crate::tools::stage::machine::{Act, Hand};
 use crate::tools::stage::voltage::DeviceState;
 
@@ -83,7 +84,7 @@ impl Stage {
                 self.machine.act(Act::Word(1), "keys");
             }
             _ => {
-                if let Some(truth) = self.machine.game().and_then(|game| game.truth()) {
+                if let Some(truth) = self.machine.game().and_then(Game::truth) {
                     self.machine.act(Act::Tour(truth), "keys");
                 }
             }

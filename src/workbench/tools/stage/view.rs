@@ -23,7 +23,7 @@ const ROW_MM: [f32; 2] = [60.0, 25.0];
 const STRIP_MM: f32 = 20.0;
 const STOP_MM: f32 = 30.0;
 /// A bar is full at this rms over the contactors, µm.
-const FULL_BAR_UM: f64 = 12.0;
+const FULL_BAR_UM: f64 = 30.0;
 /// Dots move so much slower than contactors while nobody is there.
 const SLOWER: f64 = 160.0;
 /// Under a finger dots would be hidden: they are shown so far above it, mm.
@@ -46,8 +46,9 @@ pub(crate) struct Shown<'a> {
     /// Whether nothing can be heard, and whether the array can not be felt though it should.
     pub(crate) is_deaf: bool,
     pub(crate) is_resting: bool,
-    /// Whether a finger hides what is under it, and whether anybody can type.
-    pub(crate) by_touch: bool,
+    /// What was used last: a finger hides what is under it.
+    pub(crate) input: &'static str,
+    /// Whether anybody can type.
     pub(crate) has_keyboard: bool,
     /// Fingers beside the first, and how fresh they are, 0…1.
     pub(crate) others: Vec<(Pos2, f32)>,
@@ -505,7 +506,7 @@ fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<'_>) {
         let skin = brush.palette.selection.gamma_multiply(0.35);
         let edge = Stroke::new(3.0 * brush.layout.unit, brush.palette.selection);
         painter.circle(at + vec2(0.0, 0.6 * radius), 1.5 * radius, skin, edge);
-    } else if shown.by_touch {
+    } else if shown.input == "touch" {
         let up = vec2(0.0, -ABOVE_FINGER_MM * brush.layout.mm);
         view.rect = view.rect.translate(up);
     }

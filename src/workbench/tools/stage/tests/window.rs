@@ -187,8 +187,11 @@ fn visits_by_pointer_and_by_keys_are_on_disk_with_what_was_guessed() {
         window.press(Modifiers::NONE, Key::Num1);
         window.pass_ticks(110);
     }
-    let done = find(&mut window, "✔");
-    click(&mut window, done);
+    // The last in the row below faces and words.
+    let whole = window.ctx.content_rect();
+    let layout = stage(&mut window).layout(whole);
+    let [_, _, done] = layout.places::<3>(layout.row, [60.0, 25.0]);
+    click(&mut window, done.center());
     window.press(Modifiers::NONE, Key::Num3);
     window.pass_ticks(45 * 40);
     let visits = std::fs::read_to_string(folder.join("visits.csv")).unwrap();
@@ -354,9 +357,14 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
         |window| !window.workbench.is_stopped() && window.workbench.bench.live.play.is_playing,
         "the ghost again",
     );
-    // A device that is gone takes the permission along.
-    window.dispatch(DeviceCommand::Disconnect);
+}
+
+#[test]
+fn a_device_that_fails_takes_the_permission_along() {
+    let mut window = opened(with_pin(), FULL_HD, 1.0);
+    stage(&mut window).machine.voltage.permit(true);
     window.pass(4);
+    assert!(stage(&mut window).machine.voltage.is_permitted());
     window.dispatch(DeviceCommand::ConnectPort("/dev/null".into()));
     let is_forbidden = |window: &mut Headless| !stage(window).machine.voltage.is_permitted();
     wait(&mut window, is_forbidden, "forbidden by a failure");
