@@ -9,7 +9,7 @@ shot watching
 # A stroke over a cloth: x and y.
 stroke() {
   xdotool mousemove "$1" "$2" mousedown 1
-  for step in $(seq 12); do
+  for step in $(seq 20); do
     xdotool mousemove $(($1 + step % 4 * 25)) "$2"
     sleep 0.15
   done

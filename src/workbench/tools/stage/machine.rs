@@ -33,6 +33,8 @@ const OFFER_CLOTHS: usize = 3;
 const STROKED_S: f64 = 0.5;
 /// A touch that moves less is no stroke, mm.
 const STROKE_MM: f64 = 10.0;
+/// A finger that has not moved for so long does not stroke, s.
+const STILL_S: f64 = 0.3;
 /// How long a cloth is stroked by itself, s.
 pub(crate) const TOUR_S: f64 = 6.0;
 /// A frame that came later is a pause of the program, not of the visitor, s.
@@ -449,7 +451,9 @@ impl Machine {
             visit.tour = None;
         }
         let moves = hand.is_down && hand.moved_mm > 0.0;
-        let under_hand = hand.cloth.filter(|_| moves);
+        // Between two movements a frame may see none.
+        let strokes = hand.is_down && now_s - visit.moved_s < STILL_S;
+        let under_hand = hand.cloth.filter(|_| moves || strokes);
         let stroked = under_hand.or_else(|| visit.tour.map(|(cloth, _)| cloth));
         if let Some(s) = stroked.and_then(|cloth| visit.cloth_s.get_mut(cloth)) {
             *s += passed_s;
