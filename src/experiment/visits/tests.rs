@@ -1,3 +1,5 @@
+//! Rows, tallies, a log that is full, totals.
+
 use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};

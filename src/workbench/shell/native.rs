@@ -3,13 +3,13 @@
 
 use std::cell::RefCell;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use eframe::egui::{Context, ViewportBuilder, ViewportCommand, ViewportId};
+use eframe::egui::{Context, ViewportCommand, ViewportId};
 use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
 use winit::application::ApplicationHandler;
 use winit::event::{
@@ -19,17 +19,14 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
-use crate::bench::Drive;
-use crate::bench::command::device::DeviceCommand;
 use crate::bench::error::AppError;
 use crate::bench::stage::StageOptions;
 use crate::kit::view_transform::Pointed;
-use crate::shell::on_stage::fill_screen;
+use crate::shell::opening_window::{Opening, begin, viewport};
 use crate::shell::pending_motion::PendingMotion;
 use crate::shell::pointer::PointerTap;
 #[cfg(target_os = "linux")]
 use crate::shell::pointer_x11::Listener;
-use crate::shell::window::Workbench;
 use selvedge_engine::StopSwitch;
 
 /// What the event handler shares with the workbench; both live on the window's thread.
@@ -113,12 +110,6 @@ pub fn run_stage(
     open_window(Opening::Stage(options), on_open)
 }
 
-/// What is opened.
-enum Opening {
-    Workbench(Option<PathBuf>),
-    Stage(StageOptions),
-}
-
 fn open_window(
     opening: Opening,
     on_open: impl FnOnce(EndSwitch) + 'static,
@@ -140,7 +131,7 @@ fn open_window(
     let app = eframe::create_native(
         "Selvedge",
         options,
-        Box::new(move |cc| match workbench(cc, opening) {
+        Box::new(move |cc| match begin(cc, opening) {
             Ok(workbench) => {
                 let stop = workbench.bench.engine.stop_switch().clone();
                 *for_app.borrow_mut() = Some(Ears {
@@ -193,41 +184,6 @@ fn open_window(
 /// Elsewhere this does nothing.
 fn keep_freed_memory() {
     drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
-}
-
-fn workbench(cc: &eframe::CreationContext<'_>, opening: Opening) -> Result<Workbench, AppError> {
-    let ctx = &cc.egui_ctx;
-    let (mut workbench, connect) = match opening {
-        Opening::Workbench(scene) => {
-            let workbench = Workbench::new(ctx, scene.as_deref(), Drive::Live)?;
-            (workbench, DeviceCommand::ConnectEmulator)
-        }
-        Opening::Stage(options) => {
-            fill_screen(ctx);
-            let port = options.port().map(Path::to_owned);
-            let connect = port.map_or(DeviceCommand::ConnectEmulator, DeviceCommand::ConnectPort);
-            (Workbench::on_stage(ctx, options, Drive::OnStage)?, connect)
-        }
-    };
-    workbench.bench.engine.stop_switch().press_on_panic();
-    workbench.dispatch(connect.into());
-    if workbench.face.is_none() {
-        workbench.begin_motion();
-    }
-    Ok(workbench)
-}
-
-/// The window as it opens.
-fn viewport(is_stage: bool) -> ViewportBuilder {
-    let window = ViewportBuilder::default()
-        .with_title("Selvedge")
-        .with_app_id("selvedge");
-    if is_stage {
-        return window.with_fullscreen(true).with_decorations(false);
-    }
-    window
-        .with_inner_size([1400.0, 900.0])
-        .with_min_inner_size([960.0, 600.0])
 }
 
 /// Lets a thread of its own listen to the pointer, where that can be had.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::tools::stage::machine::TOUR_S;
+use crate::tools::stage::open_visit::TOUR_S;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow};
 

@@ -11,7 +11,9 @@ use selvedge_experiment::visits::{Comment, LONGEST_COMMENT, N_CLOTHS, Visit, Vis
 use selvedge_foundation::numerics::Random;
 
 use crate::bench::settings::preferences::Loudness;
+use crate::tools::stage::act::{Act, Choices, Hand, Motion};
 use crate::tools::stage::game::{FACES, Game, WORDS};
+use crate::tools::stage::open_visit::OpenVisit;
 use crate::tools::stage::voltage::{DeviceState, Switch, Voltage};
 
 /// Without movement the ghost hints, and the stage goes back to watching, s.
@@ -31,68 +33,8 @@ const OFFER_S: f64 = 20.0;
 const OFFER_CLOTHS: usize = 3;
 /// A cloth counts once it was stroked for so long, s.
 const STROKED_S: f64 = 0.5;
-/// A touch that moves less is no stroke, mm.
-const STROKE_MM: f64 = 10.0;
-/// A finger that has not moved for so long does not stroke, s.
-const STILL_S: f64 = 0.3;
-/// How long a cloth is stroked by itself, s.
-pub(crate) const TOUR_S: f64 = 6.0;
 /// A frame that came later is a pause of the program, not of the visitor, s.
 const LONGEST_STEP_S: f64 = 1.0;
-
-/// What the visitor does.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Act {
-    /// Something came down on what is felt.
-    Touch,
-    /// Let this cloth stroke itself.
-    Tour(usize),
-    /// Begin to guess.
-    Guess,
-    /// Choose the picture at this place.
-    Choose(usize),
-    /// Choose a face, or a word.
-    Face(usize),
-    Word(usize),
-    /// Replace what was typed.
-    Comment(String),
-    /// Leave the last question.
-    Done,
-    /// Make all cloths equally strong, or no longer.
-    SameStrength,
-    /// Louder, and from loud to mute.
-    Sound,
-    /// Larger letters, or no longer.
-    Large,
-    /// Hold the button that begins anew, or let it go.
-    HoldRestart(bool),
-    /// Hold the button that arms, or let it go.
-    HoldFeel(bool),
-    /// Everything off.
-    Stop,
-}
-
-/// What the hand does in a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Hand {
-    /// Whether something is down on what is felt.
-    pub(crate) is_down: bool,
-    /// How far it moved since the last frame, mm.
-    pub(crate) moved_mm: f64,
-    /// The cloth under it.
-    pub(crate) cloth: Option<usize>,
-}
-
-/// What moves the display.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Motion {
-    /// The ghost, over all cloths.
-    Ghost,
-    /// The visitor.
-    Finger,
-    /// A cloth strokes itself.
-    Tour(usize),
-}
 
 /// Where it stands.
 #[derive(Debug, Clone)]
@@ -103,43 +45,6 @@ pub(crate) enum Phase {
     Touching,
     /// A cloth is to be found.
     Guessing(Box<Game>),
-}
-
-/// What a visitor chose of how it is shown and heard; gone with the visit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Choices {
-    pub(crate) same_strength: bool,
-    pub(crate) is_large: bool,
-    /// `None`: mute.
-    pub(crate) loudness: Option<Loudness>,
-}
-
-impl Default for Choices {
-    fn default() -> Self {
-        Self {
-            same_strength: false,
-            is_large: false,
-            loudness: Some(Loudness::Middle),
-        }
-    }
-}
-
-/// A visit under way.
-#[derive(Debug, Clone)]
-struct OpenVisit {
-    began_s: f64,
-    /// When something moved last, s.
-    moved_s: f64,
-    input: &'static str,
-    was_armed: bool,
-    cloth_s: [f64; N_CLOTHS],
-    n_strokes: u32,
-    /// How far the touch at hand has moved, mm.
-    stroke_mm: f64,
-    /// The cloth that strokes itself, and since when, s.
-    tour: Option<(usize, f64)>,
-    /// When sound was chosen last, s.
-    sound_s: f64,
 }
 
 /// The stage.
@@ -183,7 +88,10 @@ impl Machine {
         let passed_s = (now_s - self.now_s).clamp(0.0, LONGEST_STEP_S);
         self.now_s = now_s;
         self.device = device;
-        self.count(passed_s, hand);
+        if let Some(visit) = &mut self.visit {
+            visit.was_armed |= device == DeviceState::Armed;
+            visit.count((now_s, passed_s), hand);
+        }
         let held_s = self.restart_since_s.map_or(0.0, |since_s| now_s - since_s);
         if held_s >= RESTART_S {
             self.end(VisitEnd::Restart);
@@ -426,45 +334,7 @@ impl Machine {
         }
         self.phase = Phase::Touching;
         self.fades_since_s = f64::NEG_INFINITY;
-        self.visit = Some(OpenVisit {
-            began_s: now_s,
-            moved_s: now_s,
-            input,
-            was_armed: false,
-            cloth_s: [0.0; N_CLOTHS],
-            n_strokes: 0,
-            stroke_mm: 0.0,
-            tour: None,
-            sound_s: f64::NEG_INFINITY,
-        });
-    }
-
-    /// Counts what was stroked. A touch that does not move is a sleeve.
-    fn count(&mut self, passed_s: f64, hand: Hand) {
-        let (now_s, is_armed) = (self.now_s, self.device == DeviceState::Armed);
-        let Some(visit) = &mut self.visit else { return };
-        visit.was_armed |= is_armed;
-        if visit
-            .tour
-            .is_some_and(|(_, since_s)| now_s - since_s >= TOUR_S)
-        {
-            visit.tour = None;
-        }
-        let moves = hand.is_down && hand.moved_mm > 0.0;
-        // Between two movements a frame may see none.
-        let strokes = hand.is_down && now_s - visit.moved_s < STILL_S;
-        let under_hand = hand.cloth.filter(|_| moves || strokes);
-        let stroked = under_hand.or_else(|| visit.tour.map(|(cloth, _)| cloth));
-        if let Some(s) = stroked.and_then(|cloth| visit.cloth_s.get_mut(cloth)) {
-            *s += passed_s;
-        }
-        if moves {
-            visit.moved_s = now_s;
-            let before_mm = visit.stroke_mm;
-            visit.stroke_mm += hand.moved_mm;
-            let is_first = before_mm < STROKE_MM && visit.stroke_mm >= STROKE_MM;
-            visit.n_strokes += u32::from(is_first);
-        }
+        self.visit = Some(OpenVisit::begun(now_s, input));
     }
 
     fn comment(&mut self, act: Act) {

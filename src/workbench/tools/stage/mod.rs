@@ -10,53 +10,54 @@
 //! High voltage is never on by itself: see `voltage`. What notices would say stands on the
 //! operator's page, behind a PIN.
 
+mod act;
 mod brush;
+mod follow;
 mod game;
 mod ghost;
 mod heartbeat;
 mod input;
 mod layout;
 mod machine;
+mod open_visit;
 mod operator;
 mod pictures;
 mod pin;
 mod records;
+mod round;
+mod shown;
 #[cfg(test)]
 mod tests;
 mod view;
 mod voltage;
 
-use std::sync::Arc;
-
 use eframe::egui::{CursorIcon, RawInput, Rect, Theme, Ui};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, DeviceCommand};
-use crate::bench::settings::preferences::{Loudness, SoundPreferences};
 use crate::bench::stage::{StageOptions, StagePicture};
 use crate::bench::tool::{PaneContext, PublicFace};
-use crate::bench::view::BridgePhase;
 use crate::kit::pane::frame_as_armed;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
+use act::{Act, Hand};
 use brush::{Brush, Drawn};
+use follow::Told;
 use ghost::Ground;
 use heartbeat::Heartbeat;
 use input::{Heard, Senses};
 use layout::Layout;
-use machine::{Act, Choices, Hand, Machine, Motion, Phase};
+use machine::{Machine, Phase};
 use operator::Wish;
 use pin::{Access, Lock};
 use records::Records;
-use selvedge_engine::{Command as EngineCommand, InputSource, SoundState};
+use selvedge_engine::SoundState;
 use selvedge_experiment::visits::{N_CLOTHS, VisitEnd};
-use voltage::{DeviceState, Switch};
+use voltage::Switch;
 
 /// Frames a second while nobody is there, and while somebody is.
 const WATCHING_FPS: f64 = 10.0;
 const TOUCHING_FPS: f64 = 20.0;
-/// How often a device that is lost is asked for, s.
-const ASK_S: f64 = 2.0;
 
 /// The stage in its window.
 pub(crate) struct Stage {
@@ -76,17 +77,6 @@ pub(crate) struct Stage {
     may_close: bool,
     /// How far its clock is ahead of the toolkit's: in pictures, s.
     ahead_s: f64,
-}
-
-/// What the bench was told last.
-#[derive(Debug, Default)]
-struct Told {
-    motion: Option<Motion>,
-    choices: Option<Choices>,
-    trouble: Option<String>,
-    asked_s: f64,
-    /// Whether a device that was permitted to arm is away.
-    is_resting: bool,
 }
 
 impl Stage {
@@ -118,84 +108,6 @@ impl Stage {
             drawn: Drawn::default(),
             may_close: false,
             ahead_s: 0.0,
-        }
-    }
-
-    /// The device, as far as arming goes. What it stopped by itself counts as a failure once.
-    fn device_state(&mut self, bench: &Bench) -> DeviceState {
-        let trouble = &bench.device.trouble;
-        if *trouble != self.told.trouble {
-            self.told.trouble.clone_from(trouble);
-            if trouble.is_some() {
-                return DeviceState::Failed;
-            }
-        }
-        match bench.live.bridge.as_ref().map(|bridge| bridge.phase) {
-            None | Some(BridgePhase::Opening) => DeviceState::Absent,
-            Some(BridgePhase::Ready) => DeviceState::Ready,
-            Some(BridgePhase::Armed) => DeviceState::Armed,
-            Some(BridgePhase::Broken) => DeviceState::Failed,
-        }
-    }
-
-    /// Lets engine, tuning and sound follow.
-    fn follow(&mut self, bench: &mut Bench) {
-        let motion = self.machine.motion();
-        if self.told.motion != Some(motion) {
-            self.told.motion = Some(motion);
-            self.move_by(motion, bench);
-        }
-        let choices = self.machine.choices();
-        let before = self.told.choices.replace(choices);
-        if before.map(|before| before.same_strength) != Some(choices.same_strength) {
-            let mut tuning = bench.document.tuning();
-            if choices.same_strength {
-                tuning.compression = 1.0;
-            }
-            bench.send(EngineCommand::SetTuning(tuning));
-        }
-        bench.settings.preferences.sound = SoundPreferences {
-            is_on: true,
-            loudness: choices.loudness.unwrap_or(Loudness::Quiet),
-            as_driven: false,
-        };
-        bench.device.sound.is_held = !self.machine.is_heard();
-    }
-
-    fn move_by(&self, motion: Motion, bench: &mut Bench) {
-        let cloths = match motion {
-            Motion::Finger => &[],
-            Motion::Ghost => &self.cloths[..],
-            Motion::Tour(nth) => self.cloths.get(nth..=nth).unwrap_or_default(),
-        };
-        let Some(path) = ghost::course(cloths) else {
-            return bench.send(EngineCommand::SetSource(InputSource::Pointer));
-        };
-        bench.send(EngineCommand::SetSource(InputSource::Replay(Arc::new(
-            path,
-        ))));
-        bench.send(EngineCommand::SetLoop(motion == Motion::Ghost));
-        bench.send(EngineCommand::Play);
-    }
-
-    /// Asks for a device that is away, every two seconds. Only the operator permits arming again.
-    fn ask_for_device(&mut self, now_s: f64, device: DeviceState, bench: &mut Bench) {
-        let Some(port) = self.options.port() else {
-            return;
-        };
-        let is_away = match device {
-            DeviceState::Failed => true,
-            DeviceState::Absent => bench.live.bridge.is_none(),
-            DeviceState::Ready | DeviceState::Armed => {
-                self.told.is_resting = false;
-                false
-            }
-        };
-        if is_away && now_s - self.told.asked_s >= ASK_S {
-            self.told.asked_s = now_s;
-            bench
-                .commands
-                .push(DeviceCommand::ConnectPort(port.to_owned()).into());
         }
     }
 
@@ -267,7 +179,7 @@ impl Stage {
             self.stop(bench);
         }
         self.press(ui);
-        let shown = view::Shown {
+        let shown = shown::Shown {
             machine: &self.machine,
             scene: context.scene,
             live: &bench.live,

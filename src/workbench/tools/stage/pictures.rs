@@ -4,8 +4,8 @@ use crate::bench::Bench;
 use crate::bench::stage::StagePicture;
 use crate::bench::view::{BridgePhase, BridgeView};
 use crate::tools::stage::Stage;
+use crate::tools::stage::act::{Act, Hand};
 use crate::tools::stage::game::Game;
-use crate::tools::stage::machine::{Act, Hand};
 use crate::tools::stage::voltage::DeviceState;
 
 /// How long the stage was visited before it is pictured, s.

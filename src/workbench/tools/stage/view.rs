@@ -3,23 +3,23 @@
 
 use std::f64::consts::TAU;
 
-use eframe::egui::{Align2, Pos2, Rect, Response, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2};
+use eframe::egui::{Align2, Pos2, Rect, Response, Stroke, Ui, pos2, vec2};
 
 use crate::bench::paint_display;
-use crate::bench::selection::Selection;
-use crate::bench::trail::Trail;
 use crate::bench::view::{Cloth, EngineView, SceneView};
 use crate::kit::swatch::{Textile, paint_outline};
 use crate::kit::view_transform::ViewTransform;
+use crate::tools::stage::act::Act;
 use crate::tools::stage::brush::{Brush, Look};
-use crate::tools::stage::game::{Answered, FACES, Game, WORDS};
-use crate::tools::stage::machine::{Act, Machine, Phase};
+use crate::tools::stage::machine::{Machine, Phase};
+use crate::tools::stage::round::{show_end, show_round};
+use crate::tools::stage::shown::{Shown, sentence, sound_signs};
 use selvedge_experiment::visits::{N_CLOTHS, Tally};
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::to_single;
 
 /// Buttons of the row and of the strip, mm.
-const ROW_MM: [f32; 2] = [60.0, 25.0];
+pub(crate) const ROW_MM: [f32; 2] = [60.0, 25.0];
 const STRIP_MM: f32 = 20.0;
 const STOP_MM: f32 = 30.0;
 /// A bar is full at this rms over the contactors, µm.
@@ -28,31 +28,8 @@ const FULL_BAR_UM: f64 = 30.0;
 const SLOWER: f64 = 160.0;
 /// Under a finger dots would be hidden: they are shown so far above it, mm.
 const ABOVE_FINGER_MM: f32 = 25.0;
-/// The first words stand for so long, s.
-const FIRST_WORDS_S: f64 = 4.0;
 /// Luck is told after so long without a visitor, s.
 const LUCK_AFTER_S: f64 = 84.0;
-/// "Most people" are at least so many.
-const PEOPLE: u64 = 20;
-
-/// What a frame is drawn from.
-pub(crate) struct Shown<'a> {
-    pub(crate) machine: &'a Machine,
-    pub(crate) scene: &'a SceneView,
-    pub(crate) live: &'a EngineView,
-    pub(crate) trail: &'a Trail,
-    pub(crate) selection: &'a Selection,
-    pub(crate) tally: Tally,
-    /// Whether nothing can be heard, and whether the array can not be felt though it should.
-    pub(crate) is_deaf: bool,
-    pub(crate) is_resting: bool,
-    /// What was used last: a finger hides what is under it.
-    pub(crate) input: &'static str,
-    /// Whether anybody can type.
-    pub(crate) has_keyboard: bool,
-    /// Fingers beside the first, and how fresh they are, 0…1.
-    pub(crate) others: Vec<(Pos2, f32)>,
-}
 
 /// What came of a frame.
 #[derive(Debug, Default)]
@@ -215,142 +192,6 @@ fn show_bars(brush: &mut Brush<'_>, live: &EngineView) {
     brush.bar(below.shrink2(gap), "fast buzz 320", high, rms(1));
 }
 
-/// A question: a grey cloth to be felt, four pictures to choose from.
-fn show_round(
-    ui: &Ui,
-    brush: &mut Brush<'_>,
-    (shown, game): (&Shown<'_>, &Game),
-    wishes: &mut Wishes,
-) {
-    let layout = brush.layout;
-    let (question, pictures) = layout.round();
-    brush
-        .painter
-        .rect_filled(question, 0, brush.palette.hovered);
-    let sign = question.shrink(0.3 * question.width());
-    let look = (0.5 * question.height(), brush.palette.line);
-    brush.line(sign, Align2::CENTER_CENTER, look, "?");
-    let felt = game.truth().and_then(|truth| shown.scene.cloths.get(truth));
-    if let Some(cloth) = felt {
-        let [width_mm, _] = cloth.size_mm;
-        let scale = f64::from(question.width()) / width_mm.max(1.0);
-        let view = ViewTransform::new(question, middle(cloth), scale);
-        let response = brush.target(ui, question, "What is felt", false);
-        if is_keyed(&response) {
-            wishes.acts.extend(game.truth().map(Act::Tour));
-        }
-        brush.ring(question, &response);
-        paint_felt(brush, &view, shown);
-        wishes.ground = Some((question, view));
-    }
-    let answered = game.answered(shown.machine.now_s());
-    for (place, (rect, cloth)) in pictures.into_iter().zip(game.order()).enumerate() {
-        if let Some(cloth) = shown.scene.cloths.get(cloth) {
-            let corners = [
-                rect.left_bottom(),
-                rect.right_bottom(),
-                rect.right_top(),
-                rect.left_top(),
-            ];
-            paint_cloth(brush, corners, cloth, true);
-        }
-        let label = format!("Picture {}", place + 1);
-        let response = brush.target(ui, rect, &label, answered == Answered::Chosen(place));
-        if response.clicked() {
-            wishes.acts.push(Act::Choose(place));
-        }
-        brush.ring(rect, &response);
-        mark(brush, rect, (place, cloth), answered);
-    }
-    if let Some(share) = shown.machine.leaving_share() {
-        let stroke = Stroke::new(10.0 * layout.unit, brush.palette.selection);
-        let radius = 0.35 * question.width();
-        brush.arc(question.center(), radius, 1.0 - to_single(share), stroke);
-    }
-}
-
-/// Outlines what was chosen, and says by a sign what it was.
-fn mark(brush: &mut Brush<'_>, rect: Rect, (place, cloth): (usize, usize), answered: Answered) {
-    let unit = brush.layout.unit;
-    let sign = match answered {
-        Answered::Chosen(chosen) if chosen == place => "",
-        Answered::Told { truth, .. } if truth == cloth => "✔",
-        Answered::Told { chosen, .. } if chosen == cloth => "✖",
-        _ => return,
-    };
-    let stroke = Stroke::new(10.0 * unit, brush.palette.selection);
-    brush
-        .painter
-        .rect_stroke(rect, 0, stroke, StrokeKind::Inside);
-    if !sign.is_empty() {
-        let size = vec2(0.3, 0.3) * rect.width();
-        let corner = Rect::from_min_size(rect.right_bottom() - size, size);
-        brush.painter.rect_filled(corner, 0, brush.palette.tag);
-        let look = (0.7 * size.y, brush.palette.text);
-        brush.line(corner, Align2::CENTER_CENTER, look, sign);
-    }
-}
-
-/// How it went: faces, words, and a line to type where there is a keyboard.
-fn show_end(
-    ui: &mut Ui,
-    brush: &mut Brush<'_>,
-    (shown, game): (&Shown<'_>, &Game),
-    acts: &mut Vec<Act>,
-) {
-    let layout = brush.layout;
-    let [above, below] = halves(layout.area);
-    let faces = layout.places::<3>(above, [60.0, 60.0]);
-    for (nth, (rect, name)) in faces.into_iter().zip(FACES).enumerate() {
-        let is_on = game.comment.face == name;
-        let response = brush.target(ui, rect, name, is_on);
-        brush.face(rect, nth as f32 - 1.0, is_on);
-        brush.ring(rect, &response);
-        if response.clicked() {
-            acts.push(Act::Face(nth));
-        }
-    }
-    let rows = halves(below.shrink2(vec2(0.0, 8.0 * layout.unit)));
-    for (half, row) in rows.into_iter().enumerate() {
-        let places = layout.places::<3>(row, ROW_MM);
-        for (place, nth) in places.into_iter().zip(3 * half..) {
-            let word = WORDS[nth];
-            let look = Look {
-                is_on: game.comment.words.contains(&word),
-                ..Look::default()
-            };
-            if brush.button(ui, place, (word, word), look).clicked() {
-                acts.push(Act::Word(nth));
-            }
-        }
-    }
-    let [_, typed, done] = layout.places::<3>(layout.row, ROW_MM);
-    if brush
-        .button(ui, done, ("✔", "Done"), Look::default())
-        .clicked()
-    {
-        acts.push(Act::Done);
-    }
-    if shown.has_keyboard {
-        let typed = typed.with_min_x(typed.left() - typed.width());
-        type_comment(ui, brush, (typed, &game.comment.text), acts);
-    }
-}
-
-fn type_comment(ui: &mut Ui, brush: &Brush<'_>, (place, text): (Rect, &str), acts: &mut Vec<Act>) {
-    let mut text = text.to_owned();
-    let field = TextEdit::singleline(&mut text)
-        .hint_text("No names, please")
-        .font(eframe::egui::FontId::proportional(brush.layout.label))
-        .char_limit(selvedge_experiment::visits::LONGEST_COMMENT);
-    if ui
-        .put(place.shrink(8.0 * brush.layout.unit), field)
-        .changed()
-    {
-        acts.push(Act::Comment(text));
-    }
-}
-
 /// One sentence on the left; sound, larger letters, begin anew and STOP on the right.
 fn show_strip(ui: &Ui, brush: &mut Brush<'_>, shown: &Shown<'_>, acts: &mut Vec<Act>) {
     let (layout, machine) = (brush.layout, shown.machine);
@@ -407,70 +248,8 @@ fn show_strip(ui: &Ui, brush: &mut Brush<'_>, shown: &Shown<'_>, acts: &mut Vec<
     brush.line(within, Align2::LEFT_CENTER, look, &sentence(shown));
 }
 
-/// The sign of how loud it is, and how it is read out.
-fn sound_signs(shown: &Shown<'_>) -> (&'static str, &'static str) {
-    use crate::bench::settings::preferences::Loudness;
-    match shown.machine.choices().loudness {
-        _ if shown.is_deaf => ("🔇", "Sound: there is none here"),
-        None => ("🔇", "Sound: off"),
-        Some(Loudness::Quiet) => ("🔈", "Sound: quiet"),
-        Some(Loudness::Middle) => ("🔉", "Sound: middle"),
-        Some(Loudness::Loud) => ("🔊", "Sound: loud"),
-    }
-}
-
-/// The one sentence.
-fn sentence(shown: &Shown<'_>) -> String {
-    let machine = shown.machine;
-    if machine.leaving_share().is_some() {
-        return "Still here?".to_owned();
-    }
-    match machine.phase() {
-        Phase::Watching => "Stroke the cloth.".to_owned(),
-        Phase::Touching => touching_words(shown).to_owned(),
-        Phase::Guessing(game) if game.is_over() => {
-            let right = format!("{} of 3.", game.n_right());
-            if shown.tally.n_guessed < PEOPLE {
-                return right;
-            }
-            format!("{right} Most people: {:.1}", shown.tally.mean_right())
-        }
-        Phase::Guessing(game) => match game.answered(machine.now_s()) {
-            Answered::Told { chosen, truth } => {
-                let name = |cloth: usize| shown.scene.cloths.get(cloth).map_or("", short_name);
-                if chosen == truth {
-                    format!("{}. Yes.", name(truth))
-                } else {
-                    format!("No, {}.", name(truth).to_lowercase())
-                }
-            }
-            _ => "Stroke, then tap its twin.".to_owned(),
-        },
-    }
-}
-
-fn touching_words(shown: &Shown<'_>) -> &'static str {
-    let machine = shown.machine;
-    if shown.is_resting {
-        "Resting. Listen instead."
-    } else if machine.chose_sound() {
-        "40 Hz, heard by overtones."
-    } else if machine.visit_s() < FIRST_WORDS_S {
-        "Stroke the cloth."
-    } else if machine.n_stroked() >= 2 {
-        "Which feels rougher?"
-    } else {
-        "Faster? Slower?"
-    }
-}
-
-/// The first word of a textile's name: what it is made of.
-fn short_name(cloth: &Cloth) -> &str {
-    cloth.name.split_whitespace().next().unwrap_or_default()
-}
-
 /// A cloth that lies on these corners of the screen.
-fn paint_cloth(brush: &Brush<'_>, corners: [Pos2; 4], cloth: &Cloth, is_lifted: bool) {
+pub(crate) fn paint_cloth(brush: &Brush<'_>, corners: [Pos2; 4], cloth: &Cloth, is_lifted: bool) {
     let textile = Textile {
         corners,
         size_mm: cloth.size_mm,
@@ -492,7 +271,7 @@ fn corners(view: &ViewTransform, cloth: &Cloth) -> [Pos2; 4] {
 }
 
 /// The display with its trail; the ghost and its slow dots while nobody is there.
-fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<'_>) {
+pub(crate) fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<'_>) {
     let Some(centre) = shown.live.centre else {
         return;
     };
@@ -531,7 +310,7 @@ fn slowed(live: &EngineView, now_s: f64) -> EngineView {
 }
 
 /// Whether keys, not the pointer, pressed something.
-fn is_keyed(response: &Response) -> bool {
+pub(crate) fn is_keyed(response: &Response) -> bool {
     response.clicked() && !response.clicked_by(eframe::egui::PointerButton::Primary)
 }
 
@@ -545,7 +324,7 @@ fn is_begun(ui: &Ui, response: &Response) -> bool {
     by_keys || by_pointer
 }
 
-fn halves(rect: Rect) -> [Rect; 2] {
+pub(crate) fn halves(rect: Rect) -> [Rect; 2] {
     let y = rect.center().y;
     [rect.with_max_y(y), rect.with_min_y(y)]
 }

@@ -1,7 +1,10 @@
+//! The stage by acts and by a clock of its own; visitors; the window.
+
 mod visitors;
 mod window;
 
-use super::machine::{Act, Hand, Machine, Motion, Phase};
+use super::act::{Act, Hand, Motion};
+use super::machine::{Machine, Phase};
 use super::voltage::{DeviceState, Switch};
 use selvedge_experiment::visits::{N_CLOTHS, VisitEnd};
 
@@ -160,7 +163,7 @@ fn what_a_visitor_chose_is_gone_with_the_visit() {
     hall.rest(1.2);
     assert!(hall.watches());
     assert_eq!(hall.ends(), [VisitEnd::Restart]);
-    assert_eq!(hall.machine.choices(), super::Choices::default());
+    assert_eq!(hall.machine.choices(), super::act::Choices::default());
 }
 
 #[test]
