@@ -204,6 +204,7 @@ fn code_of_app(error: &AppError) -> u8 {
         AppError::NoDisplay
         | AppError::NoGraphics(_)
         | AppError::Render(_)
-        | AppError::Size { .. } => 2,
+        | AppError::Size { .. }
+        | AppError::Stage { .. } => 2,
     }
 }

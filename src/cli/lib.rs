@@ -44,6 +44,7 @@ mod repeats;
 mod replay;
 mod report;
 mod screenshot;
+mod stage;
 mod terminal;
 mod textile;
 mod textile_catalogue;
@@ -78,6 +79,12 @@ use selvedge_foundation::signals;
 struct Cli {
     /// Scene file to open in the workbench
     scene: Option<PathBuf>,
+    /// The public face over the whole screen, for visitors of an exhibition
+    #[arg(long, visible_alias = "demo")]
+    stage: bool,
+    /// What the operator decides: PIN, port, width of the screen (stage.toml among the settings)
+    #[arg(long, value_name = "TOML", requires = "stage")]
+    operator: Option<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -106,6 +113,9 @@ enum Command {
     Bridge(bridge::BridgeCommand),
     /// Error against run time, stability, what is left out: tables and plots
     Report(report::ReportArgs),
+    /// What visitors did
+    #[command(subcommand)]
+    Stage(stage::StageCommand),
     /// The workbench as a picture, no display needed
     Screenshot(screenshot::ScreenshotArgs),
     /// The guide, page by page
@@ -134,6 +144,7 @@ pub fn main() -> ExitCode {
 
 fn run(cli: Cli) -> Result<(), CliError> {
     match cli.command {
+        None if cli.stage => stage::open(cli.scene.as_deref(), cli.operator.as_deref()),
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Play(args)) => play::run(&args),
@@ -144,6 +155,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Experiment(command)) => experiment::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
         Some(Command::Report(args)) => report::run(&args),
+        Some(Command::Stage(command)) => stage::run(&command),
         Some(Command::Screenshot(args)) => screenshot::run(&args),
         Some(Command::Help(args)) => help::run(&args),
     }

@@ -11,16 +11,21 @@ use selvedge_render::scene::Scene;
 /// # Errors
 /// A scene that is wrong, before a window is tried; no display.
 pub(super) fn open(scene: Option<&Path>) -> Result<(), CliError> {
-    if let Some(path) = scene {
-        if !path.exists() {
-            let what = format!("{} is neither a scene file nor a command", path.display());
-            return Err(CliError::Input(format!("{what}; see \"selvedge --help\"")));
-        }
-        Scene::read(path)?;
-    }
+    check(scene)?;
     let listen = |end: selvedge_workbench::EndSwitch| signals::on_signal(move || end.press());
     Ok(selvedge_workbench::run(
         scene.map(Path::to_path_buf),
         listen,
     )?)
+}
+
+/// Refuses a scene that is wrong before a window is tried.
+pub(super) fn check(scene: Option<&Path>) -> Result<(), CliError> {
+    let Some(path) = scene else { return Ok(()) };
+    if !path.exists() {
+        let what = format!("{} is neither a scene file nor a command", path.display());
+        return Err(CliError::Input(format!("{what}; see \"selvedge --help\"")));
+    }
+    Scene::read(path)?;
+    Ok(())
 }

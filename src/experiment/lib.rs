@@ -40,6 +40,7 @@ pub mod session;
 mod simulate;
 mod stimulus_hash;
 mod trial;
+pub mod visits;
 
 pub use bids::write_bids;
 pub use course::{Course, Step};

@@ -223,6 +223,15 @@ impl ArrayProfile {
             && (0..self.n_contactors()).all(is_lower)
     }
 
+    /// The same with limits of at most this share of full scale, 0…1.
+    #[must_use]
+    pub fn capped(mut self, share: f64) -> Self {
+        for (limit_um, full_um) in self.limit_um.iter_mut().zip(self.full_scale_um) {
+            *limit_um = limit_um.min(share.clamp(0.0, 1.0) * full_um);
+        }
+        self
+    }
+
     /// Why the device with this number may not be wired as this profile says, in one line; `None`
     /// when it is the one that was measured, or none was.
     pub fn wiring_doubt(&self, connected: DeviceUid) -> Option<String> {

@@ -29,6 +29,12 @@ pub enum AppError {
     /// The engine cannot start.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// A scene that a stage cannot show.
+    #[error("the stage shows four textiles and the scene has {n_cloths}; give a scene of four")]
+    Stage {
+        /// Textiles in the scene.
+        n_cloths: usize,
+    },
     /// A picture that is too small or too large to draw.
     #[error("a picture of {width} × {height} pixels; give 320 to 16384 each way")]
     Size {

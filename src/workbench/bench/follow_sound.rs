@@ -32,7 +32,12 @@ impl Bench {
         let Some((output, control)) = &mut sound.playing else {
             return;
         };
-        output.set_level(chosen.loudness.share());
+        let level = if sound.is_held {
+            0.0
+        } else {
+            chosen.loudness.share()
+        };
+        output.set_level(level);
         control.choose(chosen.as_driven, alone);
         control.scrub(scrubbed);
         match output.state() {

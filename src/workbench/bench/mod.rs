@@ -40,6 +40,7 @@ pub(crate) mod notices;
 pub(crate) mod on_finger;
 pub(crate) mod opening;
 pub(crate) mod overlays;
+pub(crate) mod paint_display;
 pub(crate) mod pane;
 pub(crate) mod part;
 pub(crate) mod perceptual_level;
@@ -61,6 +62,7 @@ pub(crate) mod sound;
 pub(crate) mod source_change;
 pub(crate) mod source_file;
 pub(crate) mod sources;
+pub(crate) mod stage;
 pub(crate) mod state;
 pub(crate) mod tool;
 pub(crate) mod trail;
@@ -114,6 +116,9 @@ pub(crate) const LOG_BOUND: LogBound = LogBound {
 pub enum Drive {
     /// By an engine on a thread of its own, in real time, with the settings of the user.
     Live,
+    /// Likewise before the public: settings are read and not kept, and neither work nor recordings
+    /// are; a frame is drawn when the face of the stage wants one.
+    OnStage,
     /// By the toolkit's clock, on the caller's thread, with the settings of a new user: the same
     /// every time. For tests and pictures.
     Stepped,
@@ -166,19 +171,16 @@ impl Bench {
         let origin = scene.map_or(Origin::Shipped, |path| Origin::File(path.to_owned()));
         let now = Instant::now();
         let is_stepped = drive == Drive::Stepped;
-        let (settings, complaint) = match drive {
-            Drive::Stepped => (Settings::in_memory(), None),
-            Drive::Live => Settings::of_user(),
-        };
+        let (settings, complaint) = settings_of(drive);
         let opened = open(origin, settings.preferences.rendering)?;
         let scene_serial = opened.prepared.serial();
         let config = EngineConfig {
             scene: opened.prepared,
-            on_news: (!is_stepped).then(|| waker(ctx)),
+            on_news: (drive == Drive::Live).then(|| waker(ctx)),
         };
         let engine = match drive {
             Drive::Stepped => Engine::without_thread(config, now)?,
-            Drive::Live => Engine::start(config)?,
+            Drive::Live | Drive::OnStage => Engine::start(config)?,
         };
         let loaded = opened.loaded;
         let library = Arc::clone(loaded.library());
@@ -219,16 +221,18 @@ impl Bench {
             ctx: ctx.clone(),
             stepped_at: is_stepped.then_some(now),
         };
-        bench.begin(complaint);
+        bench.begin(drive, complaint);
         Ok(bench)
     }
 
     /// Takes up the settings and whatever else a new window begins with.
-    fn begin(&mut self, complaint: Option<String>) {
-        if !self.is_stepped() {
-            self.library.acts.own_folder = own_libraries();
+    fn begin(&mut self, drive: Drive, complaint: Option<String>) {
+        if drive != Drive::Stepped {
             self.log_links();
             self.read_arrays();
+        }
+        if drive == Drive::Live {
+            self.library.acts.own_folder = own_libraries();
             if let Some(root) = own_recordings() {
                 self.exploration.recordings = Recordings::in_folder(root);
             }
@@ -347,6 +351,18 @@ impl Bench {
 
 /// The contactor that is looked at closer until another is chosen: in the middle.
 const FIRST_CONTACTOR: usize = 9;
+
+/// The settings of a window that is driven so, and a sentence when they could not be read.
+fn settings_of(drive: Drive) -> (Settings, Option<String>) {
+    match drive {
+        Drive::Stepped => (Settings::in_memory(), None),
+        Drive::Live => Settings::of_user(),
+        Drive::OnStage => {
+            let (settings, complaint) = Settings::of_user();
+            (settings.unwritten(), complaint)
+        }
+    }
+}
 
 /// Wakes the window when there is news, at most 30 times a second.
 fn waker(ctx: &egui::Context) -> Box<dyn Fn() + Send> {

@@ -10,6 +10,8 @@ pub(crate) struct Sound {
     pub(crate) is_alone: bool,
     /// Whether the line of time is dragged: what every view shows is heard, though it is held.
     pub(crate) is_scrubbed: bool,
+    /// Whether nothing is to be heard for now, though sound is on.
+    pub(crate) is_held: bool,
     /// Whether the user knows why nothing is heard.
     pub(crate) is_told: bool,
 }

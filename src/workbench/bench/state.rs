@@ -126,6 +126,8 @@ pub(crate) struct Files {
 pub(crate) struct DeviceState {
     /// What the link was last opened to.
     pub(crate) target: Option<String>,
+    /// The share of full scale that no amplitude exceeds whatever a profile allows.
+    pub(crate) ceiling: Option<f64>,
     /// What devices are taken to drive.
     pub(crate) arrays: Arrays,
     /// What goes wrong with the emulator that is connected; `None` for other devices.

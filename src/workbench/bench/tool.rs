@@ -12,7 +12,7 @@
 use std::any::Any;
 use std::path::PathBuf;
 
-use eframe::egui::{Context, Ui};
+use eframe::egui::{Context, RawInput, Rect, Ui};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Purpose};
@@ -21,6 +21,7 @@ use crate::bench::history::StepList;
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::settings::preferences::Preferences;
+use crate::bench::stage::StagePicture;
 use crate::bench::view::SceneView;
 use crate::kit::view_transform::PointerGround;
 
@@ -121,6 +122,30 @@ pub(crate) trait Bar {
     /// # Errors
     /// There is nothing to export, and what to do about it.
     fn export(&mut self, bench: &mut Bench) -> Result<Exported, &'static str>;
+}
+
+/// What fills a window before the public, in place of header, panes and bar.
+pub(crate) trait PublicFace: Any {
+    /// Takes out of the input what the public may not do.
+    fn filter(&self, input: &mut RawInput);
+
+    /// Lets time pass. Once a frame, before anything is drawn.
+    fn logic(&mut self, bench: &mut Bench);
+
+    /// Draws it.
+    fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>);
+
+    /// Where a press switches everything off without waiting for a frame, points.
+    fn stop_area(&self) -> Option<Rect>;
+
+    /// Somebody wants the window closed. Whether it may be.
+    fn is_closed_by(&mut self, asks: bool, bench: &mut Bench) -> bool;
+
+    /// The program ends: what is known of the visit is written.
+    fn end(&mut self);
+
+    /// Goes to a state, for a picture of it.
+    fn go_to(&mut self, picture: StagePicture, bench: &mut Bench);
 }
 
 /// All tools of a window.

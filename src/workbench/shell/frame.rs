@@ -15,6 +15,7 @@ use crate::kit::pane::frame_as_armed;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::shell::arrangement;
+use crate::shell::on_stage::is_felt;
 use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::state::Cover;
@@ -248,14 +249,14 @@ impl Workbench {
 }
 
 /// Tells the tap where the pointer feels, and feeds it when nobody else does.
-fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<PointerGround>) {
+pub(crate) fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<PointerGround>) {
     // What is asked and told here covers nothing in another window.
     let ground = ground.filter(|ground| {
         ground.feels && (ground.window == Pointed::Participant || !window.shell.is_covered())
     });
     let mut tap = (window.shell.tap.lock()).unwrap_or_else(PoisonError::into_inner);
     tap.set_ground(ground);
-    if window.bench.is_stepped() {
+    if window.bench.is_stepped() && is_felt(window, ctx) {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));
             let has_moved = input.events.iter().any(is_move);

@@ -11,6 +11,7 @@ use eframe::egui::{Event, Key, Modifiers};
 use crate::bench::Drive;
 use crate::bench::command::Command;
 use crate::bench::error::AppError;
+use crate::bench::stage::{StageOptions, StagePicture};
 use crate::shell::window::Workbench;
 
 /// Ticks from frame to frame where time passes quickly.
@@ -41,9 +42,30 @@ impl Headless {
         size: Vec2,
         pixels_per_point: f32,
     ) -> Result<Self, AppError> {
+        Self::around(size, pixels_per_point, |ctx| {
+            Workbench::new(ctx, scene, Drive::Stepped)
+        })
+    }
+
+    /// The same with a stage.
+    pub(crate) fn on_stage(
+        options: StageOptions,
+        size: Vec2,
+        pixels_per_point: f32,
+    ) -> Result<Self, AppError> {
+        Self::around(size, pixels_per_point, |ctx| {
+            Workbench::on_stage(ctx, options, Drive::Stepped)
+        })
+    }
+
+    fn around(
+        size: Vec2,
+        pixels_per_point: f32,
+        window: impl FnOnce(&Context) -> Result<Workbench, AppError>,
+    ) -> Result<Self, AppError> {
         let ctx = Context::default();
         Ok(Self {
-            workbench: Workbench::new(&ctx, scene, Drive::Stepped)?,
+            workbench: window(&ctx)?,
             frame: eframe::Frame::_new_kittest(),
             ctx,
             size,
@@ -59,6 +81,14 @@ impl Headless {
         self.workbench.dispatch(command.into());
     }
 
+    /// Brings the stage to a state.
+    pub(crate) fn go_to(&mut self, picture: StagePicture) {
+        let Workbench { bench, face, .. } = &mut self.workbench;
+        if let Some(face) = face {
+            face.go_to(picture, bench);
+        }
+    }
+
     /// Runs the next frame.
     pub(crate) fn run(&mut self) -> FullOutput {
         self.run_after(1)
@@ -67,7 +97,8 @@ impl Headless {
     /// Runs a frame so many ticks after the last one.
     pub(crate) fn run_after(&mut self, n_ticks: u32) -> FullOutput {
         self.n_ticks += n_ticks;
-        let input = self.input();
+        let mut input = self.input();
+        self.workbench.raw_input_hook(&self.ctx, &mut input);
         let Self {
             ctx,
             workbench,

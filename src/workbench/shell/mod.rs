@@ -20,6 +20,8 @@ pub(crate) mod inspect;
 pub(crate) mod menu;
 pub(crate) mod native;
 pub(crate) mod offer;
+pub(crate) mod on_stage;
+pub(crate) mod opening_window;
 pub(crate) mod palette;
 pub(crate) mod pane_focus;
 pub(crate) mod pane_host;

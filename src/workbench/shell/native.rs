@@ -3,29 +3,30 @@
 
 use std::cell::RefCell;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use eframe::egui::{Context, ViewportBuilder, ViewportCommand, ViewportId};
+use eframe::egui::{Context, ViewportCommand, ViewportId};
 use eframe::{EframeWinitApplication, NativeOptions, Renderer, UserEvent};
 use winit::application::ApplicationHandler;
-use winit::event::{DeviceEvent, DeviceId, ElementState, StartCause, WindowEvent};
+use winit::event::{
+    DeviceEvent, DeviceId, ElementState, StartCause, Touch, TouchPhase, WindowEvent,
+};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
-use crate::bench::Drive;
-use crate::bench::command::device::DeviceCommand;
 use crate::bench::error::AppError;
+use crate::bench::stage::StageOptions;
 use crate::kit::view_transform::Pointed;
+use crate::shell::opening_window::{Opening, begin, viewport};
 use crate::shell::pending_motion::PendingMotion;
 use crate::shell::pointer::PointerTap;
 #[cfg(target_os = "linux")]
 use crate::shell::pointer_x11::Listener;
-use crate::shell::window::Workbench;
 use selvedge_engine::StopSwitch;
 
 /// What the event handler shares with the workbench; both live on the window's thread.
@@ -41,6 +42,8 @@ struct Ears {
     listener: Option<Listener>,
     /// The participant's window that was seen last, and whether that thread listens to it.
     participant: Option<(WindowId, bool)>,
+    /// Whether the public is before it: only what is pressed is felt.
+    is_stage: bool,
 }
 
 impl Ears {
@@ -92,17 +95,33 @@ pub fn run(
     scene: Option<PathBuf>,
     on_open: impl FnOnce(EndSwitch) + 'static,
 ) -> Result<(), AppError> {
+    open_window(Opening::Workbench(scene), on_open)
+}
+
+/// Opens the stage over the whole screen, disarmed, connected to the device that the operator names
+/// or to the emulator. Otherwise as [`run`].
+///
+/// # Errors
+/// As [`run`]; a scene that a stage cannot show.
+pub fn run_stage(
+    options: StageOptions,
+    on_open: impl FnOnce(EndSwitch) + 'static,
+) -> Result<(), AppError> {
+    open_window(Opening::Stage(options), on_open)
+}
+
+fn open_window(
+    opening: Opening,
+    on_open: impl FnOnce(EndSwitch) + 'static,
+) -> Result<(), AppError> {
     keep_freed_memory();
     let event_loop = EventLoop::<UserEvent>::with_user_event()
         .build()
         .map_err(|_no_display| AppError::NoDisplay)?;
     event_loop.set_control_flow(ControlFlow::Wait);
+    let is_stage = matches!(opening, Opening::Stage(_));
     let options = NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_title("Selvedge")
-            .with_app_id("selvedge")
-            .with_inner_size([1400.0, 900.0])
-            .with_min_inner_size([960.0, 600.0]),
+        viewport: viewport(is_stage),
         renderer: Renderer::Glow,
         ..NativeOptions::default()
     };
@@ -112,15 +131,18 @@ pub fn run(
     let app = eframe::create_native(
         "Selvedge",
         options,
-        Box::new(move |cc| match workbench(cc, scene.as_deref()) {
+        Box::new(move |cc| match begin(cc, opening) {
             Ok(workbench) => {
                 let stop = workbench.bench.engine.stop_switch().clone();
                 *for_app.borrow_mut() = Some(Ears {
                     tap: Arc::clone(&workbench.shell.tap),
                     stop: stop.clone(),
                     workbench: cc.winit_window().map(|window| window.id()),
-                    listener: listener(cc, &workbench.shell.tap),
+                    listener: (!is_stage)
+                        .then(|| listener(cc, &workbench.shell.tap))
+                        .flatten(),
                     participant: None,
+                    is_stage,
                 });
                 on_open(EndSwitch {
                     stop,
@@ -144,6 +166,8 @@ pub fn run(
         pending_motion,
         waits_over: Pointed::default(),
         n_held: 0,
+        pixel: [0.0; 2],
+        finger: None,
     });
     if let Some(error) = failure.borrow_mut().take() {
         return Err(error);
@@ -160,17 +184,6 @@ pub fn run(
 /// Elsewhere this does nothing.
 fn keep_freed_memory() {
     drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
-}
-
-fn workbench(
-    cc: &eframe::CreationContext<'_>,
-    scene: Option<&Path>,
-) -> Result<Workbench, AppError> {
-    let mut workbench = Workbench::new(&cc.egui_ctx, scene, Drive::Live)?;
-    workbench.bench.engine.stop_switch().press_on_panic();
-    workbench.dispatch(DeviceCommand::ConnectEmulator.into());
-    workbench.begin_motion();
-    Ok(workbench)
 }
 
 /// Lets a thread of its own listen to the pointer, where that can be had.
@@ -213,6 +226,10 @@ struct Stamping<'a> {
     waits_over: Pointed,
     /// Buttons of the pointer that are held.
     n_held: u32,
+    /// Where it was last, pixels.
+    pixel: [f64; 2],
+    /// The finger that owns the display.
+    finger: Option<u64>,
 }
 
 impl Stamping<'_> {
@@ -225,18 +242,24 @@ impl Stamping<'_> {
 
     fn listen(&mut self, id: WindowId, event: &WindowEvent) {
         let (window, is_heard) = self.window_of(id);
-        if let WindowEvent::CursorMoved { position, .. } = event {
-            if self.n_held > 0 || !is_heard {
-                self.moved(window, [position.x, position.y]);
+        let is_stage = (self.shared.borrow().as_ref()).is_some_and(|ears| ears.is_stage);
+        match event {
+            WindowEvent::CursorMoved { position, .. } => {
+                self.pixel = [position.x, position.y];
+                // A finger speaks for itself.
+                let is_felt = self.n_held > 0 || !(is_heard || is_stage);
+                if is_felt && self.finger.is_none() {
+                    self.moved(window, self.pixel);
+                }
+                return;
             }
-            return;
+            WindowEvent::Touch(touch) => return self.touched(window, touch),
+            _ => {}
         }
         // Movements come in a row: another event ends it.
         self.pass_on();
-        let shared = self.shared.borrow();
-        let Some(Ears { stop, .. }) = &*shared else {
-            return;
-        };
+        let stop = (self.shared.borrow().as_ref()).map(|ears| ears.stop.clone());
+        let Some(stop) = stop else { return };
         match event {
             WindowEvent::KeyboardInput { event, .. } => {
                 let is_escape = event.logical_key == Key::Named(NamedKey::Escape);
@@ -246,7 +269,13 @@ impl Stamping<'_> {
                 }
             }
             WindowEvent::MouseInput { state, .. } => match state {
-                ElementState::Pressed => self.n_held += 1,
+                ElementState::Pressed => {
+                    self.n_held += 1;
+                    self.press_stop(self.pixel);
+                    if is_stage {
+                        self.moved(window, self.pixel);
+                    }
+                }
                 ElementState::Released => self.n_held = self.n_held.saturating_sub(1),
             },
             // The participant's window comes and goes while a device is armed.
@@ -256,6 +285,40 @@ impl Stamping<'_> {
                 stop.press();
             }
             _ => {}
+        }
+    }
+
+    /// The first finger feels as the pointer does; any finger stops.
+    fn touched(&mut self, window: Pointed, touch: &Touch) {
+        let pixel = [touch.location.x, touch.location.y];
+        match touch.phase {
+            TouchPhase::Started => {
+                self.press_stop(pixel);
+                if self.finger.is_none() {
+                    self.finger = Some(touch.id);
+                    self.moved(window, pixel);
+                }
+            }
+            TouchPhase::Moved if self.finger == Some(touch.id) => self.moved(window, pixel),
+            TouchPhase::Moved => {}
+            TouchPhase::Ended | TouchPhase::Cancelled => {
+                if self.finger == Some(touch.id) {
+                    self.finger = None;
+                    self.pass_on();
+                }
+            }
+        }
+    }
+
+    /// A press where STOP stands acts as Esc does, without waiting for a frame.
+    fn press_stop(&self, pixel: [f64; 2]) {
+        let shared = self.shared.borrow();
+        let Some(Ears { tap, stop, .. }) = &*shared else {
+            return;
+        };
+        let tap = tap.lock().unwrap_or_else(PoisonError::into_inner);
+        if tap.is_stop(pixel) {
+            stop.press_if_armed();
         }
     }
 

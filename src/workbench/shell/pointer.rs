@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use eframe::egui::{Pos2, pos2};
+use eframe::egui::{Pos2, Rect, pos2};
 
 use crate::kit::view_transform::{Pointed, PointerGround, is_near};
 use selvedge_engine::{PointerSample, PointerSender};
@@ -17,6 +17,8 @@ use selvedge_foundation::numerics::to_single;
 pub(crate) struct PointerTap {
     sender: Option<PointerSender>,
     ground: Option<PointerGround>,
+    /// Where a press switches everything off, pixels.
+    stop: Option<Rect>,
 }
 
 impl PointerTap {
@@ -25,12 +27,24 @@ impl PointerTap {
         Self {
             sender,
             ground: None,
+            stop: None,
         }
     }
 
     /// Says where the workspace is now; `None` while something covers it.
     pub(crate) fn set_ground(&mut self, ground: Option<PointerGround>) {
         self.ground = ground;
+    }
+
+    /// Says where a press switches everything off, pixels; `None`: nowhere.
+    pub(crate) fn set_stop(&mut self, stop: Option<Rect>) {
+        self.stop = stop;
+    }
+
+    /// Whether a press of this pixel switches everything off.
+    pub(crate) fn is_stop(&self, [x, y]: [f64; 2]) -> bool {
+        let at = pos2(to_single(x), to_single(y));
+        self.stop.is_some_and(|stop| stop.contains(at))
     }
 
     /// Takes in a movement to a pixel of a window, stamped on arrival. Only the window that shows

@@ -3,15 +3,16 @@
 //! The display has just gone round the scene once, so that everything is lit. Nothing depends on a
 //! clock: the same scene gives the same bytes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{self, vec2};
+use eframe::egui::{self, Vec2, vec2};
 
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::error::AppError;
 use crate::bench::query;
+use crate::bench::stage::{StageOptions, StagePicture};
 use crate::bench::view::BridgeView;
 use crate::kit::theme::Palette;
 use crate::shell::headless::Headless;
@@ -20,6 +21,8 @@ use selvedge_device::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
 const N_FRAMES: u32 = 425;
+/// The same for the stage, whose pictures have come by then.
+const N_STAGE_FRAMES: u32 = 40;
 
 /// Dark or light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -44,6 +47,8 @@ pub struct Screenshot {
     pub pixels_per_point: f32,
     /// Dark or light.
     pub theme: Theme,
+    /// The stage in this state in place of the workbench; it is dark.
+    pub stage: Option<StagePicture>,
 }
 
 impl Default for Screenshot {
@@ -54,6 +59,7 @@ impl Default for Screenshot {
             height: 900,
             pixels_per_point: 1.0,
             theme: Theme::Dark,
+            stage: None,
         }
     }
 }
@@ -79,7 +85,47 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         Theme::Light => egui::Theme::Light,
     };
     let size = vec2(width as f32, height as f32) / scale;
-    let mut window = Headless::new(wanted.scene.as_deref(), size, scale)?;
+    let (mut window, n_frames) = match wanted.stage {
+        Some(picture) => (stage(wanted, picture, size, scale)?, N_STAGE_FRAMES),
+        None => (
+            workbench(wanted.scene.as_deref(), theme, size, scale)?,
+            N_FRAMES,
+        ),
+    };
+    let theme = window.ctx.theme();
+    let mut rasteriser = Rasteriser::default();
+    for _ in 1..n_frames {
+        rasteriser.apply(&mut window.run().textures_delta);
+    }
+    let mut last = window.run();
+    rasteriser.apply(&mut last.textures_delta);
+    let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
+    let floor = Palette::of(theme).floor;
+    Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
+}
+
+/// The stage, brought to a state.
+fn stage(
+    wanted: &Screenshot,
+    picture: StagePicture,
+    size: Vec2,
+    scale: f32,
+) -> Result<Headless, AppError> {
+    let mut options = StageOptions::default();
+    options.scene.clone_from(&wanted.scene);
+    let mut window = Headless::on_stage(options, size, scale)?;
+    window.go_to(picture);
+    Ok(window)
+}
+
+/// The workbench, moving by itself.
+fn workbench(
+    scene: Option<&Path>,
+    theme: egui::Theme,
+    size: Vec2,
+    scale: f32,
+) -> Result<Headless, AppError> {
+    let mut window = Headless::new(scene, size, scale)?;
     window.ctx.set_theme(theme);
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
     let bench = &mut window.workbench.bench;
@@ -90,15 +136,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
         .as_ref()
         .map(|_| query::device_name(&Target::Emulator));
     bench.device.faults = bench.device.target.is_some().then(Default::default);
-    let mut rasteriser = Rasteriser::default();
-    for _ in 1..N_FRAMES {
-        rasteriser.apply(&mut window.run().textures_delta);
-    }
-    let mut last = window.run();
-    rasteriser.apply(&mut last.textures_delta);
-    let primitives = window.ctx.tessellate(last.shapes, last.pixels_per_point);
-    let floor = Palette::of(theme).floor;
-    Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
+    Ok(window)
 }
 
 /// How the emulator shows once it is ready, as in a window that has just been opened. It lives in

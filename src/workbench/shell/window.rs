@@ -7,7 +7,7 @@ use std::path::Path;
 use eframe::egui;
 
 use crate::bench::error::AppError;
-use crate::bench::tool::Tools;
+use crate::bench::tool::{PublicFace, Tools};
 use crate::bench::{Bench, Drive};
 use crate::shell::dialogs::Dialogs;
 use crate::shell::frame;
@@ -20,6 +20,8 @@ pub struct Workbench {
     pub(crate) bench: Bench,
     pub(crate) tools: Tools,
     pub(crate) shell: Shell,
+    /// What the public sees in place of all that.
+    pub(crate) face: Option<Box<dyn PublicFace>>,
 }
 
 impl Workbench {
@@ -32,7 +34,7 @@ impl Workbench {
         let mut bench = Bench::new(ctx, scene, drive)?;
         let dialogs = match drive {
             Drive::Live => Dialogs::of_desktop(),
-            Drive::Stepped => Dialogs::default(),
+            Drive::OnStage | Drive::Stepped => Dialogs::default(),
         };
         let tap = PointerTap::new(bench.engine.take_pointer());
         let mut tools = Tools::new(tools::all());
@@ -43,18 +45,25 @@ impl Workbench {
             bench,
             tools,
             shell: Shell::new(tap, dialogs, tools::bar()),
+            face: None,
         })
     }
 }
 
 impl eframe::App for Workbench {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        if self.stage_logic(ctx) {
+            return;
+        }
         self.take_keys(ctx);
         self.take_news(ctx);
         self.take_close_request(ctx);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if self.stage_ui(ui) {
+            return;
+        }
         let mut commands = frame::show(self, ui);
         if !commands.is_empty() || !self.bench.commands.is_empty() {
             // What was wished for shows in the next frame.
@@ -64,7 +73,16 @@ impl eframe::App for Workbench {
         self.settle();
     }
 
+    fn raw_input_hook(&mut self, _ctx: &egui::Context, input: &mut egui::RawInput) {
+        if let Some(face) = &self.face {
+            face.filter(input);
+        }
+    }
+
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.end_stage() {
+            return;
+        }
         self.bench.engine.stop_switch().press();
         self.bench.end_recording();
         let parts = self.unsaved();

@@ -17,12 +17,15 @@ pub(crate) mod picture;
 pub(crate) mod recordings;
 pub(crate) mod response;
 pub(crate) mod spectra;
+pub(crate) mod stage;
 pub(crate) mod timeline;
 pub(crate) mod tuning;
 pub(crate) mod why;
 pub(crate) mod workspace;
 
-use crate::bench::tool::{Bar, Tool};
+use crate::bench::Bench;
+use crate::bench::stage::StageOptions;
+use crate::bench::tool::{Bar, PublicFace, Tool};
 
 /// Every tool: to add one is a folder and a line here.
 pub(crate) fn all() -> Vec<Box<dyn Tool>> {
@@ -49,6 +52,11 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(experiment::Experiment::default()),
         Box::new(analysis::Analysis::default()),
     ]
+}
+
+/// What a window before the public shows.
+pub(crate) fn stage(options: StageOptions, bench: &mut Bench) -> Box<dyn PublicFace> {
+    Box::new(stage::Stage::new(options, bench))
 }
 
 /// The bar at the bottom of the window.

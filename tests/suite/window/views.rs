@@ -131,6 +131,7 @@ fn the_window_is_drawn_at_every_size_and_scale() {
     {
         for theme in [Theme::Dark, Theme::Light] {
             let wanted = Screenshot {
+                stage: None,
                 scene: None,
                 width,
                 height,

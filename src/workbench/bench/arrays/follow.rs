@@ -15,9 +15,13 @@ impl Bench {
     pub(crate) fn array(&self) -> ArrayProfile {
         let chosen = self.settings.preferences.array.as_deref();
         let display = self.document.scene().displays.first();
-        display.map_or_else(ArrayProfile::default, |display| {
+        let profile = display.map_or_else(ArrayProfile::default, |display| {
             self.device.arrays.in_force(chosen, display)
-        })
+        });
+        match self.device.ceiling {
+            Some(ceiling) => profile.capped(ceiling),
+            None => profile,
+        }
     }
 
     /// Lets the engine follow the profile in force as far as the device allows, and keeps files.

@@ -70,6 +70,18 @@ pub(crate) fn own_recordings() -> Option<PathBuf> {
     Some(folders.data_dir().join("recordings"))
 }
 
+/// Where the log of a public stage lies. `None` on a system without such a place.
+pub(crate) fn own_stage() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.data_dir().join("stage"))
+}
+
+/// The file of whoever operates a public stage. `None` on a system without such a place.
+pub(crate) fn stage_file() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    Some(folders.config_dir().join("stage.toml"))
+}
+
 /// Where the user keeps documents, or the home folder, or the present one.
 pub(crate) fn own_documents() -> PathBuf {
     let folders = directories::UserDirs::new();
@@ -103,6 +115,11 @@ impl Settings {
     /// Settings that are neither read nor written: for tests and pictures.
     pub(crate) fn in_memory() -> Self {
         Self::default()
+    }
+
+    /// The same, not written any more.
+    pub(crate) fn unwritten(self) -> Self {
+        Self { file: None, ..self }
     }
 
     /// The settings of the user, and a sentence when they could not be read.

@@ -28,12 +28,13 @@ macro_rules! pages {
 }
 
 /// All pages, in the order in which they are offered.
-static PAGES: [GuidePage; 7] = pages! {
+static PAGES: [GuidePage; 8] = pages! {
     "workbench": "The window";
     "textiles": "Textiles, libraries and scenes";
     "pictures": "From a picture to a textile";
     "bridge": "Devices";
     "experiments": "Experiments on people";
+    "stage": "Before the public";
     "commands": "The command line";
     "report": "Studies: error against run time, stability";
 };

@@ -11,12 +11,13 @@ use eframe::egui::{
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, ShowCommand};
+use crate::bench::paint_display;
 use crate::bench::view::Cloth;
 use crate::kit::swatch::paint_outline;
 use crate::kit::theme::Palette;
 use crate::tools::workspace::arrange::{Guides, Handle, Handles, Lines, SNAP_POINTS};
 use crate::tools::workspace::stage::Stage;
-use crate::tools::workspace::{arrange, display, navigate};
+use crate::tools::workspace::{arrange, navigate};
 use selvedge_foundation::geometry::{Displacement, Point};
 
 /// How far an arrow key moves a textile, mm; finely with Shift.
@@ -87,7 +88,7 @@ fn held(ui: &Ui, id: Id) -> Option<Grab> {
 /// The contactor under the pointer, if there is a display to be seen.
 pub(crate) fn dot_at(stage: &Stage<'_>, at: Pos2) -> Option<usize> {
     stage.sight.live.centre?;
-    display::hit(&stage.view, &stage.sight.live.dots, at)
+    paint_display::hit(&stage.view, &stage.sight.live.dots, at)
 }
 
 /// What a press gets hold of; a textile is chosen by it, empty ground chooses none.

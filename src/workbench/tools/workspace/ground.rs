@@ -3,11 +3,12 @@
 use eframe::egui::{Painter, Rect, Stroke, StrokeKind, Ui, accesskit};
 
 use crate::bench::command::Tool;
+use crate::bench::paint_display;
 use crate::kit::swatch::paint_outline;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::stage::Stage;
-use crate::tools::workspace::{arrange, cloth, display, overlay};
+use crate::tools::workspace::{arrange, cloth, overlay};
 use selvedge_foundation::geometry::Point;
 
 /// Draws what lies on the ground. Says whose tag is under the pointer.
@@ -47,11 +48,11 @@ fn lifted(stage: &Stage<'_>) -> Option<usize> {
 
 /// Draws trail and contactors through a view; the lens uses it too.
 pub(crate) fn paint_display(painter: &Painter, view: &ViewTransform, stage: &Stage<'_>) {
-    display::paint_trail(painter, view, stage.sight.trail.aged());
+    paint_display::paint_trail(painter, view, stage.sight.trail.aged());
     if stage.sight.live.centre.is_some() {
         let pointed = stage.sight.scene.marks.hovered.contactor;
         overlay::paint_velocities(painter, view, stage);
-        display::paint(
+        paint_display::paint(
             painter,
             view,
             stage.sight.live,

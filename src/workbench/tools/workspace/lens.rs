@@ -11,13 +11,14 @@ use eframe::egui::{
 
 use crate::bench::command::{Commands, Part, ShowCommand};
 use crate::bench::on_finger::paint_label;
+use crate::bench::paint_display;
 use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::ViewTransform;
 use crate::tools::workspace::ground::{paint_cloths, paint_display};
 use crate::tools::workspace::stage::Stage;
-use crate::tools::workspace::{display, tips};
+use crate::tools::workspace::tips;
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
@@ -210,7 +211,7 @@ fn show_title(ui: &Ui, place: Rect, (times, stage): (f64, &Stage<'_>)) {
 /// Tells of the contactor under the pointer, and chooses the one that is clicked.
 fn choose(response: &Response, view: &ViewTransform, stage: &Stage<'_>, commands: &mut Commands) {
     let at = response.hover_pos();
-    let Some(index) = at.and_then(|at| display::hit(view, &stage.sight.live.dots, at)) else {
+    let Some(index) = at.and_then(|at| paint_display::hit(view, &stage.sight.live.dots, at)) else {
         return;
     };
     response.ctx.set_cursor_icon(CursorIcon::PointingHand);

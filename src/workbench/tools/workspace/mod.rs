@@ -9,7 +9,6 @@ pub(crate) mod arrange;
 pub(crate) mod calibration;
 pub(crate) mod camera;
 pub(crate) mod cloth;
-pub(crate) mod display;
 pub(crate) mod drag;
 pub(crate) mod drop;
 pub(crate) mod export;

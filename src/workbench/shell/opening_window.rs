@@ -1,0 +1,60 @@
+//! What a window on a display opens as: the workbench on a scene, or the stage.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::ViewportBuilder;
+
+use crate::bench::Drive;
+use crate::bench::command::device::DeviceCommand;
+use crate::bench::error::AppError;
+use crate::bench::stage::StageOptions;
+use crate::shell::on_stage::fill_screen;
+use crate::shell::window::Workbench;
+
+/// What is opened.
+pub(crate) enum Opening {
+    Workbench(Option<PathBuf>),
+    Stage(StageOptions),
+}
+
+/// The window's content, with a device on its way.
+///
+/// # Errors
+/// The scene cannot be opened or shown.
+pub(crate) fn begin(
+    cc: &eframe::CreationContext<'_>,
+    opening: Opening,
+) -> Result<Workbench, AppError> {
+    let ctx = &cc.egui_ctx;
+    let (mut workbench, connect) = match opening {
+        Opening::Workbench(scene) => {
+            let workbench = Workbench::new(ctx, scene.as_deref(), Drive::Live)?;
+            (workbench, DeviceCommand::ConnectEmulator)
+        }
+        Opening::Stage(options) => {
+            fill_screen(ctx);
+            let port = options.port().map(Path::to_owned);
+            let connect = port.map_or(DeviceCommand::ConnectEmulator, DeviceCommand::ConnectPort);
+            (Workbench::on_stage(ctx, options, Drive::OnStage)?, connect)
+        }
+    };
+    workbench.bench.engine.stop_switch().press_on_panic();
+    workbench.dispatch(connect.into());
+    if workbench.face.is_none() {
+        workbench.begin_motion();
+    }
+    Ok(workbench)
+}
+
+/// The window as it opens.
+pub(crate) fn viewport(is_stage: bool) -> ViewportBuilder {
+    let window = ViewportBuilder::default()
+        .with_title("Selvedge")
+        .with_app_id("selvedge");
+    if is_stage {
+        return window.with_fullscreen(true).with_decorations(false);
+    }
+    window
+        .with_inner_size([1400.0, 900.0])
+        .with_min_inner_size([960.0, 600.0])
+}
