@@ -6,7 +6,7 @@
 
 use crate::bench::notices::Until;
 use crate::bench::on_finger::OnFinger;
-use crate::bench::sound::Sound;
+use crate::bench::sound::{Heard, Sound};
 use crate::bench::{Bench, FRAME};
 use selvedge_device::Coder;
 use selvedge_engine::{
@@ -32,7 +32,7 @@ impl Bench {
         let Some((output, control)) = &mut sound.playing else {
             return;
         };
-        let level = if sound.is_held {
+        let level = if sound.of_display == Heard::Nothing {
             0.0
         } else {
             chosen.loudness.share()
@@ -54,13 +54,14 @@ impl Bench {
 
     /// The contactor that alone is heard, if one is.
     pub(crate) fn heard_alone(&self) -> Option<usize> {
-        let is_alone = self.settings.preferences.sound.is_on && self.device.sound.is_alone;
+        let is_alone =
+            self.settings.preferences.sound.is_on && self.device.sound.of_display == Heard::Alone;
         self.selection.contactor.filter(|_| is_alone)
     }
 
     /// Lets the chosen contactor alone be heard, and what was off with it, or all of them again.
     pub(crate) fn hear_alone(&mut self, is_alone: bool) {
-        self.device.sound.is_alone = is_alone;
+        self.device.sound.of_display = if is_alone { Heard::Alone } else { Heard::All };
         self.settings.preferences.sound.is_on |= is_alone;
     }
 

@@ -6,12 +6,10 @@ use selvedge_engine::{SoundControl, SoundOutput, SoundState};
 #[derive(Debug, Default)]
 pub(crate) struct Sound {
     pub(crate) playing: Option<(SoundOutput, SoundControl)>,
-    /// Whether the chosen contactor alone is heard.
-    pub(crate) is_alone: bool,
+    /// What of the display is heard.
+    pub(crate) of_display: Heard,
     /// Whether the line of time is dragged: what every view shows is heard, though it is held.
     pub(crate) is_scrubbed: bool,
-    /// Whether nothing is to be heard for now, though sound is on.
-    pub(crate) is_held: bool,
     /// Whether the user knows why nothing is heard.
     pub(crate) is_told: bool,
 }
@@ -21,4 +19,16 @@ impl Sound {
     pub(crate) fn state(&self) -> Option<SoundState> {
         self.playing.as_ref().map(|(output, _)| output.state())
     }
+}
+
+/// What of the display is heard, as long as sound is on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Heard {
+    /// All of it.
+    #[default]
+    All,
+    /// The chosen contactor alone.
+    Alone,
+    /// Nothing for now.
+    Nothing,
 }

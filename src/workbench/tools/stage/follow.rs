@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::bench::Bench;
 use crate::bench::command::DeviceCommand;
 use crate::bench::settings::preferences::{Loudness, SoundPreferences};
+use crate::bench::sound::Heard;
 use crate::bench::view::BridgePhase;
 use crate::tools::stage::act::{Choices, Motion};
 use crate::tools::stage::voltage::DeviceState;
@@ -64,7 +65,11 @@ impl Stage {
             loudness: choices.loudness.unwrap_or(Loudness::Quiet),
             as_driven: false,
         };
-        bench.device.sound.is_held = !self.machine.is_heard();
+        bench.device.sound.of_display = if self.machine.is_heard() {
+            Heard::All
+        } else {
+            Heard::Nothing
+        };
     }
 
     fn move_by(&self, motion: Motion, bench: &mut Bench) {
