@@ -146,8 +146,8 @@ fn a_data_set_for_others_makes_its_main_table_once_more() {
     }
 }
 
-/// The scripts in Python and R make the same table, and notice another; the one whose program is not
-/// installed is not tried.
+/// The scripts in Python and R make the same table, and notice another; the one whose program is
+/// not installed is not tried.
 #[expect(clippy::print_stderr, reason = "says what was skipped")]
 fn check_scripts(set: &Path, table: &str, design: &str) {
     let (first, last) = table.trim_end().rsplit_once('\n').unwrap();

@@ -11,8 +11,8 @@ use crate::design::{Design, Stimulus};
 use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
 use selvedge_statistics::{Computed, Outcome, Undefined, mean, paired_t};
 
-/// What was called real, by material and condition (Table 3 and Fig. 9 of the paper): of all, and of
-/// each group of stimuli by itself.
+/// What was called real, by material and condition (Table 3 and Fig. 9 of the paper): of all, and
+/// of each group of stimuli by itself.
 pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let groups = experiment.groups();
     let apart = groups.iter().map(|group| section(experiment, Some(group)));

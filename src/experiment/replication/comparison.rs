@@ -163,8 +163,8 @@ pub(super) fn printed_line(name: &str, value: f64, ends: [f64; 2]) -> Series {
     Series::of(name, Style::Dashed, ends.map(|at| [at, value]))
 }
 
-/// The mean over studies as a bar, with the interval in which 95 of 100 studies lie; none where fewer
-/// than two have it.
+/// The mean over studies as a bar, with the interval in which 95 of 100 studies lie; none where
+/// fewer than two have it.
 pub(super) fn bar(name: &str, group: &str, values: &[f64]) -> Option<Bar> {
     let spread = Spread::of(values).ok()?;
     Some(Bar::of(

@@ -1,5 +1,5 @@
-//! The odd one of three (Allerkamp et al.): seven similar fabrics, four subjects each with real cloth
-//! under a pen, with textiles by the optical model and with textiles by the Kawabata model.
+//! The odd one of three (Allerkamp et al.): seven similar fabrics, four subjects each with real
+//! cloth under a pen, with textiles by the optical model and with textiles by the Kawabata model.
 
 use super::comparison::{DesignWithStimuli, Kind, Options, Replication, bar, by_levels, guessing};
 use super::maps::{chance, dimensions};

@@ -1,4 +1,5 @@
-//! Tunings that a scene keeps beside the one in force, to be compared under the finger: slots A to H.
+//! Tunings that a scene keeps beside the one in force, to be compared under the finger: slots A to
+//! H.
 //!
 //! A slot holds master, bands and compression; what it gives a single textile stands with that
 //! textile, so that textiles may come, go and change their order.

@@ -145,13 +145,13 @@ impl Relation {
 
     /// d′ of a group, from right answers and trials of each subject.
     ///
-    /// The mean of subjects' own d′ is biased where trials are few, because the relation is bent and
-    /// cut at 0: 8 % low for triangles of which 9 of 21 are right. Here it follows from the mean of
-    /// subjects' shares p, less what subjects who differ bend it by: with the spread τ of d′ that is
-    /// left of the spread of shares beyond p(1 − p)/n, the mean of share(d′) is that of share(μ) and
-    /// ½ τ² share″(μ). Its interval is Wilson's of p, moved alike, with Student's t of as many
-    /// degrees of freedom as subjects less one, and as many trials as the spread over subjects says,
-    /// no more than there were.
+    /// The mean of subjects' own d′ is biased where trials are few, because the relation is bent
+    /// and cut at 0: 8 % low for triangles of which 9 of 21 are right. Here it follows from the
+    /// mean of subjects' shares p, less what subjects who differ bend it by: with the spread τ of
+    /// d′ that is left of the spread of shares beyond p(1 − p)/n, the mean of share(d′) is that of
+    /// share(μ) and ½ τ² share″(μ). Its interval is Wilson's of p, moved alike, with Student's t of
+    /// as many degrees of freedom as subjects less one, and as many trials as the spread over
+    /// subjects says, no more than there were.
     ///
     /// # Errors
     /// Fewer than two subjects, one without two trials, all of all answers right, or as

@@ -118,8 +118,8 @@ impl Document {
         self.history.steps(&self.scene)
     }
 
-    /// The panes of which each shows what lies between the scene as it is and as it was after so many
-    /// steps.
+    /// The panes of which each shows what lies between the scene as it is and as it was after so
+    /// many steps.
     pub(crate) fn panes_of(&self, n_done: usize) -> Option<&'static [Pane]> {
         let there = self.history.state_after(n_done, &self.scene)?;
         let lies = |scene: &Scene| -> Vec<PlacedTextile> {

@@ -1,4 +1,5 @@
-//! The scene's textiles in the plane of both bands: dragged along the diagonal, which is their gain.
+//! The scene's textiles in the plane of both bands: dragged along the diagonal, which is their
+//! gain.
 
 use eframe::egui::{Id, Margin, Pos2, Sense, Ui};
 
@@ -141,7 +142,7 @@ pub(crate) fn show(
             .push(ShowCommand::Hover(Part::Cloth(one.index)).into());
         let [low, high] = one.row.level_db.map(|db| with_unit(db, 1, "dB SL"));
         let words = format!(
-            "{}: 40 Hz {low}, 320 Hz {high} · drag it to turn its gain, with Ctrl to turn both bands",
+            "{}: 40 Hz {low}, 320 Hz {high} · drag it to turn its gain, with Ctrl both bands",
             one.name
         );
         tell(&shown.response, words);

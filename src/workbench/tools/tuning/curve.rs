@@ -211,8 +211,8 @@ fn answer(
             }
         }
         let words = format!(
-            "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains\ndrag a \
-             textile of the scene for its gain, the line for the compression",
+            "{}\nlevel {} → {}\nmean of both bands at 100 mm/s, re 1 µm, without other gains\ndrag \
+             a textile of the scene for its gain, the line for the compression",
             dot.name,
             quantity::with_unit(dot.level_db, 1, "dB"),
             quantity::with_unit(out(dot), 1, "dB"),
