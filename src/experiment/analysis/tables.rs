@@ -9,8 +9,8 @@ use selvedge_statistics::{
 
 /// Said wherever a group has a d′ of its own.
 pub(super) const D_PRIME_NOTE: &str = "d′ over subjects follows from the mean of their shares, \
-    less what subjects who differ bend it by (its sd is how much they do): the mean of subjects' own d′ \
-    is biased where trials are few. Its interval is over subjects, by Student's t.";
+    less what subjects who differ bend it by (its sd is how much they do): the mean of subjects' \
+    own d′ is biased where trials are few. Its interval is over subjects, by Student's t.";
 
 impl Section {
     /// Adds means over subjects, a row of their d′, and intervals of the means by drawing subjects

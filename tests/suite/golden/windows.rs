@@ -70,6 +70,33 @@ fn golden_screenshot() {
 }
 
 #[test]
+fn golden_stage() {
+    let mut golden = Golden::of("pictures/stage");
+    let lab = Lab::named("stage");
+    let states = [
+        "watching",
+        "touching",
+        "offered",
+        "armed",
+        "guessing",
+        "told",
+        "still-here",
+        "ended",
+        "pin",
+    ];
+    let small = states.map(|state| (state, ["1280", "720", "1"]));
+    let others = [("guessing", ["1080", "1920", "1"])];
+    for (state, [width, height, scale]) in small.into_iter().chain(others) {
+        let size = ["--width", width, "--height", height, "--scale", scale];
+        let words = ["screenshot", "--stage", state, "--out", "stage.png"];
+        lab.print(&[&words[..], &size].concat());
+        let picture = image::open(lab.path("stage.png")).unwrap().into_rgba8();
+        golden.picture(&format!("{state}-{width}x{height}"), &picture);
+    }
+    golden.finish();
+}
+
+#[test]
 fn golden_armed() {
     let mut golden = Golden::of("pictures/armed");
     let mut stage = Stage::new(None, [1400, 900], 1.0);
