@@ -52,6 +52,7 @@ const CRATES: &[(&str, &[&str])] = &[
         &[
             "foundation",
             "chart",
+            "statistics",
             "textile",
             "render",
             "device",

@@ -360,7 +360,10 @@ fn the_guide_is_printed_page_by_page() {
 #[test]
 fn help_and_version_are_results() {
     let lab = Lab::new();
-    assert!(lab.print(&["--help"]).contains("Usage: selvedge [SCENE]"));
+    assert!(
+        lab.print(&["--help"])
+            .contains("Usage: selvedge [OPTIONS] [SCENE]")
+    );
     assert!(lab.print(&["--version"]).starts_with("selvedge "));
     for command in [
         "render",

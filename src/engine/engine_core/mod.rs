@@ -15,8 +15,7 @@ use super::track::Track;
 use super::vibration::Vibration;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SoundFeed, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
-    stereo_levels,
+    RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -198,20 +197,6 @@ impl EngineCore {
         } = self.pose();
         let place = [position.x_mm, position.y_mm, angle_deg];
         tap.write(self.tick, place, self.felt_um());
-    }
-
-    /// Hands the last tick to whoever makes sound of it: what a device at full gain plays, armed
-    /// or not.
-    pub(super) fn sound_to(&self, feed: &mut SoundFeed) {
-        let Some(frame) = self.scene.renderer().frames().first() else {
-            return;
-        };
-        let contactors = self.felt_um().iter().enumerate().map(|(index, &felt_um)| {
-            let x_mm = frame.contactor_position(index).x_mm;
-            (x_mm, self.scene.limited_um(index, felt_um))
-        });
-        let middles_mm = [frame.position().x_mm, self.scene.start().x_mm];
-        feed.push(stereo_levels(middles_mm, contactors, feed.alone()));
     }
 
     /// Whether the device plays silence: stopped or held.

@@ -1,16 +1,31 @@
-//! What commands do to the core: scenes, gains, masks, sources, angles, recordings.
+//! What commands do to the core: scenes, gains, masks, sources, angles, recordings; and what is
+//! heard of it.
 //!
 //! Everything takes effect at the next tick. What is replaced goes back to be dropped elsewhere.
 
 use super::{EngineCore, Say};
-use crate::Notice;
 use crate::input::PointerInput;
 use crate::ready::{CoreCommand, NextScene, Retired};
 use crate::vibration::Vibration;
+use crate::{Notice, SoundFeed, stereo_levels};
 use selvedge_render::RenderError;
 use selvedge_render::scene::Pose;
 
 impl EngineCore {
+    /// Hands the last tick to whoever makes sound of it: what a device at full gain plays, armed
+    /// or not.
+    pub(crate) fn sound_to(&self, feed: &mut SoundFeed) {
+        let Some(frame) = self.scene.renderer().frames().first() else {
+            return;
+        };
+        let contactors = self.felt_um().iter().enumerate().map(|(index, &felt_um)| {
+            let x_mm = frame.contactor_position(index).x_mm;
+            (x_mm, self.scene.limited_um(index, felt_um))
+        });
+        let middles_mm = [frame.position().x_mm, self.scene.start().x_mm];
+        feed.push(stereo_levels(middles_mm, contactors, feed.alone()));
+    }
+
     /// Obeys, and hands back what was replaced: at most two things.
     pub(crate) fn obey(&mut self, command: CoreCommand, say: Say<'_>) -> [Option<Retired>; 2] {
         let mut retired = [None, None];

@@ -155,9 +155,8 @@ pub(super) fn visit<V: Visit>(
     columns! { to;
         correct: Flag, "1 right, 0 wrong, empty where neither" =>
             &mut derived_if(record.is_correct.map(flag));
-        rt_ms: Number "ms",
-            "from the beginning of the trial to the answer, what is played included" =>
-            &mut Derived(number(rt_ms));
+        rt_ms: Number "ms", "from the beginning of the trial to the answer, what is played included"
+            => &mut Derived(number(rt_ms));
         t_start_utc: Moment, "beginning, UTC, RFC 3339" => &mut timing.start_utc;
         t_response_utc: Moment, "answer, UTC, RFC 3339" => &mut timing.response_utc;
         t_start_ns: Whole "ns since the session was opened", "beginning" => &mut timing.start_ns;

@@ -12,7 +12,7 @@ use super::slots::{SlotLetter, TuningSlot};
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
-use selvedge_textile::tactile::{Band, Filters, Tuning};
+use selvedge_textile::tactile::{Filters, Tuning};
 use selvedge_textile::{elsewhere, id_in, is_of_the_program};
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
@@ -144,31 +144,11 @@ struct FilterKeys {
 }
 
 impl PlacedTextile {
-    /// The level above the threshold of detection that a band is to have, dB.
-    pub fn target_db_sl(&self, band: Band) -> Option<f64> {
-        match band {
-            Band::Low => self.target_40_db_sl,
-            Band::High => self.target_320_db_sl,
-        }
-    }
-
     /// The textile's own axes, seen from the workspace: x along its warp, y along its weft.
     pub fn workspace_from_textile(&self) -> Frame {
         Frame {
             origin: self.origin_mm,
             rotation: Rotation::from_degrees(self.rotation_deg),
-        }
-    }
-
-    /// What it is and where it lies, without gains, targets and label.
-    #[must_use]
-    pub fn untuned(&self) -> Self {
-        Self {
-            id: self.id.clone(),
-            origin_mm: self.origin_mm,
-            size_mm: self.size_mm,
-            rotation_deg: self.rotation_deg,
-            ..Self::default()
         }
     }
 

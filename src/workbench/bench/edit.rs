@@ -141,6 +141,11 @@ impl Bench {
         }
     }
 
+    /// The gains of the document.
+    pub(crate) fn gain_set(&self) -> GainSet {
+        GainSet::of(self.document.scene(), self.document.default_tuning())
+    }
+
     /// What is to be felt of a scene now.
     fn gains_now(&self, scene: &Scene) -> AppliedGains {
         let held = self.selection.held_gains.as_ref();

@@ -3,7 +3,6 @@
 //! It is what a slot keeps, what is felt while a slot is held, and what a proposal would make of
 //! the scene.
 
-use crate::bench::Bench;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::scene::{Scene, SlotLetter, TuningSlot};
 use selvedge_textile::tactile::{Band, Tuning};
@@ -113,13 +112,6 @@ pub(crate) fn band_gain_mut(tuning: &mut Tuning, band: Band) -> &mut f64 {
     match band {
         Band::Low => &mut tuning.gain_40_db,
         Band::High => &mut tuning.gain_320_db,
-    }
-}
-
-impl Bench {
-    /// The gains of the document.
-    pub(crate) fn gain_set(&self) -> GainSet {
-        GainSet::of(self.document.scene(), self.document.default_tuning())
     }
 }
 

@@ -23,6 +23,7 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
             | "Study builder" | "Study board" | "Analysis" => Some("Workspace"),
             "Experimenter" => Some("Bridge"),
             "Recordings" => Some("Library"),
+            "Levels" => Some("Tuning"),
             "Why" | "Response" | "Accuracy" | "Compare" => Some("Spatial spectra"),
             _ => None,
         };

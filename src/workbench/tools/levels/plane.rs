@@ -64,9 +64,19 @@ pub(crate) fn chart(placed: &[Placed], change: Option<&Change>) -> Chart {
             tone: Tone::Aside,
         })
     });
+    // Names stand to the right of their dots.
+    let ends = |axis: usize, [before_db, behind_db]: [f64; 2]| {
+        let all = series.iter().flat_map(|series| &series.points);
+        let (least, most) = all.fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(least, most), point| (least.min(point[axis]), most.max(point[axis])),
+        );
+        [least - before_db, most + behind_db]
+    };
+    let (x, y) = (ends(0, [3.0, 9.0]), ends(1, [3.0, 3.0]));
     Chart {
-        x: Axis::linear("40 Hz, dB SL"),
-        y: Axis::linear("320 Hz, dB SL"),
+        x: Axis::linear("40 Hz, dB SL").within(x),
+        y: Axis::linear("320 Hz, dB SL").within(y),
         series,
         words: words.collect(),
         columns: columns(placed),

@@ -84,8 +84,8 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::tools::experiment::builder::block_list::STIMULUS;
     use crate::tools::experiment::builder::blocks::Holds;
+    use crate::tools::experiment::builder::stimuli::STIMULUS;
     use selvedge_experiment::design::{Design, names_of};
 
     fn keys(name: &str) -> EditedKeys {

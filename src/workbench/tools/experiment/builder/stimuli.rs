@@ -8,11 +8,58 @@ use crate::bench::library_view::LibraryItem;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{button, choice, toggle};
-use crate::tools::experiment::builder::block_list::STIMULUS;
+use crate::tools::experiment::builder::blocks::{Field, Holds, Rows};
 use crate::tools::experiment::builder::fields::{Editing, field};
 use crate::tools::experiment::builder::state::List;
 use selvedge_foundation::files::{EditedKeys, KeyValue};
 use selvedge_textile::{Library, elsewhere};
+
+/// The fields of a stimulus, beyond its id.
+pub(crate) const STIMULUS: Rows = Rows {
+    table: "stimulus",
+    one: "stimulus",
+    fields: &[
+        Field::new(
+            ("stimulus", "id"),
+            ("id", "a name of its own"),
+            Holds::Words,
+        ),
+        Field::new(
+            ("stimulus", "textile"),
+            ("textile", "as the id"),
+            Holds::Words,
+        ),
+        Field::new(("stimulus", "cloth"), ("real cloth", "none"), Holds::Words),
+        Field::new(
+            ("stimulus", "material"),
+            ("material", "as the id"),
+            Holds::Words,
+        ),
+        Field::new(
+            ("stimulus", "condition"),
+            ("condition", "none"),
+            Holds::Words,
+        ),
+        Field::new(
+            ("stimulus", "group"),
+            ("group", "none; seen, unseen"),
+            Holds::Words,
+        ),
+        Field::new(("stimulus", "gain_db"), ("gain", "0 dB"), Holds::Number),
+        Field::new(
+            ("stimulus", "band_hz"),
+            ("vibration", "40 or 320 Hz"),
+            Holds::Number,
+        ),
+        Field::new(
+            ("stimulus", "level_db"),
+            ("level", "dB re 1 µm"),
+            Holds::Number,
+        ),
+    ],
+    applies: |_| true,
+    is_needed: false,
+};
 
 const TEXTILES: (&str, usize, &str) = ("", 0, "textiles");
 const LIBRARY: (&str, usize, &str) = ("", 0, "library");

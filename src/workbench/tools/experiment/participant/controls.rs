@@ -9,7 +9,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::tools::experiment::draft::Act;
 use crate::tools::experiment::draft::{Draft, Mark, Order, Sure};
 use crate::tools::experiment::participant::ground::count;
-use crate::tools::experiment::participant::{big, keys, ranks};
+use crate::tools::experiment::participant::{big, keys, piles, ranks};
 use crate::tools::experiment::view::TrialView;
 use selvedge_experiment::design::{Scale, TunedParameter};
 
@@ -17,9 +17,6 @@ use selvedge_experiment::design::{Scale, TunedParameter};
 const SCALE: f32 = 420.0;
 /// Height of a scale, points.
 const SCALE_ROW: f32 = 44.0;
-
-/// Buttons of piles in a row.
-const PILES_A_ROW: usize = 9;
 
 /// Width of the button that hands a ranking in, and the gap before it, points.
 const DONE: f32 = 168.0;
@@ -33,8 +30,8 @@ fn is_wide(order: &Order, room: f32) -> bool {
 pub(crate) fn height(draft: &Draft, room: f32) -> f32 {
     match draft {
         Draft::Order(order) if !is_wide(order, room) => super::ANSWER + big::ROW,
-        Draft::Piles(piles) => {
-            let n_rows = piles.len().div_ceil(PILES_A_ROW);
+        Draft::Piles(sorted) => {
+            let n_rows = sorted.len().div_ceil(piles::PILES_A_ROW);
             count(n_rows + 1) * (big::ROW + 2.0 * STEP)
         }
         Draft::Ratings { scales, .. } => SCALE_ROW * count(scales.len()) + big::ROW + 4.0 * STEP,
@@ -76,7 +73,7 @@ pub(crate) fn show(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
             show_choices(ui, (*n, words), *position, acts);
             show_sure(ui, trial, sure, acts);
         }
-        Draft::Piles(piles) => show_piles(ui, trial, piles, acts),
+        Draft::Piles(sorted) => piles::show(ui, trial, sorted, acts),
         Draft::Magnitude(text) => show_number(ui, trial, text, acts),
         Draft::Adjust {
             values, parameters, ..
@@ -115,7 +112,7 @@ fn name_of(scale: &Scale) -> String {
 }
 
 /// A row in the middle: as wide as it was when it was drawn last, `width` before that.
-fn row(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
+pub(crate) fn row(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
     let room = ui.available_width();
     let id = ui.next_auto_id().with("row");
     let before = ui.data(|data| data.get_temp(id)).unwrap_or(width);
@@ -163,34 +160,6 @@ fn show_choices(
     });
 }
 
-/// A button for each position, which goes to the next pile with every press; piles have letters.
-/// The first has the keys while nothing else has them, and Enter belongs to the answer as a whole.
-fn show_piles(ui: &mut Ui, trial: &TrialView<'_>, piles: &[Option<usize>], acts: &mut Vec<Act>) {
-    let letter = |pile: usize| char::from(b'A' + u8::try_from(pile).unwrap_or(25).min(25));
-    let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
-    let is_free = trial.is_open && !is_entered && ui.memory(|memory| memory.focused().is_none());
-    let all: Vec<(usize, &Option<usize>)> = piles.iter().enumerate().collect();
-    for some in all.chunks(PILES_A_ROW) {
-        row(ui, count(some.len()) * 80.0, |ui| {
-            for (at, pile) in some {
-                let of = pile.map_or_else(|| "·".to_owned(), |pile| letter(pile).to_string());
-                let words = format!("{} {of}", at + 1);
-                let label = format!("Fabric {}: pile {of}", at + 1);
-                let button = big::button(ui, (&words, &label), 64.0, pile.is_some());
-                if is_free && *at == 0 {
-                    button.request_focus();
-                }
-                if is_entered && button.has_focus() {
-                    button.surrender_focus();
-                } else if button.clicked() {
-                    acts.push(Act::Mark(Mark::NextPile(*at)));
-                }
-            }
-        });
-    }
-    row(ui, 160.0, |ui| show_done(ui, trial, acts));
-}
-
 /// How sure somebody is, where that is asked, and the button that ends the trial.
 fn show_sure(ui: &mut Ui, trial: &TrialView<'_>, sure: &Sure, acts: &mut Vec<Act>) {
     if !sure.words.is_empty() {
@@ -236,7 +205,7 @@ fn show_end(ui: &mut Ui, words: &str) {
 }
 
 /// The button that hands the answer in; grey, with what is missing as its tip.
-fn show_done(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
+pub(crate) fn show_done(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) {
     if trial.may_play && big::button(ui, ("Again", "Again"), 112.0, false).clicked() {
         acts.push(Act::Play);
     }

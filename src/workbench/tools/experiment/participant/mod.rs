@@ -5,6 +5,7 @@ pub(crate) mod big;
 pub(crate) mod controls;
 pub(crate) mod ground;
 pub(crate) mod keys;
+pub(crate) mod piles;
 pub(crate) mod ranks;
 #[cfg(test)]
 mod tests;
