@@ -69,13 +69,13 @@ panes! {
     /// A picture of a cloth that becomes a textile.
     Picture: "Picture", "Picture", 0.0, true;
     /// What a participant of an experiment sees.
-    Participant: "Participant", "Subject", 0.0, false;
+    Participant: "Participant", "Participant", 0.0, false;
     /// A design of an experiment as blocks, and what it comes to.
     Builder: "Study builder", "Builder", 0.0, false;
     /// The sessions of a study: who took part, how far, what counts, what is missing.
     Board: "Study board", "Board", 0.0, false;
     /// A session of an experiment, as who holds it sees it.
-    Experimenter: "Experimenter", "Session", 0.0, false;
+    Experimenter: "Experimenter", "Experimenter", 0.0, false;
     /// What the logs of experiments say.
     Analysis: "Analysis", "Analysis", 0.0, false;
 }

@@ -23,7 +23,12 @@ pub(crate) fn arrangement_for(perspective: Perspective, size: Vec2) -> Tree<Pane
         Perspective::Cloth => {
             let mut tiles = Tiles::default();
             let root = cloth(&mut tiles, size);
-            Tree::new(Id::unique("cloth"), root, tiles)
+            let mut tree = Tree::new(Id::unique("cloth"), root, tiles);
+            // The row of tabs below has no room for it, and it is the business of Explore.
+            if let Some(tile) = arrangement::tile_of(&tree, Pane::Levels) {
+                tree.set_visible(tile, false);
+            }
+            tree
         }
         Perspective::Experiment => {
             let mut tiles = Tiles::default();

@@ -26,13 +26,14 @@ use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 
-const ALL: [Exportable; 16] = [
+const ALL: [Exportable; 17] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
     Exportable::Pane(Pane::DriveWave),
     Exportable::Pane(Pane::SpatialSpectra),
     Exportable::Pane(Pane::Tuning),
+    Exportable::Pane(Pane::Levels),
     Exportable::Pane(Pane::Why),
     Exportable::Pane(Pane::Response),
     Exportable::Pane(Pane::Accuracy),
@@ -316,7 +317,8 @@ fn a_name_of_no_known_kind_is_refused_with_the_mend_and_may_be_mended() {
 fn with_nothing_to_show_it_is_said_what_to_do() {
     let mut desk = Headless::fresh();
     desk.pass_ticks(2);
-    let has_levels = |what: &Exportable| *what == Exportable::Pane(Pane::Tuning);
+    let of_levels = [Pane::Tuning, Pane::Levels].map(Exportable::Pane);
+    let has_levels = |what: &Exportable| of_levels.contains(what);
     for what in ALL.into_iter().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
         desk.workbench.bench.selection.contactor = is_chosen.then_some(9);
