@@ -18,24 +18,18 @@ const EXPERIMENTER: f32 = 328.0;
 
 /// The arrangement that a window of this size begins with, points.
 pub(crate) fn arrangement_for(perspective: Perspective, size: Vec2) -> Tree<Pane> {
-    match perspective {
-        Perspective::Explore => arrangement::default_tree(size),
-        Perspective::Cloth => {
-            let mut tiles = Tiles::default();
-            let root = cloth(&mut tiles, size);
-            let mut tree = Tree::new(Id::unique("cloth"), root, tiles);
-            // The row of tabs below has no room for it, and it is the business of Explore.
-            if let Some(tile) = arrangement::tile_of(&tree, Pane::Levels) {
-                tree.set_visible(tile, false);
-            }
-            tree
-        }
-        Perspective::Experiment => {
-            let mut tiles = Tiles::default();
-            let root = experiment(&mut tiles, size);
-            Tree::new(Id::unique("experiment"), root, tiles)
-        }
+    let mut tiles = Tiles::default();
+    let (id, root) = match perspective {
+        Perspective::Explore => return arrangement::default_tree(size),
+        Perspective::Cloth => ("cloth", cloth(&mut tiles, size)),
+        Perspective::Experiment => ("experiment", experiment(&mut tiles, size)),
+    };
+    let mut tree = Tree::new(Id::unique(id), root, tiles);
+    // The business of Explore, and rows of tabs are full.
+    if let Some(tile) = arrangement::tile_of(&tree, Pane::Levels) {
+        tree.set_visible(tile, false);
     }
+    tree
 }
 
 /// The library on the left, the lab in the middle, every other pane in a row of tabs below it; in
