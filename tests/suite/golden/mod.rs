@@ -18,7 +18,7 @@ mod windows;
 use std::path::Path;
 
 /// Every folder of references, each with one test that makes them.
-const GROUPS: [&str; 22] = [
+const GROUPS: [&str; 23] = [
     "charts/panes",
     "charts/sheets",
     "commands/devices",
@@ -40,6 +40,7 @@ const GROUPS: [&str; 22] = [
     "pictures/questions",
     "pictures/ranking",
     "pictures/screenshot",
+    "pictures/stage",
     "sessions",
 ];
 
