@@ -177,7 +177,11 @@ impl Bench {
             on_news: (!is_stepped).then(|| waker(ctx)),
         };
         let engine = match drive {
-            Drive::Stepped => Engine::without_thread(config, now)?,
+            Drive::Stepped => {
+                let mut engine = Engine::without_thread(config, now)?;
+                engine.step_emulators();
+                engine
+            }
             Drive::Live => Engine::start(config)?,
         };
         let loaded = opened.loaded;
