@@ -7,7 +7,7 @@
 n_kills=${2:-3}
 RANDOM=${SELVEDGE_SEED:-1}
 # Where the window shows the master gain, and the first answer to the offer.
-gain='1320 85'
+gain='1320 112'
 restore='1232 62'
 now() { date +%s.%3N; }
 unsaved() { ls -d "$work"/state/selvedge/unsaved/*/work.json 2> /dev/null || true; }

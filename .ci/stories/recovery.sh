@@ -2,7 +2,7 @@
 source "$(dirname "$0")/lib.sh"
 display
 start
-slowly "mousemove 1247 85" "mousedown 1" "mousemove 1225 85" "mousemove 1215 85" "mouseup 1"
+slowly "mousemove 1247 112" "mousedown 1" "mousemove 1225 112" "mousemove 1215 112" "mouseup 1"
 is_kept() { grep -q 'master gain' "$work"/state/selvedge/unsaved/*/work.json 2> /dev/null; }
 await 20 is_kept || fail "the step was not kept"
 crash
