@@ -48,6 +48,9 @@ for kill in $(seq "$n_kills"); do
     echo "0 $gain_before" > "$work/typed"
   elif [ "$kill" -gt 1 ] && [ "$expected" = yes ]; then
     fail "kill $kill: nothing was offered"
+  else
+    # Killed before anything was kept: this start begins anew.
+    echo "0 -2.0" > "$work/typed"
   fi
   slowly 'key r'
   recorded=$(now)
