@@ -7,7 +7,7 @@
 use crate::bench::gain_set::GainSet;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::Part;
-use crate::bench::view::SceneView;
+use crate::bench::view::{LibraryDot, SceneView};
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db, with_unit};
 use selvedge_textile::tactile::{
     Band, Perception, Tuning, detection_threshold_db, just_noticeable_db, vibrating_mean_um,
@@ -127,10 +127,19 @@ pub(crate) fn mean_um(
 ) -> Option<[f64; 2]> {
     let cloth = scene.cloths.get(index)?;
     let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
+    let factors = tuned_factors(scene, dot, (tuning, gain_db));
+    Some([0, 1].map(|band| dot.mean_um[band] * factors[band]))
+}
+
+/// What a tuning and a gain of the scene make of amplitudes of a textile of the library, by band.
+pub(crate) fn tuned_factors(
+    scene: &SceneView,
+    dot: &LibraryDot,
+    (tuning, gain_db): (&Tuning, f64),
+) -> [f64; 2] {
     let compressed = |reference_db| tuning.compression_gain_db(Some(dot.level_db), reference_db);
     let own_db = dot.gain_db + gain_db + scene.reference_db.map_or(0.0, compressed);
-    let tuned = |band: Band| factor_of_gain(tuning.band_gain_db(band) + own_db);
-    Some(Band::ALL.map(|band| dot.mean_um[band.index()] * tuned(band)))
+    Band::ALL.map(|band| factor_of_gain(tuning.band_gain_db(band) + own_db))
 }
 
 /// The scene's textiles as strong as `like` makes them, by the master gain alone, by the

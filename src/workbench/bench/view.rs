@@ -81,6 +81,11 @@ impl Hovered {
 }
 
 impl SceneView {
+    /// What the textiles are called, in order.
+    pub(crate) fn titles(&self) -> Vec<String> {
+        self.cloths.iter().map(Cloth::title).collect()
+    }
+
     /// The first textile in the scene's list that is this one of the library.
     pub(crate) fn placed(&self, id: &str) -> Option<usize> {
         self.cloths.iter().position(|cloth| cloth.id == id)
@@ -129,6 +134,13 @@ pub(crate) struct Cloth {
     pub gain_db: f64,
     /// How it looks; `None` while it has no picture.
     pub picture: Option<ClothPicture>,
+}
+
+impl Cloth {
+    /// The scene's name for it with the textile's.
+    pub(crate) fn title(&self) -> String {
+        format!("{} {}", self.label, self.name).trim().to_owned()
+    }
 }
 
 /// What the engine did last.

@@ -17,7 +17,7 @@ use crate::bench::command::edit::Edit;
 use crate::bench::export::Exported;
 use crate::bench::gain_set::{GainSet, band_gain_mut};
 use crate::bench::pane::Pane;
-use crate::bench::perceptual_level::{SOURCE, mean_um, noticed_db};
+use crate::bench::perceptual_level::{SOURCE, mean_um, noticed_db, tuned_factors};
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::SceneView;
 use crate::kit::pane::framed;
@@ -25,7 +25,7 @@ use crate::kit::theme::STEP;
 use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::text::{button, line, paragraph, quiet, toggle};
 use crate::tools::levels::proposal::{Change, Peaks, Row, propose};
-use selvedge_foundation::quantity::{factor_of_gain, with_unit};
+use selvedge_foundation::quantity::with_unit;
 use selvedge_textile::tactile::{Band, Perception};
 
 /// Height of a line, points.
@@ -152,10 +152,7 @@ impl LevelBench {
 fn show_proposal(ui: &mut Ui, context: &mut PaneContext<'_>, change: &Change) -> bool {
     let before = context.bench.gain_set();
     let after = changed(&before, change);
-    let cloths = context.scene.cloths.iter();
-    let names: Vec<String> = cloths
-        .map(|cloth| format!("{} {}", cloth.label, cloth.name).trim().to_owned())
-        .collect();
+    let names = context.scene.titles();
     let words = before.differences(&after, &names).join(", ");
     paragraph(ui, quiet(words));
     let mut is_done = false;
@@ -195,7 +192,7 @@ fn placed(bench: &Bench, scene: &SceneView) -> Vec<Placed> {
             let felt = Perception::of(um, n_contactors);
             Placed {
                 index,
-                name: format!("{} {}", cloth.label, cloth.name).trim().to_owned(),
+                name: cloth.title(),
                 gain_db: cloth.gain_db,
                 row: Row {
                     level_db: felt.perceptual_level_db,
@@ -223,17 +220,8 @@ fn peaks(bench: &Bench, scene: &SceneView, id: &str, gain_db: f64) -> Peaks {
     let (Some(loudest), Some(dot)) = (levels.loudest_um(id, &scene.filters), dot) else {
         return Peaks::default();
     };
-    let compressed = |reference_db| {
-        let level_db = Some(dot.level_db);
-        scene.tuning.compression_gain_db(level_db, reference_db)
-    };
-    let own_db = dot.gain_db + gain_db + scene.reference_db.map_or(0.0, compressed);
-    let share = |pair: &[f64; 2]| {
-        Band::ALL.map(|band| {
-            let factor = factor_of_gain(scene.tuning.band_gain_db(band) + own_db);
-            factor * pair[band.index()] / full[band.index()]
-        })
-    };
+    let factors = tuned_factors(scene, dot, (&scene.tuning, gain_db));
+    let share = |pair: &[f64; 2]| [0, 1].map(|band| factors[band] * pair[band] / full[band]);
     Peaks {
         shares: loudest.iter().map(share).collect(),
         limits,

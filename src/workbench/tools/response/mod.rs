@@ -75,7 +75,7 @@ impl Response {
         (self.curves).follow(&bench.ctx, &bench.executor, wanted);
         let cloth = scene.cloths.get(textile)?;
         Some(ResponseView {
-            textile: format!("{} {}", cloth.label, cloth.name).trim().to_owned(),
+            textile: cloth.title(),
             rotation_deg: cloth.rotation_deg,
             factors,
             place,

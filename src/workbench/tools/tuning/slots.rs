@@ -167,7 +167,7 @@ impl Slots {
             Some(slot) => {
                 let gains = GainSet::of_slot(scene, letter);
                 let differs = gains.map_or_else(Vec::new, |gains| {
-                    let names = names(context);
+                    let names = context.scene.titles();
                     context.bench.gain_set().differences(&gains, &names)
                 });
                 let differs = match differs.len() {
@@ -350,12 +350,6 @@ fn held_key(bench: &Bench, is_blind: bool) -> Option<Held> {
         let held = keys.find(|(key, _)| input.key_down(**key));
         held.map(|(_, letter)| Held::Slot(letter))
     })
-}
-
-fn names(context: &PaneContext<'_>) -> Vec<String> {
-    let cloths = context.scene.cloths.iter();
-    let named = cloths.map(|cloth| format!("{} {}", cloth.label, cloth.name).trim().to_owned());
-    named.collect()
 }
 
 /// A letter: bright where something is kept, on white while it is pressed, with a line under the
