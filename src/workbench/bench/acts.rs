@@ -372,6 +372,14 @@ fn help_acts() -> Vec<Act> {
         act(Concern::Help, "Keys", ShowCommand::Help)
             .on(NONE, Key::F1)
             .also_while_typing(),
+        act(
+            Concern::Help,
+            "What the pane in use shows",
+            ShowCommand::About,
+        )
+        .on(SHIFT, Key::F1)
+        .also_while_typing(),
+        act(Concern::Help, "Take the tour", ShowCommand::Tour),
     ]
 }
 

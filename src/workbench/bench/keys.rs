@@ -1,28 +1,195 @@
-//! The keyboard: which acts were asked for by their keys, and how keys are written.
+//! The keyboard: which acts were asked for by their keys, how keys are written and read, and which
+//! the user gave to acts in the place of those that they come with.
 
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock};
 
 use eframe::egui::{self, Id, Key, KeyboardShortcut, Modifiers};
+use serde::{Deserialize, Serialize};
 
 use crate::bench::acts::{self, Act};
 use crate::bench::command::Command;
 use crate::bench::pane::Pane;
 
-/// Every key with its act; of two that share a key the one with more modifiers comes first, since
-/// the other would take it.
-fn table() -> &'static [(KeyboardShortcut, &'static Act)] {
-    static TABLE: LazyLock<Vec<(KeyboardShortcut, &'static Act)>> = LazyLock::new(|| {
-        let keys = |act: &'static Act| act.keys.iter().map(move |key| (*key, act));
-        let mut table: Vec<_> = acts::all().iter().flat_map(keys).collect();
+/// Between two keys of one act.
+const OR: &str = " or ";
+/// Keys that walk and press what is on the screen, unless a modifier is held.
+const OF_WIDGETS: [Key; 7] = [
+    Key::Tab,
+    Key::Enter,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::Backspace,
+];
+/// Keys that hold a slot of tunings with Alt.
+const OF_SLOTS: [Key; 8] = [
+    Key::A,
+    Key::B,
+    Key::C,
+    Key::D,
+    Key::E,
+    Key::F,
+    Key::G,
+    Key::H,
+];
+
+/// Keys that the user gave to acts, by what the acts do; an act that is not there has its own.
+pub(crate) type ChosenKeys = BTreeMap<String, Keys>;
+
+/// The keys of one act; in files as they are written: `Ctrl+Y or F2`, empty for none.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub(crate) struct Keys(pub(crate) Vec<KeyboardShortcut>);
+
+impl From<Keys> for String {
+    fn from(Keys(keys): Keys) -> Self {
+        let keys = keys.iter().map(|key| {
+            let name = key.logical_key.name();
+            modifiers_before(key.modifiers, false) + name
+        });
+        keys.collect::<Vec<_>>().join(OR)
+    }
+}
+
+impl TryFrom<String> for Keys {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let keys = text.split(OR).filter(|key| !key.is_empty());
+        keys.map(|key| read(key).ok_or_else(|| format!("no key is called {key:?}")))
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+}
+
+/// The key that is written so.
+fn read(text: &str) -> Option<KeyboardShortcut> {
+    let mut words: Vec<&str> = text.split('+').collect();
+    let key = Key::from_name(words.pop()?)?;
+    let modifiers = words.into_iter().try_fold(Modifiers::NONE, |held, word| {
+        let modifier = match word {
+            "Ctrl" => Modifiers::COMMAND,
+            "Alt" => Modifiers::ALT,
+            "Shift" => Modifiers::SHIFT,
+            _ => return None,
+        };
+        Some(held.plus(modifier))
+    })?;
+    Some(KeyboardShortcut::new(modifiers, key))
+}
+
+/// The keys of every act, as they are in force.
+#[derive(Debug)]
+struct KeyMap {
+    /// Those of each act, in the order of [`acts::all`].
+    of_acts: Vec<Vec<KeyboardShortcut>>,
+    /// Every key with its act; of two that share a key the one with more modifiers comes first,
+    /// since the other would take it.
+    table: Vec<(KeyboardShortcut, &'static Act)>,
+}
+
+impl KeyMap {
+    fn with(chosen: &ChosenKeys) -> Self {
+        let keys_of = |act: &Act| match chosen.get(&act.what) {
+            Some(Keys(keys)) if act.command != Command::Escape => keys.clone(),
+            _ => act.keys.clone(),
+        };
+        let of_acts: Vec<Vec<KeyboardShortcut>> = acts::all().iter().map(keys_of).collect();
+        let mut table: Vec<_> = (acts::all().iter().zip(&of_acts))
+            .flat_map(|(act, keys)| keys.iter().map(move |key| (*key, act)))
+            .collect();
         table.sort_by_key(|(key, _)| std::cmp::Reverse(n_modifiers(key.modifiers)));
-        table
-    });
-    &TABLE
+        Self { of_acts, table }
+    }
+}
+
+fn map_place() -> Id {
+    Id::unique("keys of acts")
+}
+
+/// Puts the keys in force that the user chose.
+pub(crate) fn install(ctx: &egui::Context, chosen: &ChosenKeys) {
+    let map = Arc::new(KeyMap::with(chosen));
+    ctx.data_mut(|data| data.insert_temp(map_place(), map));
+}
+
+fn map(ctx: &egui::Context) -> Arc<KeyMap> {
+    static AT_FIRST: LazyLock<Arc<KeyMap>> =
+        LazyLock::new(|| Arc::new(KeyMap::with(&ChosenKeys::new())));
+    let installed = ctx.data(|data| data.get_temp(map_place()));
+    installed.unwrap_or_else(|| Arc::clone(&AT_FIRST))
+}
+
+/// The keys of an act that are in force.
+pub(crate) fn of(ctx: &egui::Context, act: &Act) -> Vec<KeyboardShortcut> {
+    let place = acts::all().iter().position(|one| std::ptr::eq(one, act));
+    place.map_or_else(Vec::new, |place| map(ctx).of_acts[place].clone())
+}
+
+/// Why an act cannot have a key, in a sentence.
+pub(crate) fn refusal(ctx: &egui::Context, act: &Act, key: KeyboardShortcut) -> Option<String> {
+    let name = written(ctx, key);
+    let KeyboardShortcut {
+        modifiers,
+        logical_key,
+    } = key;
+    let is_bare = !modifiers.command && !modifiers.alt;
+    if logical_key == Key::Escape {
+        return Some("Esc switches everything off, and does nothing else".to_owned());
+    }
+    if modifiers.alt && OF_SLOTS.contains(&logical_key) {
+        return Some(format!("{name} holds a slot of tunings: choose another"));
+    }
+    if is_bare && OF_WIDGETS.contains(&logical_key) {
+        let words = "walks and presses what is on the screen: add Ctrl or Alt";
+        return Some(format!("{name} {words}"));
+    }
+    // F1 to F35 type nothing.
+    let types = logical_key.name().len() == 1 || !logical_key.name().starts_with('F');
+    if act.while_typing && is_bare && types {
+        return Some(format!(
+            "{name} is needed while typing: add Ctrl or Alt, or choose F1 to F12"
+        ));
+    }
+    let map = map(ctx);
+    let (_, other) = map.table.iter().find(|(taken, _)| *taken == key)?;
+    (!std::ptr::eq(*other, act)).then(|| {
+        let what = &other.what;
+        format!("{name} is the key of “{what}”: give that one another first")
+    })
 }
 
 fn n_modifiers(modifiers: Modifiers) -> usize {
     let held = [modifiers.shift, modifiers.command, modifiers.alt];
     held.into_iter().filter(|is_held| *is_held).count()
+}
+
+/// The key that was pressed in this frame, to be given to an act; it is used up.
+pub(crate) fn captured(ctx: &egui::Context) -> Option<KeyboardShortcut> {
+    ctx.input_mut(|input| {
+        let place = input.events.iter().position(|event| {
+            matches!(
+                event,
+                egui::Event::Key {
+                    pressed: true,
+                    repeat: false,
+                    ..
+                }
+            )
+        })?;
+        let egui::Event::Key { key, modifiers, .. } = input.events.remove(place) else {
+            return None;
+        };
+        let modifiers = Modifiers {
+            alt: modifiers.alt,
+            shift: modifiers.shift,
+            command: modifiers.command,
+            ..Modifiers::NONE
+        };
+        Some(KeyboardShortcut::new(modifiers, key))
+    })
 }
 
 /// The commands whose keys were pressed since the last frame; the keys are used up.
@@ -38,7 +205,7 @@ pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Command> {
     // Alt with a letter holds a slot of tunings; the toolkit would take it for the letter alone.
     let is_alt = ctx.input(|input| input.modifiers.alt);
     let mut commands: Vec<Command> = escape(ctx).into_iter().collect();
-    for (key, act) in table() {
+    for (key, act) in &map(ctx).table {
         let is_for_widget = has_focus && key.logical_key == Key::Space;
         let waits = (is_typing && !act.while_typing) || is_for_widget;
         if waits || key.logical_key == Key::Escape || is_alt != key.modifiers.alt {
@@ -59,14 +226,19 @@ pub(crate) fn escape(ctx: &egui::Context) -> Option<Command> {
 
 /// How the first key of a command is written, for tips; empty when it has none.
 pub(crate) fn hint(ctx: &egui::Context, command: &Command) -> String {
-    let key = acts::of(command).and_then(|act| act.keys.first());
-    key.map(|key| written(ctx, *key)).unwrap_or_default()
+    let keys = acts::of(command)
+        .map(|act| of(ctx, act))
+        .unwrap_or_default();
+    keys.first()
+        .map(|key| written(ctx, *key))
+        .unwrap_or_default()
 }
 
 /// The keys of an act as they are written; empty if it has none.
 pub(crate) fn all_written(ctx: &egui::Context, act: &Act) -> String {
-    let keys = act.keys.iter().map(|key| written(ctx, *key));
-    keys.collect::<Vec<_>>().join(" or ")
+    let keys = of(ctx, act);
+    let keys = keys.iter().map(|key| written(ctx, *key));
+    keys.collect::<Vec<_>>().join(OR)
 }
 
 /// What has the focus while a pane has it, rather than something in it.
@@ -76,27 +248,26 @@ pub(crate) fn pane_focus(pane: Pane) -> Id {
 
 /// How a key is written, everywhere.
 fn written(ctx: &egui::Context, key: KeyboardShortcut) -> String {
-    let is_mac = ctx.os().is_mac();
-    let modifiers = key.modifiers;
-    let mut words = String::new();
-    for (is_held, word) in [
+    let name = match key.logical_key {
+        Key::Escape => "Esc",
+        Key::Period => ".",
+        Key::Plus => "+",
+        Key::Minus => "−",
+        Key::PageUp => "Page up",
+        other => other.name(),
+    };
+    modifiers_before(key.modifiers, ctx.os().is_mac()) + name
+}
+
+fn modifiers_before(modifiers: Modifiers, is_mac: bool) -> String {
+    [
         (modifiers.command, if is_mac { "Cmd+" } else { "Ctrl+" }),
         (modifiers.alt, "Alt+"),
         (modifiers.shift, "Shift+"),
-    ] {
-        if is_held {
-            words.push_str(word);
-        }
-    }
-    words
-        + match key.logical_key {
-            Key::Escape => "Esc",
-            Key::Period => ".",
-            Key::Plus => "+",
-            Key::Minus => "−",
-            Key::PageUp => "Page up",
-            other => other.name(),
-        }
+    ]
+    .into_iter()
+    .filter_map(|(is_held, word)| is_held.then_some(word))
+    .collect()
 }
 
 #[cfg(test)]
@@ -105,8 +276,9 @@ mod tests {
 
     #[test]
     fn no_key_does_two_things() {
-        for (i, (key, act)) in table().iter().enumerate() {
-            for (other, by) in &table()[i + 1..] {
+        let KeyMap { table, .. } = KeyMap::with(&ChosenKeys::new());
+        for (i, (key, act)) in table.iter().enumerate() {
+            for (other, by) in &table[i + 1..] {
                 assert_ne!(key, other, "{} and {}", act.what, by.what);
             }
         }
@@ -115,8 +287,9 @@ mod tests {
     #[test]
     fn the_longer_of_two_keys_comes_first() {
         // Consuming Ctrl+Z would otherwise swallow Ctrl+Shift+Z.
-        for (i, (key, act)) in table().iter().enumerate() {
-            for (later, by) in &table()[i + 1..] {
+        let KeyMap { table, .. } = KeyMap::with(&ChosenKeys::new());
+        for (i, (key, act)) in table.iter().enumerate() {
+            for (later, by) in &table[i + 1..] {
                 let same_key = key.logical_key == later.logical_key
                     && key.modifiers.command == later.modifiers.command;
                 let hides = same_key && !key.modifiers.shift && later.modifiers.shift;
@@ -143,5 +316,52 @@ mod tests {
         }
         let redo = written(&ctx, KeyboardShortcut::new(shift, Key::Z));
         assert!(redo.ends_with("+Shift+Z"), "{redo}");
+    }
+
+    fn chosen(what: &str, keys: &str) -> ChosenKeys {
+        ChosenKeys::from([(what.to_owned(), Keys::try_from(keys.to_owned()).unwrap())])
+    }
+
+    #[test]
+    fn every_key_is_read_as_it_is_written_in_files_and_nonsense_is_none() {
+        for act in acts::all() {
+            let text = String::from(Keys(act.keys.clone()));
+            assert_eq!(Keys::try_from(text.clone()).unwrap().0, act.keys, "{text}");
+        }
+        for text in ["Hyper+K", "Ctrl+Quux", "+", "Ctrl+"] {
+            assert!(Keys::try_from(text.to_owned()).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_chosen_key_takes_the_place_of_the_shipped_one_but_never_of_esc() {
+        let ctx = egui::Context::default();
+        let undo = acts::of(&Command::Undo).unwrap();
+        install(&ctx, &chosen("Undo", "Alt+U or F3"));
+        assert_eq!(all_written(&ctx, undo), "Alt+U or F3");
+        assert_eq!(hint(&ctx, &Command::Undo), "Alt+U");
+        install(&ctx, &chosen("Undo", ""));
+        assert_eq!(hint(&ctx, &Command::Undo), "");
+        install(&ctx, &chosen(&acts::all()[0].what, ""));
+        assert_eq!(hint(&ctx, &Command::Escape), "Esc");
+    }
+
+    #[test]
+    fn a_key_that_is_another_acts_or_needed_elsewhere_is_refused_with_the_reason() {
+        let ctx = egui::Context::default();
+        let undo = acts::of(&Command::Undo).unwrap();
+        let why = |act, key: &str| {
+            let key = read(key).unwrap();
+            refusal(&ctx, act, key).unwrap_or_default()
+        };
+        assert!(why(undo, "Ctrl+Y").contains("“Redo”"));
+        assert!(why(undo, "Alt+C").contains("slot"));
+        assert!(why(undo, "Enter").contains("add Ctrl"));
+        assert!(why(undo, "Escape").contains("everything off"));
+        assert_eq!(why(undo, "Ctrl+Z"), "", "its own");
+        assert_eq!(why(undo, "U"), "");
+        let palette = acts::of(&crate::bench::command::ShowCommand::Palette.into()).unwrap();
+        assert!(why(palette, "U").contains("while typing"));
+        assert_eq!(why(palette, "F12"), "");
     }
 }

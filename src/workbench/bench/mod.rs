@@ -245,6 +245,7 @@ impl Bench {
         }
         let kept = &self.settings.preferences;
         self.ctx.set_zoom_factor(kept.zoom);
+        keys::install(&self.ctx, &kept.keys);
         if !self.is_stepped() {
             self.ctx.set_theme(kept.theme);
         }

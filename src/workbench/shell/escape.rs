@@ -13,6 +13,9 @@ impl Workbench {
         if self.bench.live.is_armed() || self.bench.has_session() {
             return self.dispatch(Command::AllOff);
         }
+        if self.shell.leave_key() {
+            return;
+        }
         let is_open = self.tools.iter().any(|tool| tool.is_open(&self.bench));
         if self.shell.is_covered() || is_open {
             return self.dispatch(Command::Dismiss);

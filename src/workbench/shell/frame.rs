@@ -18,7 +18,7 @@ use crate::shell::arrangement;
 use crate::shell::on_stage::is_felt;
 use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
-use crate::shell::state::Cover;
+use crate::shell::state::{Cover, Tour};
 use crate::shell::tab_row::TabRow;
 use crate::shell::window::Workbench;
 
@@ -35,6 +35,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     if let Some(offer) = window.bench.files.recovery.offer() {
         crate::shell::offer::show(ui, offer, &mut commands);
     }
+    crate::shell::tour::show(window, ui);
     let line = Panel::bottom("status").exact_size(STATUS);
     let line = line.frame(panel(ui, 12, 0)).show(ui, |ui| ui.max_rect());
     if !window.bench.has_session() {
@@ -53,6 +54,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     window.bench.pointer.ground = ground.map(|ground| ground.rect);
     feel(window, ui.ctx(), apart.or(ground));
     window.follow_start_motion(ui.ctx(), ground);
+    window.follow_tour();
     mark_hovered(&mut window.bench, ui.ctx(), &mut commands);
     if window.bench.live.is_armed() {
         frame_as_armed(ui.ctx());
@@ -140,6 +142,7 @@ fn show_panes(
         is_rearranged: false,
         row: TabRow::default(),
         focus: &mut window.shell.focus,
+        toured: window.shell.tour.map(Tour::pane),
     };
     tree.ui(&mut desk, ui);
     let is_rearranged = desk.is_rearranged;
@@ -153,7 +156,7 @@ fn show_panes(
 /// Questions and help over the panes.
 fn show_overlays(window: &mut Workbench, ui: &Ui, commands: &mut Commands) {
     let whole = ui.ctx().content_rect();
-    let (bench, shell) = (&window.bench, &mut window.shell);
+    let (bench, shell) = (&mut window.bench, &mut window.shell);
     let recent = &bench.settings.preferences.recent_scenes;
     if let Some(ask) = &mut shell.ask {
         crate::shell::ask::show(ui, whole, ask, recent, commands);
@@ -162,7 +165,10 @@ fn show_overlays(window: &mut Workbench, ui: &Ui, commands: &mut Commands) {
         crate::shell::question::show(ui, whole, question, commands);
     }
     match &mut shell.cover {
-        Some(Cover::Keys(search)) => crate::shell::help::show(ui, whole, search, commands),
+        Some(Cover::Keys(list)) => {
+            let chosen = &mut bench.settings.preferences.keys;
+            crate::shell::help::show(ui, whole, list, chosen, commands);
+        }
         Some(Cover::Guide(reading)) => crate::shell::guide::show(ui, reading, commands),
         Some(Cover::Palette(palette)) => {
             crate::shell::palette::show(ui, whole, palette, &mut window.bench, commands);

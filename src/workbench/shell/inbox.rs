@@ -80,8 +80,10 @@ impl Workbench {
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(Command::AllOff);
         }
-        // While a session is held every other key is an answer, and does nothing elsewhere.
-        let pressed = if self.bench.has_session() {
+        // While a session is held every other key is an answer, and does nothing elsewhere; one that
+        // is to be given to an act does nothing yet.
+        let takes_all = self.bench.has_session() || self.shell.awaits_key();
+        let pressed = if takes_all {
             keys::escape(ctx).into_iter().collect()
         } else {
             keys::pressed(ctx)

@@ -250,8 +250,10 @@ pub(crate) fn show_help_menu(ui: &mut Ui, commands: &mut Commands) {
         ui.set_min_width(220.0);
         for command in [
             ShowCommand::Guide(None),
+            ShowCommand::About,
             ShowCommand::Help,
             ShowCommand::Palette,
+            ShowCommand::Tour,
         ] {
             entry(ui, command.into(), None, commands);
         }

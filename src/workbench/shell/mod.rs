@@ -41,5 +41,6 @@ pub(crate) mod study;
 pub(crate) mod tab_row;
 #[cfg(test)]
 mod tests;
-pub(crate) mod undo;
+pub(crate) mod tour;
+mod undo;
 pub(crate) mod window;

@@ -42,6 +42,9 @@ pub(crate) fn begin(
     workbench.dispatch(connect.into());
     if workbench.face.is_none() {
         workbench.begin_motion();
+        if workbench.bench.settings.are_first {
+            workbench.begin_tour();
+        }
     }
     Ok(workbench)
 }

@@ -33,12 +33,17 @@ impl PaneFocus {
     /// Frames the pane that has the focus. Once all of it is drawn.
     pub(crate) fn frame(self, ui: &Ui, rect: Rect, pane: Pane) {
         if self.pane == Some(pane) {
-            let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
-            let inside = rect.shrink(1.0);
-            ui.painter()
-                .rect_stroke(inside, 2, edge, StrokeKind::Inside);
+            frame_pane(ui, rect);
         }
     }
+}
+
+/// Frames a pane.
+pub(crate) fn frame_pane(ui: &Ui, rect: Rect) {
+    let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
+    let inside = rect.shrink(1.0);
+    ui.painter()
+        .rect_stroke(inside, 2, edge, StrokeKind::Inside);
 }
 
 impl Workbench {

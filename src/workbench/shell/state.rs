@@ -19,6 +19,7 @@ use crate::shell::arrangement;
 use crate::shell::ask::Ask;
 use crate::shell::dialogs::Dialogs;
 use crate::shell::guide::Reading;
+use crate::shell::help::KeyList;
 use crate::shell::palette::Palette;
 use crate::shell::pointer::PointerTap;
 
@@ -56,6 +57,8 @@ pub(crate) struct Shell {
     pub(crate) exports: Exports,
     /// Motion that gives way to the pointer, as long as it does.
     pub(crate) start_motion: Option<StartMotion>,
+    /// How far the tour is, while it is taken.
+    pub(crate) tour: Option<Tour>,
     /// Since when none of several windows has had the keyboard, s.
     pub(crate) left_since_s: Option<f64>,
     /// Scenes that tools have heard of.
@@ -86,6 +89,7 @@ impl Shell {
             fills_screen: false,
             exports: Exports::default(),
             start_motion: None,
+            tour: None,
             left_since_s: None,
             n_scenes: 0,
             n_drawn: [0; Pane::ALL.len()],
@@ -111,6 +115,19 @@ impl Shell {
         self.cover = None;
     }
 
+    /// Whether the next key is to be given to an act.
+    pub(crate) fn awaits_key(&self) -> bool {
+        matches!(&self.cover, Some(Cover::Keys(list)) if list.awaits.is_some())
+    }
+
+    /// Gives no key to the act that waits for one; whether one did.
+    pub(crate) fn leave_key(&mut self) -> bool {
+        let Some(Cover::Keys(list)) = &mut self.cover else {
+            return false;
+        };
+        list.awaits.take().is_some()
+    }
+
     /// Shows all panes again, if one stands alone.
     pub(crate) fn restore_panes(&mut self) {
         if let Some(whole) = self.whole.take() {
@@ -122,8 +139,8 @@ impl Shell {
 /// What lies over the panes to be read or searched.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Cover {
-    /// The list of keys, with what is sought in it.
-    Keys(String),
+    /// The list of keys.
+    Keys(KeyList),
     /// The field that finds everything by its name.
     Palette(Palette),
     /// The guide.
@@ -136,6 +153,26 @@ pub(crate) struct PaneFocus {
     pub(crate) pane: Option<Pane>,
     /// Whether it is yet to be given the focus.
     pub(crate) is_wanted: bool,
+}
+
+/// How far the tour is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Tour {
+    /// The step, from 0.
+    pub(crate) step: usize,
+    /// What was so when it began.
+    pub(crate) begun: Begun,
+    /// Whether a device was armed in it.
+    pub(crate) was_armed: bool,
+}
+
+/// What was so when a step of the tour began.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Begun {
+    /// The contactor that was looked at.
+    pub(crate) contactor: Option<usize>,
+    /// Steps that were done and not taken back.
+    pub(crate) n_done: usize,
 }
 
 /// Motion that gives way to the pointer.

@@ -126,13 +126,14 @@ fn the_question_on_closing_has_three_answers_and_enter_saves() {
 
 #[test]
 fn the_list_of_keys_names_a_key_and_can_be_put_away() {
-    let mut search = String::new();
+    let mut list = crate::shell::help::KeyList::default();
+    let mut chosen = crate::bench::keys::ChosenKeys::new();
     let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
-        show_help(ui, over, &mut search, commands);
+        show_help(ui, over, &mut list, &mut chosen, commands);
     });
     harness.run();
-    harness.get_by_label("Ctrl+O");
+    harness.get_by_label("Ctrl+O, the key of “Open a scene…”");
     assert_eq!(click(&mut harness, "Close"), [Command::Dismiss]);
 }
 

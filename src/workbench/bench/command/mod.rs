@@ -325,6 +325,10 @@ pub(crate) enum ShowCommand {
     /// Show a page of the guide, by its name and perhaps a heading after `#`; hide the guide if it
     /// is shown and no page is named.
     Guide(Option<String>),
+    /// Explain the pane in use.
+    About,
+    /// Begin the tour.
+    Tour,
     /// Put the focus on the pane so many further in reading order.
     WalkPanes(i8),
     /// Show this pane alone, or the one in use; all again if one is alone.

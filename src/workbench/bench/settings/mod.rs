@@ -25,6 +25,8 @@ const PAUSE_S: f64 = 1.0;
 pub(crate) struct Settings {
     /// The values. Whoever changes them need do nothing else.
     pub preferences: Preferences,
+    /// Whether this user starts the program for the first time: there was no file.
+    pub(crate) are_first: bool,
     file: Option<Keeper>,
 }
 
@@ -136,10 +138,11 @@ impl Settings {
         let text = match read_text(&path) {
             Ok(text) => text,
             Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-                return (
-                    Self::preferences_at(path, Preferences::default(), true),
-                    None,
-                );
+                let first = Self {
+                    are_first: true,
+                    ..Self::preferences_at(path, Preferences::default(), true)
+                };
+                return (first, None);
             }
             // Whatever is there, it is not to be written over.
             Err(FileError::Read { source, .. }) => {
@@ -172,6 +175,7 @@ impl Settings {
         };
         Self {
             preferences,
+            are_first: false,
             file: Some(file),
         }
     }
@@ -196,7 +200,7 @@ impl Settings {
                 (
                     Self {
                         preferences,
-                        file: None,
+                        ..Self::default()
                     },
                     Some(words),
                 )

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
+use crate::bench::keys::ChosenKeys;
 use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
@@ -94,6 +95,9 @@ pub(crate) struct Preferences {
         skip_serializing_if = "BTreeMap::is_empty"
     )]
     pub(crate) tablet_areas: BTreeMap<String, Area>,
+    /// The keys that the user gave to acts.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) keys: ChosenKeys,
 }
 
 impl Default for Preferences {
@@ -115,6 +119,7 @@ impl Default for Preferences {
             arrangements: Default::default(),
             array: None,
             tablet_areas: BTreeMap::new(),
+            keys: ChosenKeys::new(),
             window_size: None,
             folders: KnownFolders::default(),
             sound: SoundPreferences::default(),

@@ -103,6 +103,7 @@ fn leaves_session(command: &Command) -> bool {
                 | ShowCommand::Hover(_)
                 | ShowCommand::Help
                 | ShowCommand::Guide(_)
+                | ShowCommand::About
                 | ShowCommand::Maximise(_)
                 | ShowCommand::FullScreen
         ),

@@ -7,7 +7,8 @@ use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::pane::Pane;
 use crate::shell::arrangement;
-use crate::shell::guide::Reading;
+use crate::shell::guide::{Reading, page_of};
+use crate::shell::help::KeyList;
 use crate::shell::palette::Palette;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::state::Cover;
@@ -40,6 +41,8 @@ impl Workbench {
             ShowCommand::Help | ShowCommand::Palette | ShowCommand::Guide(_) => {
                 self.cover(command);
             }
+            ShowCommand::About => self.explain_pane(),
+            ShowCommand::Tour => self.begin_tour(),
             _ => self.bench.dispatch_show(command),
         }
         self.bench.send_gains();
@@ -66,11 +69,18 @@ impl Workbench {
             (ShowCommand::Help, Some(Cover::Keys(_)))
             | (ShowCommand::Palette, Some(Cover::Palette(_)))
             | (ShowCommand::Guide(None), Some(Cover::Guide(_))) => None,
-            (ShowCommand::Help, _) => Some(Cover::Keys(String::new())),
+            (ShowCommand::Help, _) => Some(Cover::Keys(KeyList::default())),
             (ShowCommand::Palette, _) => Some(Cover::Palette(Palette::default())),
             (ShowCommand::Guide(page), _) => Some(Cover::Guide(Reading::of(page.as_deref()))),
             (_, was) => was,
         };
+    }
+
+    /// Opens the guide at what is said of the pane in use.
+    fn explain_pane(&mut self) {
+        let pane = self.shell.focus.pane.or(self.bench.pointer.pane_in_use);
+        let page = page_of(pane.unwrap_or(Pane::Workspace));
+        self.cover(&ShowCommand::Guide(Some(page)));
     }
 
     fn fill_screen(&mut self) {

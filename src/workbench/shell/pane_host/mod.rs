@@ -27,6 +27,8 @@ pub(crate) struct PaneHost<'a> {
     pub(crate) is_rearranged: bool,
     /// The pane that has the focus as a whole.
     pub(crate) focus: &'a mut PaneFocus,
+    /// The pane that the tour speaks of.
+    pub(crate) toured: Option<Pane>,
     /// Where titles and the pane's corner have no room side by side, the corner stands in the pane.
     pub row: TabRow,
 }

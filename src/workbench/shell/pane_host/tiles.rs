@@ -10,6 +10,9 @@ use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::kit::theme;
 use crate::kit::theme::Palette;
+use crate::kit::widgets::slider::tell;
+use crate::shell::guide::about;
+use crate::shell::pane_focus::frame_pane;
 use crate::shell::pane_host::PaneHost;
 use crate::shell::tab_row::{TITLE_SPACING, TabRow, corner_width};
 
@@ -31,6 +34,9 @@ impl Behavior<Pane> for PaneHost<'_> {
         let rect = ui.max_rect();
         self.show(ui, *pane);
         self.focus.frame(ui, rect, *pane);
+        if self.toured == Some(*pane) {
+            frame_pane(ui, rect);
+        }
         UiResponse::None
     }
 
@@ -48,9 +54,11 @@ impl Behavior<Pane> for PaneHost<'_> {
         tile: TileId,
         response: egui::Response,
     ) -> egui::Response {
-        if response.clicked()
-            && let Some(Tile::Pane(pane)) = tiles.get(tile)
-        {
+        let Some(Tile::Pane(pane)) = tiles.get(tile) else {
+            return response;
+        };
+        tell(&response, about(*pane));
+        if response.clicked() {
             self.context.bench.pointer.pane_in_use = Some(*pane);
             if response.double_clicked() {
                 let alone = ShowCommand::Maximise(Some(*pane));
