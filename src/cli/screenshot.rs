@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{CliError, output};
 
 use selvedge_foundation::files::encode_png_rgba;
-use selvedge_workbench::StagePicture;
+use selvedge_workbench::{Perspective, Screenshot, StagePicture, Theme, screenshot};
 
 /// What to picture.
 #[derive(Debug, Args)]
@@ -27,74 +27,26 @@ pub(super) struct ScreenshotArgs {
     #[arg(long, value_name = "SCALE", default_value_t = 1.0)]
     scale: f32,
     /// The stage in this state in place of the workbench
-    #[arg(long, value_enum, value_name = "STATE", conflicts_with = "theme")]
-    stage: Option<StageState>,
+    #[arg(long, value_enum, value_name = "STATE", conflicts_with_all = ["theme", "perspective"])]
+    stage: Option<StagePicture>,
+    /// What the window is arranged for
+    #[arg(long, value_enum, default_value_t = Perspective::Explore)]
+    perspective: Perspective,
     /// Colours
-    #[arg(long, value_enum, default_value_t = ThemeName::Dark)]
-    theme: ThemeName,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ThemeName {
-    /// Light on dark
-    Dark,
-    /// Dark on light
-    Light,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum StageState {
-    /// Nobody is there
-    Watching,
-    /// A cloth is stroked
-    Touching,
-    /// Guessing and feeling are offered
-    Offered,
-    /// High voltage is on
-    Armed,
-    /// A cloth is to be found
-    Guessing,
-    /// One was chosen, and this was it
-    Told,
-    /// Whether anybody is still there is asked
-    StillHere,
-    /// How many were right
-    Ended,
-    /// The operator's page before the PIN
-    Pin,
-    /// The operator's page
-    Operator,
-}
-
-impl StageState {
-    fn picture(self) -> StagePicture {
-        match self {
-            Self::Watching => StagePicture::Watching,
-            Self::Touching => StagePicture::Touching,
-            Self::Offered => StagePicture::Offered,
-            Self::Armed => StagePicture::Armed,
-            Self::Guessing => StagePicture::Guessing,
-            Self::Told => StagePicture::Told,
-            Self::StillHere => StagePicture::StillHere,
-            Self::Ended => StagePicture::Ended,
-            Self::Pin => StagePicture::Pin,
-            Self::Operator => StagePicture::Operator,
-        }
-    }
+    #[arg(long, value_enum, default_value_t = Theme::Dark)]
+    theme: Theme,
 }
 
 /// Draws and writes the picture.
 pub(super) fn run(args: &ScreenshotArgs) -> Result<(), CliError> {
-    let picture = selvedge_workbench::screenshot(&selvedge_workbench::Screenshot {
+    let picture = screenshot(&Screenshot {
         scene: args.scene.clone(),
         width: args.width,
         height: args.height,
         pixels_per_point: args.scale,
-        stage: args.stage.map(StageState::picture),
-        theme: match args.theme {
-            ThemeName::Dark => selvedge_workbench::Theme::Dark,
-            ThemeName::Light => selvedge_workbench::Theme::Light,
-        },
+        stage: args.stage,
+        perspective: args.perspective,
+        theme: args.theme,
     })?;
     let png = encode_png_rgba(&picture.rgba, picture.width, picture.height, &args.out)?;
     output::write_bytes(&args.out, &png)

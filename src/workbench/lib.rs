@@ -30,6 +30,7 @@ pub(crate) mod tools;
 
 pub use crate::bench::Drive;
 pub use crate::bench::error::AppError;
+pub use crate::bench::perspective::Perspective;
 pub use crate::bench::settings::build_cache;
 pub use crate::bench::settings::{own_arrays, own_certificates};
 pub use crate::bench::stage::{StageOptions, StagePicture};

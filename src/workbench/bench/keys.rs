@@ -166,19 +166,25 @@ fn n_modifiers(modifiers: Modifiers) -> usize {
     held.into_iter().filter(|is_held| *is_held).count()
 }
 
+/// Whether a key only changes what others do.
+fn is_modifier(key: Key) -> bool {
+    let kinds = ["Alt", "Control", "Shift", "Super", "Meta", "Fn"];
+    kinds.into_iter().any(|kind| key.name().starts_with(kind))
+}
+
 /// The key that was pressed in this frame, to be given to an act; it is used up.
 pub(crate) fn captured(ctx: &egui::Context) -> Option<KeyboardShortcut> {
     ctx.input_mut(|input| {
-        let place = input.events.iter().position(|event| {
-            matches!(
-                event,
-                egui::Event::Key {
-                    pressed: true,
-                    repeat: false,
-                    ..
-                }
-            )
-        })?;
+        let is_pressed = |event: &egui::Event| match event {
+            egui::Event::Key {
+                key,
+                pressed: true,
+                repeat: false,
+                ..
+            } => !is_modifier(*key),
+            _ => false,
+        };
+        let place = input.events.iter().position(is_pressed)?;
         let egui::Event::Key { key, modifiers, .. } = input.events.remove(place) else {
             return None;
         };

@@ -1,11 +1,12 @@
 //! Perspectives: what the window is arranged for.
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 /// What the window is arranged for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Perspective {
+pub enum Perspective {
     /// To feel a scene.
     #[default]
     Explore,

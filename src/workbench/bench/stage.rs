@@ -4,6 +4,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use serde::Deserialize;
 
 use crate::bench::settings::{own_stage, stage_file};
@@ -142,7 +143,7 @@ impl StageOptions {
 }
 
 /// A state of the stage that is to be pictured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StagePicture {
     /// Nobody is there.
     Watching,

@@ -263,6 +263,7 @@ fn show_row(ui: &mut Ui, (what, how, act): &Row, list: &mut KeyList) {
             "" => number("none").color(palette.line),
             how => number(how).color(palette.dim),
         };
+        ui.spacing_mut().interact_size.y = 0.0;
         let key = egui::Button::new(text).frame(false).truncate();
         let key = ui.add(key);
         let shown = if how.is_empty() { "none" } else { how };
@@ -362,6 +363,8 @@ mod tests {
         window.pass(2);
         window.dispatch(ShowCommand::Help);
         window.pass(2);
+        give(&mut window, "Undo", Modifiers::COMMAND, Key::ControlLeft);
+        assert!(window.workbench.shell.awaits_key(), "a modifier is no key");
         give(&mut window, "Undo", Modifiers::NONE, Key::Escape);
         assert!(!window.workbench.shell.awaits_key());
         assert!(window.workbench.bench.settings.preferences.keys.is_empty());

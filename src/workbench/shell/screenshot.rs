@@ -3,14 +3,16 @@
 //! The display has just gone round the scene once, so that everything is lit. Nothing depends on a
 //! clock: the same scene gives the same bytes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use eframe::egui::{self, Vec2, vec2};
 
-use crate::bench::command::{PlayCommand, PlaySource};
+use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
 use crate::bench::error::AppError;
+use crate::bench::perspective::Perspective;
 use crate::bench::query;
 use crate::bench::stage::{StageOptions, StagePicture};
 use crate::bench::view::BridgeView;
@@ -25,7 +27,7 @@ const N_FRAMES: u32 = 425;
 const N_STAGE_FRAMES: u32 = 40;
 
 /// Dark or light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Theme {
     /// Light on dark.
     #[default]
@@ -47,6 +49,8 @@ pub struct Screenshot {
     pub pixels_per_point: f32,
     /// Dark or light.
     pub theme: Theme,
+    /// What the window is arranged for.
+    pub perspective: Perspective,
     /// The stage in this state in place of the workbench; it is dark.
     pub stage: Option<StagePicture>,
 }
@@ -59,6 +63,7 @@ impl Default for Screenshot {
             height: 900,
             pixels_per_point: 1.0,
             theme: Theme::Dark,
+            perspective: Perspective::Explore,
             stage: None,
         }
     }
@@ -87,10 +92,7 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     let size = vec2(width as f32, height as f32) / scale;
     let (mut window, n_frames) = match wanted.stage {
         Some(picture) => (stage(wanted, picture, size, scale)?, N_STAGE_FRAMES),
-        None => (
-            workbench(wanted.scene.as_deref(), theme, size, scale)?,
-            N_FRAMES,
-        ),
+        None => (workbench(wanted, theme, size, scale)?, N_FRAMES),
     };
     let theme = window.ctx.theme();
     let mut rasteriser = Rasteriser::default();
@@ -120,13 +122,14 @@ fn stage(
 
 /// The workbench, moving by itself.
 fn workbench(
-    scene: Option<&Path>,
+    wanted: &Screenshot,
     theme: egui::Theme,
     size: Vec2,
     scale: f32,
 ) -> Result<Headless, AppError> {
-    let mut window = Headless::new(scene, size, scale)?;
+    let mut window = Headless::new(wanted.scene.as_deref(), size, scale)?;
     window.ctx.set_theme(theme);
+    window.dispatch(ShowCommand::Perspective(wanted.perspective));
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
     let bench = &mut window.workbench.bench;
     bench.device.pictured = greeted_emulator(bench.engine.profile());

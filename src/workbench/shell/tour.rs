@@ -213,10 +213,10 @@ mod tests {
     fn every_step_shows_its_pane_and_names_keys_that_there_are() {
         let mut window = window();
         window.dispatch(ShowCommand::Tour);
-        for n in 0..STEPS.len() {
+        for (n, step) in STEPS.iter().enumerate() {
             window.workbench.enter_step(n);
             window.pass(2);
-            assert!(window.workbench.shell.shows(STEPS[n].pane));
+            assert!(window.workbench.shell.shows(step.pane));
         }
         let ctx = window.ctx.clone();
         ctx.run_ui(eframe::egui::RawInput::default(), |ui| {

@@ -353,6 +353,21 @@ mod tests {
     }
 
     #[test]
+    fn every_letter_of_the_guide_can_be_drawn() {
+        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        window.pass(2);
+        for font in [theme::body(), theme::number()] {
+            for page in guide_pages() {
+                let is_missing = |c: &char| {
+                    !c.is_control() && !window.ctx.fonts_mut(|fonts| fonts.has_glyph(&font, *c))
+                };
+                let missing: String = page.text.chars().filter(is_missing).collect();
+                assert_eq!(missing, "", "{} in {font:?}", page.name);
+            }
+        }
+    }
+
+    #[test]
     fn a_link_leads_to_its_page_and_heading() {
         let mut reading = Reading::of(None);
         reading.follow("bridge.md#session-log");
