@@ -66,6 +66,9 @@ impl PlayArgs {
 /// Plays, and says how punctual it was.
 pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
+    if let Some(changed) = loaded.changed() {
+        terminal::notice(&changed);
+    }
     if let Some(port) = &args.port {
         check_port(port)?;
     }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::method::MethodArgs;
 use super::render_out::{AmplitudeTable, Clips, WavKind};
-use super::terminal::Meter;
+use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
 
 use selvedge_engine::ClipKind;
@@ -89,6 +89,9 @@ struct StatsFile<'a> {
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
+    if let Some(changed) = loaded.changed() {
+        terminal::notice(&changed);
+    }
     let path = ExplorationPath::read(&args.path)?;
     let scene = RenderScene::of(&loaded);
     let stop = signals::stop_flag()?;

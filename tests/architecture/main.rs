@@ -86,6 +86,7 @@ const MAX_VISIBLE_ITEMS: usize = 900;
 /// Where each third-party crate lives: a crate of this house, a folder or one file; some have two.
 const HOMES: &[(&str, &str)] = &[
     ("clap", "src/cli/"),
+    ("clap", "src/workbench/"),
     ("cpal", "src/engine/audio/device.rs"),
     ("cpal", "src/engine/sound/system.rs"),
     ("crc32fast", "src/device/"),

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::check::scene_flaw;
+use super::reference::RecordingReference;
 use super::slots::{SlotLetter, TuningSlot};
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
@@ -42,24 +43,9 @@ pub struct Scene {
     pub slots: Vec<TuningSlot>,
     /// Recordings that belong to it.
     pub recordings: Vec<RecordingReference>,
-}
-
-/// A recording that a scene refers to.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RecordingReference {
-    /// What people call it.
-    pub name: String,
-    /// Its folder, or a path file; relative to the scene's file. Nothing need be there.
-    pub path: PathBuf,
-}
-
-impl RecordingReference {
-    /// Where it is as seen from where the program runs, for a scene file at `scene`.
-    pub fn place(&self, scene: Option<&Path>) -> PathBuf {
-        let beside = scene.and_then(Path::parent);
-        beside.map_or_else(|| self.path.clone(), |beside| beside.join(&self.path))
-    }
+    /// What its textiles were when it was saved: the SHA-256 of their content by their ids. One
+    /// that is not there may be anything.
+    pub contents: BTreeMap<String, String>,
 }
 
 /// A textile of the library and where it lies.
@@ -122,6 +108,12 @@ struct SceneKeys {
     slots: Vec<TuningSlot>,
     #[serde(default, rename = "recording", skip_serializing_if = "Vec::is_empty")]
     recordings: Vec<RecordingReference>,
+    #[serde(
+        default,
+        rename = "content",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
+    contents: BTreeMap<String, String>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -216,13 +208,18 @@ impl Scene {
 
     /// Names the folders of textiles of other libraries otherwise; `None` leaves one as it is.
     fn name_folders(&mut self, otherwise: impl Fn(&Path) -> Option<PathBuf>) {
+        let named = |id: &str| {
+            let (folder, id) = elsewhere(id).filter(|(library, _)| is_path(library))?;
+            Some(id_in(&otherwise(folder)?, id))
+        };
         for textile in &mut self.textiles {
-            let other = elsewhere(&textile.id).filter(|(library, _)| is_path(library));
-            let named = other.and_then(|(folder, id)| Some(id_in(&otherwise(folder)?, id)));
-            if let Some(named) = named {
+            if let Some(named) = named(&textile.id) {
                 textile.id = named;
             }
         }
+        self.contents = (std::mem::take(&mut self.contents).into_iter())
+            .map(|(id, content)| (named(&id).unwrap_or(id), content))
+            .collect();
     }
 
     /// The topmost textile under a point of the workspace: its place in the list.
@@ -264,6 +261,7 @@ impl Scene {
             tuning: keys.tuning,
             slots: keys.slots,
             recordings: keys.recordings,
+            contents: keys.contents,
         })
     }
 
@@ -278,6 +276,7 @@ impl Scene {
             tuning: self.tuning,
             slots: self.slots.clone(),
             recordings: self.recordings.clone(),
+            contents: self.contents.clone(),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! computed from the surfaces themselves: at the one speed of the definition that takes some ten
 //! microseconds a textile, less than it would take to find out whether stored ones still hold.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -140,6 +141,44 @@ impl LoadedScene {
         &self.scene
     }
 
+    /// What its textiles are: the SHA-256 of their content by their ids. One whose files have
+    /// vanished since they were loaded is left out.
+    pub fn contents(&self) -> BTreeMap<String, String> {
+        let content = |textile: &Arc<Textile>| {
+            let hash = textile.content_hash().ok()?;
+            Some((textile.id().to_owned(), hash))
+        };
+        self.textiles.iter().filter_map(content).collect()
+    }
+
+    /// A sentence on the textiles that are not what they were when the scene was saved; `None` if
+    /// all are.
+    pub fn changed(&self) -> Option<String> {
+        let stated = &self.scene.contents;
+        let now = if stated.is_empty() {
+            BTreeMap::new()
+        } else {
+            self.contents()
+        };
+        let is_other =
+            |(id, hash): &(&String, &String)| stated.get(*id).is_some_and(|stated| stated != *hash);
+        let ids: Vec<&str> = (now.iter().filter(is_other))
+            .map(|(id, _)| id.as_str())
+            .collect();
+        let (last, others) = ids.split_last()?;
+        let (names, are) = match others {
+            [] => ((*last).to_owned(), "is not what it was"),
+            _ => (
+                format!("{} and {last}", others.join(", ")),
+                "are not what they were",
+            ),
+        };
+        Some(format!(
+            "{names} {are} when the scene was saved: levels may differ; save it to keep them as \
+             they are now"
+        ))
+    }
+
     /// Where its textiles come from.
     pub fn library(&self) -> &Arc<Library> {
         &self.library
@@ -203,6 +242,29 @@ mod tests {
             textiles: ids.iter().map(|id| placed(id)).collect(),
             ..shipped
         }
+    }
+
+    #[test]
+    fn a_textile_that_is_another_than_when_the_scene_was_saved_is_named() {
+        let mut scene = with(&["denim", "silk-crepe", "jute-plain"]);
+        let library = Arc::clone(LoadedScene::shipped().unwrap().library());
+        let load = |scene: &Scene| LoadedScene::load(scene.clone(), Arc::clone(&library)).unwrap();
+        assert_eq!(load(&scene).changed(), None, "nothing is stated");
+        scene.contents = load(&scene).contents();
+        assert_eq!(scene.contents.len(), 3);
+        let text = scene.to_toml().unwrap();
+        let again = Scene::from_toml(&text, Path::new("a.scene.toml")).unwrap();
+        assert_eq!(load(&again).changed(), None);
+        let other = |scene: &mut Scene, id: &str| {
+            let content = scene.contents.get_mut(id).unwrap();
+            *content = content.chars().rev().collect();
+        };
+        other(&mut scene, "denim");
+        let words = load(&scene).changed().unwrap();
+        assert!(words.starts_with("denim is not what it was"), "{words}");
+        other(&mut scene, "silk-crepe");
+        let words = load(&scene).changed().unwrap();
+        assert!(words.starts_with("denim and silk-crepe are not"), "{words}");
     }
 
     #[test]

@@ -17,15 +17,17 @@ mod geometry;
 mod loaded;
 mod path;
 mod pose;
+mod reference;
 mod slots;
 mod stroke;
 
 pub use error::SceneError;
-pub use file::{Display, PlacedTextile, RecordingReference, Scene};
+pub use file::{Display, PlacedTextile, Scene};
 pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
 pub use loaded::LoadedScene;
 pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};
 pub use pose::{Pose, TICKS_PER_S};
+pub use reference::RecordingReference;
 pub use slots::{SlotLetter, TuningSlot};
 pub use stroke::Stroke;
 

@@ -176,6 +176,7 @@ proptest! {
                 name: "Slow".to_owned(),
                 path: "strokes/slow.csv".into(),
             }],
+            contents: [("sixteen:denim".to_owned(), "9f2c".to_owned())].into(),
         };
         prop_assert_eq!(read(&scene.to_toml().unwrap()).unwrap(), scene);
     }

@@ -3,6 +3,7 @@
 //! Layout (what is shown how) and transient state (notices, fields being typed in, the device) are
 //! not here and are never undone. Knows nothing of windows.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -169,8 +170,13 @@ impl Document {
     }
 
     /// Writes the scene to `path`, which is its place from now on.
-    pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SceneError> {
+    pub(crate) fn save_as(
+        &mut self,
+        path: &Path,
+        contents: BTreeMap<String, String>,
+    ) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
+        scene.contents = contents;
         if let Some(old) = self
             .path
             .as_deref()
@@ -188,6 +194,7 @@ impl Document {
             }
         }
         scene.write(path)?;
+        self.scene.contents.clone_from(&scene.contents);
         self.scene.library.clone_from(&scene.library);
         self.scene.recordings.clone_from(&scene.recordings);
         self.saved = self.scene.clone();
@@ -290,7 +297,7 @@ mod tests {
         let path = folder.join("a.scene.toml");
         let mut document = document();
         document.edit(&Edit::TextileGain(0, 2.5), at(1)).unwrap();
-        document.save_as(&path).unwrap();
+        document.save_as(&path, BTreeMap::new()).unwrap();
         assert!(!document.is_edited(), "saved");
         assert_eq!(Scene::read(&path).unwrap(), *document.scene());
         document.step_to(0);
@@ -345,7 +352,8 @@ mod tests {
             };
             let from = Path::new("/somewhere/a.scene.toml").to_owned();
             let mut document = Document::new(scene, Some(from), Tuning::default());
-            document.save_as(&folder.join("b.scene.toml")).unwrap();
+            let path = folder.join("b.scene.toml");
+            document.save_as(&path, BTreeMap::new()).unwrap();
             let library = document.scene().library.clone().unwrap();
             assert_eq!(
                 library == Path::new(named),

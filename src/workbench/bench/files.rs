@@ -46,7 +46,11 @@ impl Bench {
                 if let Some(path) = &opened.path {
                     self.settings.preferences.remember_scene(path);
                 }
+                let changed = opened.loaded.changed();
                 self.show_scene(*opened);
+                if let Some(changed) = changed {
+                    self.notices.give(changed);
+                }
                 if let Some(document) = restoring {
                     self.document = document;
                 }

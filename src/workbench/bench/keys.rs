@@ -1,18 +1,14 @@
-//! The keyboard: which acts were asked for by their keys, how keys are written and read, and which
-//! the user gave to acts in the place of those that they come with.
+//! The keyboard: which acts were asked for by their keys, and how keys are written.
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
 use eframe::egui::{self, Id, Key, KeyboardShortcut, Modifiers};
-use serde::{Deserialize, Serialize};
 
 use crate::bench::acts::{self, Act};
+use crate::bench::chosen_keys::{ChosenKeys, Keys, OR, modifiers_before};
 use crate::bench::command::Command;
 use crate::bench::pane::Pane;
 
-/// Between two keys of one act.
-const OR: &str = " or ";
 /// Keys that walk and press what is on the screen, unless a modifier is held.
 const OF_WIDGETS: [Key; 7] = [
     Key::Tab,
@@ -34,51 +30,6 @@ const OF_SLOTS: [Key; 8] = [
     Key::G,
     Key::H,
 ];
-
-/// Keys that the user gave to acts, by what the acts do; an act that is not there has its own.
-pub(crate) type ChosenKeys = BTreeMap<String, Keys>;
-
-/// The keys of one act; in files as they are written: `Ctrl+Y or F2`, empty for none.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub(crate) struct Keys(pub(crate) Vec<KeyboardShortcut>);
-
-impl From<Keys> for String {
-    fn from(Keys(keys): Keys) -> Self {
-        let keys = keys.iter().map(|key| {
-            let name = key.logical_key.name();
-            modifiers_before(key.modifiers, false) + name
-        });
-        keys.collect::<Vec<_>>().join(OR)
-    }
-}
-
-impl TryFrom<String> for Keys {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        let keys = text.split(OR).filter(|key| !key.is_empty());
-        keys.map(|key| read(key).ok_or_else(|| format!("no key is called {key:?}")))
-            .collect::<Result<_, _>>()
-            .map(Self)
-    }
-}
-
-/// The key that is written so.
-fn read(text: &str) -> Option<KeyboardShortcut> {
-    let mut words: Vec<&str> = text.split('+').collect();
-    let key = Key::from_name(words.pop()?)?;
-    let modifiers = words.into_iter().try_fold(Modifiers::NONE, |held, word| {
-        let modifier = match word {
-            "Ctrl" => Modifiers::COMMAND,
-            "Alt" => Modifiers::ALT,
-            "Shift" => Modifiers::SHIFT,
-            _ => return None,
-        };
-        Some(held.plus(modifier))
-    })?;
-    Some(KeyboardShortcut::new(modifiers, key))
-}
 
 /// The keys of every act, as they are in force.
 #[derive(Debug)]
@@ -265,20 +216,10 @@ fn written(ctx: &egui::Context, key: KeyboardShortcut) -> String {
     modifiers_before(key.modifiers, ctx.os().is_mac()) + name
 }
 
-fn modifiers_before(modifiers: Modifiers, is_mac: bool) -> String {
-    [
-        (modifiers.command, if is_mac { "Cmd+" } else { "Ctrl+" }),
-        (modifiers.alt, "Alt+"),
-        (modifiers.shift, "Shift+"),
-    ]
-    .into_iter()
-    .filter_map(|(is_held, word)| is_held.then_some(word))
-    .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::chosen_keys::read;
 
     #[test]
     fn no_key_does_two_things() {
@@ -326,17 +267,6 @@ mod tests {
 
     fn chosen(what: &str, keys: &str) -> ChosenKeys {
         ChosenKeys::from([(what.to_owned(), Keys::try_from(keys.to_owned()).unwrap())])
-    }
-
-    #[test]
-    fn every_key_is_read_as_it_is_written_in_files_and_nonsense_is_none() {
-        for act in acts::all() {
-            let text = String::from(Keys(act.keys.clone()));
-            assert_eq!(Keys::try_from(text.clone()).unwrap().0, act.keys, "{text}");
-        }
-        for text in ["Hyper+K", "Ctrl+Quux", "+", "Ctrl+"] {
-            assert!(Keys::try_from(text.to_owned()).is_err(), "{text}");
-        }
     }
 
     #[test]

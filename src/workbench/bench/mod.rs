@@ -7,6 +7,7 @@ pub(crate) mod acts;
 pub(crate) mod applied_gains;
 pub(crate) mod arrays;
 pub(crate) mod background;
+pub(crate) mod chosen_keys;
 pub(crate) mod clips;
 pub(crate) mod command;
 pub(crate) mod device;

@@ -1,33 +1,10 @@
-//! Files that are dropped on a pane, and what it says before there are any.
+//! What a pane that files are dropped on says before there are any.
 
-use std::path::PathBuf;
-
-use eframe::egui::{Align, Layout, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+use eframe::egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
 use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::text::{button, paragraph, quiet};
-
-/// Files that are dropped on the window now; while some hang over it, the pane has a bright edge.
-pub(crate) fn dropped(ui: &Ui) -> Vec<PathBuf> {
-    let (dropped, is_hovered) = ui.input(|input| {
-        let paths = input
-            .raw
-            .dropped_files
-            .iter()
-            .map(|file| file.path().to_owned());
-        (
-            paths.collect::<Vec<_>>(),
-            !input.raw.hovered_files.is_empty(),
-        )
-    });
-    if is_hovered {
-        let edge = Stroke::new(1.5, Palette::in_ui(ui).selection);
-        ui.painter()
-            .rect_stroke(ui.max_rect(), 4, edge, StrokeKind::Inside);
-    }
-    dropped
-}
 
 /// What to do when there is nothing yet, at most so high: a title, a line, a button, and small
 /// words. Whether the button was pressed.

@@ -21,7 +21,7 @@ impl Workbench {
             return self.dispatch(Command::Dismiss);
         }
         // The toolkit closes menus, and ends the typing, on the same key.
-        if Popup::is_any_open(&self.bench.ctx) || self.shell.was_typing {
+        if Popup::is_any_open(&self.bench.ctx) || self.shell.keyboard.was_typing {
             return;
         }
         let play = self.bench.live.play;

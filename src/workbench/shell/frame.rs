@@ -20,6 +20,7 @@ use crate::shell::pane_host::PaneHost;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::state::{Cover, Tour};
 use crate::shell::tab_row::TabRow;
+use crate::shell::tour;
 use crate::shell::window::Workbench;
 
 /// Height of the header, points.
@@ -35,7 +36,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     if let Some(offer) = window.bench.files.recovery.offer() {
         crate::shell::offer::show(ui, offer, &mut commands);
     }
-    crate::shell::tour::show(window, ui);
+    tour::show(&mut window.bench, &mut window.shell, ui);
     let line = Panel::bottom("status").exact_size(STATUS);
     let line = line.frame(panel(ui, 12, 0)).show(ui, |ui| ui.max_rect());
     if !window.bench.has_session() {
@@ -50,11 +51,11 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
     // Last, so that it tells of what the pointer rests on in this frame.
     let mut foot = ui.new_child(UiBuilder::new().max_rect(line.inner));
     crate::shell::status_line::show(&mut foot, &window.bench, &mut commands);
-    window.shell.was_typing = ui.ctx().text_edit_focused();
+    window.shell.keyboard.was_typing = ui.ctx().text_edit_focused();
     window.bench.pointer.ground = ground.map(|ground| ground.rect);
     feel(window, ui.ctx(), apart.or(ground));
     window.follow_start_motion(ui.ctx(), ground);
-    window.follow_tour();
+    tour::follow(&mut window.bench, &mut window.shell);
     mark_hovered(&mut window.bench, ui.ctx(), &mut commands);
     if window.bench.live.is_armed() {
         frame_as_armed(ui.ctx());

@@ -9,8 +9,9 @@ use eframe::egui::{
 };
 
 use crate::bench::acts::{self, Act};
+use crate::bench::chosen_keys::{ChosenKeys, Keys};
 use crate::bench::command::{Command, Commands};
-use crate::bench::keys::{self, ChosenKeys, Keys, all_written};
+use crate::bench::keys::{self, all_written};
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::card;

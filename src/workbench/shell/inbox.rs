@@ -47,7 +47,7 @@ impl Workbench {
 
     /// Whether the keyboard went to another program.
     fn is_keyboard_lost(&mut self, ctx: &egui::Context) -> bool {
-        let since_s = &mut self.shell.left_since_s;
+        let since_s = &mut self.shell.keyboard.left_since_s;
         if !self.bench.session.has_window {
             *since_s = None;
             let is_left = |event: &egui::Event| matches!(event, egui::Event::WindowFocused(false));
@@ -80,8 +80,8 @@ impl Workbench {
         if is_watched && self.is_keyboard_lost(ctx) {
             self.dispatch(Command::AllOff);
         }
-        // While a session is held every other key is an answer, and does nothing elsewhere; one that
-        // is to be given to an act does nothing yet.
+        // While a session is held every other key is an answer, and does nothing elsewhere; one
+        // that is to be given to an act does nothing yet.
         let takes_all = self.bench.has_session() || self.shell.awaits_key();
         let pressed = if takes_all {
             keys::escape(ctx).into_iter().collect()

@@ -9,6 +9,7 @@ use crate::bench::command::device::DeviceCommand;
 use crate::bench::error::AppError;
 use crate::bench::stage::StageOptions;
 use crate::shell::on_stage::fill_screen;
+use crate::shell::tour;
 use crate::shell::window::Workbench;
 
 /// What is opened.
@@ -43,7 +44,7 @@ pub(crate) fn begin(
     if workbench.face.is_none() {
         workbench.begin_motion();
         if workbench.bench.settings.are_first {
-            workbench.begin_tour();
+            tour::begin(&mut workbench.bench, &mut workbench.shell);
         }
     }
     Ok(workbench)

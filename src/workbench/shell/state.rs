@@ -39,8 +39,8 @@ pub(crate) struct Shell {
     pub(crate) ask: Option<Ask>,
     /// What waits for an answer to "save changes?".
     pub(crate) question: Option<Question>,
-    /// Whether text was being typed at the end of the last frame.
-    pub(crate) was_typing: bool,
+    /// What is known of the keyboard.
+    pub(crate) keyboard: Keyboard,
     /// Whether the window may close without another question.
     pub(crate) may_close: bool,
     /// Set when the program is told to end, with nobody there to be asked.
@@ -59,8 +59,6 @@ pub(crate) struct Shell {
     pub(crate) start_motion: Option<StartMotion>,
     /// How far the tour is, while it is taken.
     pub(crate) tour: Option<Tour>,
-    /// Since when none of several windows has had the keyboard, s.
-    pub(crate) left_since_s: Option<f64>,
     /// Scenes that tools have heard of.
     pub(crate) n_scenes: u64,
     /// How often each pane was drawn.
@@ -80,7 +78,7 @@ impl Shell {
             dialogs,
             ask: None,
             question: None,
-            was_typing: false,
+            keyboard: Keyboard::default(),
             may_close: false,
             ends: Arc::default(),
             cover: None,
@@ -90,7 +88,6 @@ impl Shell {
             exports: Exports::default(),
             start_motion: None,
             tour: None,
-            left_since_s: None,
             n_scenes: 0,
             n_drawn: [0; Pane::ALL.len()],
             tap: Arc::new(Mutex::new(tap)),
@@ -153,6 +150,15 @@ pub(crate) struct PaneFocus {
     pub(crate) pane: Option<Pane>,
     /// Whether it is yet to be given the focus.
     pub(crate) is_wanted: bool,
+}
+
+/// What is known of the keyboard.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Keyboard {
+    /// Whether text was being typed at the end of the last frame.
+    pub(crate) was_typing: bool,
+    /// Since when none of several windows has had it, s.
+    pub(crate) left_since_s: Option<f64>,
 }
 
 /// How far the tour is.

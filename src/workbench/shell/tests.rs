@@ -127,7 +127,7 @@ fn the_question_on_closing_has_three_answers_and_enter_saves() {
 #[test]
 fn the_list_of_keys_names_a_key_and_can_be_put_away() {
     let mut list = crate::shell::help::KeyList::default();
-    let mut chosen = crate::bench::keys::ChosenKeys::new();
+    let mut chosen = crate::bench::chosen_keys::ChosenKeys::new();
     let mut harness = window(|ui, commands| {
         let over = ui.max_rect();
         show_help(ui, over, &mut list, &mut chosen, commands);

@@ -11,7 +11,6 @@ use crate::bench::view::Source;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::text::{button, quiet};
 use crate::shell::state::{Begun, Cover, Shell, Tour};
-use crate::shell::window::Workbench;
 
 /// A contactor that moves less than this does nothing yet, µm.
 const FELT_UM: f64 = 0.1;
@@ -71,48 +70,44 @@ impl Tour {
     }
 }
 
-impl Workbench {
-    /// Begins the tour at its first step.
-    pub(crate) fn begin_tour(&mut self) {
-        self.shell.uncover();
-        self.enter_step(0);
-    }
+/// Begins the tour at its first step.
+pub(crate) fn begin(bench: &mut Bench, shell: &mut Shell) {
+    shell.uncover();
+    enter(0, bench, shell);
+}
 
-    /// Goes on when the step was done; the tour waits while a session is held.
-    pub(crate) fn follow_tour(&mut self) {
-        let Some(mut tour) = self.shell.tour else {
-            return;
-        };
-        if self.bench.has_session() {
-            return;
-        }
-        tour.was_armed |= self.bench.live.is_armed();
-        self.shell.tour = Some(tour);
-        if (STEPS[tour.step].is_done)(&tour, &self.bench, &self.shell) {
-            self.enter_step(tour.step + 1);
-        }
-    }
-
-    /// Enters a step, or ends the tour after the last.
-    fn enter_step(&mut self, step: usize) {
-        self.shell.tour = STEPS.get(step).map(|_| Tour {
-            step,
-            begun: Begun {
-                contactor: self.bench.selection.contactor,
-                n_done: self.bench.document.steps().n_done,
-            },
-            was_armed: false,
-        });
-        if let Some(tour) = self.shell.tour {
-            self.dispatch(ShowCommand::Reveal(tour.pane()).into());
-        }
-        self.bench.ctx.request_repaint();
+/// Goes on when the step was done; the tour waits while a session is held.
+pub(crate) fn follow(bench: &mut Bench, shell: &mut Shell) {
+    let Some(mut tour) = shell.tour.filter(|_| !bench.has_session()) else {
+        return;
+    };
+    tour.was_armed |= bench.live.is_armed();
+    shell.tour = Some(tour);
+    if (STEPS[tour.step].is_done)(&tour, bench, shell) {
+        enter(tour.step + 1, bench, shell);
     }
 }
 
+/// Enters a step, or ends the tour after the last.
+fn enter(step: usize, bench: &mut Bench, shell: &mut Shell) {
+    shell.tour = STEPS.get(step).map(|_| Tour {
+        step,
+        begun: Begun {
+            contactor: bench.selection.contactor,
+            n_done: bench.document.steps().n_done,
+        },
+        was_armed: false,
+    });
+    let reveal = shell
+        .tour
+        .map(|tour| ShowCommand::Reveal(tour.pane()).into());
+    bench.commands.extend(reveal);
+    bench.ctx.request_repaint();
+}
+
 /// Shows the step below the header.
-pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) {
-    let Some(tour) = window.shell.tour.filter(|_| !window.bench.has_session()) else {
+pub(crate) fn show(bench: &mut Bench, shell: &mut Shell, ui: &mut Ui) {
+    let Some(tour) = shell.tour.filter(|_| !bench.has_session()) else {
         return;
     };
     let palette = Palette::in_ui(ui);
@@ -137,7 +132,7 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) {
         });
     });
     if let Some(step) = next {
-        window.enter_step(step);
+        enter(step, bench, shell);
     }
 }
 
@@ -214,7 +209,8 @@ mod tests {
         let mut window = window();
         window.dispatch(ShowCommand::Tour);
         for (n, step) in STEPS.iter().enumerate() {
-            window.workbench.enter_step(n);
+            let workbench = &mut window.workbench;
+            enter(n, &mut workbench.bench, &mut workbench.shell);
             window.pass(2);
             assert!(window.workbench.shell.shows(step.pane));
         }

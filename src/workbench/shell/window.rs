@@ -58,6 +58,7 @@ impl eframe::App for Workbench {
         self.take_keys(ctx);
         self.take_news(ctx);
         self.take_close_request(ctx);
+        self.take_dropped(ctx);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {

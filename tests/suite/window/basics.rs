@@ -322,12 +322,12 @@ fn the_display_explores_by_itself_while_sliders_move() {
 fn a_screenshot_is_the_same_every_time_and_shows_what_is_felt() {
     let folder = Folder::new("screenshot");
     let wanted = |theme, width, height, pixels_per_point| Screenshot {
-        stage: None,
         scene: Some(folder.scene()),
         width,
         height,
         pixels_per_point,
         theme,
+        ..Screenshot::default()
     };
     let dark = screenshot(&wanted(Theme::Dark, 1280, 720, 1.0)).unwrap();
     assert_eq!(

@@ -132,12 +132,12 @@ fn the_window_is_drawn_at_every_size_and_scale() {
     {
         for theme in [Theme::Dark, Theme::Light] {
             let wanted = Screenshot {
-                stage: None,
                 scene: None,
                 width,
                 height,
                 pixels_per_point,
                 theme,
+                ..Screenshot::default()
             };
             let picture = screenshot(&wanted).unwrap();
             let first = &picture.rgba[..4];

@@ -2,6 +2,8 @@
 //!
 //! Free of paths, clocks and names of machines, so that the same work gives the same bytes.
 
+use std::collections::BTreeMap;
+
 use selvedge_foundation::{files, quantity};
 use selvedge_render::scene::Scene;
 use selvedge_textile::tactile::{Filters, Tuning};
@@ -159,11 +161,12 @@ impl Origin {
 }
 
 /// The scene by its content: the hash of its file without the folders of library and recordings,
-/// which are elsewhere on every computer.
+/// which are elsewhere on every computer, and without what its textiles were when it was saved.
 fn identity(scene: &Scene) -> String {
     let content = Scene {
         library: None,
         recordings: Vec::new(),
+        contents: BTreeMap::default(),
         ..scene.clone()
     };
     let text = content.to_toml().unwrap_or_default();

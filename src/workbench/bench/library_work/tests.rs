@@ -79,7 +79,9 @@ fn what_was_kept_is_felt_in_a_free_place_and_is_there_in_any_scene_and_after_a_r
     );
     // Nobody is asked about the scene.
     let path = folder.join("a.scene.toml");
-    first.workbench.bench.document.save_as(&path).unwrap();
+    let bench = &mut first.workbench.bench;
+    let contents = bench.engine_scene.loaded.contents();
+    bench.document.save_as(&path, contents).unwrap();
     do_now(&mut first, FileCommand::New);
     assert_eq!(own(&first), ["Mine"]);
     let second = window(&folder);

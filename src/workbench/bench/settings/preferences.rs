@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::ThemePreference;
 use serde::{Deserialize, Serialize};
 
-use crate::bench::keys::ChosenKeys;
+use crate::bench::chosen_keys::ChosenKeys;
 use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
@@ -62,9 +62,6 @@ pub(crate) struct Preferences {
     /// The scales on which things are drawn.
     #[serde(flatten)]
     pub(crate) scales: Scales,
-    /// Pixels per millimetre of the screen, once it was calibrated.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) pixels_per_mm: Option<f64>,
     /// How scenes are rendered.
     #[serde(flatten)]
     pub rendering: Rendering,
@@ -113,7 +110,6 @@ impl Default for Preferences {
             stops_on_focus_loss: false,
             developer_tools: false,
             scales: Scales::default(),
-            pixels_per_mm: None,
             rendering: Rendering::default(),
             perspective: Perspective::default(),
             arrangements: Default::default(),
@@ -152,7 +148,7 @@ impl Preferences {
             let number = if value.is_nan() { least } else { value };
             number.clamp(least, most)
         };
-        let per_mm = self.pixels_per_mm.filter(|per_mm| !per_mm.is_nan());
+        let per_mm = self.scales.pixels_per_mm.filter(|per_mm| !per_mm.is_nan());
         let size = self
             .window_size
             .filter(|size| !size.iter().any(|x| x.is_nan()));
@@ -161,9 +157,9 @@ impl Preferences {
             rendering: self.rendering.in_bounds(),
             scales: Scales {
                 timeline_height: within(self.scales.timeline_height, TIMELINE_HEIGHT),
+                pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
                 ..self.scales
             },
-            pixels_per_mm: per_mm.map(|x| x.clamp(PIXELS_PER_MM[0], PIXELS_PER_MM[1])),
             window_size: size.map(|[width, height]| [within(width, WIDTH), within(height, HEIGHT)]),
             ..self
         }
@@ -192,6 +188,9 @@ pub(crate) struct Scales {
     /// Height of the line of time, points.
     #[serde(default = "first_height")]
     pub(crate) timeline_height: f32,
+    /// Pixels per millimetre of the screen, once it was calibrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) pixels_per_mm: Option<f64>,
 }
 
 impl Default for Scales {
@@ -200,6 +199,7 @@ impl Default for Scales {
             amplitude: AmplitudeScale::default(),
             spectrum: SpectrumScale::default(),
             timeline_height: first_height(),
+            pixels_per_mm: None,
         }
     }
 }
@@ -405,7 +405,10 @@ mod tests {
     fn values_out_of_bounds_go_to_the_nearest_bound() {
         let preferences = Preferences {
             zoom: 9.0,
-            pixels_per_mm: Some(-3.0),
+            scales: Scales {
+                pixels_per_mm: Some(-3.0),
+                ..Scales::default()
+            },
             rendering: Rendering {
                 budget_db: 7.0,
                 ..Rendering::default()
@@ -415,7 +418,7 @@ mod tests {
         };
         let preferences = preferences.in_bounds();
         assert_eq!(preferences.zoom, 2.0);
-        assert_eq!(preferences.pixels_per_mm, Some(1.0));
+        assert_eq!(preferences.scales.pixels_per_mm, Some(1.0));
         assert_eq!(preferences.rendering.budget_db, 1.0);
         assert_eq!(preferences.window_size, Some([960.0, 16_384.0]));
     }
@@ -424,7 +427,10 @@ mod tests {
     fn what_is_no_number_is_as_at_first() {
         let preferences = Preferences {
             zoom: f32::NAN,
-            pixels_per_mm: Some(f64::NAN),
+            scales: Scales {
+                pixels_per_mm: Some(f64::NAN),
+                ..Scales::default()
+            },
             rendering: Rendering {
                 budget_db: f64::NAN,
                 ..Rendering::default()

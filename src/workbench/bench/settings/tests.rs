@@ -206,8 +206,8 @@ fn every_setting_survives_writing_and_reading() {
                 is_linear: true,
             },
             timeline_height: 200.0,
+            pixels_per_mm: Some(3.78),
         },
-        pixels_per_mm: Some(3.78),
         rendering: Rendering {
             method: Method::Banded,
             budget_db: 0.0,
@@ -334,7 +334,7 @@ fn odd_numbers_are_brought_within_bounds() {
     let (preferences, odd) = Preferences::from_text(text, path()).unwrap();
     assert_eq!((preferences.zoom, odd), (2.0, None));
     assert_eq!(preferences.scales.amplitude, AmplitudeScale::default());
-    assert_eq!(preferences.pixels_per_mm, Some(60.0));
+    assert_eq!(preferences.scales.pixels_per_mm, Some(60.0));
 }
 
 #[test]

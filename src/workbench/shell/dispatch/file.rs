@@ -131,7 +131,8 @@ impl Workbench {
     }
 
     fn save_scene(&mut self, path: &Path) {
-        match self.bench.document.save_as(path) {
+        let contents = self.bench.engine_scene.loaded.contents();
+        match self.bench.document.save_as(path, contents) {
             Ok(()) => {
                 self.shell.ask = None;
                 self.bench.settings.preferences.remember_scene(path);

@@ -12,6 +12,7 @@ use crate::shell::help::KeyList;
 use crate::shell::palette::Palette;
 use crate::shell::perspective::arrangement_for;
 use crate::shell::state::Cover;
+use crate::shell::tour;
 use crate::shell::window::Workbench;
 
 impl Workbench {
@@ -42,7 +43,7 @@ impl Workbench {
                 self.cover(command);
             }
             ShowCommand::About => self.explain_pane(),
-            ShowCommand::Tour => self.begin_tour(),
+            ShowCommand::Tour => tour::begin(&mut self.bench, &mut self.shell),
             _ => self.bench.dispatch_show(command),
         }
         self.bench.send_gains();

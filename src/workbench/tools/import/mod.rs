@@ -52,7 +52,7 @@ impl Tool for Import {
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
         if let Command::File(FileCommand::Use(Purpose::ImportFiles, path)) = command {
-            self.take_files(vec![path.clone()], bench);
+            self.take_file(path, bench);
         }
     }
 

@@ -1,6 +1,6 @@
 //! An import: what is wanted of it and what was found.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui;
@@ -105,8 +105,8 @@ impl Import {
     }
 
     /// Takes files that were chosen or dropped, and shows them.
-    pub(super) fn take_files(&mut self, paths: Vec<PathBuf>, bench: &mut Bench) {
-        if let Err(line) = self.add(paths) {
+    pub(super) fn take_file(&mut self, path: &Path, bench: &mut Bench) {
+        if let Err(line) = self.add(vec![path.to_owned()]) {
             bench.notices.give(line);
         }
         bench

@@ -66,7 +66,7 @@ impl tool::Tool for Workspace {
     fn begin(&mut self, bench: &mut Bench) {
         let kept = &bench.settings.preferences;
         self.view.overlays = kept.overlays;
-        self.view.true_pixels_per_mm = kept.pixels_per_mm;
+        self.view.true_pixels_per_mm = kept.scales.pixels_per_mm;
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -148,7 +148,7 @@ impl tool::Tool for Workspace {
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
         preferences.overlays = self.view.overlays;
-        preferences.pixels_per_mm = self.view.true_pixels_per_mm;
+        preferences.scales.pixels_per_mm = self.view.true_pixels_per_mm;
     }
 }
 

@@ -17,7 +17,6 @@ use eframe::egui::{RichText, Ui, vec2};
 use crate::bench::command::Commands;
 use crate::bench::latest::Standing;
 use crate::bench::tool::PaneContext;
-use crate::kit::drop::dropped;
 use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
@@ -37,11 +36,6 @@ const KEEP: f32 = 164.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, importing: &mut Import, context: &mut PaneContext<'_>) {
     ui.spacing_mut().item_spacing.y = STEP;
-    let dropped = dropped(ui);
-    if !dropped.is_empty() {
-        importing.take_files(dropped, context.bench);
-        ui.ctx().request_repaint();
-    }
     let whole = ui.available_rect_before_wrap();
     let before = importing.draft.clone();
     if importing.draft.described.files.is_empty() {

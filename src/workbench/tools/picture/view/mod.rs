@@ -13,7 +13,7 @@ pub(crate) mod plots;
 use eframe::egui::{Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::kit::drop::{dropped, nothing_yet};
+use crate::kit::drop::nothing_yet;
 use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::{Palette, STEP};
 use crate::tools::picture::state::Picture;
@@ -36,9 +36,6 @@ const EMPTY: [&str; 3] = [
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
     ui.spacing_mut().item_spacing.y = STEP;
-    if let Some(path) = dropped(ui).into_iter().next() {
-        commands.push(FileCommand::Use(Purpose::OpenPicture, path).into());
-    }
     if picture.draft.source.is_none() {
         let words = [
             "Feel a cloth from its picture",
