@@ -26,7 +26,7 @@ use super::{
 };
 use array::DrivenArray;
 use device::DeviceHandle;
-use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog};
+use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -160,10 +160,26 @@ impl Engine {
             }
             self.collect();
         }
+        self.told()
+    }
+
+    /// Lets emulated devices that are connected from now on live in the time that an engine
+    /// without a thread is told, too: the same every time.
+    pub fn step_emulators(&mut self) {
+        self.device.is_stepped = true;
+    }
+
+    /// What time an engine without a thread was told.
+    fn told(&self) -> Option<Instant> {
         match &self.body {
             Body::Still(runner) => Some(runner.clock.now()),
             Body::Thread(_) => None,
         }
+    }
+
+    fn connect(&mut self, target: Target) -> ReadyCommand {
+        let told = self.told();
+        self.device.open(target, &self.driven, (&self.switch, told))
     }
 
     /// Sends a command. It takes effect at the next tick; a stop takes effect at once.
@@ -190,7 +206,7 @@ impl Engine {
                 how: (amplitude_um, duration_ms),
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
-            Command::Connect(target) => self.device.open(target, &self.driven, &self.switch),
+            Command::Connect(target) => self.connect(target),
             Command::Disconnect => {
                 self.switch.set_device(None);
                 self.device.actuators = None;

@@ -8,6 +8,7 @@
 //! it. What the messages mean is the session's business.
 
 mod reader;
+mod stepped;
 mod timings;
 mod writer;
 
@@ -26,6 +27,8 @@ use super::message::{DeviceMessage, Message as _, Stop, StopHow};
 use super::port::Port;
 use super::session_log::{TapEnd, tap};
 use reader::Reader;
+pub(crate) use stepped::Living;
+use stepped::Stepped;
 use timings::Histogram;
 pub use timings::{Distribution, DistributionBar, Spread, Timings};
 use writer::{Outgoing, Writer};
@@ -199,6 +202,8 @@ pub(super) struct Link {
     frames: Producer<QueuedFrame>,
     /// For a log: what is really written, and what really arrives.
     taps: Option<[TapEnd; 2]>,
+    /// The device and what threads do elsewhere, where the owner says what time it is.
+    stepped: Option<Box<Stepped>>,
 }
 
 impl fmt::Debug for Link {
@@ -215,6 +220,33 @@ impl Link {
         sequence: Sequence,
         waker: Waker,
     ) -> Result<Self, BridgeError> {
+        let (link, reader, writer) = Self::unopened(hearing, sequence, waker);
+        let running = Running::new(&link.shared);
+        Builder::new()
+            .name(String::from("bridge-reader"))
+            .spawn(move || {
+                let _running = running;
+                reader.run(opener, writer);
+            })
+            .map_err(BridgeError::Thread)?;
+        Ok(link)
+    }
+
+    /// A link without threads to a device that lives in the time that [`tell`](Self::tell) says,
+    /// from `start` on.
+    pub(super) fn stepped(
+        device: (Box<dyn Port>, Living),
+        hearing: Hearing,
+        sequence: Sequence,
+        start: Instant,
+    ) -> Self {
+        let (mut link, mut reader, writer) = Self::unopened(hearing, sequence, Arc::new(|| {}));
+        reader.send(Incoming::Opened);
+        link.stepped = Some(Box::new(Stepped::new((reader, writer), device, start)));
+        link
+    }
+
+    fn unopened(hearing: Hearing, sequence: Sequence, waker: Waker) -> (Self, Reader, Writer) {
         let shared = Arc::new(Shared::new(sequence, waker));
         let [n_controls, n_passing] = hearing.places();
         let (to_owner, incoming) = RingBuffer::new(INCOMING);
@@ -225,22 +257,36 @@ impl Link {
         let [(sent, sent_end), (received, received_end)] = [tap(n_passing), tap(n_passing)];
         let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
         let reader = Reader::new(Arc::clone(&shared), to_owner, hearing, received);
-        let running = Running::new(&shared);
-        Builder::new()
-            .name(String::from("bridge-reader"))
-            .spawn(move || {
-                let _running = running;
-                reader.run(opener, writer);
-            })
-            .map_err(BridgeError::Thread)?;
-        Ok(Self {
+        let link = Self {
             shared,
             incoming,
             failures,
             controls,
             frames,
             taps: Some([sent_end, received_end]),
-        })
+            stepped: None,
+        };
+        (link, reader, writer)
+    }
+
+    /// What time it is: what it was told last, or that of the system.
+    pub(super) fn now(&self) -> Instant {
+        let stepped = self.stepped.as_ref();
+        stepped.map_or_else(Instant::now, |stepped| stepped.now)
+    }
+
+    /// Tells a link without threads what time it is.
+    pub(super) fn tell(&mut self, now: Instant) {
+        if let Some(stepped) = &mut self.stepped {
+            stepped.now = now.max(stepped.now);
+        }
+    }
+
+    /// Does what threads would have done until now, where there are none.
+    pub(super) fn settle(&mut self) {
+        if let Some(stepped) = &mut self.stepped {
+            stepped.settle();
+        }
     }
 
     /// What a log follows; `None` when one does.
@@ -282,6 +328,11 @@ impl Link {
             1 => Some(StopHow::Ramp),
             _ => Some(StopHow::Now),
         }
+    }
+
+    /// Whether it writes by itself what it is given.
+    pub(super) fn has_threads(&self) -> bool {
+        self.stepped.is_none()
     }
 
     pub(super) fn stop_handle(&self) -> StopHandle {

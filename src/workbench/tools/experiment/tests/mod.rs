@@ -51,14 +51,23 @@ const FOUR: &str = "textiles = [\"silk-crepe\", \"wool-twill\", \"jute-plain\", 
 /// A design of the program with four textiles in place of all: they are ready soon.
 fn small(folder: &Folder, design: &'static str) -> Chosen {
     let text = Design::shipped_text(design).unwrap();
-    let Some((before, rest)) = text.split_once("textiles = [") else {
+    let four = with_four(text);
+    if four == text {
         return Chosen::Shipped(design);
-    };
-    let (_, after) = rest.split_once(']').unwrap();
+    }
     fs::create_dir_all(&folder.0).unwrap();
     let path = folder.0.join(format!("{design}.toml"));
-    fs::write(&path, format!("{before}{FOUR}{after}")).unwrap();
+    fs::write(&path, four).unwrap();
     Chosen::File(path)
+}
+
+/// The text of a design with four textiles in place of all, where it lists more.
+fn with_four(text: &str) -> String {
+    let listed = text.split_once("textiles = [").and_then(|(before, rest)| {
+        let (all, after) = rest.split_once(']')?;
+        (all.matches('"').count() > 8).then(|| format!("{before}{FOUR}{after}"))
+    });
+    listed.unwrap_or_else(|| text.to_owned())
 }
 
 fn experiment(window: &Headless) -> &Experiment {
@@ -142,21 +151,7 @@ impl Frames for Headless {
 /// Does what has to be done before an answer is taken: every textile is felt, every vibration
 /// played.
 fn feel(on: &mut impl Frames) {
-    for place in session(on.window()).layout.places.clone() {
-        for n in 0..44 {
-            let [dx_mm, dy_mm] = [10.0 + 2.0 * f64::from(n % 40), 20.0 + f64::from(n % 40)];
-            let corner = place.origin_mm;
-            let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
-            let workbench = &on.window().workbench;
-            let stamp = workbench.bench.stamp();
-            let mut tap = workbench.shell.tap.lock().unwrap();
-            if let Some(at) = tap.screen(to) {
-                tap.moved_to(stamp, at);
-            }
-            drop(tap);
-            on.frames(1);
-        }
-    }
+    feel_all(on);
     for _ in 0..120 {
         if session(on.window()).missing().is_none() {
             return;
@@ -164,6 +159,29 @@ fn feel(on: &mut impl Frames) {
         on.frames(1);
     }
     panic!("{:?}", session(on.window()).missing());
+}
+
+/// Moves the finger over all that lies there.
+fn feel_all(on: &mut impl Frames) {
+    for place in session(on.window()).layout.places.clone() {
+        stroke(on, place.origin_mm, 44);
+    }
+}
+
+/// Moves the finger over what has its lower left corner here, for so many ticks.
+fn stroke(on: &mut impl Frames, corner: Point, n_ticks: u16) {
+    for n in 0..n_ticks {
+        let [dx_mm, dy_mm] = [10.0 + 2.0 * f64::from(n % 40), 20.0 + f64::from(n % 40)];
+        let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
+        let workbench = &on.window().workbench;
+        let stamp = workbench.bench.stamp();
+        let mut tap = workbench.shell.tap.lock().unwrap();
+        if let Some(at) = tap.screen(to) {
+            tap.moved_to(stamp, at);
+        }
+        drop(tap);
+        on.frames(1);
+    }
 }
 
 /// Moves the finger to and fro for so many ticks.
