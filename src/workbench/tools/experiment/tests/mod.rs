@@ -7,6 +7,7 @@ pub(crate) mod drawn;
 pub(crate) mod presented;
 
 use std::fs;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use eframe::egui::{Key, Modifiers, Pos2, vec2};
@@ -152,7 +153,7 @@ impl Frames for Headless {
 /// played.
 fn feel(on: &mut impl Frames) {
     feel_all(on);
-    for _ in 0..120 {
+    for _ in 0..240 {
         if session(on.window()).missing().is_none() {
             return;
         }
@@ -164,14 +165,15 @@ fn feel(on: &mut impl Frames) {
 /// Moves the finger over all that lies there.
 fn feel_all(on: &mut impl Frames) {
     for place in session(on.window()).layout.places.clone() {
-        stroke(on, place.origin_mm, 44);
+        stroke(on, place.origin_mm, 0..44);
     }
 }
 
-/// Moves the finger over what has its lower left corner here, for so many ticks.
-fn stroke(on: &mut impl Frames, corner: Point, n_ticks: u16) {
-    for n in 0..n_ticks {
-        let [dx_mm, dy_mm] = [10.0 + 2.0 * f64::from(n % 40), 20.0 + f64::from(n % 40)];
+/// Moves the finger over what has its lower left corner here, a tick for each of these steps.
+fn stroke(on: &mut impl Frames, corner: Point, steps: Range<u64>) {
+    for n in steps {
+        let along = (n % 40) as f64;
+        let [dx_mm, dy_mm] = [10.0 + 2.0 * along, 20.0 + along];
         let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
         let workbench = &on.window().workbench;
         let stamp = workbench.bench.stamp();
