@@ -266,8 +266,8 @@ impl Watch {
         self.onset_tick.get_or_insert(self.n_ticks - 1);
     }
 
-    /// Ends it, after its last tick, for a reason that no tick shows: a stop, a fault, a device that
-    /// is gone. An array that gets no frames grows silent by itself: then that is the reason.
+    /// Ends it, after its last tick, for a reason that no tick shows: a stop, a fault, a device
+    /// that is gone. An array that gets no frames grows silent by itself: then that is the reason.
     pub fn end(&mut self, why: &str) {
         if self.void.as_ref().is_some_and(|void| void != NOT_ARMED) {
             return;

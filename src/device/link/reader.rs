@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use rtrb::Producer;
 
-use super::{Hearing, Incoming, Opener, Running, Shared, Writer, count};
+use super::shared::{Hearing, Incoming, Opener, Running, Shared, count};
+use super::writer::Writer;
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::message::{DeviceMessage, Unreadable};
 use crate::port::Port;

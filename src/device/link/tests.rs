@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::shared::{CONTROLS, PASSING};
 use super::*;
 use crate::message::{Arm, Ping, frame};
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer};
 
-use super::{QueuedFrame, Shared, count};
+use super::shared::{QueuedFrame, Shared, count};
 use crate::framing::Packet;
 use crate::port::Port;
 use crate::session_log::{Passed, Tap};

@@ -35,7 +35,7 @@ fn arm(window: &mut Headless) {
     });
 }
 
-/// A window with a session on the emulator that counts, before its first trial; nothing is practised.
+/// A window with a session on the emulator that counts, before its first trial, without practice.
 fn begun_on_array(folder: &Folder, design: &str) -> Headless {
     let text = Design::shipped_text(design).map_or_else(|| composed(design), str::to_owned);
     let is_practice =
