@@ -122,7 +122,7 @@ impl Emulation {
         };
         self.device.advance(now_us, &mut sink);
         let gone = sink.gone;
-        gone.map_or(Ok(self.device.is_plugged()), Err)
+        gone.map_or_else(|| Ok(self.device.is_plugged()), Err)
     }
 
     /// Runs without a port until the cable is in again; false when `stop` came first.

@@ -10,7 +10,7 @@ pub(crate) mod presented;
 use std::fs;
 use std::path::PathBuf;
 
-use eframe::egui::{Key, Modifiers, Pos2, vec2};
+use eframe::egui::{Key, Modifiers, vec2};
 
 use super::*;
 use crate::bench::command::Command;
