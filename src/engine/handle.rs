@@ -28,7 +28,7 @@ use super::{
 use array::DrivenArray;
 use body::Body;
 use device::DeviceHandle;
-use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog};
+use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -188,10 +188,7 @@ impl Engine {
                 how: (amplitude_um, duration_ms),
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
-            Command::Connect(target) => {
-                let when = (&self.switch, self.body.told());
-                self.device.open(target, &self.driven, when)
-            }
+            Command::Connect(target) => self.connect(target),
             Command::Disconnect => {
                 self.switch.set_device(None);
                 self.device.actuators = None;
@@ -329,6 +326,11 @@ impl Engine {
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
+    }
+
+    fn connect(&mut self, target: Target) -> ReadyCommand {
+        let when = (&self.switch, self.body.told());
+        self.device.open(target, &self.driven, when)
     }
 
     /// Another scene, with a channel for snapshots of its size.

@@ -205,7 +205,7 @@ fn stroke_first(window: &mut Headless, n_ticks: u64) {
     let places = &session(window).layout.places;
     let corner = places
         .first()
-        .map_or(Point::default(), |place| place.origin_mm);
+        .map_or_else(Point::default, |place| place.origin_mm);
     let now = tick(window);
     stroke(window, corner, now..now + n_ticks);
 }
@@ -244,7 +244,7 @@ fn go_on(window: &mut Headless, marks: &[Mark]) {
         }
         say(window, marks);
         let place = places.get(n / 44 % places.len().max(1));
-        let corner = place.map_or(Point::default(), |place| place.origin_mm);
+        let corner = place.map_or_else(Point::default, |place| place.origin_mm);
         stroke(window, corner, n as u64..n as u64 + 1);
     }
 }
