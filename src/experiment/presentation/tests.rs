@@ -82,8 +82,8 @@ fn one_tick_may_be_missed_or_one_of_a_hundred_and_never_three_in_a_row() {
 #[test]
 fn an_array_that_grew_silent_for_want_of_frames_is_not_said_to_be_disarmed() {
     let missed = |n_missed: u64, is_sent| PresentedTick {
-        n_missed,
         is_sent,
+        n_missed,
         ..STILL
     };
     let mut held_short = judged();
