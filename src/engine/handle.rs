@@ -4,6 +4,7 @@
 //! they replaced; the engine's thread does neither.
 
 mod array;
+mod body;
 mod device;
 
 use std::fmt;
@@ -25,8 +26,9 @@ use super::{
     StopSwitch, TickSample,
 };
 use array::DrivenArray;
+use body::Body;
 use device::DeviceHandle;
-use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog};
+use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -57,13 +59,6 @@ pub struct Engine {
     news: Option<JoinHandle<()>>,
     driven: DrivenArray,
     device: DeviceHandle,
-}
-
-enum Body {
-    /// A thread that keeps the real time.
-    Thread(Option<JoinHandle<()>>),
-    /// Stepped by its owner.
-    Still(Box<Runner>),
 }
 
 impl Engine {
@@ -160,10 +155,13 @@ impl Engine {
             }
             self.collect();
         }
-        match &self.body {
-            Body::Still(runner) => Some(runner.clock.now()),
-            Body::Thread(_) => None,
-        }
+        self.body.told()
+    }
+
+    /// Lets emulated devices that are connected from now on live in the time that an engine
+    /// without a thread is told, too: the same every time.
+    pub fn step_emulators(&mut self) {
+        self.device.is_stepped = true;
     }
 
     /// Sends a command. It takes effect at the next tick; a stop takes effect at once.
@@ -190,7 +188,7 @@ impl Engine {
                 how: (amplitude_um, duration_ms),
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
-            Command::Connect(target) => self.device.open(target, &self.driven, &self.switch),
+            Command::Connect(target) => self.connect(target),
             Command::Disconnect => {
                 self.switch.set_device(None);
                 self.device.actuators = None;
@@ -318,10 +316,7 @@ impl Engine {
 
     /// Whether the engine's thread is still there; an engine without one always is.
     pub fn is_running(&self) -> bool {
-        match &self.body {
-            Body::Thread(joined) => joined.as_ref().is_some_and(|joined| !joined.is_finished()),
-            Body::Still(_) => true,
-        }
+        self.body.is_running()
     }
 
     pub(super) fn push(&mut self, command: ReadyCommand) -> Result<(), EngineError> {
@@ -331,6 +326,11 @@ impl Engine {
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
+    }
+
+    fn connect(&mut self, target: Target) -> ReadyCommand {
+        let when = (&self.switch, self.body.told());
+        self.device.open(target, &self.driven, when)
     }
 
     /// Another scene, with a channel for snapshots of its size.

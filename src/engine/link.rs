@@ -61,6 +61,13 @@ impl Link {
         std::mem::replace(&mut self.bridge, bridge)
     }
 
+    /// Tells a device that lives in told time what time it is.
+    pub(super) fn tell(&mut self, now: Instant) {
+        if let Some(bridge) = &mut self.bridge {
+            bridge.tell(now);
+        }
+    }
+
     /// Whether there is a device, or may be one soon.
     pub(super) fn is_some(&self) -> bool {
         self.bridge.is_some()

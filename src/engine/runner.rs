@@ -131,6 +131,9 @@ impl Runner {
 
     /// Does what is due, and says when something will be due next.
     pub(super) fn step(&mut self) -> Instant {
+        if let Clock::Told(now) = self.clock {
+            self.link.tell(now);
+        }
         self.heed_stop();
         self.obey();
         if let Some(due) = self.turn() {

@@ -21,6 +21,8 @@ const MOST_MISSED_SHARE: f64 = 0.01;
 const MISSED_IN_A_ROW: u32 = 3;
 /// Values that limits may have changed, of all; of those of a second at least.
 const MOST_LIMITED_SHARE: f64 = 0.01;
+/// Why a tick that went to no device does not count, where nothing better is known.
+const NOT_ARMED: &str = "the array was not armed";
 /// From tick to tick, ns.
 const TICK_NS: u64 = 25_000_000;
 
@@ -230,8 +232,8 @@ impl Watch {
         };
         self.explore(tick);
         self.play(tick, lead);
-        if self.void.is_none() {
-            self.void = self.flaw(tick);
+        if self.missed_in_a_row >= MISSED_IN_A_ROW || !tick.is_sent {
+            self.end(NOT_ARMED);
         }
     }
 
@@ -264,20 +266,19 @@ impl Watch {
         self.onset_tick.get_or_insert(self.n_ticks - 1);
     }
 
-    fn flaw(&self, tick: &PresentedTick) -> Option<String> {
-        if !tick.is_sent {
-            return Some("the array was not armed".to_owned());
-        }
-        if self.missed_in_a_row >= MISSED_IN_A_ROW {
-            let n = self.missed_in_a_row;
-            return Some(format!("{n} ticks in a row came without their frame"));
-        }
-        None
-    }
-
-    /// Ends it for a reason that no tick shows: a stop, a fault, a device that is gone.
+    /// Ends it, after its last tick, for a reason that no tick shows: a stop, a fault, a device
+    /// that is gone. An array that gets no frames grows silent by itself: then that is the reason.
     pub fn end(&mut self, why: &str) {
-        self.void.get_or_insert_with(|| why.to_owned());
+        if self.void.as_ref().is_some_and(|void| void != NOT_ARMED) {
+            return;
+        }
+        self.void = None;
+        let n_missed = self.missed_in_a_row;
+        self.void = Some(match self.standing() {
+            _ if n_missed > 1 => format!("{n_missed} ticks in a row came without their frame"),
+            Standing::Void(why) => why,
+            Standing::Valid | Standing::Incomplete(_) => why.to_owned(),
+        });
     }
 
     /// How it stands now.

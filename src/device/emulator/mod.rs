@@ -8,6 +8,7 @@ mod log;
 mod named_link;
 #[cfg(unix)]
 mod pty;
+mod stepped;
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,6 +23,7 @@ use super::wire::{Faults, Injection, WireSink, WiredDevice};
 pub(crate) use log::DeviceLog;
 #[cfg(unix)]
 pub use pty::PtyEmulator;
+pub(crate) use stepped::SteppedEmulator;
 
 /// How long a quiet device sleeps before it looks whether to end.
 const NAP: Duration = Duration::from_millis(50);
@@ -102,22 +104,25 @@ impl Emulation {
             let now_us = self.now_us();
             self.device
                 .host_wrote(now_us, buffer.get(..count).unwrap_or(&[]));
-            let mut sink = LiveSink {
-                port: Some(&mut *port),
-                log: self.log.as_mut(),
-                actuators: self.actuators.as_mut(),
-                gone: None,
-            };
-            self.device.advance(now_us, &mut sink);
-            if let Some(error) = sink.gone {
-                return Err(error);
-            }
-            if !self.device.is_plugged() {
+            if !self.advance(port, now_us)? {
                 return Ok(Ended::Unplugged);
             }
             housekeep();
         }
         Ok(Ended::Told)
+    }
+
+    /// Lets time pass; whether the cable is still in.
+    fn advance(&mut self, port: &mut dyn Port, now_us: u64) -> io::Result<bool> {
+        let mut sink = LiveSink {
+            port: Some(port),
+            log: self.log.as_mut(),
+            actuators: self.actuators.as_mut(),
+            gone: None,
+        };
+        self.device.advance(now_us, &mut sink);
+        let gone = sink.gone;
+        gone.map_or_else(|| Ok(self.device.is_plugged()), Err)
     }
 
     /// Runs without a port until the cable is in again; false when `stop` came first.

@@ -28,7 +28,7 @@ impl Bridge {
     /// # Errors
     /// As there.
     pub fn set_array(&mut self, change: &mut ArrayChange) -> Result<(), &'static str> {
-        let outcome = self.session.set_array(Instant::now(), change);
+        let outcome = self.session.set_array(self.now(), change);
         self.flush();
         outcome
     }
@@ -41,7 +41,7 @@ impl Bridge {
     /// As there.
     pub fn identify(&mut self, channel: u16, how: (f32, u16)) -> Result<(), &'static str> {
         let pulse = Pulse::new(channel, how);
-        let outcome = self.session.identify(Instant::now(), channel, pulse.how());
+        let outcome = self.session.identify(self.now(), channel, pulse.how());
         self.pulse = outcome.is_ok().then_some(pulse);
         self.flush();
         outcome

@@ -48,6 +48,28 @@ impl Bridge {
         n_contactors: usize,
         waker: impl Fn() + Send + Sync + 'static,
     ) -> Self {
+        Self::begin(target, (profile, n_contactors), None, Arc::new(waker))
+    }
+
+    /// The same in the time that [`tell`](Self::tell) says, from `start` on and without threads: an
+    /// emulated device then does the same every time. A port keeps real time all the same.
+    pub fn open_stepped(
+        target: Target,
+        profile: ArrayProfile,
+        n_contactors: usize,
+        start: Instant,
+        waker: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
+        let display = (profile, n_contactors);
+        Self::begin(target, display, Some(start), Arc::new(waker))
+    }
+
+    fn begin(
+        target: Target,
+        (profile, n_contactors): (ArrayProfile, usize),
+        start: Option<Instant>,
+        waker: Waker,
+    ) -> Self {
         let sequence = Sequence::default();
         let name = target.name();
         let shape = profile.clone();
@@ -55,13 +77,18 @@ impl Bridge {
         let actuators =
             is_emulator.then(|| actuator_watch(ContactorModel::default(), shape.n_contactors()));
         let (feed, actuators) = actuators.unzip();
-        let opener = Box::new(move || target.open(&shape, feed));
-        let waker: Waker = Arc::new(waker);
         let hearing = Hearing::Messages {
             n_channels: n_contactors,
         };
         let mut session = HostSession::new(nonce(), profile, n_contactors, sequence.clone());
-        let link = match Link::open(opener, hearing, sequence, waker) {
+        let link = if let Some(start) = start.filter(|_| is_emulator) {
+            let device = target.boot(&shape, feed);
+            Ok(Link::stepped(device, hearing, sequence, start))
+        } else {
+            let opener = Box::new(move || target.open(&shape, feed));
+            Link::open(opener, hearing, sequence, waker)
+        };
+        let link = match link {
             Ok(link) => Some(link),
             Err(error) => {
                 session.link_gone(Instant::now(), error.to_string());
@@ -79,6 +106,17 @@ impl Bridge {
         }
     }
 
+    /// Tells one that was opened so what time it is.
+    pub fn tell(&mut self, now: Instant) {
+        if let Some(link) = &mut self.link {
+            link.tell(now);
+        }
+    }
+
+    fn now(&self) -> Instant {
+        self.link.as_ref().map_or_else(Instant::now, Link::now)
+    }
+
     /// Runs the session and gives the next piece of news. Call until `None`, after each wake and at
     /// least every 100 ms.
     pub fn poll(&mut self) -> Option<BridgeEvent> {
@@ -86,7 +124,7 @@ impl Bridge {
             let event = self.next();
             self.heed(event.as_ref());
             match event {
-                Some(event) if !self.is_news(&event, Instant::now()) => {}
+                Some(event) if !self.is_news(&event, self.now()) => {}
                 event => return event,
             }
         }
@@ -96,7 +134,10 @@ impl Bridge {
         if let Some(event) = self.session.next_event() {
             return Some(event);
         }
-        let now = Instant::now();
+        if let Some(link) = &mut self.link {
+            link.settle();
+        }
+        let now = self.now();
         if let Some(how) = self.link.as_ref().and_then(Link::take_stop_by_handle) {
             self.session.note(now, Note::StopBySwitch(how));
             self.session.stop(now, how);
@@ -130,27 +171,27 @@ impl Bridge {
 
     /// Asks for output; `Armed` or `Disarmed` follows. False when the device is not `Ready`.
     pub fn arm(&mut self) -> bool {
-        let asked = self.session.arm(Instant::now());
+        let asked = self.session.arm(self.now());
         self.flush();
         asked
     }
 
     /// Ends output ahead of everything queued, in any state and any number of times.
     pub fn stop(&mut self, how: StopHow) {
-        self.session.stop(Instant::now(), how);
+        self.session.stop(self.now(), how);
         self.flush();
     }
 
     /// Asks a faulted device to clear its faults; it becomes `Ready` when their cause is gone.
     pub fn clear_faults(&mut self) {
-        self.session.clear_faults(Instant::now());
+        self.session.clear_faults(self.now());
         self.flush();
     }
 
     /// Sends a PING; `Pong` follows.
     #[cfg(test)]
     pub(crate) fn ping(&mut self) {
-        self.session.ping(Instant::now());
+        self.session.ping(self.now());
         self.flush();
     }
 
@@ -163,13 +204,15 @@ impl Bridge {
         amplitudes_um: &[[f32; 2]],
         stamp: Option<Instant>,
     ) -> Option<SentFrame> {
+        let now = self.now();
         let link = self.link.as_mut()?;
-        let (sent, packet) = self.session.frame(Instant::now(), amplitudes_um)?;
+        let (sent, packet) = self.session.frame(now, amplitudes_um)?;
         link.send_frame(&QueuedFrame {
             packet,
             due: sent.due,
             stamp,
         });
+        link.settle();
         Some(sent)
     }
 
@@ -211,9 +254,11 @@ impl Bridge {
         self.link.as_ref().map(Link::timings).unwrap_or_default()
     }
 
-    /// A way to stop the device from other threads; `None` when the link could not even be started.
+    /// A way to stop the device from other threads; `None` when the link could not even be started,
+    /// and when it lives on the owner's thread alone.
     pub fn stop_handle(&self) -> Option<StopHandle> {
-        self.link.as_ref().map(Link::stop_handle)
+        let link = self.link.as_ref().filter(|link| link.has_threads());
+        link.map(Link::stop_handle)
     }
 
     /// Ends the link's threads and waits for that, at most `patience`. Dropping does the same
@@ -237,6 +282,7 @@ impl Bridge {
             // A packet without room is sent again later, as every request is.
             let _has_room = link.send_control(&packet);
         }
+        link.settle();
     }
 
     /// Leaves the device, with a STOP if it may be moving.

@@ -39,9 +39,9 @@ impl Bridge {
                     link.record_round_trip(*round_trip);
                 }
             }
-            Some(BridgeEvent::Tick { .. }) => self.note_tick(Instant::now()),
+            Some(BridgeEvent::Tick { .. }) => self.note_tick(self.now()),
             Some(BridgeEvent::Refused(_) | BridgeEvent::Lost(_) | BridgeEvent::Disarmed { .. }) => {
-                self.note_last(Instant::now());
+                self.note_last(self.now());
             }
             _ => {}
         }
@@ -85,7 +85,7 @@ impl Bridge {
     /// The link is let go: the same, once.
     pub(super) fn note_end(&mut self) {
         if self.notes.log.is_some() && !std::mem::replace(&mut self.notes.has_ended, true) {
-            self.note_last(Instant::now());
+            self.note_last(self.now());
         }
     }
 

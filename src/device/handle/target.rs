@@ -7,9 +7,9 @@ use crate::BridgeError;
 use crate::actuator_model::ActuatorFeed;
 use crate::codes::ArrayProfile;
 use crate::device::DeviceModel;
-use crate::emulator::EmulatorThread;
-use crate::link::Ends;
-use crate::port::{SerialLink, holder_of};
+use crate::emulator::{EmulatorThread, SteppedEmulator};
+use crate::link::{Ends, Living};
+use crate::port::{Port, SerialLink, holder_of};
 use crate::wire::Faults;
 
 const BUSY_PATIENCE: Duration = Duration::from_secs(1);
@@ -39,6 +39,22 @@ impl Target {
             Self::FaultyEmulator(_) => String::from("emulator with faults"),
             Self::Port(path) => path.display().to_string(),
         }
+    }
+
+    /// An emulated device that lives when it is told to, and the host's end of its link.
+    pub(crate) fn boot(
+        &self,
+        profile: &ArrayProfile,
+        actuators: Option<ActuatorFeed>,
+    ) -> (Box<dyn Port>, Living) {
+        let faults = match self {
+            Self::FaultyEmulator(faults) => faults,
+            Self::Emulator | Self::Port(_) => &Box::default(),
+        };
+        let model = DeviceModel::for_array(profile);
+        let (mut device, port) = SteppedEmulator::boot(model, faults, actuators);
+        let living = move |end| device.advance(end);
+        (Box::new(port), Box::new(living))
     }
 
     /// Opens both ends. May block.

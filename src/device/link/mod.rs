@@ -8,13 +8,15 @@
 //! it. What the messages mean is the session's business.
 
 mod reader;
+mod shared;
+mod stepped;
 mod timings;
 mod writer;
 
 use std::fmt;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::thread::{Builder, Thread};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -22,173 +24,21 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use super::BridgeError;
 use super::framing::Packet;
 use super::host::{BridgeCounters, Heard, Sequence};
-use super::message::{DeviceMessage, Message as _, Stop, StopHow};
+use super::message::{Message as _, Stop, StopHow};
 use super::port::Port;
 use super::session_log::{TapEnd, tap};
 use reader::Reader;
-use timings::Histogram;
+pub(super) use shared::{Ends, Hearing, Incoming, Opener, QueuedFrame, Waker};
+use shared::{Running, Shared, count};
+pub(crate) use stepped::Living;
+use stepped::Stepped;
 pub use timings::{Distribution, DistributionBar, Spread, Timings};
 use writer::{Outgoing, Writer};
 
 const INCOMING: usize = 256;
-const CONTROLS: usize = 16;
-/// The same for whoever says what no session says: many packets at once.
-const DIRECT_CONTROLS: usize = 256;
-/// Room for packets on their way to the log: more than arrive while its writer sleeps.
-const PASSING: usize = 256;
-const DIRECT_PASSING: usize = 4096;
 const FRAMES: usize = 4;
 /// Longest wait for the STOP of a program that fails.
 const LAST_WORD: Duration = Duration::from_millis(250);
-
-/// The reading and the writing end of an open port.
-pub(super) type Ends = (Box<dyn Port>, Box<dyn Port>);
-/// Opens a port; runs on the reader's thread because it may block.
-pub(super) type Opener = Box<dyn FnOnce() -> Result<Ends, BridgeError> + Send>;
-/// Called whenever there may be news.
-pub(super) type Waker = Arc<dyn Fn() + Send + Sync>;
-
-/// What the reader hands on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Hearing {
-    /// Messages of a device with so many channels; what is none is counted.
-    Messages { n_channels: usize },
-    /// Bytes as they come, for an owner that believes no framing either.
-    Bytes,
-}
-
-impl Hearing {
-    /// Places in the ring of control packets, and in each ring to the log.
-    fn places(self) -> [usize; 2] {
-        match self {
-            Self::Messages { .. } => [CONTROLS, PASSING],
-            Self::Bytes => [DIRECT_CONTROLS, DIRECT_PASSING],
-        }
-    }
-}
-
-/// What the threads tell the owner.
-#[derive(Debug)]
-pub(super) enum Incoming {
-    /// The port is open.
-    Opened,
-    /// A message arrived.
-    Message {
-        message: DeviceMessage,
-        received: Instant,
-    },
-    /// Bytes arrived.
-    Bytes(Vec<u8>),
-    /// The port could not be opened, or is gone.
-    Gone(String),
-}
-
-/// A FRAME on its way to the port.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct QueuedFrame {
-    pub(super) packet: Packet,
-    /// When it was due, as the answer to a STATUS.
-    pub(super) due: Option<Instant>,
-    /// Time of the input that it is made of.
-    pub(super) stamp: Option<Instant>,
-}
-
-/// What owner, threads and stop handles share. Only the STOP slot has a lock, held for the copy of
-/// one packet.
-struct Shared {
-    sequence: Sequence,
-    stop: Mutex<Option<Packet>>,
-    stops_asked: AtomicU64,
-    stops_written: AtomicU64,
-    /// A STOP that came through a handle, for the owner to learn of: 0 none, 1 ramp, 2 now.
-    stop_by_handle: AtomicU8,
-    quit: AtomicBool,
-    running: AtomicU8,
-    writer: OnceLock<Thread>,
-    waker: Waker,
-    due_to_write: Histogram,
-    stamp_to_write: Histogram,
-    round_trip: Histogram,
-    frame_interval: Histogram,
-    frames_sent: AtomicU64,
-    frames_superseded: AtomicU64,
-    bad_received: AtomicU64,
-    bytes_received: AtomicU64,
-    events_dropped: AtomicU64,
-    write_timeouts: AtomicU64,
-}
-
-impl Shared {
-    fn new(sequence: Sequence, waker: Waker) -> Self {
-        Self {
-            sequence,
-            stop: Mutex::new(None),
-            stops_asked: AtomicU64::new(0),
-            stops_written: AtomicU64::new(0),
-            stop_by_handle: AtomicU8::new(0),
-            quit: AtomicBool::new(false),
-            running: AtomicU8::new(0),
-            writer: OnceLock::new(),
-            waker,
-            due_to_write: Histogram::new(),
-            stamp_to_write: Histogram::new(),
-            round_trip: Histogram::new(),
-            frame_interval: Histogram::new(),
-            frames_sent: AtomicU64::new(0),
-            frames_superseded: AtomicU64::new(0),
-            bad_received: AtomicU64::new(0),
-            bytes_received: AtomicU64::new(0),
-            events_dropped: AtomicU64::new(0),
-            write_timeouts: AtomicU64::new(0),
-        }
-    }
-
-    fn put_stop(&self, packet: &Packet) {
-        let mut slot = self.stop.lock().unwrap_or_else(PoisonError::into_inner);
-        *slot = Some(*packet);
-        self.stops_asked.fetch_add(1, Ordering::Release);
-        drop(slot);
-        self.unpark_writer();
-    }
-
-    /// The STOP to write and the number of STOPs that its writing will have fulfilled.
-    fn take_stop(&self) -> Option<(Packet, u64)> {
-        let mut slot = self.stop.lock().unwrap_or_else(PoisonError::into_inner);
-        let packet = slot.take()?;
-        Some((packet, self.stops_asked.load(Ordering::Acquire)))
-    }
-
-    fn unpark_writer(&self) {
-        if let Some(writer) = self.writer.get() {
-            writer.unpark();
-        }
-    }
-
-    fn has_quit(&self) -> bool {
-        self.quit.load(Ordering::Acquire)
-    }
-}
-
-/// Counts one more.
-fn count(counter: &AtomicU64) {
-    counter.fetch_add(1, Ordering::Relaxed);
-}
-
-/// Counts a thread as running for as long as it lives.
-struct Running(Arc<Shared>);
-
-impl Running {
-    fn new(shared: &Arc<Shared>) -> Self {
-        shared.running.fetch_add(1, Ordering::AcqRel);
-        Self(Arc::clone(shared))
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.0.running.fetch_sub(1, Ordering::AcqRel);
-    }
-}
 
 /// The owner's end of a link.
 pub(super) struct Link {
@@ -199,6 +49,8 @@ pub(super) struct Link {
     frames: Producer<QueuedFrame>,
     /// For a log: what is really written, and what really arrives.
     taps: Option<[TapEnd; 2]>,
+    /// The device and what threads do elsewhere, where the owner says what time it is.
+    stepped: Option<Box<Stepped>>,
 }
 
 impl fmt::Debug for Link {
@@ -215,6 +67,33 @@ impl Link {
         sequence: Sequence,
         waker: Waker,
     ) -> Result<Self, BridgeError> {
+        let (link, reader, writer) = Self::unopened(hearing, sequence, waker);
+        let running = Running::new(&link.shared);
+        Builder::new()
+            .name(String::from("bridge-reader"))
+            .spawn(move || {
+                let _running = running;
+                reader.run(opener, writer);
+            })
+            .map_err(BridgeError::Thread)?;
+        Ok(link)
+    }
+
+    /// A link without threads to a device that lives in the time that [`tell`](Self::tell) says,
+    /// from `start` on.
+    pub(super) fn stepped(
+        device: (Box<dyn Port>, Living),
+        hearing: Hearing,
+        sequence: Sequence,
+        start: Instant,
+    ) -> Self {
+        let (mut link, mut reader, writer) = Self::unopened(hearing, sequence, Arc::new(|| {}));
+        reader.send(Incoming::Opened);
+        link.stepped = Some(Box::new(Stepped::new((reader, writer), device, start)));
+        link
+    }
+
+    fn unopened(hearing: Hearing, sequence: Sequence, waker: Waker) -> (Self, Reader, Writer) {
         let shared = Arc::new(Shared::new(sequence, waker));
         let [n_controls, n_passing] = hearing.places();
         let (to_owner, incoming) = RingBuffer::new(INCOMING);
@@ -225,22 +104,36 @@ impl Link {
         let [(sent, sent_end), (received, received_end)] = [tap(n_passing), tap(n_passing)];
         let writer = Writer::new(Arc::clone(&shared), outgoing, failed, sent);
         let reader = Reader::new(Arc::clone(&shared), to_owner, hearing, received);
-        let running = Running::new(&shared);
-        Builder::new()
-            .name(String::from("bridge-reader"))
-            .spawn(move || {
-                let _running = running;
-                reader.run(opener, writer);
-            })
-            .map_err(BridgeError::Thread)?;
-        Ok(Self {
+        let link = Self {
             shared,
             incoming,
             failures,
             controls,
             frames,
             taps: Some([sent_end, received_end]),
-        })
+            stepped: None,
+        };
+        (link, reader, writer)
+    }
+
+    /// What time it is: what it was told last, or that of the system.
+    pub(super) fn now(&self) -> Instant {
+        let stepped = self.stepped.as_ref();
+        stepped.map_or_else(Instant::now, |stepped| stepped.now)
+    }
+
+    /// Tells a link without threads what time it is.
+    pub(super) fn tell(&mut self, now: Instant) {
+        if let Some(stepped) = &mut self.stepped {
+            stepped.now = now.max(stepped.now);
+        }
+    }
+
+    /// Does what threads would have done until now, where there are none.
+    pub(super) fn settle(&mut self) {
+        if let Some(stepped) = &mut self.stepped {
+            stepped.settle();
+        }
     }
 
     /// What a log follows; `None` when one does.
@@ -282,6 +175,11 @@ impl Link {
             1 => Some(StopHow::Ramp),
             _ => Some(StopHow::Now),
         }
+    }
+
+    /// Whether it writes by itself what it is given.
+    pub(super) fn has_threads(&self) -> bool {
+        self.stepped.is_none()
     }
 
     pub(super) fn stop_handle(&self) -> StopHandle {

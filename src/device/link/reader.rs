@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use rtrb::Producer;
 
-use super::{Hearing, Incoming, Opener, Running, Shared, Writer, count};
+use super::shared::{Hearing, Incoming, Opener, Running, Shared, count};
+use super::writer::Writer;
 use crate::framing::{Decoder, LARGEST_BODY, Packet};
 use crate::message::{DeviceMessage, Unreadable};
 use crate::port::Port;
@@ -74,17 +75,27 @@ impl Reader {
     }
 
     fn read(mut self, mut port: Box<dyn Port>) {
+        while !self.shared.has_quit() && self.hear(port.as_mut(), None) {}
+    }
+
+    /// Takes what arrives next; where it is told what time it is, what is there. False when the
+    /// link is gone.
+    pub(super) fn hear(&mut self, port: &mut dyn Port, told: Option<Instant>) -> bool {
         let mut buffer = [0; 1024];
-        while !self.shared.has_quit() {
-            match port.read(&mut buffer, PATIENCE) {
-                Ok(0) => {}
-                Ok(count) => self.take(buffer.get(..count).unwrap_or(&[]), Instant::now()),
-                Err(error) => {
-                    let reason = format!("the device is gone ({error}): check the cable");
-                    return self.send(Incoming::Gone(reason));
-                }
+        let patience = told.map_or(PATIENCE, |_now| Duration::ZERO);
+        match port.read(&mut buffer, patience) {
+            Ok(0) => {}
+            Ok(count) => {
+                let received = told.unwrap_or_else(Instant::now);
+                self.take(buffer.get(..count).unwrap_or(&[]), received);
+            }
+            Err(error) => {
+                let reason = format!("the device is gone ({error}): check the cable");
+                self.send(Incoming::Gone(reason));
+                return false;
             }
         }
+        true
     }
 
     fn take(&mut self, bytes: &[u8], received: Instant) {
@@ -162,7 +173,7 @@ impl Reader {
         }
     }
 
-    fn send(&mut self, incoming: Incoming) {
+    pub(super) fn send(&mut self, incoming: Incoming) {
         self.hand_on(incoming);
         (self.shared.waker)();
     }

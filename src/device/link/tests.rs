@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::shared::{CONTROLS, PASSING};
 use super::*;
 use crate::message::{Arm, Ping, frame};
 
@@ -53,6 +54,7 @@ fn desk() -> Desk {
             controls,
             frames,
             taps: Some([sent_end, received_end]),
+            stepped: None,
         },
         writer,
         port: Notes::default(),
@@ -71,7 +73,7 @@ fn queued(tick: u32) -> QueuedFrame {
 
 impl Desk {
     fn write_all(&mut self) {
-        while self.writer.step(&mut self.port).is_some() {}
+        while self.writer.step(&mut self.port, None).is_some() {}
     }
 }
 
@@ -143,7 +145,7 @@ fn a_second_time_out_in_a_row_is_the_end_and_a_stop_is_tried_twice() {
     let mut desk = desk();
     desk.port.fail = Some(io::ErrorKind::TimedOut);
     desk.link.send_frame(&queued(1));
-    assert!(desk.writer.step(&mut desk.port).is_some());
+    assert!(desk.writer.step(&mut desk.port, None).is_some());
     assert!(desk.link.next().is_none(), "one time-out is forgiven");
     desk.port.fail = None;
     desk.link.send_frame(&queued(2));
@@ -157,9 +159,9 @@ fn a_second_time_out_in_a_row_is_the_end_and_a_stop_is_tried_twice() {
         .packet(9)
         .unwrap(),
     );
-    desk.writer.step(&mut desk.port);
+    desk.writer.step(&mut desk.port, None);
     assert!(desk.link.next().is_none());
-    desk.writer.step(&mut desk.port);
+    desk.writer.step(&mut desk.port, None);
     let Some(Incoming::Gone(reason)) = desk.link.next() else {
         panic!("gone")
     };
@@ -172,7 +174,7 @@ fn a_vanished_port_is_the_end_at_once() {
     let mut desk = desk();
     desk.port.fail = Some(io::ErrorKind::BrokenPipe);
     desk.link.send_frame(&queued(1));
-    desk.writer.step(&mut desk.port);
+    desk.writer.step(&mut desk.port, None);
     assert!(matches!(desk.link.next(), Some(Incoming::Gone(_))));
 }
 

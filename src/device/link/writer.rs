@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer};
 
-use super::{QueuedFrame, Shared, count};
+use super::shared::{QueuedFrame, Shared, count};
 use crate::framing::Packet;
 use crate::port::Port;
 use crate::session_log::{Passed, Tap};
@@ -69,7 +69,7 @@ impl Writer {
 
     pub(super) fn run(mut self, mut port: Box<dyn Port>) {
         loop {
-            match self.step(port.as_mut()) {
+            match self.step(port.as_mut(), None) {
                 Some(Written::Gone) => return,
                 Some(_) => {}
                 None if self.shared.has_quit() => return,
@@ -78,11 +78,12 @@ impl Writer {
         }
     }
 
-    /// Writes the most urgent packet; `None` when there is none.
-    pub(super) fn step(&mut self, port: &mut dyn Port) -> Option<Written> {
+    /// Writes the most urgent packet, at the time that it is told or now; `None` when there is
+    /// none.
+    pub(super) fn step(&mut self, port: &mut dyn Port, told: Option<Instant>) -> Option<Written> {
         if let Some((stop, asked)) = self.shared.take_stop() {
             self.discard();
-            let written = self.write(port, &stop);
+            let written = self.write(port, &stop, told);
             match written {
                 Written::Yes => self.shared.stops_written.store(asked, Ordering::Release),
                 Written::TimedOut => self.shared.put_stop(&stop),
@@ -91,12 +92,12 @@ impl Writer {
             return Some(written);
         }
         if let Ok(packet) = self.outgoing.controls.pop() {
-            return Some(self.write(port, &packet));
+            return Some(self.write(port, &packet, told));
         }
         let frame = self.newest_frame()?;
-        let written = self.write(port, &frame.packet);
+        let written = self.write(port, &frame.packet, told);
         if written == Written::Yes {
-            self.record(&frame, Instant::now());
+            self.record(&frame, told.unwrap_or_else(Instant::now));
         }
         Some(written)
     }
@@ -137,13 +138,13 @@ impl Writer {
         }
     }
 
-    fn write(&mut self, port: &mut dyn Port, packet: &Packet) -> Written {
+    fn write(&mut self, port: &mut dyn Port, packet: &Packet, told: Option<Instant>) -> Written {
         let result = port.write(packet.as_bytes(), PATIENCE);
         let what = match result {
             Ok(()) => Passed::Sent(*packet),
             Err(_) => Passed::Unsent(*packet),
         };
-        self.tap.put(Instant::now(), &what);
+        self.tap.put(told.unwrap_or_else(Instant::now), &what);
         let reason = match result {
             Ok(()) => {
                 self.timed_out = false;

@@ -1,6 +1,7 @@
 //! The device that was connected last: what its emulated contactors do, and the log of its link.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use super::array::DrivenArray;
 use crate::StopSwitch;
@@ -16,6 +17,8 @@ pub(super) struct DeviceHandle {
     pub(super) session_log: Option<SessionLog>,
     /// What is felt, as every link's log says it.
     said: BTreeMap<&'static str, String>,
+    /// Whether emulated devices live in the time that the engine is told.
+    pub(super) is_stepped: bool,
 }
 
 impl DeviceHandle {
@@ -24,11 +27,15 @@ impl DeviceHandle {
         &mut self,
         target: Target,
         driven: &DrivenArray,
-        switch: &StopSwitch,
+        (switch, told): (&StopSwitch, Option<Instant>),
     ) -> ReadyCommand {
         let waker = switch.clone();
         let wake = move || waker.wake_engine();
-        let mut bridge = Bridge::open(target, driven.profile.clone(), driven.n_felt, wake);
+        let (profile, n_felt) = (driven.profile.clone(), driven.n_felt);
+        let mut bridge = match told.filter(|_| self.is_stepped) {
+            Some(now) => Bridge::open_stepped(target, profile, n_felt, now, wake),
+            None => Bridge::open(target, profile, n_felt, wake),
+        };
         self.actuators = bridge.take_actuators();
         if let Some(log) = &self.session_log {
             let mut feed = log.feed(bridge.target());

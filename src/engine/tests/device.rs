@@ -1,4 +1,5 @@
-//! The engine with an emulated device, in real time: judged by what the device counts.
+//! The engine with an emulated device, in real time and in told time: judged by what the device
+//! counts.
 
 #[cfg(unix)]
 use std::path::Path;
@@ -9,7 +10,7 @@ use std::thread;
 use super::*;
 use crate::input::PointerInput;
 use crate::ready::{CoreCommand, ReadyCommand};
-use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, Target};
+use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, FaultWords, Target};
 #[cfg(unix)]
 use selvedge_device::{DeviceModel, Faults, PtyEmulator};
 use selvedge_scratch::ScratchFolder;
@@ -263,6 +264,27 @@ impl PointerInput for Panics {
 fn with_terminal<T>(name: &str, work: impl FnOnce(&Path, &AtomicBool) -> T) -> (T, String) {
     let model = DeviceModel::for_array(&ArrayProfile::default());
     with_device(name, model, work)
+}
+
+#[test]
+fn an_emulator_in_told_time_gets_a_frame_in_every_tick_and_falls_silent_without() {
+    let (mut engine, _) = engine(Method::Auto);
+    engine.step_emulators();
+    let stall = FaultWords::of(&[("stall-reading-at", "5s+500ms")]);
+    let target = Target::FaultyEmulator(Box::new(stall.faults().unwrap()));
+    engine.send(Command::Connect(target)).unwrap();
+    engine.advance_ticks(20);
+    engine.send(Command::Arm).unwrap();
+    engine.advance_ticks(120);
+    let link = engine.snapshot().link.unwrap();
+    assert_eq!(link.state, BridgeState::Streaming);
+    let counted = link.counters;
+    assert!(counted.frames_sent > 100, "{counted:?}");
+    assert_eq!((counted.device.underrun, counted.device.late), (0, 0));
+    engine.advance_ticks(100);
+    let link = engine.snapshot().link.unwrap();
+    assert!(link.counters.device.underrun >= 3, "{:?}", link.counters);
+    assert_eq!(link.state, BridgeState::Ready, "it disarmed itself");
 }
 
 /// As [`with_terminal`] with a device of this model.

@@ -133,10 +133,10 @@ fn parameter_section(
     );
     section.figure(bars("bars", &title, key, (&shown, None), &[]));
     let crossed = by_subject(all, &names);
-    let rows = complete_rows(&crossed);
+    let (rows, pairs) = (complete_rows(&crossed), every_two("pairs", &crossed));
     let variance = crossed.and_then(|table| repeated_one_way(&table));
     section.table(effects("anova", "Stimuli, within subjects", &variance));
-    section.table(every_two("pairs", &names, &rows));
+    section.table(pairs);
     let hysteresis = start_effect(experiment, all, middle)
         .and_then(|d| Summary::of(&d))
         .and_then(|s| one_sample_t(&s, 0.0));
@@ -231,13 +231,16 @@ fn stimulus_row(name: &str, (own, means): (&[&Setting<'_>], &[f64]), middle: f64
 }
 
 /// Subjects by stimuli, means of repeats.
+/// Settings crossed, stimuli in the order of the design whatever the order of the trials.
 fn by_subject(all: &[Setting<'_>], names: &[String]) -> Computed<Crossed> {
     let answer = |s: &Setting<'_>| CellAnswer {
         subject: s.subject.to_owned(),
         levels: vec![names[s.item].clone()],
         value: s.value,
     };
-    let answers: Vec<CellAnswer> = all.iter().map(answer).collect();
+    let mut in_order: Vec<&Setting<'_>> = all.iter().collect();
+    in_order.sort_by_key(|setting| setting.item);
+    let answers: Vec<CellAnswer> = in_order.into_iter().map(answer).collect();
     Crossed::of_answers(&["stimulus"], &answers)
 }
 

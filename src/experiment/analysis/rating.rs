@@ -73,7 +73,7 @@ pub(super) fn sections(
         let key = file_name(&scale.key, '-');
         let crossed = crossed(experiment, &names, &all);
         let rows = complete_rows(&crossed);
-        let pairs = every_two(&format!("pairs-{key}"), &names, &rows);
+        let pairs = every_two(&format!("pairs-{key}"), &crossed);
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
         let variance = crossed.and_then(|table| repeated_one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);

@@ -86,8 +86,9 @@ fn row(effect: &Effect, n: usize) -> Vec<Cell> {
     ]
 }
 
-/// Every two stimuli, subject by subject, their p values adjusted for each other by Holm.
-pub(super) fn every_two(key: &str, names: &[String], rows: &Computed<Vec<Vec<f64>>>) -> Table {
+/// Every two stimuli that anybody answered to, subject by subject, their p values adjusted for each
+/// other by Holm.
+pub(super) fn every_two(key: &str, crossed: &Computed<Crossed>) -> Table {
     let columns = [
         ("first", "first"),
         ("second", "second"),
@@ -103,9 +104,10 @@ pub(super) fn every_two(key: &str, names: &[String], rows: &Computed<Vec<Vec<f64
     ];
     let title = "Every two stimuli, subject by subject";
     let mut table = Table::new(key, title, &columns);
+    let names = crossed.as_ref().map_or(&[][..], Crossed::levels);
     let column = |rows: &Vec<Vec<f64>>, at: usize| rows.iter().map(|row| row[at]).collect();
-    let found = rows.as_ref().map_err(Clone::clone).and_then(|rows| {
-        let all: Vec<Vec<f64>> = (0..names.len()).map(|at| column(rows, at)).collect();
+    let found = complete_rows(crossed).and_then(|rows| {
+        let all: Vec<Vec<f64>> = (0..names.len()).map(|at| column(&rows, at)).collect();
         every_pair(&all)
     });
     match found {

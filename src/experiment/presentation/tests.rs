@@ -80,6 +80,24 @@ fn one_tick_may_be_missed_or_one_of_a_hundred_and_never_three_in_a_row() {
 }
 
 #[test]
+fn an_array_that_grew_silent_for_want_of_frames_is_not_said_to_be_disarmed() {
+    let missed = |n_missed: u64, is_sent| PresentedTick {
+        is_sent,
+        n_missed,
+        ..STILL
+    };
+    let mut held_short = judged();
+    shown(&mut held_short, std::iter::repeat_n(STILL, 400));
+    shown(&mut held_short, [missed(8, true), missed(9, true)]);
+    held_short.end("the array is not armed at full strength");
+    let standing = held_short.standing();
+    assert!(void(&standing).contains("2 ticks in a row"), "{standing:?}");
+    let mut disarmed = judged();
+    let standing = shown(&mut disarmed, [STILL, missed(11, false)]);
+    assert!(void(&standing).contains("4 ticks in a row"), "{standing:?}");
+}
+
+#[test]
 fn a_tick_that_no_armed_device_got_voids_for_good() {
     let mut watch = judged();
     let off = PresentedTick {

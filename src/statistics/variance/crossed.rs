@@ -72,6 +72,11 @@ impl Crossed {
         Ok(table)
     }
 
+    /// Levels of the first factor, in the order of cells.
+    pub fn levels(&self) -> &[String] {
+        self.factors.first().map_or(&[], |factor| &factor.levels)
+    }
+
     /// Cells a subject has.
     pub fn n_cells(&self) -> usize {
         self.factors.iter().map(|f| f.levels.len()).product()

@@ -180,7 +180,11 @@ impl Bench {
             on_news: (drive == Drive::Live).then(|| waker(ctx)),
         };
         let engine = match drive {
-            Drive::Stepped => Engine::without_thread(config, now)?,
+            Drive::Stepped => {
+                let mut engine = Engine::without_thread(config, now)?;
+                engine.step_emulators();
+                engine
+            }
             Drive::Live | Drive::OnStage => Engine::start(config)?,
         };
         let loaded = opened.loaded;

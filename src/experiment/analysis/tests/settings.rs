@@ -100,6 +100,64 @@ fn matched_gains_on_a_line_are_a_compression() {
 }
 
 #[test]
+fn every_two_stimuli_are_named_by_what_they_were_set_to_in_whatever_order() {
+    let design = Design::shipped("gain-matching").unwrap();
+    let set_to = |item: usize, nth: usize| item as f64 * (2.0 + 0.1 * nth as f64);
+    let found: Vec<Found> = (0..4)
+        .map(|nth| {
+            held(&design, (nth, 1), |task, _| {
+                let (values, steps) = (vec![set_to(task.item().unwrap(), nth)], Vec::new());
+                AnswerValue::Adjusted { values, steps }.into()
+            })
+        })
+        .collect();
+    let shuffled = found[0].records.windows(2).any(|two| {
+        let [one, next] = [0, 1].map(|at| two[at].trial.task.item());
+        one > next
+    });
+    assert!(shuffled, "its trials are not in the design's order");
+    let analysis = analysed(&found);
+    let pairs = table(&analysis, "gain-matching-gain-db", "pairs");
+    let n = design.stimuli.len();
+    let all: Vec<[usize; 2]> = (0..n)
+        .flat_map(|i| (i + 1..n).map(move |j| [i, j]))
+        .collect();
+    assert_eq!(pairs.rows.len(), all.len());
+    for (row, [first, second]) in all.into_iter().enumerate() {
+        let names = [first, second].map(|at| Cell::from(&design.stimuli[at].id));
+        assert_eq!(pairs.rows[row][..2], names);
+        let expected = (first as f64 - second as f64) * 2.15;
+        let difference = value(pairs, row, "difference");
+        assert!((difference - expected).abs() < 1e-9, "{pairs:?}");
+    }
+}
+
+#[test]
+fn a_session_broken_off_after_one_trial_is_analysed() {
+    for name in ["gain-matching", "rating"] {
+        let design = Design::shipped(name).unwrap();
+        let mut found = held(&design, (0, 1), |_, _| match name {
+            "rating" => AnswerValue::Ratings(vec![30.0; 4]).into(),
+            _ => AnswerValue::Adjusted {
+                values: vec![1.0],
+                steps: Vec::new(),
+            }
+            .into(),
+        });
+        found.records.retain(|record| !record.trial.is_practice);
+        found.records.truncate(1);
+        let analysis = analysed(&[found]);
+        let mut tables = analysis.sections.iter().flat_map(|one| &one.tables);
+        let pairs = tables.find(|one| one.key.starts_with("pairs")).unwrap();
+        assert_eq!(
+            pairs.rows[0][0],
+            Cell::from("all"),
+            "no pair of one: {pairs:?}"
+        );
+    }
+}
+
+#[test]
 fn numbers_that_follow_a_power_law_give_its_exponent() {
     let design = Design::shipped("magnitude").unwrap();
     let found: Vec<Found> = (0..3)

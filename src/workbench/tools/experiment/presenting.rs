@@ -51,6 +51,8 @@ pub(crate) struct Presented {
     pub(crate) presenting: Presenting,
     /// The engine's recording of it.
     pub(crate) recording: TrialRecording,
+    /// Why the array presents it no more.
+    pub(crate) ended_by: Option<&'static str>,
     /// How often this trial was voided.
     pub(crate) n_void: u32,
     /// Why the last presentation did not count, and what follows.
@@ -66,6 +68,7 @@ impl Default for Presented {
         Self {
             presenting: Presenting::Nothing,
             recording: TrialRecording::Nothing,
+            ended_by: None,
             n_void: 0,
             trouble: None,
             last_response_s: None,
@@ -180,15 +183,16 @@ impl ActiveSession {
             let is_ready = self.waits_for(array).is_none();
             return if is_ready { Due::Begin } else { Due::Nothing };
         }
-        let Presenting::Watched(watch) = &mut self.presented.presenting else {
+        let Presenting::Watched(watch) = &self.presented.presenting else {
             return Due::Nothing;
         };
-        if let Some(why) = array.why_not.filter(|_| !self.is_pilot) {
-            watch.end(why);
-        }
-        match watch.standing() {
-            Standing::Void(_) => Due::Void,
-            Standing::Valid | Standing::Incomplete(_) => Due::Nothing,
+        self.presented.ended_by = array.why_not.filter(|_| !self.is_pilot);
+        // Ticks that the engine still holds say better what came first.
+        let is_over = self.presented.ended_by.is_some();
+        if is_over || matches!(watch.standing(), Standing::Void(_)) {
+            Due::Void
+        } else {
+            Due::Nothing
         }
     }
 
@@ -271,6 +275,12 @@ impl ActiveSession {
     /// What its row says of the presentation, which began `began_ns` after the opening, and what
     /// becomes of an answer: one to what does not count is none.
     pub(crate) fn judge(&mut self, outcome: Outcome, began_ns: u64) -> (Outcome, Presentation) {
+        if let (Some(why), Presenting::Watched(watch)) = (
+            self.presented.ended_by.take(),
+            &mut self.presented.presenting,
+        ) {
+            watch.end(why);
+        }
         let mut presentation = match &self.presented.presenting {
             Presenting::Watched(watch) => watch.presentation(began_ns),
             Presenting::Confirmed => Presentation::confirmed(Proof::RealCloth),

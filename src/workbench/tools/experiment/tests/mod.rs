@@ -4,12 +4,13 @@
 pub(crate) mod apart;
 pub(crate) mod before;
 pub(crate) mod drawn;
+mod finger;
 pub(crate) mod presented;
 
 use std::fs;
 use std::path::PathBuf;
 
-use eframe::egui::{Key, Modifiers, Pos2, vec2};
+use eframe::egui::{Key, Modifiers, vec2};
 
 use super::*;
 use crate::bench::command::Command;
@@ -29,6 +30,8 @@ use selvedge_experiment::session::{find_sessions, path_file, samples_file};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
+
+use finger::{Frames, explore, feel, stroke};
 
 /// A window in which a session of a design was begun.
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
@@ -51,14 +54,23 @@ const FOUR: &str = "textiles = [\"silk-crepe\", \"wool-twill\", \"jute-plain\", 
 /// A design of the program with four textiles in place of all: they are ready soon.
 fn small(folder: &Folder, design: &'static str) -> Chosen {
     let text = Design::shipped_text(design).unwrap();
-    let Some((before, rest)) = text.split_once("textiles = [") else {
+    let four = with_four(text);
+    if four == text {
         return Chosen::Shipped(design);
-    };
-    let (_, after) = rest.split_once(']').unwrap();
+    }
     fs::create_dir_all(&folder.0).unwrap();
     let path = folder.0.join(format!("{design}.toml"));
-    fs::write(&path, format!("{before}{FOUR}{after}")).unwrap();
+    fs::write(&path, four).unwrap();
     Chosen::File(path)
+}
+
+/// The text of a design with four textiles in place of all, where it lists more.
+fn with_four(text: &str) -> String {
+    let listed = text.split_once("textiles = [").and_then(|(before, rest)| {
+        let (all, after) = rest.split_once(']')?;
+        (all.matches('"').count() > 8).then(|| format!("{before}{FOUR}{after}"))
+    });
+    listed.unwrap_or_else(|| text.to_owned())
 }
 
 fn experiment(window: &Headless) -> &Experiment {
@@ -121,65 +133,6 @@ fn lay(window: &mut Headless) {
     window.pass(3);
     let session = session(window);
     assert!(session.trial().is_some() && !session.is_waiting());
-}
-
-/// Whose frames are run.
-trait Frames {
-    fn window(&mut self) -> &mut Headless;
-    fn frames(&mut self, n: u32);
-}
-
-impl Frames for Headless {
-    fn window(&mut self) -> &mut Headless {
-        self
-    }
-
-    fn frames(&mut self, n: u32) {
-        self.pass(n);
-    }
-}
-
-/// Does what has to be done before an answer is taken: every textile is felt, every vibration
-/// played.
-fn feel(on: &mut impl Frames) {
-    for place in session(on.window()).layout.places.clone() {
-        for n in 0..44 {
-            let [dx_mm, dy_mm] = [10.0 + 2.0 * f64::from(n % 40), 20.0 + f64::from(n % 40)];
-            let corner = place.origin_mm;
-            let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
-            let workbench = &on.window().workbench;
-            let stamp = workbench.bench.stamp();
-            let mut tap = workbench.shell.tap.lock().unwrap();
-            if let Some(at) = tap.screen(to) {
-                tap.moved_to(stamp, at);
-            }
-            drop(tap);
-            on.frames(1);
-        }
-    }
-    for _ in 0..120 {
-        if session(on.window()).missing().is_none() {
-            return;
-        }
-        on.frames(1);
-    }
-    panic!("{:?}", session(on.window()).missing());
-}
-
-/// Moves the finger to and fro for so many ticks.
-fn explore(window: &mut Headless, n_ticks: u16) {
-    for n in 0..n_ticks {
-        let at = Pos2::new(300.0 + 6.0 * f32::from(n % 40), 300.0);
-        let stamp = window.workbench.bench.stamp();
-        window
-            .workbench
-            .shell
-            .tap
-            .lock()
-            .unwrap()
-            .moved_to(stamp, at);
-        window.pass(1);
-    }
 }
 
 fn rank(window: &mut Headless, order: [usize; 4]) {

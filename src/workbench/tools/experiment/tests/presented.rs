@@ -1,17 +1,21 @@
 //! Trials that count: what was not felt is not answered, what stops counting is presented again.
 
 use super::*;
+use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
-use selvedge_experiment::{Proof, Validity};
+use selvedge_device::FaultWords;
+use selvedge_experiment::analysis::{Cell, Options, analyse_folder};
+use selvedge_experiment::{Proof, Record, Validity};
+use selvedge_foundation::progress::unheard;
+use selvedge_textile::tactile::Band;
 
-/// Runs frames until something is so, for as long as a busy machine may take.
+/// Runs frames until something is so.
 fn wait(window: &mut Headless, what: &str, is_so: impl Fn(&Headless) -> bool) {
-    for _ in 0..2000 {
+    for _ in 0..200 {
         window.pass(1);
         if is_so(window) {
             return;
         }
-        std::thread::sleep(std::time::Duration::from_millis(5));
     }
     panic!("{what} did not come");
 }
@@ -31,13 +35,20 @@ fn arm(window: &mut Headless) {
     });
 }
 
-/// A window with an armed emulator and a session on it that counts.
-fn begun_on_array(folder: &Folder) -> Headless {
+/// A window with a session on the emulator that counts, before its first trial, without practice.
+fn begun_on_array(folder: &Folder, design: &str) -> Headless {
+    let text = Design::shipped_text(design).map_or_else(|| composed(design), str::to_owned);
+    let is_practice =
+        |line: &&str| line.starts_with("practice_trials") || line.starts_with("least_practised");
+    let text: Vec<&str> = text.lines().filter(|line| !is_practice(line)).collect();
+    let path = folder.0.join(format!("{design}.toml"));
+    fs::create_dir_all(&folder.0).unwrap();
+    fs::write(&path, with_four(&text.join("\n"))).unwrap();
     let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
     window.pass(2);
     let form = &mut experiment_mut(&mut window).form;
-    form.choose(small(folder, "odd-one-out"));
-    form.folder = folder.0.display().to_string();
+    form.choose(Chosen::File(path));
+    form.folder = folder.0.join("logs").display().to_string();
     form.who.pseudonym = "p01".to_owned();
     act(&mut window, Experiment::begin_session);
     window.pass(3);
@@ -46,6 +57,15 @@ fn begun_on_array(folder: &Folder) -> Headless {
         window.pass(2);
     }
     window
+}
+
+/// A design of those that the analysis is tried with.
+fn composed(name: &str) -> String {
+    let designs = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../experiment/analysis/tests/designs"
+    );
+    fs::read_to_string(format!("{designs}/{name}.toml")).unwrap()
 }
 
 #[test]
@@ -80,72 +100,283 @@ fn an_answer_waits_until_everything_was_felt() {
     assert_eq!(found[0].breaks, []);
 }
 
+/// The middle of a presentation, ticks after the start of the emulator: 1300 ms.
+const MIDDLE: u64 = 52;
+
+/// What goes wrong in the middle of a presentation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fault {
+    /// The frames of four ticks in a row are late.
+    Late,
+    /// The array is disarmed.
+    Disarmed,
+    /// Whoever holds the session lowers the array's limits to nothing.
+    Limited,
+    /// Its cable is pulled.
+    Unplugged,
+}
+
+impl Fault {
+    const ALL: [Self; 4] = [Self::Late, Self::Disarmed, Self::Limited, Self::Unplugged];
+
+    /// An emulator that is armed; what befalls it by itself does so in the middle of a trial.
+    fn prepare(self, window: &mut Headless) {
+        let befalls: &[(&'static str, &str)] = match self {
+            Self::Late => &[("stall-reading-at", "1300ms+90ms")],
+            Self::Unplugged => &[("unplug-at", "1300ms")],
+            Self::Disarmed | Self::Limited => &[],
+        };
+        window.dispatch(DeviceCommand::StartFaults(FaultWords::of(befalls)));
+        window.pass(1);
+        arm(window);
+    }
+
+    fn happen(self, window: &mut Headless) {
+        match self {
+            Self::Late | Self::Unplugged => {}
+            Self::Disarmed => window.dispatch(DeviceCommand::Disarm),
+            Self::Limited => limit(window, 0.0),
+        }
+    }
+
+    /// What a row says of it.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Late => "without their frame",
+            Self::Disarmed | Self::Unplugged => "not armed",
+            Self::Limited => "limits changed",
+        }
+    }
+}
+
+/// Lets the array play so much at most, µm.
+fn limit(window: &mut Headless, limit_um: f64) {
+    for band in [Band::Low, Band::High] {
+        window.dispatch(DeviceCommand::Array(ArrayCommand::Limit(band, limit_um)));
+    }
+    window.pass(2);
+}
+
+/// A kind of trial, and a whole answer to it.
+type Asked = (&'static str, Vec<Mark>);
+
+/// Every kind that a participant's screen knows.
+fn every_kind() -> Vec<Asked> {
+    let place = Mark::Place;
+    vec![
+        ("ranking-virtual-target", (0..4).map(place).collect()),
+        ("odd-one-out", vec![place(1), Mark::Confidence(1)]),
+        ("abx", vec![place(1), Mark::Confidence(2)]),
+        ("best-worst", vec![place(0), place(3)]),
+        ("ranked-threes", (0..3).map(place).collect()),
+        ("same-different", vec![place(0), Mark::Confidence(4)]),
+        ("gain-yes-no", vec![place(0)]),
+        ("compression-staircase", vec![place(1)]),
+        ("equality-constant", vec![place(0)]),
+        ("masked-threshold", vec![place(2)]),
+        ("free-sorting", (0..4).map(Mark::NextPile).collect()),
+        ("dissimilarity", vec![Mark::Rate(0, 30.0)]),
+        (
+            "rating",
+            (0..4).map(|scale| Mark::Rate(scale, 30.0)).collect(),
+        ),
+        ("magnitude", vec![Mark::Type("12".to_owned())]),
+        ("gain-matching", vec![Mark::Turn(0, 1)]),
+    ]
+}
+
+/// Whether a presentation is under way.
+fn is_presented(window: &Headless) -> bool {
+    let session = session(window);
+    session.trial().is_some() && !session.is_waiting() && session.is_open()
+}
+
+/// Ends a pause and lets the next presentation begin.
+fn present(window: &mut Headless) {
+    if session(window).pause == Pause::On {
+        act(window, |one, bench| one.pause(false, bench));
+    }
+    experiment_mut(window).session.as_mut().unwrap().lay();
+    wait(window, "a presentation", is_presented);
+}
+
+/// Moves on over the first that lies there, for so many ticks.
+fn stroke_first(window: &mut Headless, n_ticks: u64) {
+    let places = &session(window).layout.places;
+    let corner = places
+        .first()
+        .map_or_else(Point::default, |place| place.origin_mm);
+    let now = tick(window);
+    stroke(window, corner, now..now + n_ticks);
+}
+
+/// The engine's tick.
+fn tick(window: &Headless) -> u64 {
+    window.workbench.bench.live.tick
+}
+
+/// The strongest of what the array is told now, µm.
+fn strongest_um(window: &Headless) -> f64 {
+    let all = window.workbench.amplitudes_um();
+    all.iter().flatten().copied().fold(0.0, f64::max)
+}
+
+/// Gives a whole answer and hands it in.
+fn say(window: &mut Headless, marks: &[Mark]) {
+    let session = experiment_mut(window).session.as_mut();
+    session.unwrap().forget_draft();
+    for one in marks {
+        mark(window, one.clone());
+    }
+    answer(window);
+    window.pass(1);
+}
+
+/// Goes on as if nothing had happened: feels everything and answers all the while, until a row is
+/// written.
+fn go_on(window: &mut Headless, marks: &[Mark]) {
+    let (attempt, n_answered) = (session(window).attempt(), session(window).progress.0);
+    let places = session(window).layout.places.clone();
+    for n in 0..300 {
+        let now = session(window);
+        if now.attempt() > attempt || now.progress.0 > n_answered {
+            break;
+        }
+        say(window, marks);
+        let place = places.get(n / 44 % places.len().max(1));
+        let corner = place.map_or_else(Point::default, |place| place.origin_mm);
+        stroke(window, corner, n as u64..n as u64 + 1);
+    }
+}
+
+/// The rows of the only session, which are as they were written.
+fn rows(folder: &Folder) -> Vec<Record> {
+    let [found] = &find_sessions(&folder.0.join("logs")).unwrap().0[..] else {
+        panic!("one session")
+    };
+    assert_eq!(found.breaks, []);
+    found.records.clone()
+}
+
+/// Lets a fault happen in the middle of a presentation, whose row says so whatever is answered.
+fn void_by(fault: Fault, window: &mut Headless, (marks, folder): (&[Mark], &Folder)) {
+    let start = tick(window);
+    let what = format!("{fault:?} in {}", folder.0.display());
+    fault.prepare(window);
+    present(window);
+    let attempt = session(window).attempt();
+    // What is limited has to be there.
+    while tick(window) < start + MIDDLE || fault == Fault::Limited && strongest_um(window) < 0.1 {
+        assert!(is_presented(window), "{what} is not yet");
+        assert!(tick(window) < start + 4 * MIDDLE, "{what}: nothing is felt");
+        stroke_first(window, 1);
+    }
+    fault.happen(window);
+    stroke_first(window, 3);
+    go_on(window, marks);
+    let is_stopped = session(window).pause == Pause::On;
+    let rows = rows(folder);
+    assert_eq!(session(window).progress.0, 0, "{what} was answered");
+    assert_eq!(rows.len(), attempt as usize, "{what} left a row");
+    let void = &rows.last().unwrap().presentation.void;
+    assert!(void.contains(fault.words()), "{what}: {void}");
+    let trouble = session(window).presented.trouble.clone().unwrap();
+    assert!(trouble.contains("does not count"), "{trouble}");
+    assert_eq!(is_stopped, rows.len() == 3, "three times stop");
+    assert_eq!(trouble.contains("3 times"), is_stopped, "{trouble}");
+    limit(window, 50.0);
+}
+
+/// Feels all that lies there and answers: that counts.
+fn answer_validly(window: &mut Headless, marks: &[Mark]) {
+    window.dispatch(DeviceCommand::ConnectEmulator);
+    window.pass(1);
+    arm(window);
+    present(window);
+    feel(window);
+    say(window, marks);
+    window.pass(4);
+    let one = session(window);
+    assert_eq!(one.progress.0, 1, "{:?}: {:?}", one.missing(), one.draft);
+}
+
+/// What the table of sessions says of the only one: trials that count, and those that are void.
+fn counted(folder: &Folder) -> [Cell; 2] {
+    let logs = folder.0.join("logs");
+    let options = Options::default();
+    let analysis = unheard(|progress| analyse_folder(&logs, &options, progress)).unwrap();
+    let mut tables = analysis.sections.iter().flat_map(|section| &section.tables);
+    let held = tables.find(|table| table.key == "held").unwrap();
+    ["trials", "void"].map(|name| {
+        let column = held.columns.iter().position(|one| one.name == name);
+        held.rows[0][column.unwrap()].clone()
+    })
+}
+
 #[test]
-fn a_trial_waits_for_an_armed_array_and_is_voided_with_it_and_three_times_stop() {
-    let folder = Folder::new("void");
-    let mut window = begun_on_array(&folder);
+fn no_fault_of_the_array_in_the_middle_of_any_kind_of_trial_lets_an_answer_count() {
+    for (design, marks) in every_kind() {
+        let folder = Folder::new(design);
+        let mut window = begun_on_array(&folder, design);
+        for fault in Fault::ALL {
+            let draft = &session(&window).draft;
+            if fault == Fault::Limited && matches!(draft, Draft::Adjust { .. }) {
+                // What is adjusted may meet its limits.
+                continue;
+            }
+            void_by(fault, &mut window, (&marks, &folder));
+        }
+        answer_validly(&mut window, &marks);
+        let rows = rows(&folder);
+        let (last, voided) = rows.split_last().unwrap();
+        for (nth, row) in (1..).zip(voided) {
+            assert_eq!((&row.trial, row.attempt), (&last.trial, nth), "{design}");
+            let presentation = &row.presentation;
+            let validity = presentation.validity();
+            assert_eq!((row.answer(), validity), (None, Validity::Void), "{design}");
+            assert_eq!(presentation.proof, Some(Proof::Emulator));
+        }
+        assert!(last.answer().is_some(), "{design}");
+        assert_eq!(last.presentation.validity(), Validity::Valid, "{design}");
+        let n_void = voided.len() as f64;
+        assert_eq!(
+            counted(&folder),
+            [1.0, n_void].map(Cell::Number),
+            "{design}"
+        );
+    }
+}
+
+#[test]
+fn a_trial_waits_for_an_armed_array_and_nothing_is_answered_before_it_begins() {
+    let folder = Folder::new("unarmed");
+    let mut window = begun_on_array(&folder, "odd-one-out");
     let waiting = session(&window);
     assert!(waiting.trial().is_some() && waiting.is_waiting());
-    let trial = waiting.trial().unwrap().clone();
     let seen = experiment(&window).participant(&EngineView::default(), 0.0);
     assert!(
         matches!(seen, ParticipantView::Words { left_s: None, .. }),
         "{seen:?}"
     );
     mark(&mut window, Mark::Place(1));
-    assert!(
-        matches!(session(&window).draft, Draft::Choose { position: None, .. }),
-        "nothing is answered before it begins"
-    );
-    for nth in 1..=3 {
-        arm(&mut window);
-        // A busy machine may void one that nobody disarms.
-        wait(&mut window, "a presentation", |window| {
-            !session(window).is_waiting() || session(window).attempt() > nth
-        });
-        window.dispatch(DeviceCommand::Disarm);
-        wait(&mut window, "its void", |window| {
-            session(window).is_waiting() || session(window).pause == Pause::On
-        });
-        let voided = session(&window);
-        assert!(voided.progress.0 == 0 && voided.attempt() > nth);
-        let trouble = voided.presented.trouble.clone().unwrap();
-        assert!(trouble.contains("does not count"), "{trouble}");
-        if voided.pause == Pause::On {
-            break;
-        }
-    }
-    assert_eq!(session(&window).pause, Pause::On);
-    let trouble = session(&window).presented.trouble.clone().unwrap();
-    assert!(trouble.contains("times"), "{trouble}");
-    let found = find_sessions(&folder.0).unwrap().0;
-    let rows = &found[0].records;
-    assert_eq!(rows.len(), 3);
-    for row in rows {
-        assert_eq!((&row.trial, row.answer()), (&trial, None));
-        let presentation = &row.presentation;
-        assert_eq!(presentation.validity(), Validity::Void, "{presentation:?}");
-        assert_eq!(presentation.proof, Some(Proof::Emulator));
-    }
-    assert_eq!(found[0].breaks, []);
-    arm(&mut window);
-    act(&mut window, |one, bench| one.pause(false, bench));
-    wait(&mut window, "the fourth", |window| {
-        !session(window).is_waiting()
-    });
+    assert!(matches!(
+        session(&window).draft,
+        Draft::Choose { position: None, .. }
+    ));
 }
 
 #[test]
 fn a_beginning_is_taken_back_without_a_trace_but_a_line() {
     let folder = Folder::new("undone");
-    let mut window = begun_on_array(&folder);
+    let mut window = begun_on_array(&folder, "odd-one-out");
     let log = log_of(&window);
     assert!(log.exists());
     act(&mut window, Experiment::undo_beginning);
     window.pass(3);
     assert!(experiment(&window).session.is_none());
     assert!(!log.exists() && !log.with_extension("json").exists());
-    let undone = fs::read_to_string(folder.0.join("undone-sessions.csv")).unwrap();
+    let undone = folder.0.join("logs/undone-sessions.csv");
+    let undone = fs::read_to_string(undone).unwrap();
     assert!(
         undone.lines().nth(1).unwrap().ends_with(",p01,1"),
         "{undone}"
