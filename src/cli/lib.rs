@@ -82,6 +82,9 @@ struct Cli {
     /// The public face over the whole screen, for visitors of an exhibition
     #[arg(long, visible_alias = "demo")]
     stage: bool,
+    /// Tell what is wrong with SCENE in the window: for launchers, which show no stderr
+    #[arg(long, conflicts_with = "stage")]
+    from_desktop: bool,
     /// What the operator decides: PIN, port, width of the screen (stage.toml among the settings)
     #[arg(long, value_name = "TOML", requires = "stage")]
     operator: Option<PathBuf>,
@@ -145,6 +148,7 @@ pub fn main() -> ExitCode {
 fn run(cli: Cli) -> Result<(), CliError> {
     match cli.command {
         None if cli.stage => stage::open(cli.scene.as_deref(), cli.operator.as_deref()),
+        None if cli.from_desktop => workbench::open_from_desktop(cli.scene.as_deref()),
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Play(args)) => play::run(&args),

@@ -35,7 +35,7 @@ pub use crate::bench::settings::{own_arrays, own_certificates};
 pub use crate::bench::stage::{StageOptions, StagePicture};
 pub use crate::shell::guide::{GuidePage, guide_pages};
 pub use crate::shell::native::EndSwitch;
-pub use crate::shell::native::{run, run_stage};
+pub use crate::shell::native::{run, run_from_desktop, run_stage};
 pub use crate::shell::raster::Picture;
 pub use crate::shell::raster::Rasteriser;
 pub use crate::shell::screenshot::Screenshot;
