@@ -21,6 +21,7 @@ mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
 mod certify;
+mod doctor;
 mod experiment;
 mod failure;
 mod help;
@@ -114,6 +115,8 @@ enum Command {
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
+    /// What works on this machine, and how to mend what does not
+    Doctor(doctor::DoctorArgs),
     /// Error against run time, stability, what is left out: tables and plots
     Report(report::ReportArgs),
     /// What visitors did
@@ -158,6 +161,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Experiment(command)) => experiment::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
+        Some(Command::Doctor(args)) => doctor::run(&args),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Stage(command)) => stage::run(&command),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

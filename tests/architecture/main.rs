@@ -110,6 +110,7 @@ const HOMES: &[(&str, &str)] = &[
     ("input_linux", "src/engine/input/evdev/"),
     ("rustix", "src/engine/input/evdev/"),
     ("rustix", "src/engine/sound/aplay.rs"),
+    ("rustix", "src/foundation/files/place.rs"),
     ("rustix", "src/foundation/progress.rs"),
     ("rfd", "src/workbench/shell/dialogs.rs"),
     ("serde_json", "src/foundation/files/"),
