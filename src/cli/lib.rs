@@ -24,6 +24,7 @@ mod certify;
 mod doctor;
 mod experiment;
 mod failure;
+mod figure;
 mod help;
 mod identify;
 mod input;
@@ -97,6 +98,8 @@ struct Cli {
 enum Command {
     /// Replay an exploration: the amplitudes of every contactor at every tick
     Render(render::RenderArgs),
+    /// Draw a whole exploration on one page: the way, amplitudes, spectra, levels, a caption
+    Figure(figure::FigureArgs),
     /// Play an exploration in real time on a device
     Play(play::PlayArgs),
     /// The library of textiles
@@ -154,6 +157,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         None if cli.from_desktop => workbench::open_from_desktop(cli.scene.as_deref()),
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),

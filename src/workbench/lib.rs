@@ -44,3 +44,4 @@ pub use crate::shell::screenshot::Theme;
 pub use crate::shell::screenshot::screenshot;
 pub use crate::shell::study::studies;
 pub use crate::shell::window::Workbench;
+pub use crate::tools::timeline::figure::{FigureFiles, FigureOf, exploration_figure};

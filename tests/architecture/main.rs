@@ -6,6 +6,7 @@
 #![expect(clippy::expect_used, reason = "a test that fails says so by panicking")]
 
 mod modules;
+mod platforms;
 mod shape;
 
 use std::collections::BTreeSet;

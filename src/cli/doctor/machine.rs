@@ -120,11 +120,19 @@ pub(super) fn place(name: &'static str, path: &Path) -> Finding {
     let Some(free) = free_bytes(folder) else {
         return Finding::new(name, State::Ok, path.display().to_string());
     };
-    let what = format!("{}, {} GB free", path.display(), fixed(free as f64 / 1e9, 1));
+    let what = format!(
+        "{}, {} GB free",
+        path.display(),
+        fixed(free as f64 / 1e9, 1)
+    );
     if free >= ROOM {
         return Finding::new(name, State::Ok, what);
     }
-    Finding::new(name, State::Note, format!("{what}: make room before a session"))
+    Finding::new(
+        name,
+        State::Note,
+        format!("{what}: make room before a session"),
+    )
 }
 
 pub(super) fn ports() -> Vec<Finding> {
@@ -145,7 +153,10 @@ pub(super) fn ports_of(
     }
     let finding = |port: &PortEntry| {
         let usable = permission(&port.path);
-        Finding::of("port", usable.map(|()| format!("{}, {}", port.path, port.description)))
+        Finding::of(
+            "port",
+            usable.map(|()| format!("{}, {}", port.path, port.description)),
+        )
     };
     ports.iter().map(finding).collect()
 }

@@ -73,7 +73,12 @@ impl Finding {
     }
 
     fn line(&self) -> String {
-        format!("{:<10} {:<5}  {}\n", self.name, self.state.word(), self.what)
+        format!(
+            "{:<10} {:<5}  {}\n",
+            self.name,
+            self.state.word(),
+            self.what
+        )
     }
 }
 

@@ -31,7 +31,11 @@ fn a_machine_without_display_is_usable_and_one_with_a_broken_display_is_not() {
     assert_is(&broken, State::Wrong, "OpenGL 2.1 or later");
     assert_is(&wrong_name, State::Wrong, "set DISPLAY");
     assert_is(&without, State::Note, "set DISPLAY or WAYLAND_DISPLAY");
-    assert_eq!(n_wrong(&[without, broken, wrong_name]), 2, "the first is none");
+    assert_eq!(
+        n_wrong(&[without, broken, wrong_name]),
+        2,
+        "the first is none"
+    );
 }
 
 #[test]
@@ -78,7 +82,11 @@ fn a_folder_that_is_not_there_yet_is_tried_where_it_will_be_made_and_left_alone(
 fn late_ticks_and_missing_sound_are_noted_with_a_mend() {
     let ms = Duration::from_millis;
     let good = punctuality(Duration::from_nanos(30), &mut [ms(2), ms(1), ms(0)]);
-    assert_is(&good, State::Ok, "by 1.00 ms in the middle, 2.00 ms at most");
+    assert_is(
+        &good,
+        State::Ok,
+        "by 1.00 ms in the middle, 2.00 ms at most",
+    );
     let late = punctuality(Duration::from_nanos(30), &mut [ms(0), ms(9)]);
     assert_is(&late, State::Note, "end other programs");
     let playing = SoundState::Playing {
@@ -88,5 +96,9 @@ fn late_ticks_and_missing_sound_are_noted_with_a_mend() {
     assert_is(&sound_as(playing), State::Ok, "by aplay, 20 ms late");
     let absent = sound_as(SoundState::Absent("no server".to_owned()));
     assert_is(&absent, State::Note, "none (no server): start PulseAudio");
-    assert_is(&sound_as(SoundState::Opening), State::Note, "nothing answers");
+    assert_is(
+        &sound_as(SoundState::Opening),
+        State::Note,
+        "nothing answers",
+    );
 }

@@ -29,13 +29,19 @@ mod tests {
     fn the_desktop_entry_belongs_to_the_window_and_has_its_icon() {
         let entry = include_str!("../../../assets/packaging/selvedge.desktop");
         for line in ["StartupWMClass", "Icon"].map(|key| format!("{key}={APP_ID}")) {
-            assert!(entry.lines().any(|own| own == line), "no {line} in the entry");
+            assert!(
+                entry.lines().any(|own| own == line),
+                "no {line} in the entry"
+            );
         }
         let window = own_window("Selvedge");
         assert_eq!(window.app_id.as_deref(), Some(APP_ID), "WM_CLASS");
         let icon = window.icon.expect("it can be decoded");
         assert_eq!([icon.width, icon.height], [128, 128], "pixels");
         let is_seen = |pixel: &[u8]| pixel[3] == u8::MAX && pixel[0] > 200;
-        assert!(icon.rgba.chunks(4).any(is_seen), "the amber thread is there");
+        assert!(
+            icon.rgba.chunks(4).any(is_seen),
+            "the amber thread is there"
+        );
     }
 }

@@ -54,11 +54,7 @@ pub(crate) fn begin(
 }
 
 /// A workbench on a scene, or on the shipped one with a notice that says why not.
-fn from_desktop(
-    ctx: &Context,
-    scene: Option<&Path>,
-    drive: Drive,
-) -> Result<Workbench, AppError> {
+fn from_desktop(ctx: &Context, scene: Option<&Path>, drive: Drive) -> Result<Workbench, AppError> {
     let failure = match Workbench::new(ctx, scene, drive) {
         Err(error) if scene.is_some() => error,
         outcome => return outcome,
@@ -89,8 +85,13 @@ mod tests {
         let ctx = Context::default();
         let workbench = from_desktop(&ctx, Some(broken), Drive::Stepped).expect("it opens");
         let notices = workbench.bench.notices.shown();
-        let is_told = notices.iter().any(|one| one.text.contains("broken.scene.toml"));
+        let is_told = notices
+            .iter()
+            .any(|one| one.text.contains("broken.scene.toml"));
         assert!(is_told, "{notices:?}");
-        assert!(workbench.bench.document.path().is_none(), "the shipped scene");
+        assert!(
+            workbench.bench.document.path().is_none(),
+            "the shipped scene"
+        );
     }
 }

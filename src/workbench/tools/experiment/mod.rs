@@ -38,9 +38,7 @@ pub(crate) use crate::tools::experiment::state::Experiment;
 
 use std::path::PathBuf;
 
-use eframe::egui::{
-    CentralPanel, Context, Frame, Key, Ui, ViewportClass, ViewportId,
-};
+use eframe::egui::{CentralPanel, Context, Frame, Key, Ui, ViewportClass, ViewportId};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
