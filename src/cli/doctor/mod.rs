@@ -84,7 +84,7 @@ impl Finding {
 
 /// All of it, for `--json`.
 #[derive(Debug, Serialize)]
-struct Findings<'a> {
+struct Told<'a> {
     program: &'static str,
     system: String,
     is_usable: bool,
@@ -122,7 +122,7 @@ pub(super) fn run(args: &DoctorArgs) -> Result<(), CliError> {
     let n_wrong = n_wrong(&all);
     if args.json {
         let (os, machine) = (std::env::consts::OS, std::env::consts::ARCH);
-        let told = Findings {
+        let told = Told {
             program: PROGRAM,
             system: format!("{os} {machine}"),
             is_usable: n_wrong == 0,

@@ -178,6 +178,10 @@ pub(super) fn display_as(named: Option<&str>, outcome: Result<String, AppError>)
         (None, Err(error @ AppError::NoDisplay)) if cfg!(target_os = "linux") => {
             Finding::new("display", State::Note, error.to_string())
         }
+        (Some(name), Err(AppError::NoDisplay)) => {
+            let what = format!("nothing answers at the display that {name} names; correct it");
+            Finding::new("display", State::Wrong, what)
+        }
         (_, Err(error)) => Finding::new("display", State::Wrong, error.to_string()),
     }
 }

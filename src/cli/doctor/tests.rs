@@ -29,7 +29,7 @@ fn a_machine_without_display_is_usable_and_one_with_a_broken_display_is_not() {
     let broken = display_as(Some("DISPLAY"), no_gl);
     let wrong_name = display_as(Some("DISPLAY"), Err(AppError::NoDisplay));
     assert_is(&broken, State::Wrong, "OpenGL 2.1 or later");
-    assert_is(&wrong_name, State::Wrong, "set DISPLAY");
+    assert_is(&wrong_name, State::Wrong, "that DISPLAY names; correct it");
     assert_is(&without, State::Note, "set DISPLAY or WAYLAND_DISPLAY");
     assert_eq!(
         n_wrong(&[without, broken, wrong_name]),

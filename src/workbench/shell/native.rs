@@ -98,10 +98,7 @@ pub fn run(
     open_window(Opening::Workbench(scene), on_open)
 }
 
-/// The same for who has no terminal: what is wrong with the scene is told in the window.
-///
-/// # Errors
-/// As [`run`], but for the scene.
+/// As [`run`] for who has no terminal: what is wrong with the scene is told in the window.
 pub fn run_from_desktop(
     scene: Option<PathBuf>,
     on_open: impl FnOnce(EndSwitch) + 'static,

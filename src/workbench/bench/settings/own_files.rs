@@ -1,4 +1,4 @@
-//! What the window would find of the user's files: asked without opening it, and nothing is changed.
+//! What the window would find of the user's files: asked without opening it; nothing is changed.
 
 use std::io;
 use std::path::PathBuf;

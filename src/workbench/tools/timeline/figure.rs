@@ -1,8 +1,8 @@
-//! A whole exploration on one page: where the display went, what vibrated under it, how strong every
-//! contactor was, speed and mean levels; with a caption.
+//! A whole exploration on one page: where the display went, what vibrated under it, how strong
+//! every contactor was, speed and mean levels; with a caption.
 //!
-//! A recording is drawn as it was felt, a path as the scene makes it felt. The same exploration gives
-//! the same bytes.
+//! A recording is drawn as it was felt, a path as the scene makes it felt. The same exploration
+//! gives the same bytes.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -27,9 +27,11 @@ use selvedge_render::{RenderScene, Replay, replay};
 use selvedge_textile::BuildCache;
 use selvedge_textile::tactile::Band;
 
-/// Columns of a strip: a longer exploration has several ticks in each, of which the strongest shows.
+/// Columns of a strip: a longer exploration has several ticks in each; the strongest shows.
 const MOST_COLUMNS: u64 = 1200;
 const COLOURS: ColourMap = ColourMap::Viridis;
+/// Height of the upper row, the width that its panels share, and the most of it for the map, px.
+const MAP_PX: [f64; 3] = [300.0, 690.0, 450.0];
 
 /// What is drawn.
 #[derive(Debug, Clone)]
@@ -190,10 +192,20 @@ fn exported(
     let origin = Origin::of(scene_file, &loaded.tuning(), loaded.library_reference_db());
     let lines = recorded(recording, n_ticks, origin.of_contactor(moment.contactor));
     let mut inspector = ContactInspector::new(scene);
-    let spectrum = spectrum_at(&mut inspector, moment);
+    let [height_px, room_px, most_px] = MAP_PX;
+    let [width_mm, height_mm] = scene_file.size_mm;
+    let width = (height_px * width_mm / height_mm).min(most_px);
+    let map = Chart {
+        width,
+        ..map(loaded, recording, moment)?
+    };
+    let spectrum = Chart {
+        width: room_px - width,
+        ..spectrum_at(&mut inspector, moment)
+    };
     let mut rows = vec![Row {
-        panels: vec![map(loaded, recording, moment)?, spectrum],
-        height_px: 300.0,
+        panels: vec![map, spectrum],
+        height_px,
         bar: None,
     }];
     rows.extend(Band::ALL.map(|band| strip(recording, band, moment)));
@@ -227,7 +239,6 @@ fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
             moment.contactor,
             fixed(moment.t_s(), 2)
         ),
-        width: 1.1,
         x: Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]),
         y: Axis::linear("level, dB re 1 µm").within(LevelRange::default().ends_db()),
         rules: Band::ALL.map(carrier).to_vec(),
@@ -252,7 +263,8 @@ fn over_time(n_ticks: u64, raster: Raster, y: Axis, moment: &Moment) -> Chart {
     }
 }
 
-/// The strongest share of every row in every column; `of` writes those of a tick, the top row first.
+/// The strongest share of every row in every column; `of` writes those of a tick, the top row
+/// first, below 0 where there is nothing.
 fn raster(
     recording: &Recording,
     n_rows: usize,
@@ -261,7 +273,7 @@ fn raster(
     let n_ticks = recording.path().n_ticks();
     let each = n_ticks.div_ceil(MOST_COLUMNS).max(1);
     let n_columns = usize::try_from(n_ticks.div_ceil(each)).unwrap_or(0);
-    let mut strongest = vec![0.0_f64; n_columns * n_rows];
+    let mut strongest = vec![-1.0_f64; n_columns * n_rows];
     let mut shares = vec![0.0; n_rows];
     for (tick, pose) in recording.path().ticks() {
         of(tick, &pose, &mut shares);
@@ -271,7 +283,7 @@ fn raster(
             *cell = cell.max(*share);
         }
     }
-    let colour = |share: f64| Some(rgb(COLOURS, share));
+    let colour = |share: f64| (share >= 0.0).then(|| rgb(COLOURS, share));
     Raster {
         n_columns,
         cells: strongest.into_iter().map(colour).collect(),
@@ -285,7 +297,8 @@ fn strip(recording: &Recording, band: Band, moment: &Moment) -> Row {
     let raster = raster(recording, n, |tick, _, shares| {
         let amplitudes_um = recording.amplitudes_um(tick).unwrap_or_default();
         for (share, um) in shares.iter_mut().zip(amplitudes_um) {
-            *share = scale.share(f64::from(um[band.index()]));
+            let um = f64::from(um[band.index()]);
+            *share = if um > 0.0 { scale.share(um) } else { -1.0 };
         }
     });
     let y = Axis::whole("contactor").within([-0.5, n as f64 - 0.5]);
@@ -311,7 +324,12 @@ fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: 
     let raster = raster(recording, N_ROWS, |_, pose, shares| {
         columns.levels_db(inspector, moment.contactor, pose, &mut levels_db);
         for (share, db) in shares.iter_mut().zip(levels_db.iter().rev()) {
-            *share = levels.share(f64::from(*db));
+            let db = f64::from(*db);
+            *share = if db.is_finite() {
+                levels.share(db)
+            } else {
+                -1.0
+            };
         }
     });
     let y = Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]);
@@ -342,12 +360,13 @@ fn caption(
         "as the scene renders the path"
     };
     format!(
-        "Exploration \"{name}\" of the scene \"{scene}\", {end_s} s. Above, left: the display's way \
-         over the textiles, with its contactors at {t_s} s, when most was felt (dashed below); \
+        "Exploration \"{name}\" of the scene \"{scene}\", {end_s} s. Above, left: the display's \
+         way over the textiles, with its contactors at {t_s} s, when most was felt (dashed below); \
          right: spectrum of the surface under contactor {contactor} at that moment, before filters \
          and gains. Below, over time: peak amplitudes of every contactor at 40 Hz and 320 Hz \
-         {amplitudes}, after gains and before output limits; spectrum under contactor {contactor}; \
-         speed of the display's middle; mean level of the contactors that vibrate."
+         {amplitudes}, after gains and before output limits, white where silent; spectrum under \
+         contactor {contactor}; speed of the display's middle; mean level of the contactors that \
+         vibrate."
     )
 }
 

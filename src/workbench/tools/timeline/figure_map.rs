@@ -50,7 +50,6 @@ pub(crate) fn map(
     };
     Ok(Chart {
         title: "from above".to_owned(),
-        width: width_mm / height_mm,
         x: Axis::linear("x, mm").within([0.0, width_mm]),
         y: Axis::linear("y, mm").within([0.0, height_mm]),
         raster: Some(cloth(loaded)?),
