@@ -81,9 +81,9 @@ impl<'a> Page<'a> {
         let inks = paper.inks();
         let mut top_px = TITLE_PX;
         let mut rows = Vec::new();
-        for row in &figure.rows {
+        for (row, has_bar) in figure.rows.iter().zip(leave_room_for_bars(&figure.rows)) {
             top_px += head_px(row);
-            rows.push(LaidRow::of(row, top_px, inks));
+            rows.push(LaidRow::of((row, has_bar), top_px, inks));
             top_px += row.height_px + foot_px(row);
         }
         let lines = figure.notes.iter();
@@ -151,6 +151,15 @@ impl<'a> Page<'a> {
     }
 }
 
+/// Whether a bar's room is left at the right end of each row: rows over one axis that they share
+/// have frames that are equally wide.
+fn leave_room_for_bars(rows: &[Row]) -> Vec<bool> {
+    let is_last = |row: &Row| !row.panels.iter().all(|panel| panel.is_x_shared);
+    let together = rows.split_inclusive(is_last);
+    let has_bar = |group: &[Row]| vec![group.iter().any(|row| row.bar.is_some()); group.len()];
+    together.flat_map(has_bar).collect()
+}
+
 /// What stands above the frames of a row, px.
 fn head_px(row: &Row) -> f64 {
     let is_named = |panel: &Chart| {
@@ -166,13 +175,13 @@ fn foot_px(row: &Row) -> f64 {
 }
 
 impl<'a> LaidRow<'a> {
-    fn of(row: &'a Row, top_px: f64, inks: &'static Inks) -> Self {
+    fn of((row, has_bar): (&'a Row, bool), top_px: f64, inks: &'static Inks) -> Self {
         let before_px = |(index, panel): (usize, &Chart)| match panel.upright {
             Upright::Shared => SHARED_PX,
             Upright::Upward | Upright::Downward => LABELS_PX[index.min(1)],
         };
         let share = |panel: &Chart| if panel.width > 0.0 { panel.width } else { 1.0 };
-        let bar_px = if row.bar.is_some() { BAR_PX } else { 0.0 };
+        let bar_px = if has_bar { BAR_PX } else { 0.0 };
         let taken_px: f64 = row.panels.iter().enumerate().map(before_px).sum();
         let shares: f64 = row.panels.iter().map(share).sum();
         let room_px = WIDTH_PX - MARGIN_PX - RIGHT_PX - bar_px - taken_px;

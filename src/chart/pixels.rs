@@ -200,3 +200,47 @@ fn rows(height: f64) -> u32 {
 fn single(x: f64) -> f32 {
     x as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    /// The sides in pixels that desktops ask for; windows and packages take them from the files.
+    const ICON_SIDES: [u32; 7] = [16, 24, 32, 48, 64, 128, 256];
+    /// Largest difference of a channel between two machines' drawings.
+    const TOLERANCE: u8 = 2;
+
+    #[test]
+    fn the_pictures_of_the_icon_are_its_drawing() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/packaging");
+        let svg = fs::read_to_string(folder.join("selvedge.svg")).expect("the drawing is there");
+        let tree = Tree::from_str(&svg, &Options::default()).expect("it is a drawing");
+        for side in ICON_SIDES {
+            let mut pixmap = Pixmap::new(side, side).expect("a size");
+            let scale = single(f64::from(side)) / tree.size().width();
+            resvg::render(
+                &tree,
+                Transform::from_scale(scale, scale),
+                &mut pixmap.as_mut(),
+            );
+            let path = folder.join(format!("icons/{side}.png"));
+            if std::env::var_os("SELVEDGE_GOLDEN").is_some_and(|word| word == "accept") {
+                let png = pixmap.encode_png().expect("it can be packed");
+                fs::write(&path, png).expect("it can be written");
+            }
+            let stored = Pixmap::load_png(&path).expect("the picture is there");
+            let size = (stored.width(), stored.height());
+            assert_eq!(size, (side, side), "size of {}", path.display());
+            let mut pairs = stored.data().iter().zip(pixmap.data());
+            let is_same = pairs.all(|(stored, drawn)| stored.abs_diff(*drawn) <= TOLERANCE);
+            assert!(
+                is_same,
+                "{} is not the drawing: SELVEDGE_GOLDEN=accept makes it anew",
+                path.display()
+            );
+        }
+    }
+}

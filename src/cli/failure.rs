@@ -201,7 +201,8 @@ fn code_of_app(error: &AppError) -> u8 {
         AppError::Scene(error) => code_of_scene(error),
         AppError::Textile(error) => code_of_textile(error),
         AppError::Engine(error) => code_of_engine(error),
-        AppError::NoDisplay
+        AppError::Exploration(_)
+        | AppError::NoDisplay
         | AppError::NoGraphics(_)
         | AppError::Render(_)
         | AppError::Size { .. }

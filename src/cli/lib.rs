@@ -21,8 +21,10 @@ mod bridge_faults;
 mod bridge_kit;
 mod bridge_show;
 mod certify;
+mod doctor;
 mod experiment;
 mod failure;
+mod figure;
 mod help;
 mod identify;
 mod input;
@@ -82,6 +84,9 @@ struct Cli {
     /// The public face over the whole screen, for visitors of an exhibition
     #[arg(long, visible_alias = "demo")]
     stage: bool,
+    /// Tell what is wrong with SCENE in the window: for launchers, which show no stderr
+    #[arg(long, conflicts_with = "stage")]
+    from_desktop: bool,
     /// What the operator decides: PIN, port, width of the screen (stage.toml among the settings)
     #[arg(long, value_name = "TOML", requires = "stage")]
     operator: Option<PathBuf>,
@@ -93,6 +98,8 @@ struct Cli {
 enum Command {
     /// Replay an exploration: the amplitudes of every contactor at every tick
     Render(render::RenderArgs),
+    /// Draw a whole exploration on one page: the way, amplitudes, spectra, levels, a caption
+    Figure(figure::FigureArgs),
     /// Play an exploration in real time on a device
     Play(play::PlayArgs),
     /// The library of textiles
@@ -111,6 +118,8 @@ enum Command {
     /// Serial ports and devices
     #[command(subcommand)]
     Bridge(bridge::BridgeCommand),
+    /// What works on this machine, and how to mend what does not
+    Doctor(doctor::DoctorArgs),
     /// Error against run time, stability, what is left out: tables and plots
     Report(report::ReportArgs),
     /// What visitors did
@@ -145,8 +154,10 @@ pub fn main() -> ExitCode {
 fn run(cli: Cli) -> Result<(), CliError> {
     match cli.command {
         None if cli.stage => stage::open(cli.scene.as_deref(), cli.operator.as_deref()),
+        None if cli.from_desktop => workbench::open_from_desktop(cli.scene.as_deref()),
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
@@ -154,6 +165,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Experiment(command)) => experiment::run(&command),
         Some(Command::Bridge(command)) => bridge::run(&command),
+        Some(Command::Doctor(args)) => doctor::run(&args),
         Some(Command::Report(args)) => report::run(&args),
         Some(Command::Stage(command)) => stage::run(&command),
         Some(Command::Screenshot(args)) => screenshot::run(&args),

@@ -19,6 +19,16 @@ pub(super) fn open(scene: Option<&Path>) -> Result<(), CliError> {
     )?)
 }
 
+/// The same for a launcher, which shows nobody what is written on stderr.
+///
+/// # Errors
+/// No display.
+pub(super) fn open_from_desktop(scene: Option<&Path>) -> Result<(), CliError> {
+    let listen = |end: selvedge_workbench::EndSwitch| signals::on_signal(move || end.press());
+    let scene = scene.map(Path::to_path_buf);
+    Ok(selvedge_workbench::run_from_desktop(scene, listen)?)
+}
+
 /// Refuses a scene that is wrong before a window is tried.
 pub(super) fn check(scene: Option<&Path>) -> Result<(), CliError> {
     let Some(path) = scene else { return Ok(()) };

@@ -86,7 +86,8 @@ pub use message::{
     fault_bit, frame, kind,
 };
 pub use port::{
-    FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, list_ports, pair,
+    FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, check_permission,
+    list_ports, pair,
 };
 pub use port::{PairPort, SerialLink, UsbIdentity};
 pub use replay::{ReplayedLink, ReplayedTick, replay_log};

@@ -6,6 +6,7 @@
 #![expect(clippy::expect_used, reason = "a test that fails says so by panicking")]
 
 mod modules;
+mod platforms;
 mod shape;
 
 use std::collections::BTreeSet;
@@ -111,6 +112,7 @@ const HOMES: &[(&str, &str)] = &[
     ("input_linux", "src/engine/input/evdev/"),
     ("rustix", "src/engine/input/evdev/"),
     ("rustix", "src/engine/sound/aplay.rs"),
+    ("rustix", "src/foundation/files/place.rs"),
     ("rustix", "src/foundation/progress.rs"),
     ("rfd", "src/workbench/shell/dialogs.rs"),
     ("serde_json", "src/foundation/files/"),

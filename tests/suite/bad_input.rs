@@ -137,10 +137,13 @@ fn wrong_profiles_are_refused_with_the_file() {
 
 /// A command line, and what the line must name.
 #[rustfmt::skip]
-const MISSING: [(&str, &str); 16] = [
+const MISSING: [(&str, &str); 19] = [
     ("render none.toml --path a.csv", "none.toml"),
     ("render a.scene.toml --path none.csv", "none.csv"),
     ("none.scene.toml", "none.scene.toml"),
+    ("figure a.scene.toml --path none.csv --out f", "none.csv"),
+    ("figure a.scene.toml --out f", "a.scene.toml names no recording"),
+    ("figure a.scene.toml --path a.csv --out f --contactor 24", "no contactor 24"),
     ("screenshot none.toml --out a.png", "none.toml"),
     ("textile list --library none", "none"),
     ("textile show none", "no textile \"none\""),

@@ -15,12 +15,14 @@ use selvedge_workbench::Workbench;
 
 /// A command, and the file of its that is replaced.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 37] = [
+const READERS: [(&str, &str); 39] = [
     ("a.scene.toml", "a.scene.toml"),
     ("render a.scene.toml --path a.csv", "a.scene.toml"),
     ("screenshot a.scene.toml --out new", "a.scene.toml"),
     ("play a.scene.toml --path a.csv --port /dev/ptmx", "a.scene.toml"),
     ("render a.scene.toml --path a.csv", "a.csv"),
+    ("figure a.scene.toml --path a.csv --out new", "a.csv"),
+    ("figure a.scene.toml --path a.csv --out new", "a.scene.toml"),
     ("play a.scene.toml --path a.csv --port /dev/ptmx", "a.csv"),
     ("render a.scene.toml --path a.csv", "textiles/fine/textile.toml"),
     ("render a.scene.toml --path a.csv", "textiles/fine/warp.csv"),

@@ -17,6 +17,7 @@ mod bridge_ends;
 mod bridge_faults;
 mod certify;
 mod commands;
+mod doctor;
 mod evidence;
 mod experiment;
 mod experiment_analyse;

@@ -19,6 +19,7 @@ pub use listing::UsbIdentity;
 pub use listing::{PortEntry, list_ports};
 pub use pair::PairPort;
 pub use pair::pair;
+pub use refusal::check_permission;
 pub use replug::{FoundPort, PortIdentity, RecognisedBy};
 pub use serial::SerialLink;
 

@@ -1,10 +1,12 @@
 //! Why a port did not open, told apart, each in one line with what to do.
 
 use std::io;
+use std::path::Path;
 
 use serialport::ErrorKind;
 
 use crate::BridgeError;
+use selvedge_foundation::files::is_ours;
 
 const RULE: &str = "\"selvedge bridge list --udev-rule\"";
 
@@ -30,6 +32,20 @@ pub(super) fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
         _ => format!("cannot be opened: {text}"),
     };
     BridgeError::Open { port, reason }
+}
+
+/// Whether we may use the port at `path`, which is not opened.
+///
+/// # Errors
+/// We may not: what to do.
+pub fn check_permission(path: &str) -> Result<(), BridgeError> {
+    if is_ours(Path::new(path)) {
+        return Ok(());
+    }
+    Err(BridgeError::Open {
+        port: path.to_owned(),
+        reason: no_permission(path),
+    })
 }
 
 /// Who may open a port, as its node and the system's groups say.

@@ -27,6 +27,7 @@ mod keys;
 mod matrix;
 mod npy;
 mod picture;
+mod place;
 mod read;
 mod staged;
 mod table;
@@ -55,6 +56,7 @@ pub use picture::{
     Rgb8Image, Rgb16Image, decode_picture, decode_png, encode_png, encode_png_rgba,
     encode_png_small, is_picture,
 };
+pub use place::{free_bytes, is_ours};
 pub use read::{read, read_known, read_text};
 pub use staged::Staged;
 pub use table::{Table, TableWriter};

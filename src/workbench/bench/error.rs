@@ -29,6 +29,9 @@ pub enum AppError {
     /// The engine cannot start.
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// An exploration that cannot be drawn.
+    #[error("{0}")]
+    Exploration(String),
     /// A scene that a stage cannot show.
     #[error("the stage shows four textiles and the scene has {n_cloths}; give a scene of four")]
     Stage {

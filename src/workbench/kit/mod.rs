@@ -5,6 +5,7 @@
 pub(crate) mod amplitude;
 pub(crate) mod drop;
 pub(crate) mod foot;
+pub(crate) mod own_window;
 pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod spectrum_scale;

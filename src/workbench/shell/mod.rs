@@ -8,6 +8,7 @@ pub(crate) mod ask;
 pub(crate) mod completion;
 pub(crate) mod dialogs;
 pub(crate) mod dispatch;
+pub(crate) mod display_check;
 pub(crate) mod dropped;
 pub(crate) mod escape;
 pub(crate) mod export;

@@ -98,6 +98,14 @@ pub fn run(
     open_window(Opening::Workbench(scene), on_open)
 }
 
+/// As [`run`] for who has no terminal: what is wrong with the scene is told in the window.
+pub fn run_from_desktop(
+    scene: Option<PathBuf>,
+    on_open: impl FnOnce(EndSwitch) + 'static,
+) -> Result<(), AppError> {
+    open_window(Opening::FromDesktop(scene), on_open)
+}
+
 /// Opens the stage over the whole screen, disarmed, connected to the device that the operator names
 /// or to the emulator. Otherwise as [`run`].
 ///

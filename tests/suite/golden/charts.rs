@@ -79,7 +79,9 @@ fn golden_sheets() {
     assert_eq!(outcome.code, 0, "{outcome:?}");
     let line = "textile catalogue --library textiles --out sheets";
     lab.print(&line.split(' ').collect::<Vec<_>>());
+    lab.print(&["figure", "a.scene.toml", "--path", "a.csv", "--out", "page"]);
     for (name, file) in [
+        ("exploration", "page.svg"),
         ("catalogue-twill", "sheets/twill.svg"),
         ("catalogue-fine", "sheets/fine.svg"),
         ("import-twill", "textiles/twill/import.svg"),

@@ -4,6 +4,7 @@
 //! file is set aside under another name, so that nothing is lost. Knows where the file is and when
 //! it is written; what is in it is in `preferences.rs`.
 
+mod own_files;
 pub(crate) mod preferences;
 #[cfg(test)]
 mod tests;
@@ -135,14 +136,13 @@ impl Settings {
     /// The settings in a folder, which need not be there yet.
     fn in_folder(folder: &Path) -> (Self, Option<String>) {
         let path = folder.join(NAME);
-        let text = match read_text(&path) {
-            Ok(text) => text,
+        match preferences_in(&path) {
             Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
                 let first = Self {
                     are_first: true,
                     ..Self::preferences_at(path, Preferences::default(), true)
                 };
-                return (first, None);
+                (first, None)
             }
             // Whatever is there, it is not to be written over.
             Err(FileError::Read { source, .. }) => {
@@ -150,11 +150,8 @@ impl Settings {
                     "cannot read {}: {source}; settings are as at first and will not be kept",
                     path.display()
                 );
-                return (Self::in_memory(), Some(words));
+                (Self::in_memory(), Some(words))
             }
-            Err(error) => return Self::set_aside(path, Preferences::default(), &error.to_string()),
-        };
-        match Preferences::from_text(&text, &path) {
             Ok((preferences, None)) => (Self::preferences_at(path, preferences, true), None),
             Ok((preferences, Some(line))) => {
                 let what = format!("{}:{line}: this value is not known", path.display());
@@ -262,6 +259,11 @@ impl Settings {
     }
 }
 
+/// What a file holds, and the line of a value that is not known.
+fn preferences_in(path: &Path) -> Result<(Preferences, Option<usize>), FileError> {
+    Preferences::from_text(&read_text(path)?, path)
+}
+
 /// Writes the file and, when need be, its folder.
 fn write(preferences: &Preferences, path: &Path) -> Result<(), FileError> {
     let text = preferences.to_text(path)?;
@@ -284,4 +286,5 @@ fn free_name(path: &Path) -> PathBuf {
         .unwrap_or_else(|| name(""))
 }
 
+pub use crate::bench::settings::own_files::{OwnFiles, own_files};
 pub(crate) use crate::bench::settings::preferences::Preferences;

@@ -38,9 +38,7 @@ pub(crate) use crate::tools::experiment::state::Experiment;
 
 use std::path::PathBuf;
 
-use eframe::egui::{
-    CentralPanel, Context, Frame, Key, Ui, ViewportBuilder, ViewportClass, ViewportId,
-};
+use eframe::egui::{CentralPanel, Context, Frame, Key, Ui, ViewportClass, ViewportId};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
@@ -49,6 +47,7 @@ use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::own_window::own_window;
 use crate::kit::pane::{frame_as_armed, scrolled};
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::tools::experiment::builder::study_text::{Chosen, StudyText};
@@ -85,9 +84,7 @@ impl Experiment {
         let (mut window, mut acts) = (self.window, Vec::new());
         let live = &context.bench.live;
         let view = self.participant(live, ctx.input(|input| input.time));
-        let builder = ViewportBuilder::default()
-            .with_title("Selvedge – participant")
-            .with_app_id("selvedge")
+        let builder = own_window("Selvedge – participant")
             .with_inner_size(PARTICIPANTS_WINDOW)
             .with_min_inner_size(MIN_WINDOW)
             .with_fullscreen(window.fills_screen);

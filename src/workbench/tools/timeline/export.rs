@@ -65,6 +65,11 @@ pub(crate) fn timeline(
     Ok(exported(&timeline, origin))
 }
 
+/// The same of a whole recording.
+pub(crate) fn recorded(recording: &Recording, n_ticks: u64, origin: Origin) -> Exported {
+    exported(&of_take(recording, Span::of(&(0..n_ticks))), origin)
+}
+
 fn of_take(take: &Recording, span: Span) -> TimelineTicks {
     let ticks = span.ticks();
     let mut cursor = PathCursor::at(take.path(), ticks.start);

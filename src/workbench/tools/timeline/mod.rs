@@ -9,6 +9,8 @@ pub(crate) mod code;
 pub(crate) mod columns;
 pub(crate) mod controls;
 pub(crate) mod export;
+pub(crate) mod figure;
+mod figure_map;
 pub(crate) mod icons;
 pub(crate) mod job;
 pub(crate) mod lanes;

@@ -1,0 +1,45 @@
+//! What the system says of a place in its files: how much room is there, and whether it is ours.
+
+use std::path::Path;
+
+/// Bytes that are free for us where `path` is; `None` where the system does not tell.
+#[cfg(unix)]
+pub fn free_bytes(path: &Path) -> Option<u64> {
+    let found = rustix::fs::statvfs(path).ok()?;
+    found.f_bavail.checked_mul(found.f_frsize)
+}
+
+/// Bytes that are free for us where `path` is: not asked on this system.
+#[cfg(not(unix))]
+pub fn free_bytes(_path: &Path) -> Option<u64> {
+    None
+}
+
+/// Whether we may read and write what is at `path`, without opening it: a port that is opened may
+/// start its device anew.
+#[cfg(unix)]
+pub fn is_ours(path: &Path) -> bool {
+    use rustix::fs::Access;
+
+    rustix::fs::access(path, Access::READ_OK | Access::WRITE_OK).is_ok()
+}
+
+/// Whether we may read and write what is at `path`: not asked on this system.
+#[cfg(not(unix))]
+pub fn is_ours(_path: &Path) -> bool {
+    true
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_has_room_and_what_is_not_there_is_nobodys() {
+        let here = std::env::temp_dir();
+        assert!(free_bytes(&here).is_some_and(|bytes| bytes > 0), "room");
+        assert!(is_ours(&here), "we write there");
+        let nowhere = here.join("selvedge-nowhere/at-all");
+        assert_eq!((free_bytes(&nowhere), is_ours(&nowhere)), (None, false));
+    }
+}

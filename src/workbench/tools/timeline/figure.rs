@@ -1,0 +1,416 @@
+//! A whole exploration on one page: where the display went, what vibrated under it, how strong
+//! every contactor was, speed and mean levels; with a caption.
+//!
+//! A recording is drawn as it was felt, a path as the scene makes it felt. The same exploration
+//! gives the same bytes.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use crate::bench::error::AppError;
+use crate::bench::export::origin::Origin;
+use crate::bench::export::write::Kind;
+use crate::bench::export::{Exported, bar, ink, rgb};
+use crate::bench::recording::{Felt, Recording, file};
+use crate::bench::signals::contact::ContactColumns;
+use crate::bench::signals::rows::{LEAST_HZ, MOST_HZ, N_ROWS, row_centre_hz};
+use crate::kit::amplitude::AmplitudeScale;
+use crate::kit::spectrum_scale::LevelRange;
+use crate::kit::theme::colour_map::ColourMap;
+use crate::tools::timeline::export::recorded;
+use crate::tools::timeline::figure_map::map;
+use selvedge_chart::{At, Axis, Chart, Extent, Ink, Raster, Row, Rule, Series, Style, Upright};
+use selvedge_foundation::quantity::fixed;
+use selvedge_render::array::{Accuracy, ContactInspector, Method};
+use selvedge_render::scene::{ExplorationPath, LoadedScene, Pose, TICKS_PER_S};
+use selvedge_render::{RenderScene, Replay, replay};
+use selvedge_textile::BuildCache;
+use selvedge_textile::tactile::Band;
+
+/// Columns of a strip: a longer exploration has several ticks in each; the strongest shows.
+const MOST_COLUMNS: u64 = 1200;
+const COLOURS: ColourMap = ColourMap::Viridis;
+/// Height of the upper row, the width that its panels share, and the most of it for the map, px.
+const MAP_PX: [f64; 3] = [300.0, 690.0, 450.0];
+
+/// What is drawn.
+#[derive(Debug, Clone)]
+pub struct FigureOf {
+    /// The scene's file.
+    pub scene: PathBuf,
+    /// A recording's folder or a path file; `None`: the first recording that the scene names.
+    pub exploration: Option<PathBuf>,
+    /// The contactor whose spectrum is drawn; `None`: the one that vibrated most.
+    pub contactor: Option<usize>,
+}
+
+/// A page and what it shows.
+#[derive(Debug, Clone)]
+pub struct FigureFiles {
+    /// The page as SVG.
+    pub svg: Vec<u8>,
+    /// The same as PNG.
+    pub png: Vec<u8>,
+    /// What to print below it.
+    pub caption: String,
+}
+
+/// Draws an exploration of a scene.
+///
+/// # Errors
+/// The scene or the exploration cannot be read or rendered; there is no such contactor.
+pub fn exploration_figure(
+    of: &FigureOf,
+    cache: Option<&BuildCache>,
+) -> Result<FigureFiles, AppError> {
+    let loaded = LoadedScene::read(&of.scene, cache)?;
+    let scene = RenderScene::of(&loaded);
+    let found = read(of, &loaded)?;
+    let was_felt = found.n_contactors() > 0;
+    let recording = with_amplitudes(found, &scene)?;
+    let moment = Moment::of(&recording, of.contactor)?;
+    let caption = caption(&loaded, (&recording, was_felt), &moment);
+    let drawn = exported((&loaded, &scene), &recording, &moment, &caption)?;
+    let bytes = |kind: Kind| {
+        let bytes = drawn.bytes(kind, Path::new("figure"));
+        bytes.map_err(|error| AppError::Exploration(error.to_string()))
+    };
+    Ok(FigureFiles {
+        svg: bytes(Kind::Svg)?,
+        png: bytes(Kind::Png)?,
+        caption: format!("{caption}\n{}\n", drawn.origin.lines().join("\n")),
+    })
+}
+
+fn read(of: &FigureOf, loaded: &LoadedScene) -> Result<Recording, AppError> {
+    let first = loaded.scene().recordings.first();
+    let first = first.map(|recording| recording.place(Some(&of.scene)));
+    let Some(place) = of.exploration.clone().or(first) else {
+        let what = format!("{} names no recording", of.scene.display());
+        let mend = "give a recording or a path with --path";
+        return Err(AppError::Exploration(format!("{what}; {mend}")));
+    };
+    if place.is_dir() {
+        return file::read(&place).map_err(AppError::Exploration);
+    }
+    let path = ExplorationPath::read(&place)?;
+    Ok(Recording::from_path(place, path))
+}
+
+/// The recording as it was felt; a path as it would be felt in the scene.
+fn with_amplitudes(recording: Recording, scene: &RenderScene) -> Result<Recording, AppError> {
+    if recording.n_contactors() > 0 {
+        return Ok(recording);
+    }
+    let path = ExplorationPath::clone(recording.path());
+    let what = Replay {
+        scene,
+        method: Method::Auto,
+        accuracy: Accuracy::default(),
+        measures_error: false,
+    };
+    let mut felt = Felt::default();
+    replay(&what, path.ticks(), &mut || 0, &mut |_, _, frames| {
+        if let Some(frame) = frames.first() {
+            felt.n_contactors = frame.n_contactors();
+            felt.amplitudes_um.extend_from_slice(frame.amplitudes_um());
+        }
+        ControlFlow::Continue(())
+    })?;
+    let about = recording.about().clone();
+    Ok(Recording::felt(about, path, &[], felt))
+}
+
+/// What stands out: the tick at which most was felt, and one contactor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Moment {
+    pub(crate) tick: u64,
+    pub(crate) pose: Pose,
+    pub(crate) contactor: usize,
+}
+
+impl Moment {
+    fn of(recording: &Recording, contactor: Option<usize>) -> Result<Self, AppError> {
+        let n = recording.n_contactors();
+        if let Some(contactor) = contactor.filter(|contactor| *contactor >= n) {
+            let what = format!(
+                "there is no contactor {contactor}; give 0 to {}",
+                n.max(1) - 1
+            );
+            return Err(AppError::Exploration(what));
+        }
+        let mut of_contactors = vec![0.0; n];
+        let mut strongest = (0.0, 0, Pose::default());
+        for (tick, pose) in recording.path().ticks() {
+            let amplitudes_um = recording.amplitudes_um(tick).unwrap_or_default();
+            let sums = amplitudes_um
+                .iter()
+                .map(|[low, high]| f64::from(low + high));
+            let sum: f64 = sums.clone().sum();
+            of_contactors
+                .iter_mut()
+                .zip(sums)
+                .for_each(|(all, um)| *all += um);
+            if sum > strongest.0 || tick == 0 {
+                strongest = (sum, tick, pose);
+            }
+        }
+        let most = (0..n)
+            .rev()
+            .max_by(|a, b| of_contactors[*a].total_cmp(&of_contactors[*b]));
+        let (_, tick, pose) = strongest;
+        Ok(Self {
+            tick,
+            pose,
+            contactor: contactor.or(most).unwrap_or(0),
+        })
+    }
+
+    fn t_s(&self) -> f64 {
+        self.tick as f64 / TICKS_PER_S
+    }
+
+    /// Where it stands in the strips.
+    fn rule(&self) -> Rule {
+        Rule {
+            at: At::X(self.t_s()),
+            ink: Ink::Grey,
+            extent: Extent::Dashed,
+            ..Rule::default()
+        }
+    }
+}
+
+fn exported(
+    (loaded, scene): (&LoadedScene, &RenderScene),
+    recording: &Recording,
+    moment: &Moment,
+    caption: &str,
+) -> Result<Exported, AppError> {
+    let n_ticks = recording.path().n_ticks();
+    let scene_file = loaded.scene();
+    let origin = Origin::of(scene_file, &loaded.tuning(), loaded.library_reference_db());
+    let lines = recorded(recording, n_ticks, origin.of_contactor(moment.contactor));
+    let mut inspector = ContactInspector::new(scene);
+    let [height_px, room_px, most_px] = MAP_PX;
+    let [width_mm, height_mm] = scene_file.size_mm;
+    let width = (height_px * width_mm / height_mm).min(most_px);
+    let map = Chart {
+        width,
+        ..map(loaded, recording, moment)?
+    };
+    let spectrum = Chart {
+        width: room_px - width,
+        ..spectrum_at(&mut inspector, moment)
+    };
+    let mut rows = vec![Row {
+        panels: vec![map, spectrum],
+        height_px,
+        bar: None,
+    }];
+    rows.extend(Band::ALL.map(|band| strip(recording, band, moment)));
+    rows.push(spectrogram(&mut inspector, recording, moment));
+    rows.extend(lines.figure.rows);
+    let title = format!("{} in {}", recording.name(), scene_file.name);
+    Ok(Exported::new(
+        title,
+        lines.sheet,
+        rows,
+        caption,
+        lines.origin,
+    ))
+}
+
+/// What vibrates under the contactor at the moment that stands out.
+fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
+    let mut levels_db = [0.0; N_ROWS];
+    let mut columns = ContactColumns::default();
+    columns.levels_db(inspector, moment.contactor, &moment.pose, &mut levels_db);
+    let points = levels_db.iter().enumerate();
+    let points = points.map(|(row, db)| [row_centre_hz(row), f64::from(*db)]);
+    let carrier = |band: Band| Rule {
+        at: At::X(band.carrier_hz()),
+        ink: ink(band),
+        ..Rule::default()
+    };
+    Chart {
+        title: format!(
+            "under contactor {} at {} s",
+            moment.contactor,
+            fixed(moment.t_s(), 2)
+        ),
+        x: Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]),
+        y: Axis::linear("level, dB re 1 µm").within(LevelRange::default().ends_db()),
+        rules: Band::ALL.map(carrier).to_vec(),
+        series: vec![Series {
+            ink: Ink::Black,
+            ..Series::of("", Style::Line, points)
+        }],
+        ..Chart::default()
+    }
+}
+
+/// A strip over the time of an exploration.
+fn over_time(n_ticks: u64, raster: Raster, y: Axis, moment: &Moment) -> Chart {
+    let end_s = n_ticks.saturating_sub(1) as f64 / TICKS_PER_S;
+    Chart {
+        x: Axis::linear("time, s").within([0.0, end_s]),
+        is_x_shared: true,
+        y,
+        raster: Some(raster),
+        rules: vec![moment.rule()],
+        ..Chart::default()
+    }
+}
+
+/// The strongest share of every row in every column; `of` writes those of a tick, the top row
+/// first, below 0 where there is nothing.
+fn raster(
+    recording: &Recording,
+    n_rows: usize,
+    mut of: impl FnMut(u64, &Pose, &mut [f64]),
+) -> Raster {
+    let n_ticks = recording.path().n_ticks();
+    let each = n_ticks.div_ceil(MOST_COLUMNS).max(1);
+    let n_columns = usize::try_from(n_ticks.div_ceil(each)).unwrap_or(0);
+    let mut strongest = vec![-1.0_f64; n_columns * n_rows];
+    let mut shares = vec![0.0; n_rows];
+    for (tick, pose) in recording.path().ticks() {
+        of(tick, &pose, &mut shares);
+        let column = usize::try_from(tick / each).unwrap_or(0);
+        for (row, share) in shares.iter().enumerate() {
+            let cell = &mut strongest[row * n_columns + column];
+            *cell = cell.max(*share);
+        }
+    }
+    let colour = |share: f64| (share >= 0.0).then(|| rgb(COLOURS, share));
+    Raster {
+        n_columns,
+        cells: strongest.into_iter().map(colour).collect(),
+    }
+}
+
+/// How strong every contactor was in a band.
+fn strip(recording: &Recording, band: Band, moment: &Moment) -> Row {
+    let scale = AmplitudeScale::default();
+    let n = recording.n_contactors();
+    let raster = raster(recording, n, |tick, _, shares| {
+        let amplitudes_um = recording.amplitudes_um(tick).unwrap_or_default();
+        for (share, um) in shares.iter_mut().zip(amplitudes_um) {
+            let um = f64::from(um[band.index()]);
+            *share = if um > 0.0 { scale.share(um) } else { -1.0 };
+        }
+    });
+    let y = Axis::whole("contactor").within([-0.5, n as f64 - 0.5]);
+    let chart = Chart {
+        title: format!("{} Hz", fixed(band.carrier_hz(), 0)),
+        ink: ink(band),
+        upright: Upright::Downward,
+        ..over_time(recording.path().n_ticks(), raster, y, moment)
+    };
+    let ends = [scale.least_um(), scale.most_um()];
+    let axis = Axis::log("peak amplitude, µm").within(ends);
+    Row {
+        panels: vec![chart],
+        height_px: 110.0,
+        bar: Some(bar(COLOURS, axis)),
+    }
+}
+
+/// What vibrates under the contactor, over time.
+fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: &Moment) -> Row {
+    let levels = LevelRange::default();
+    let (mut columns, mut levels_db) = (ContactColumns::default(), [0.0; N_ROWS]);
+    let raster = raster(recording, N_ROWS, |_, pose, shares| {
+        columns.levels_db(inspector, moment.contactor, pose, &mut levels_db);
+        for (share, db) in shares.iter_mut().zip(levels_db.iter().rev()) {
+            let db = f64::from(*db);
+            *share = if db.is_finite() {
+                levels.share(db)
+            } else {
+                -1.0
+            };
+        }
+    });
+    let y = Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]);
+    Row {
+        panels: vec![Chart {
+            title: format!("under contactor {}", moment.contactor),
+            ..over_time(recording.path().n_ticks(), raster, y, moment)
+        }],
+        height_px: 130.0,
+        bar: Some(bar(
+            COLOURS,
+            Axis::linear("level, dB re 1 µm").within(levels.ends_db()),
+        )),
+    }
+}
+
+fn caption(
+    loaded: &LoadedScene,
+    (recording, was_felt): (&Recording, bool),
+    moment: &Moment,
+) -> String {
+    let (name, scene) = (recording.name(), &loaded.scene().name);
+    let (contactor, t_s) = (moment.contactor, fixed(moment.t_s(), 2));
+    let end_s = fixed(recording.path().duration_s(), 2);
+    let amplitudes = if was_felt {
+        "as they were recorded"
+    } else {
+        "as the scene renders the path"
+    };
+    format!(
+        "Exploration \"{name}\" of the scene \"{scene}\", {end_s} s. Above, left: the display's \
+         way over the textiles, with its contactors at {t_s} s, when most was felt (dashed below); \
+         right: spectrum of the surface under contactor {contactor} at that moment, before filters \
+         and gains. Below, over time: peak amplitudes of every contactor at 40 Hz and 320 Hz \
+         {amplitudes}, after gains and before output limits, white where silent; spectrum under \
+         contactor {contactor}; speed of the display's middle; mean level of the contactors that \
+         vibrate."
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "../../assets/scenes/four-alternatives.scene.toml";
+
+    fn figure(contactor: Option<usize>) -> Result<FigureFiles, AppError> {
+        let scratch = selvedge_scratch::ScratchFolder::made("figure");
+        let row = |n: u32| format!("{},{},60\n", f64::from(n) / 40.0, 30.0 + 4.0 * f64::from(n));
+        let rows: String = (0..=40).map(row).collect();
+        let path = scratch.write("stroke.csv", format!("t_s,x_mm,y_mm\n{rows}"));
+        let of = FigureOf {
+            scene: Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE),
+            exploration: Some(path),
+            contactor,
+        };
+        exploration_figure(&of, None)
+    }
+
+    #[test]
+    fn a_page_is_the_same_twice_and_its_caption_names_what_it_shows() {
+        let [one, other] = [figure(None), figure(None)].map(Result::unwrap);
+        assert_eq!((&one.svg, &one.png), (&other.svg, &other.png));
+        for words in [
+            "\"stroke\"",
+            "as the scene renders the path",
+            "1.00 s",
+            "sha256",
+        ] {
+            assert!(one.caption.contains(words), "{words}: {}", one.caption);
+        }
+        let svg = String::from_utf8(one.svg).unwrap();
+        // Cloth and three strips over time are pictures, all frames of time equally wide.
+        assert_eq!(svg.matches("<image").count(), 4);
+        let chosen = figure(Some(3)).unwrap();
+        assert!(
+            chosen.caption.contains("under contactor 3 "),
+            "{}",
+            chosen.caption
+        );
+        let error = figure(Some(24)).unwrap_err().to_string();
+        assert!(error.ends_with("give 0 to 23"), "{error}");
+    }
+}
