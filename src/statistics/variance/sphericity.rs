@@ -24,7 +24,8 @@ impl Sphericity {
         }
         let epsilon = (1.0 / (levels * square)).min(1.0);
         let rest = subjects - 1.0 - levels * epsilon;
-        let huynh_feldt = if rest > 0.0 {
+        // Two subjects differ in one way: nothing is left but rounding.
+        let huynh_feldt = if rest > 1e-9 * subjects {
             Ok((subjects * levels * epsilon - 2.0) / (levels * rest))
         } else {
             let reason = format!("{n} subjects are too few for ε of Huynh and Feldt");
@@ -143,5 +144,21 @@ mod tests {
         assert!(few.huynh_feldt.is_err(), "few");
         assert!(Sphericity::of(&[0.0; 4], 2, 8, &Ok(3.0)).is_err(), "none");
         Ok(())
+    }
+
+    #[test]
+    fn two_subjects_are_too_few_for_huynh_and_feldt_whatever_rounding_leaves() {
+        for i in 1..200_i32 {
+            // Two subjects differ along one line: the sums of products are those of one vector.
+            let x = f64::from(i);
+            let differences = [0.1 * x, 0.7, -x.sqrt()];
+            let products: Vec<f64> = differences
+                .iter()
+                .flat_map(|a| differences.map(|b| a * b))
+                .collect();
+            let found = Sphericity::of(&products, 3, 2, &Ok(1.0)).unwrap();
+            assert!((found.greenhouse_geisser - 1.0 / 3.0).abs() < 1e-9);
+            assert!(found.huynh_feldt.is_err(), "{i}: {found:?}");
+        }
     }
 }
