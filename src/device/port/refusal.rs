@@ -6,7 +6,7 @@ use std::path::Path;
 use serialport::ErrorKind;
 
 use crate::BridgeError;
-use selvedge_foundation::files::is_ours;
+use selvedge_foundation::files::is_accessible;
 
 const RULE: &str = "\"selvedge bridge list --udev-rule\"";
 
@@ -39,7 +39,7 @@ pub(super) fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
 /// # Errors
 /// We may not: what to do.
 pub fn check_permission(path: &str) -> Result<(), BridgeError> {
-    if is_ours(Path::new(path)) {
+    if is_accessible(Path::new(path)) {
         return Ok(());
     }
     Err(BridgeError::Open {

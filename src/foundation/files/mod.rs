@@ -56,7 +56,7 @@ pub use picture::{
     Rgb8Image, Rgb16Image, decode_picture, decode_png, encode_png, encode_png_rgba,
     encode_png_small, is_picture,
 };
-pub use place::{free_bytes, is_ours};
+pub use place::{free_bytes, is_accessible};
 pub use read::{read, read_known, read_text};
 pub use staged::Staged;
 pub use table::{Table, TableWriter};

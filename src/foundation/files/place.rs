@@ -18,7 +18,7 @@ pub fn free_bytes(_path: &Path) -> Option<u64> {
 /// Whether we may read and write what is at `path`, without opening it: a port that is opened may
 /// start its device anew.
 #[cfg(unix)]
-pub fn is_ours(path: &Path) -> bool {
+pub fn is_accessible(path: &Path) -> bool {
     use rustix::fs::Access;
 
     rustix::fs::access(path, Access::READ_OK | Access::WRITE_OK).is_ok()
@@ -26,7 +26,7 @@ pub fn is_ours(path: &Path) -> bool {
 
 /// Whether we may read and write what is at `path`: not asked on this system.
 #[cfg(not(unix))]
-pub fn is_ours(_path: &Path) -> bool {
+pub fn is_accessible(_path: &Path) -> bool {
     true
 }
 
@@ -38,8 +38,11 @@ mod tests {
     fn a_folder_has_room_and_what_is_not_there_is_nobodys() {
         let here = std::env::temp_dir();
         assert!(free_bytes(&here).is_some_and(|bytes| bytes > 0), "room");
-        assert!(is_ours(&here), "we write there");
+        assert!(is_accessible(&here), "we write there");
         let nowhere = here.join("selvedge-nowhere/at-all");
-        assert_eq!((free_bytes(&nowhere), is_ours(&nowhere)), (None, false));
+        assert_eq!(
+            (free_bytes(&nowhere), is_accessible(&nowhere)),
+            (None, false)
+        );
     }
 }
