@@ -80,17 +80,9 @@ impl MapDrawing<'_> {
     }
 
     fn table(&self) -> Table {
-        let columns = [
-            ("name", ""),
-            ("x1", "x₁"),
-            ("x2", "x₂"),
-            ("ellipse_x1", "middle x₁"),
-            ("ellipse_x2", "middle x₂"),
-            ("half_axis_1", "half axis"),
-            ("half_axis_2", "half axis"),
-            ("angle_deg", "angle, °"),
-        ];
-        let mut table = Table::new("points", "", &columns);
+        let columns = "name: ; x1: x₁; x2: x₂; ellipse_x1: middle x₁; ellipse_x2: middle x₂; \
+            half_axis_1: half axis; half_axis_2: half axis; angle_deg: angle, °";
+        let mut table = Table::new("points", "", columns);
         for (i, (name, point)) in self.names.iter().zip(self.points).enumerate() {
             let place = [0, 1].map(|axis| known(point.get(axis).copied(), "a line has one axis"));
             let ellipse = self.ellipses.get(i).map_or_else(
@@ -231,8 +223,8 @@ pub(super) fn heat(
 
 fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
     let n = names.len();
-    let columns = [("row", "row"), ("column", "column"), ("value", label)];
-    let mut points = Table::new("points", "", &columns);
+    let mut points = Table::new("points", "", "row; column; value");
+    label.clone_into(&mut points.columns[2].heading);
     for (at, value) in values.iter().enumerate() {
         let value = known(*value, "never met, or itself");
         points.push(cells![&names[at / n], &names[at % n], value]);

@@ -36,16 +36,8 @@ fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
     all
 }
 
-const EXPONENTS: [(&str, &str); 8] = [
-    ("condition", "condition"),
-    ("subject", "subject"),
-    ("stimuli", "stimuli"),
-    ("exponent", "exponent"),
-    ("ci_low", "95 % CI from"),
-    ("ci_high", "to"),
-    ("constant", "number at 1 µm"),
-    ("r_squared", "r²"),
-];
+const EXPONENTS: &str = "condition; subject; stimuli; exponent; ci_low: 95 % CI from; ci_high: \
+    to; constant: number at 1 µm; r_squared: r²";
 
 pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let mut section = experiment.section("exponents", "Stevens' exponents");
@@ -61,7 +53,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
         section.table(means(experiment));
         return vec![section];
     }
-    let mut table = Table::new("exponents", "Exponents", &EXPONENTS);
+    let mut table = Table::new("exponents", "Exponents", EXPONENTS);
     let mut found: Vec<(&str, Stevens)> = Vec::new();
     for condition in conditions {
         match stevens(&estimates(experiment, condition), 0.95) {
@@ -73,7 +65,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
                 found.push((condition, law));
             }
             Err(why) => {
-                let blank = vec![Cell::none(&why.reason); EXPONENTS.len() - 2];
+                let blank = vec![Cell::none(&why.reason); table.columns.len() - 2];
                 table.push(cells![condition, "all", blank]);
             }
         }
@@ -97,14 +89,9 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
 
 /// Geometric means of every stimulus over subjects, of each subject's numbers over their own mean.
 fn means(experiment: &Experiment<'_>) -> Table {
-    let columns = [
-        ("item", "stimulus"),
-        ("n", "subjects"),
-        ("mean", "geometric mean, over that of all"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-    ];
-    let mut table = Table::new("means", "Numbers by stimulus", &columns);
+    let columns = "item: stimulus; n: subjects; mean: geometric mean, over that of all; ci_low: \
+        95 % CI from; ci_high: to";
+    let mut table = Table::new("means", "Numbers by stimulus", columns);
     let logarithms: Vec<Vec<(usize, f64)>> = (experiment.subjects.iter())
         .map(|subject| {
             let number = |record: &Record| match (record.trial.task.item(), record.value()) {
