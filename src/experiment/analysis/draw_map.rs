@@ -5,6 +5,7 @@ use super::model::{Cell, Drawn, Table, cells, known};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Ink, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
 };
+use selvedge_foundation::numerics::to_whole;
 use selvedge_statistics::properties::Ellipse;
 
 /// Corners of an ellipse.
@@ -235,13 +236,8 @@ fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
 /// From nearly white to deep blue.
 fn shade(share: f64) -> [u8; 3] {
     let (light, dark) = ([247.0, 250.0, 253.0], [8.0, 48.0, 107.0]);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 255"
-    )]
-    let mix = |i: usize| (light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0)).round() as u8;
-    [0, 1, 2].map(mix)
+    let mix = |i: usize| light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0);
+    [0, 1, 2].map(|i| to_whole(mix(i).round()))
 }
 
 #[cfg(test)]
