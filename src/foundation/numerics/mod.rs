@@ -53,6 +53,21 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.fold(none, |[low, high], value| [low.min(value), high.max(value)])
 }
 
+/// The middle of what `n` halvings leave of an interval: what is sought lies above the places that
+/// `is_below` holds for.
+pub fn bisected([mut low, mut high]: [f64; 2], n: u32, is_below: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..n {
+        let middle = 0.5 * (low + high);
+        let end = if is_below(middle) {
+            &mut low
+        } else {
+            &mut high
+        };
+        *end = middle;
+    }
+    0.5 * (low + high)
+}
+
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.
 ///
 /// Sorts `values` in place.
