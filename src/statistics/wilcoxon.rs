@@ -168,11 +168,13 @@ impl SignedRanks {
         }
         let mut means = walsh_means(values);
         means.sort_by(f64::total_cmp);
-        Ok(Interval {
-            low: expected + means[n_rejected - 1],
-            high: expected + means[means.len() - n_rejected],
-            level: LEVEL,
-        })
+        Ok(Interval::new(
+            [
+                expected + means[n_rejected - 1],
+                expected + means[means.len() - n_rejected],
+            ],
+            LEVEL,
+        ))
     }
 }
 

@@ -252,11 +252,7 @@ pub(super) fn slope(points: &[[f64; 2]]) -> Computed<(LineFit, Interval)> {
     let t = t_quantile_upper(0.025, df)
         .map_err(|_none| Undefined::because("two stimuli leave no scatter about a line"))?;
     let half = t * line.slope_error;
-    let interval = Interval {
-        low: line.slope - half,
-        high: line.slope + half,
-        level: 0.95,
-    };
+    let interval = Interval::new([line.slope - half, line.slope + half], 0.95);
     Ok((line, interval))
 }
 

@@ -11,10 +11,10 @@ use crate::design::{Adaptation, Seeks, Track};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::Computed;
 use selvedge_statistics::psychometric::{
     Block, Estimate, Evidence, Family, Fit, Goodness, Guess, Model, Population, blocks,
 };
-use selvedge_statistics::{Computed, Interval};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
@@ -155,11 +155,7 @@ fn just_noticeable(width: &Estimate) -> Estimate {
     Estimate {
         value: share * width.value,
         se: share * width.se,
-        interval: Interval {
-            low: share * width.interval.low,
-            high: share * width.interval.high,
-            ..width.interval
-        },
+        interval: width.interval.map(|end| share * end),
     }
 }
 

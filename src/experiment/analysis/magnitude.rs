@@ -9,7 +9,7 @@ use crate::{AnswerValue, Record};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
-use selvedge_statistics::{Interval, Summary, mean, paired_t};
+use selvedge_statistics::{Summary, mean, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
 fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
@@ -113,11 +113,7 @@ fn means(experiment: &Experiment<'_>) -> Table {
         };
         let values: Vec<f64> = logarithms.iter().filter_map(of).collect();
         let interval = Summary::of(&values).and_then(|summary| summary.interval(0.95));
-        let interval = interval.map(|i| Interval {
-            low: i.low.exp(),
-            high: i.high.exp(),
-            ..i
-        });
+        let interval = interval.map(|interval| interval.map(f64::exp));
         let centre = mean(&values).map(f64::exp);
         table.push(cells![name, values.len(), centre, interval]);
     }

@@ -364,9 +364,5 @@ pub(super) fn ends(interval: &Computed<Interval>) -> [Cell; 2] {
 
 /// Wilson's interval of a share, %.
 pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<Interval> {
-    wilson(hits, n, 0.95).map(|mut interval| {
-        interval.low *= 100.0;
-        interval.high *= 100.0;
-        interval
-    })
+    wilson(hits, n, 0.95).map(|interval| interval.map(|share| share * 100.0))
 }
