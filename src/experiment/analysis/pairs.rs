@@ -26,11 +26,11 @@ pub(super) fn draws(options: &Options) -> (usize, u64) {
 }
 
 /// What every section with such scales says of them.
-pub(super) const NOTE: &str = "Bradley: and Terry's values are logits: the natural logarithm of \
-    the odds that one is preferred to the other is their difference. The unit of Thurstone's \
-    (Case V) is the standard deviation of the difference of two sensations; times: √2 it is that \
-    of one, the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero \
-    of their own: values sum to 0.";
+pub(super) const NOTE: &str = "Bradley and Terry's values are logits: the natural logarithm of \
+    the odds that one is preferred to the other is their difference. The unit of Thurstone's (Case \
+    V) is the standard deviation of the difference of two sensations; times √2 it is that of one, \
+    the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero of their \
+    own: values sum to 0.";
 
 const SCALES: &str = "item; preferred; compared: of comparisons; bradley_terry: Bradley & Terry, \
     logits; bradley_terry_se: SE, comparisons independent; bradley_terry_se_subjects: SE over \
