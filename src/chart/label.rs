@@ -4,6 +4,7 @@
 
 use super::Scale;
 use super::ticks::Ruler;
+use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::quantity::{fixed, with_unit};
 
 /// Units that take prefixes.
@@ -130,13 +131,8 @@ fn stepped(value: f64, step: f64) -> String {
 }
 
 /// Decimals that tell multiples of a step apart.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between 0 and 12"
-)]
 fn decimals_of(step: f64) -> usize {
-    (-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize
+    to_whole((-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0))
 }
 
 /// A number with the digits that it has: `0.05`, `200`, and `2e−7` far from 1.

@@ -11,6 +11,7 @@ use super::compose::Page;
 use super::raster::Placed;
 use super::svg::{WIDTH_PX, paper};
 use super::{Chart, Figure, Paper, Raster};
+use selvedge_foundation::numerics::{to_single, to_whole};
 
 /// A picture of red, green, blue and alpha, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -108,7 +109,7 @@ fn drawn(
             Some(pixmap) => pixmap,
             None => Pixmap::new(width, height).ok_or(FigureError::Width(width))?,
         };
-        let factor = single(scale);
+        let factor = to_single(scale);
         let transform = Transform::from_scale(factor, factor);
         resvg::render(&tree, transform, &mut pixmap.as_mut());
         if is_first {
@@ -144,7 +145,7 @@ fn enlarge(placed: &Placed<'_>, page: &mut Pixmap, scale: f64) -> Result<(), Fig
     let along = |axis: usize, n_cells: u32| {
         let size_px = placed.size_px[axis] * scale;
         let start_px = placed.corner_px[axis] * scale;
-        (single(size_px / f64::from(n_cells)), single(start_px))
+        (to_single(size_px / f64::from(n_cells)), to_single(start_px))
     };
     let (across, left) = along(0, pixmap.width());
     let (down, top) = along(1, pixmap.height());
@@ -187,18 +188,8 @@ fn fonts() -> &'static Arc<fontdb::Database> {
     })
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a cast from a float saturates, and the pixmap refuses what is too large"
-)]
 fn rows(height: f64) -> u32 {
-    height.ceil().max(1.0) as u32
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "the renderer draws in f32")]
-fn single(x: f64) -> f32 {
-    x as f32
+    to_whole(height.ceil().max(1.0))
 }
 
 #[cfg(test)]

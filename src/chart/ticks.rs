@@ -1,6 +1,7 @@
 //! Where values stand on an axis, and where its ticks are: 1, 2, 5 in every decade.
 
 use super::{Axis, Scale};
+use selvedge_foundation::numerics::to_whole;
 
 /// Values beyond this are drawn at it: far beyond anything that is measured.
 const LARGEST: f64 = 1e300;
@@ -197,12 +198,8 @@ impl Ruler {
 }
 
 /// The decade that a value above zero lies in: `⌊log₁₀ v⌋`.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the logarithm of a finite number is small"
-)]
 fn decade_of(value: f64) -> i32 {
-    (value.log10() + 1e-9).floor() as i32
+    to_whole((value.log10() + 1e-9).floor())
 }
 
 /// `mantissa · 10^decade`, exactly as its digits read.

@@ -7,6 +7,7 @@
 
 pub(super) use super::array::ArrayProfile;
 use super::array::Calibration;
+use selvedge_foundation::numerics::to_whole;
 
 /// The largest drive code: a component's drive peak is `code / 65535` of the device's full scale.
 pub const FULL_CODE: u16 = u16::MAX;
@@ -384,13 +385,8 @@ fn is_permutation(channels: &[u16], n: usize) -> bool {
     channels.len() == n && channels.iter().all(&mut takes)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the argument is finite and in 0…65535 by the limits; `as` saturates besides"
-)]
 fn round_half_up(code: f64) -> u16 {
-    (code + 0.5).floor() as u16
+    to_whole((code + 0.5).floor())
 }
 
 #[cfg(test)]

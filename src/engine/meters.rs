@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use selvedge_device::Spread;
+use selvedge_foundation::numerics::to_whole;
 
 /// Buckets to an octave: a quantile is at most 9 % too high.
 const PER_OCTAVE: usize = 8;
@@ -112,13 +113,7 @@ fn bucket_of(duration: Duration) -> usize {
     if us <= LOWEST_OCTAVE.exp2() {
         return 0;
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a logarithm above the lowest, below 1000"
-    )]
-    let bucket = ((us.log2() - LOWEST_OCTAVE) * PER_OCTAVE as f64).ceil() as usize;
-    bucket.min(N_BUCKETS - 1)
+    to_whole::<usize>(((us.log2() - LOWEST_OCTAVE) * PER_OCTAVE as f64).ceil()).min(N_BUCKETS - 1)
 }
 
 fn upper_end(bucket: usize) -> Duration {

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use super::{ApplyTicks, PointerSample};
+use super::PointerSample;
 use selvedge_device::SentFrame;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{ExplorationPath, PathRow, Pose, SceneError, TICKS_PER_S};
@@ -246,17 +246,6 @@ impl Recording {
             velocity: Some(recorded.pose.velocity),
         };
         ExplorationPath::new(self.ticks.iter().enumerate().map(row).collect())
-    }
-
-    /// The device's tick at which each row of [`to_path`](Self::to_path) was felt; none at all when
-    /// nothing was sent to a device.
-    pub fn apply_ticks(&self) -> ApplyTicks {
-        let applied = |recorded: &RecordedTick| recorded.sent.map(|sent| sent.apply_tick);
-        if self.ticks.iter().any(|recorded| recorded.sent.is_some()) {
-            self.ticks.iter().map(applied).collect()
-        } else {
-            ApplyTicks::default()
-        }
     }
 
     /// Takes full blocks away and gives empty ones back: to be called every few seconds until it

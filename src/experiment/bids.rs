@@ -7,7 +7,7 @@
 //! code/main-table.tsv  main-table.json  main_table.py  main_table.R
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::Serialize;
@@ -42,10 +42,21 @@ struct Dataset<'a> {
 struct Described {
     #[serde(rename = "Description")]
     description: String,
-    #[serde(rename = "Units", skip_serializing_if = "Option::is_none")]
-    units: Option<String>,
+    #[serde(rename = "Units", skip_serializing_if = "String::is_empty")]
+    units: String,
     #[serde(rename = "Levels", skip_serializing_if = "BTreeMap::is_empty")]
     levels: BTreeMap<String, String>,
+}
+
+impl Described {
+    /// Without levels; a unit where it is not empty.
+    fn plain(description: &str, unit: &str) -> Self {
+        Self {
+            description: description.to_owned(),
+            units: unit.to_owned(),
+            levels: BTreeMap::new(),
+        }
+    }
 }
 
 /// What is averaged by subject, and apart for each of what.
@@ -143,9 +154,13 @@ fn write_session(session: &Found, out: &Path, cells: &mut Cells) -> Result<(), E
     write_tsv(&path, &names, &rows)?;
     let described = describe(&columns, &rows, &session.design);
     let beside = path.with_extension("json");
-    write_atomic(&beside, to_json_string(&described, &beside)?.as_bytes())?;
+    write_json(&beside, &described)?;
     gather(&columns, &rows, (&task, &format!("sub-{subject}")), cells);
     Ok(())
+}
+
+fn write_json<T: Serialize>(path: &Path, value: &T) -> Result<(), FileError> {
+    write_atomic(path, to_json_string(value, path)?.as_bytes())
 }
 
 /// A table with tabs; what is empty is said to be.
@@ -168,21 +183,14 @@ fn describe(
     rows: &[Vec<String>],
     design: &Design,
 ) -> BTreeMap<String, Described> {
-    let plain = |description: &str| Described {
-        description: description.to_owned(),
-        units: Some("s".to_owned()),
-        levels: BTreeMap::new(),
-    };
-    let mut described = BTreeMap::from([
-        (
-            "onset".to_owned(),
-            plain("beginning of the trial, since the session was opened"),
-        ),
-        (
-            "duration".to_owned(),
-            plain("from the beginning to the answer"),
-        ),
-    ]);
+    let onset = "beginning of the trial, since the session was opened";
+    let times = [
+        ("onset", onset),
+        ("duration", "from the beginning to the answer"),
+    ];
+    let mut described: BTreeMap<String, Described> = times
+        .map(|(name, meaning)| (name.to_owned(), Described::plain(meaning, "s")))
+        .into();
     for (at, column) in columns.iter().enumerate() {
         let mut levels = BTreeMap::new();
         let values = rows
@@ -194,14 +202,8 @@ fn describe(
             let meaning = stimulus.map_or(value, |stimulus| stimulus.material.as_str());
             levels.insert(value.to_owned(), meaning.to_owned());
         }
-        described.insert(
-            column.name.clone(),
-            Described {
-                description: column.meaning.clone(),
-                units: Some(column.unit.to_owned()).filter(|unit| !unit.is_empty()),
-                levels,
-            },
-        );
+        let plain = Described::plain(&column.meaning, column.unit);
+        described.insert(column.name.clone(), Described { levels, ..plain });
     }
     described
 }
@@ -255,16 +257,9 @@ fn gather(
 
 fn write_main_table(cells: &Cells, folder: &Path) -> Result<(), ExperimentError> {
     make_folder(folder)?;
-    let names = [
-        "task",
-        "value",
-        "participant_id",
-        "by",
-        "n",
-        "mean",
-        "by_column",
-        "is_geometric",
-    ];
+    let names: Vec<&str> = "task value participant_id by n mean by_column is_geometric"
+        .split(' ')
+        .collect();
     let row = |((value, subject, group), numbers): (&(MainValue, String, String), &Vec<f64>)| {
         let n = numbers.len() as f64;
         let mean = if value.is_geometric {
@@ -288,34 +283,30 @@ fn write_main_table(cells: &Cells, folder: &Path) -> Result<(), ExperimentError>
     let mut tables: Vec<&MainValue> = cells.keys().map(|(value, ..)| value).collect();
     tables.dedup();
     let path = folder.join("main-table.json");
-    write_atomic(
-        &path,
-        to_json_string(&MainValues { tables }, &path)?.as_bytes(),
-    )?;
+    write_json(&path, &MainValues { tables })?;
     write_atomic(&folder.join("main_table.py"), PYTHON.as_bytes())?;
     write_atomic(&folder.join("main_table.R"), R.as_bytes())?;
     Ok(())
 }
+
+/// Columns of the participants' file: name, meaning, unit.
+const PARTICIPANTS: [(&str, &str, &str); 6] = [
+    ("participant_id", "pseudonym", ""),
+    ("age", "age as it was told", "year"),
+    ("sex", "female, male or other, as it was told", ""),
+    ("handedness", "hand that explores: right, left or both", ""),
+    ("experience", "one word", ""),
+    ("room", "where the sessions were held, one word", ""),
+];
 
 fn write_participants(
     sessions: &[&Found],
     participants: &Participants,
     out: &Path,
 ) -> Result<(), ExperimentError> {
-    let names = [
-        "participant_id",
-        "age",
-        "sex",
-        "handedness",
-        "experience",
-        "room",
-    ];
-    let mut pseudonyms: Vec<&str> = sessions
-        .iter()
-        .map(|session| session.subject.pseudonym.as_str())
-        .collect();
-    pseudonyms.sort_unstable();
-    pseudonyms.dedup();
+    let names = PARTICIPANTS.map(|(name, ..)| name);
+    let subjects = sessions.iter().map(|session| &session.subject);
+    let pseudonyms: BTreeSet<&str> = subjects.map(|one| one.pseudonym.as_str()).collect();
     let row = |pseudonym: &&str| {
         let mut cells = vec![format!("sub-{}", label(pseudonym))];
         match participants.find(pseudonym) {
@@ -326,34 +317,11 @@ fn write_participants(
     };
     let rows: Vec<Vec<String>> = pseudonyms.iter().map(row).collect();
     write_tsv(&out.join("participants.tsv"), &names, &rows)?;
-    let meanings = [
-        ("participant_id", "pseudonym", None),
-        ("age", "age as it was told", Some("year")),
-        ("sex", "female, male or other, as it was told", None),
-        (
-            "handedness",
-            "hand that explores: right, left or both",
-            None,
-        ),
-        ("experience", "one word", None),
-        ("room", "where the sessions were held, one word", None),
-    ];
-    let described: BTreeMap<&str, Described> = meanings
-        .into_iter()
-        .map(|(name, description, units)| {
-            let described = Described {
-                description: description.to_owned(),
-                units: units.map(str::to_owned),
-                levels: BTreeMap::new(),
-            };
-            (name, described)
-        })
-        .collect();
+    let described: BTreeMap<&str, Described> = PARTICIPANTS
+        .map(|(name, meaning, unit)| (name, Described::plain(meaning, unit)))
+        .into();
     let path = out.join("participants.json");
-    Ok(write_atomic(
-        &path,
-        to_json_string(&described, &path)?.as_bytes(),
-    )?)
+    Ok(write_json(&path, &described)?)
 }
 
 fn write_dataset(sessions: &[&Found], out: &Path) -> Result<(), ExperimentError> {
@@ -370,7 +338,7 @@ fn write_dataset(sessions: &[&Found], out: &Path) -> Result<(), ExperimentError>
         by: [BTreeMap::from([("Name", program), ("Version", version)])],
     };
     let path = out.join("dataset_description.json");
-    write_atomic(&path, to_json_string(&dataset, &path)?.as_bytes())?;
+    write_json(&path, &dataset)?;
     let readme = "Events of every session, one row a trial; columns are described beside them. \
                   Practice, what was given up (aborted) and what was not felt (valid = 0) do not \
                   count. code/main_table.py and code/main_table.R make code/main-table.tsv once \

@@ -7,6 +7,7 @@ use super::design::{Design, Form, Shown, Source, Standard, Tunable};
 use super::trial::Task;
 use selvedge_engine::{TICKS_PER_S, VibrationStep};
 use selvedge_foundation::geometry::Point;
+use selvedge_foundation::numerics::{to_single, to_whole};
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_render::scene::{Display, PlacedTextile, Scene};
 use selvedge_textile::tactile::{Band, Tuning};
@@ -302,22 +303,13 @@ fn step(levels_db: [Option<f64>; 2], ms: u32) -> VibrationStep {
 }
 
 /// A level as a peak amplitude, µm.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "devices take single precision"
-)]
 fn amplitude_of(level_db: f64) -> f32 {
-    factor_of_gain(level_db) as f32
+    to_single(factor_of_gain(level_db))
 }
 
 /// The whole ticks that are nearest to a time, at least one.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "some seconds"
-)]
 fn ticks(ms: u32) -> u32 {
-    (f64::from(ms) * 1e-3 * TICKS_PER_S).round().max(1.0) as u32
+    to_whole((f64::from(ms) * 1e-3 * TICKS_PER_S).round().max(1.0))
 }
 
 #[cfg(test)]

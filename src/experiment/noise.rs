@@ -14,7 +14,7 @@ use super::ExperimentError;
 use super::named::named;
 use selvedge_engine::{SOUND_RATE_HZ, SoundSource};
 use selvedge_foundation::files::{FileError, Staged};
-use selvedge_foundation::numerics::{Complex, Random, RealTransform};
+use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_whole};
 use selvedge_foundation::progress::Progress;
 use selvedge_render::single;
 
@@ -194,12 +194,8 @@ impl MaskingNoise {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounded and within 16 bits"
-)]
 fn quantised(x: f64) -> i16 {
-    (x.clamp(-1.0, 1.0) * f64::from(i16::MAX)).round() as i16
+    to_whole((x.clamp(-1.0, 1.0) * f64::from(i16::MAX)).round())
 }
 
 /// The plain header of one channel of 16 bits, which every player reads.

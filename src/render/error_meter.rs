@@ -10,6 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::{Histogram, LevelError};
+use selvedge_foundation::numerics::to_whole;
 
 /// Share of a band's largest amplitude from which on an error is a matter of level.
 const AUDIBLE_SHARE: f64 = 1e-3;
@@ -178,12 +179,8 @@ impl BandRun {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the logarithm of a finite number is small; of 0 it is the least there is"
-)]
 fn octave_of(amplitude_um: f64) -> i32 {
-    amplitude_um.log2().floor() as i32
+    to_whole(amplitude_um.log2().floor())
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::distribution::{binomial_at_least, binomial_at_most, binomial_mass};
 use super::interval::wilson;
 use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
+use selvedge_foundation::numerics::to_whole;
 
 /// Masses this much above that of what was seen still count as equally rare: rounding.
 const SAME: f64 = 1.0 + 1e-7;
@@ -70,13 +71,7 @@ fn two_sided(hits: u64, trials: u64, expected: f64) -> f64 {
 
 /// Whole numbers about a mean: one below, itself rounded down, one above.
 fn nearby(mean: f64, step: u64, most: u64) -> u64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a mean of counts lies in 0 … trials"
-    )]
-    let floor = mean.floor() as u64;
-    (floor + step).saturating_sub(1).min(most)
+    (to_whole::<u64>(mean) + step).saturating_sub(1).min(most)
 }
 
 /// The first number in `low..high` that a condition holds for, where it holds from some number

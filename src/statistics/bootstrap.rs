@@ -156,11 +156,7 @@ pub fn jackknife_errors(
 }
 
 fn between(values: &mut [f64], [low, high]: [f64; 2], level: f64) -> Interval {
-    Interval {
-        low: quantile(values, low),
-        high: quantile(values, high),
-        level,
-    }
+    Interval::new([quantile(values, low), quantile(values, high)], level)
 }
 
 /// a = Σd³/(6 (Σd²)^1.5) with d the mean of the values that leave one out, less each of them.

@@ -37,11 +37,7 @@ impl Outcome {
                 let ends = noncentral::of_chi_squared(x, df);
                 let [low, high] = ends.map(|lambda| (lambda * effect.value / x).min(1.0));
                 let is_some = x > 0.0;
-                let interval = Interval {
-                    low,
-                    high,
-                    level: LEVEL,
-                };
+                let interval = Interval::new([low, high], LEVEL);
                 is_some.then_some((interval, BY_CHI_SQUARED)).map_or_else(
                     || undefined("nothing differs: the effect is 0 without an interval"),
                     Ok,
@@ -58,14 +54,7 @@ impl Outcome {
             return undefined("t is 0: its scale is not known");
         }
         let [low, high] = noncentral::of_t(t, df).map(|delta| delta * effect.value / t);
-        Ok((
-            Interval {
-                low,
-                high,
-                level: LEVEL,
-            },
-            BY_T,
-        ))
+        Ok((Interval::new([low, high], LEVEL), BY_T))
     }
 
     /// Angles of the ends of the interval of the share.
@@ -101,12 +90,8 @@ const BY_NORMAL: &str = "interval of the effect: normal on Fisher's scale";
 
 /// The share of variance that an F's noncentrality is, λ/(λ + n).
 fn share_of_f([f, df, df_error]: [f64; 3], n: f64) -> Interval {
-    let [low, high] = noncentral::of_f(f, df, df_error).map(|lambda| lambda / (lambda + n));
-    Interval {
-        low,
-        high,
-        level: LEVEL,
-    }
+    let ends = noncentral::of_f(f, df, df_error).map(|lambda| lambda / (lambda + n));
+    Interval::new(ends, LEVEL)
 }
 
 /// m/√(m² + s²(n − 1)/n) is a function of d = m/s alone.
@@ -114,14 +99,10 @@ fn of_mean_over_rms(effect: f64, n: f64) -> Interval {
     let rest = (n - 1.0) / n;
     let size = effect.abs().min(1.0 - 1e-12);
     let d = effect.signum() * size * (rest / (1.0 - size * size)).sqrt();
-    let [low, high] = noncentral::of_t(d * n.sqrt(), n - 1.0)
+    let ends = noncentral::of_t(d * n.sqrt(), n - 1.0)
         .map(|delta| delta / n.sqrt())
         .map(|d| d / (d * d + rest).sqrt());
-    Interval {
-        low,
-        high,
-        level: LEVEL,
-    }
+    Interval::new(ends, LEVEL)
 }
 
 /// tanh(atanh r ± z s), s the standard error where nothing differs (Kerby 2014); r no nearer to 1
@@ -134,11 +115,7 @@ fn of_rank_biserial(effect: f64, n: f64) -> Computed<Interval> {
     let half = normal_quantile(0.5 * (1.0 + LEVEL))? * se;
     let [low, high] = [middle - half, middle + half].map(f64::tanh);
     let (low, high) = (low.min(effect), high.max(effect));
-    Ok(Interval {
-        low,
-        high,
-        level: LEVEL,
-    })
+    Ok(Interval::new([low, high], LEVEL))
 }
 
 #[cfg(test)]

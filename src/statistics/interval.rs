@@ -17,11 +17,13 @@ pub fn wilson(hits: u64, trials: u64, level: f64) -> Computed<Interval> {
     let (share, z2) = (hits as f64 / n, z * z);
     let middle = (share + 0.5 * z2 / n) / (1.0 + z2 / n);
     let half = z / (1.0 + z2 / n) * (share * (1.0 - share) / n + 0.25 * z2 / (n * n)).sqrt();
-    Ok(Interval {
-        low: if hits == 0 { 0.0 } else { middle - half },
-        high: if hits == trials { 1.0 } else { middle + half },
+    Ok(Interval::new(
+        [
+            if hits == 0 { 0.0 } else { middle - half },
+            if hits == trials { 1.0 } else { middle + half },
+        ],
         level,
-    })
+    ))
 }
 
 /// The interval of a correlation by Fisher's z (1915): tanh(atanh r ± z·se), with the standard
@@ -41,11 +43,10 @@ pub(super) fn fisher_z_with(r: f64, n: usize, inflation: f64, level: f64) -> Com
     }
     let middle = finite(r.atanh(), "Fisher z of a correlation of one")?;
     let half = normal_quantile(0.5 + 0.5 * level)? * (inflation / (n as f64 - 3.0)).sqrt();
-    Ok(Interval {
-        low: (middle - half).tanh(),
-        high: (middle + half).tanh(),
+    Ok(Interval::new(
+        [(middle - half).tanh(), (middle + half).tanh()],
         level,
-    })
+    ))
 }
 
 #[cfg(test)]

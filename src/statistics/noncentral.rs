@@ -4,11 +4,12 @@
 use statrs::function::{beta, gamma};
 
 use super::distribution::{ln_gamma, normal_lower};
+use selvedge_foundation::numerics::bisected;
 
 /// The tail to either side: 95 % lie between.
 const TAIL: f64 = 0.025;
 /// Halvings of where a noncentrality may lie.
-const N_HALVINGS: usize = 48;
+const N_HALVINGS: u32 = 48;
 /// Steps of Simpson's rule over a standard deviation's own distribution.
 const N_STEPS: u32 = 200;
 /// Terms of a sum that are as small are left out.
@@ -55,16 +56,8 @@ fn at_least_none(seen: f64, lower: impl Fn(f64) -> f64) -> [f64; 2] {
 }
 
 /// Where a falling function crosses 0.
-fn solved([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..N_HALVINGS {
-        let middle = 0.5 * (low + high);
-        if of(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+fn solved(ends: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
+    bisected(ends, N_HALVINGS, |middle| of(middle) > 0.0)
 }
 
 /// P(T ≤ t): the normal's share below t·s − δ, over s = √(χ²/df).

@@ -42,13 +42,20 @@ pub(crate) fn undefined<T>(reason: impl Into<String>) -> Computed<T> {
 }
 
 impl Interval {
+    /// Between its ends.
+    pub fn new([low, high]: [f64; 2], level: f64) -> Self {
+        Self { low, high, level }
+    }
+
+    /// That of a number that rises with what this one is of.
+    #[must_use]
+    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        Self::new([of(self.low), of(self.high)], self.level)
+    }
+
     /// So far to either side of its middle.
     pub(crate) fn about(middle: f64, half: f64, level: f64) -> Self {
-        Self {
-            low: middle - half,
-            high: middle + half,
-            level,
-        }
+        Self::new([middle - half, middle + half], level)
     }
 
     /// Whether a value lies inside, ends included.

@@ -1,6 +1,6 @@
 //! Wilcoxon's signed rank test, exact for small samples with ties too.
 
-use selvedge_foundation::numerics::median;
+use selvedge_foundation::numerics::{median, to_whole};
 
 use super::distribution::normal_upper;
 use super::summary::{at_least, largest, rounding};
@@ -168,21 +168,18 @@ impl SignedRanks {
         }
         let mut means = walsh_means(values);
         means.sort_by(f64::total_cmp);
-        Ok(Interval {
-            low: expected + means[n_rejected - 1],
-            high: expected + means[means.len() - n_rejected],
-            level: LEVEL,
-        })
+        Ok(Interval::new(
+            [
+                expected + means[n_rejected - 1],
+                expected + means[means.len() - n_rejected],
+            ],
+            LEVEL,
+        ))
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "twice a rank is whole and at most twice the number of values"
-)]
 fn whole(doubled: f64) -> usize {
-    doubled.round() as usize
+    to_whole(doubled.round())
 }
 
 /// Ranks from 1 of some values, and the sum of t³ − t over groups of t equal ones.

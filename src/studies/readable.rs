@@ -1,18 +1,8 @@
 //! Numbers of a report: what many come to, and how people read them, with three digits that count
 //! and times with their prefix.
 
+pub(super) use selvedge_foundation::numerics::to_index as whole;
 use selvedge_foundation::quantity::{fixed, time_span, with_unit};
-
-/// The whole part of a number, 0 of one that is negative.
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "numbers of samples, pixels and nodes: 0 … 10⁸"
-)]
-pub(super) fn whole(x: f64) -> usize {
-    x.max(0.0) as usize
-}
 
 /// The mean; NaN of none.
 pub(super) fn mean(values: &[f64]) -> f64 {

@@ -9,6 +9,7 @@ use super::contactor::{Contact, Drive, N_INPUTS, N_STATES, U_AMP, V_BEAM, V_PIN,
 use super::{ContactorModel, SAMPLES_PER_S};
 use crate::BridgeError;
 use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
+use selvedge_foundation::numerics::to_whole;
 
 /// The smallest part of a sample is `2⁻¹²`.
 const HALVINGS: usize = 12;
@@ -110,15 +111,9 @@ impl Steps {
             };
         }
         let parts = too_far / self.steepest_v_per_s / SAMPLE_S * f64::from(PARTS);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 0 and the parts of a sample"
-        )]
-        let slewing_parts = parts.ceil().clamp(0.0, f64::from(PARTS)) as u32;
         Drives {
             volts,
-            slewing_parts,
+            slewing_parts: to_whole(parts.ceil().clamp(0.0, f64::from(PARTS))),
             slope_v_per_s: self.steepest_v_per_s.copysign(asked),
         }
     }

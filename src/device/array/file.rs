@@ -9,6 +9,7 @@ use super::check::flaw;
 use super::{ArrayProfile, Calibration, DeviceUid, Wiring};
 use crate::BridgeError;
 use selvedge_foundation::files::{self, FileError, Flaw, Place};
+use selvedge_foundation::numerics::to_whole;
 
 /// A file larger than this is no profile, bytes.
 const MAX_BYTES: usize = 1 << 20;
@@ -201,12 +202,7 @@ fn whole(place: Place, value: f64, unit: &str, per_unit: f64) -> Result<u16, Fla
         );
         return Err(Flaw::new(place, what, mend));
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked to be a whole number of u16"
-    )]
-    Ok(parts as u16)
+    Ok(to_whole(parts))
 }
 
 fn calibration_from(keys: &CalibrationKeys, n: usize) -> Result<Vec<Calibration>, Flaw> {

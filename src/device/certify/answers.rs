@@ -32,19 +32,23 @@ pub(super) fn compare(
             }
             _ => false,
         };
-        ensure(is_right, || {
-            let name = kind_name(say.kind);
+        if !is_right {
+            let (name, right) = (kind_name(say.kind), describe(say));
             let came = answer.map_or_else(|| String::from("nothing"), Heard::describe);
-            format!("{name} was answered by {came}, not by {}", describe(say))
-        })?;
+            return Err(Trouble::Wrong(format!(
+                "{name} was answered by {came}, not by {right}"
+            )));
+        }
         if let Want::Cfg(granted) = say.want {
             held = Some(granted);
         }
     }
     let surplus = answers.next().map(Heard::describe);
-    ensure(surplus.is_none(), || {
-        format!("{} came unasked", surplus.unwrap_or_default())
-    })?;
+    ensure!(
+        surplus.is_none(),
+        "{} came unasked",
+        surplus.unwrap_or_default()
+    )?;
     Ok(held)
 }
 

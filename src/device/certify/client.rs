@@ -217,9 +217,7 @@ impl<'a> Client<'a> {
             return Err(Trouble::Over(String::from("time is up")));
         }
         self.listen(until_us.min(now_us + GLANCE_US))?;
-        ensure(self.heard.len() < FLOOD, || {
-            format!("more than {FLOOD} packets came")
-        })
+        ensure!(self.heard.len() < FLOOD, "more than {FLOOD} packets came")
     }
 
     /// Hears what comes until then, whoever wants to end.

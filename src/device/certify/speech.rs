@@ -94,6 +94,18 @@ impl Speech {
         }
     }
 
+    /// Those, changed.
+    pub(super) fn usual_but(&self, change: impl FnOnce(&mut Config)) -> Config {
+        let mut wish = self.usual();
+        change(&mut wish);
+        wish
+    }
+
+    /// Those, with another hold and ramp.
+    pub(super) fn silent_after(&self, hold_ms: u16, ramp_ms: u16) -> Config {
+        self.usual_but(|wish| (wish.hold_ms, wish.ramp_ms) = (hold_ms, ramp_ms))
+    }
+
     pub(super) fn config_payload(&self, wish: &Config) -> Vec<u8> {
         let mut payload = vec![wish.mode, wish.flags];
         let [low, high] = wish.comp_limit;

@@ -1,5 +1,6 @@
 //! Counters of the device, and by how much they must have risen.
 
+use super::predict::Allowed;
 use super::say::{Say, Want};
 use super::verdict::{Verdict, ensure};
 use crate::framing::{Decoder, LARGEST_BODY};
@@ -54,6 +55,11 @@ impl Tally {
         self.due.bad = self.due.bad.wrapping_add(u16::from(is_bad));
     }
 
+    /// A FRAME with so much to clip was received.
+    pub(super) fn clipped(&mut self, allowed: &Allowed) {
+        self.due.clipped = self.due.clipped.wrapping_add(allowed.clipped);
+    }
+
     /// Compares the counters of a STATUS with what was due so far.
     pub(super) fn compare(&self, now: &Status) -> Verdict {
         let Some(base) = &self.base else {
@@ -68,9 +74,7 @@ impl Tally {
         ];
         for (name, before, after, due) in rows {
             let risen = after.wrapping_sub(before);
-            ensure(risen == due, || {
-                format!("{name} rose by {risen}, not by {due}")
-            })?;
+            ensure!(risen == due, "{name} rose by {risen}, not by {due}")?;
         }
         Ok(())
     }

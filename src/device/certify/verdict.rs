@@ -16,11 +16,14 @@ pub(super) enum Trouble {
 /// What a check gives.
 pub(super) type Verdict = Result<(), Trouble>;
 
-/// Wrong, unless.
-pub(super) fn ensure(is_right: bool, what: impl FnOnce() -> String) -> Verdict {
-    if is_right {
-        Ok(())
-    } else {
-        Err(Trouble::Wrong(what()))
-    }
+/// Wrong, unless: `ensure!(is_right, "what is wrong, {value}")`.
+macro_rules! ensure {
+    ($is_right:expr, $($what:tt)+) => {
+        if $is_right {
+            Ok(())
+        } else {
+            Err($crate::certify::verdict::Trouble::Wrong(format!($($what)+)))
+        }
+    };
 }
+pub(super) use ensure;

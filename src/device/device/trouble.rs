@@ -5,6 +5,7 @@ use super::lie::Rule;
 use super::sense::{Load, Sense};
 use super::{DeviceCore, DeviceSink};
 use crate::message::{DeviceState, Fault, fault_bit};
+use selvedge_foundation::numerics::to_whole;
 
 impl DeviceCore {
     /// Measures the current of amplifiers with this load from now on.
@@ -113,11 +114,6 @@ impl DeviceCore {
 }
 
 /// Rounded half up.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a current is not negative; `as` saturates"
-)]
 fn whole(ma: f64) -> u16 {
-    (ma + 0.5).floor() as u16
+    to_whole((ma + 0.5).floor())
 }

@@ -5,6 +5,7 @@
 //! constant error of at most half a round trip, which cancels where delays and moments are measured
 //! with the same line. Pure: it is told the time.
 
+use selvedge_foundation::numerics::to_whole;
 use std::time::{Duration, Instant};
 
 /// The time between two ticks of a device.
@@ -132,13 +133,7 @@ impl DeviceClock {
     /// What the device's clock shows at one of our moments, µs since its boot modulo its wraps.
     pub(super) fn device_us(&self, at: Instant) -> Option<u64> {
         let (origin, line) = (self.origin?, self.line?);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "rounded and not negative; saturates"
-        )]
-        let us = line.device_us(since(origin, at)).round().max(0.0) as u64;
-        Some(us)
+        Some(to_whole(line.device_us(since(origin, at)).round()))
     }
 
     /// What was learned.

@@ -299,12 +299,6 @@ impl HostSession {
         self.clock.fit_view()
     }
 
-    /// The 99.9th percentile of the times from when a frame was due until the device accepted it,
-    /// of the last two minutes; zero before the first.
-    pub fn delay(&self) -> Duration {
-        self.latching.delay().0
-    }
-
     /// The counters that a session knows; those of the link's threads are 0.
     pub fn counters(&self) -> BridgeCounters {
         BridgeCounters {

@@ -2,6 +2,7 @@
 //!
 //! Durations fall into buckets of 1/64 octave from 1 µs, so a percentile is right within 1.1 %.
 
+use selvedge_foundation::numerics::to_whole;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -175,23 +176,13 @@ impl Histogram {
 }
 
 /// The rank, from 1, of the smallest value that at least `share` of `n` values do not exceed.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a share of a count is neither negative nor larger than the count"
-)]
 fn rank(n: u64, share: f64) -> u64 {
-    (n as f64 * share).ceil() as u64
+    to_whole((n as f64 * share).ceil())
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to the buckets before the cast"
-)]
 fn bucket(duration: Duration) -> usize {
     let us = (duration.as_secs_f64() * 1e6).max(1.0);
-    (us.log2() * PER_OCTAVE).clamp(0.0, (BUCKETS - 1) as f64) as usize
+    to_whole((us.log2() * PER_OCTAVE).clamp(0.0, (BUCKETS - 1) as f64))
 }
 
 fn upper_edge(bucket: usize) -> Duration {

@@ -10,6 +10,7 @@ use std::collections::VecDeque;
 
 use crate::message::{Ack, Status, kind};
 use crate::session_log::{Body, HashedFrame};
+use selvedge_foundation::numerics::to_whole;
 
 const MS_US: u64 = 1000;
 const TICK_US: u64 = 25 * MS_US;
@@ -252,11 +253,6 @@ impl Placer {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to what a clock can show"
-)]
 fn rounded(us: f64) -> u64 {
-    us.round().clamp(0.0, 1e18) as u64
+    to_whole(us.round().clamp(0.0, 1e18))
 }

@@ -14,6 +14,7 @@ use super::packets::PacketWords;
 use crate::message::{
     Caps, Config, DeviceCounters, DeviceState, LARGEST_CHANNELS, Status, StopHow, fault_bit,
 };
+use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::quantity::rfc3339;
 
 /// The first line of a log.
@@ -95,12 +96,8 @@ impl PacketTimes {
     }
 
     /// The time of a packet that was written whole, s: not longer than a log is open.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "of a size that was checked"
-    )]
     pub(super) fn take_whole(&mut self, s: f64) {
-        let now = (s * PER_S as f64).round() as i64;
+        let now = to_whole((s * PER_S as f64).round());
         self.last = Some([now, now]);
     }
 }

@@ -41,6 +41,16 @@ pub(super) struct PacketWords {
     pub(super) detail: String,
 }
 
+impl PacketWords {
+    pub(super) fn new(event: &'static str, detail: String) -> Self {
+        Self {
+            event,
+            tick: None,
+            detail,
+        }
+    }
+}
+
 /// What was sent last.
 #[derive(Clone, Debug, Default)]
 struct LastFrame {
@@ -111,11 +121,7 @@ impl PacketCode {
         self.frame.seq = self.frame.seq.wrapping_add(n);
         self.frame.apply_tick = self.frame.apply_tick.wrapping_add(u32::from(n));
         self.sent_seq = self.frame.seq;
-        PacketWords {
-            event: event::FRAME_AGAIN,
-            tick: None,
-            detail: n.to_string(),
-        }
+        PacketWords::new(event::FRAME_AGAIN, n.to_string())
     }
 
     fn frame_words(
@@ -157,11 +163,7 @@ impl PacketCode {
         } else {
             event::FRAME_HASH
         };
-        PacketWords {
-            event,
-            tick: None,
-            detail,
-        }
+        PacketWords::new(event, detail)
     }
 
     /// The STATUS that is to be expected at a tick.
@@ -349,11 +351,7 @@ impl PacketCode {
 }
 
 fn plain(event: &'static str, body: &Body) -> PacketWords {
-    PacketWords {
-        event,
-        tick: None,
-        detail: body_words(body),
-    }
+    PacketWords::new(event, body_words(body))
 }
 
 /// Apply tick and codes of a FRAME that is one to the byte.

@@ -125,11 +125,7 @@ impl Recorder {
     /// So many packets could not be taken: what comes next may be unlike what came before.
     pub(super) fn lost(&mut self, at: Instant, n: u64, lines: &mut String) {
         self.end_run(lines);
-        let words = PacketWords {
-            event: event::PACKETS_LOST,
-            tick: None,
-            detail: n.to_string(),
-        };
+        let words = PacketWords::new(event::PACKETS_LOST, n.to_string());
         write_packet(lines, at, &words, (self.epoch, &mut self.times));
     }
 
@@ -162,9 +158,5 @@ fn subject_of(note: &Note) -> Option<&str> {
 }
 
 fn bytes_words(event: &'static str, bytes: &[u8]) -> PacketWords {
-    PacketWords {
-        event,
-        tick: None,
-        detail: hex_of(bytes),
-    }
+    PacketWords::new(event, hex_of(bytes))
 }

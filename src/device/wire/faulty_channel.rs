@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 
 use super::faults::{Direction, Injection, InjectionKind, Latency, LinkFaults};
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_whole};
 
 /// Bytes that can wait in one direction.
 const ROOM: usize = 4096;
@@ -51,7 +51,7 @@ impl Gap {
         } else if self.rate >= 1.0 {
             0
         } else {
-            whole((1.0 - random.uniform()).ln() / (-self.rate).ln_1p())
+            to_whole::<u64>((1.0 - random.uniform()).ln() / (-self.rate).ln_1p())
         };
     }
 
@@ -269,7 +269,10 @@ impl FaultyChannel {
                 mean_us,
                 deviation_us,
             } => {
-                now_us + whole(f64::from(mean_us) + f64::from(deviation_us) * self.random.normal())
+                now_us
+                    + to_whole::<u64>(
+                        f64::from(mean_us) + f64::from(deviation_us) * self.random.normal(),
+                    )
             }
         };
         if self.chance(self.faults.hiccup_rate) {
@@ -320,7 +323,7 @@ impl FaultyChannel {
     fn draw_garbage(&mut self, from_us: u64) {
         self.next_garbage_us = self.faults.garbage_every_us.map(|mean_us| {
             let wait_us = -(mean_us as f64) * (1.0 - self.random.uniform()).ln();
-            from_us + whole(wait_us).max(1)
+            from_us + to_whole::<u64>(wait_us).max(1)
         });
     }
 
@@ -338,16 +341,6 @@ impl FaultyChannel {
             amount: amount as u64,
         });
     }
-}
-
-/// A count or a time as a whole number; below zero is zero.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates, which is what is wanted of times and counts"
-)]
-fn whole(number: f64) -> u64 {
-    number as u64
 }
 
 #[cfg(test)]

@@ -77,24 +77,10 @@ pub(super) fn sections(
     Ok(sections)
 }
 
-const STIMULI: [(&str, &str); 16] = [
-    ("item", "stimulus"),
-    ("n", "settings"),
-    ("mean", "mean"),
-    ("sd", "sd"),
-    ("se", "SE"),
-    ("ascending_n", "from below"),
-    ("ascending_mean", "mean"),
-    ("descending_n", "from above"),
-    ("descending_mean", "mean"),
-    ("difference", "from below less from above"),
-    ("difference_p", "p (Welch)"),
-    ("geometric_mean", "geometric mean"),
-    ("log_sd", "sd of logarithms"),
-    ("subjects", "subjects"),
-    ("ci_low", "95 % CI of the mean over subjects from"),
-    ("ci_high", "to"),
-];
+const STIMULI: &str = "item: stimulus; n: settings; mean; sd; se: SE; ascending_n: from below; \
+    ascending_mean: mean; descending_n: from above; descending_mean: mean; difference: from below \
+    less from above; difference_p: p (Welch); geometric_mean: geometric mean; log_sd: sd of \
+    logarithms; subjects; ci_low: 95 % CI of the mean over subjects from; ci_high: to";
 
 fn parameter_section(
     experiment: &Experiment<'_>,
@@ -112,7 +98,7 @@ fn parameter_section(
     let mut table = Table::new(
         "stimuli",
         &format!("Settings of {key} by stimulus"),
-        &STIMULI,
+        STIMULI,
     );
     let mut shown = Vec::new();
     let middle = 0.5 * (parameter.from + parameter.to);
@@ -269,11 +255,7 @@ pub(super) fn slope(points: &[[f64; 2]]) -> Computed<(LineFit, Interval)> {
     let t = t_quantile_upper(0.025, df)
         .map_err(|_none| Undefined::because("two stimuli leave no scatter about a line"))?;
     let half = t * line.slope_error;
-    let interval = Interval {
-        low: line.slope - half,
-        high: line.slope + half,
-        level: 0.95,
-    };
+    let interval = Interval::new([line.slope - half, line.slope + half], 0.95);
     Ok((line, interval))
 }
 
@@ -319,16 +301,9 @@ fn kappas(
     experiment: &Experiment<'_>,
     means: &dyn Fn(Option<&str>) -> Vec<[f64; 2]>,
 ) -> (Table, Vec<f64>) {
-    let columns = [
-        ("subject", "subject"),
-        ("n", "stimuli"),
-        ("kappa", "κ"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-        ("gain_at_0_db", "gain at 0 dB re 1 µm, dB"),
-        ("amplitude_factor_at_0_db", "as a factor"),
-    ];
-    let mut table = Table::new("kappa", "Compression", &columns);
+    let columns = "subject; n: stimuli; kappa: κ; ci_low: 95 % CI from; ci_high: to; \
+        gain_at_0_db: gain at 0 dB re 1 µm, dB; amplitude_factor_at_0_db: as a factor";
+    let mut table = Table::new("kappa", "Compression", columns);
     let mut kappas = Vec::new();
     let names = experiment.subjects.iter().map(|s| Some(s.name));
     for name in names.chain([None]) {

@@ -11,19 +11,9 @@ use selvedge_statistics::{
     Computed, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
 };
 
-const SUBJECTS: [(&str, &str); 11] = [
-    ("subject", "subject"),
-    ("trials", "trials"),
-    ("right", "right"),
-    ("percent", "%"),
-    ("ci_low_percent", "95 % CI from"),
-    ("ci_high_percent", "to"),
-    ("p", "exact binomial p, above chance"),
-    ("d_prime", "d′"),
-    ("d_prime_ci_low", "95 % CI from"),
-    ("d_prime_ci_high", "to"),
-    ("correction", "correction"),
-];
+const SUBJECTS: &str = "subject; trials; right; percent: %; ci_low_percent: 95 % CI from; \
+    ci_high_percent: to; p: exact binomial p, above chance; d_prime: d′; d_prime_ci_low: 95 % CI \
+    from; d_prime_ci_high: to; correction";
 
 /// Right answers of a subject: all, and those of pairs of the same one.
 struct Counts {
@@ -76,7 +66,7 @@ pub(super) struct BySubject {
 pub(super) fn by_subject(experiment: &Experiment<'_>) -> BySubject {
     let chance = 1.0 / experiment.design.composition.n_choices() as f64;
     let mut found = BySubject {
-        table: Table::new("subjects", "Right answers by subject", &SUBJECTS),
+        table: Table::new("subjects", "Right answers by subject", SUBJECTS),
         percents: Vec::new(),
         d_primes: Vec::new(),
         group: None,

@@ -112,8 +112,7 @@ fn ratings(
         "Every subject's answers over its own mean, so that all count as much; means over subjects \
          with Student's interval. Pairs of the same stimulus are left out.",
     );
-    let mut columns = vec![("first", "first"), ("second", "second")];
-    columns.extend(SUMMARY);
+    let columns = format!("first; second; {SUMMARY}");
     let mut table = Table::new("pairs", "How unlike pairs are", &columns);
     for b in 0..names.len() {
         for a in 0..b {
@@ -132,8 +131,8 @@ fn piles(experiment: &Experiment<'_>, names: &[String], apart: &[Option<f64>]) -
         "Together: the share of sortings in which two lay in one pile. What is mapped is one less \
          that.",
     );
-    let columns = [("subject", "subject"), ("piles", "piles, mean")];
-    let mut table = Table::new("counts", "Piles by subject", &columns);
+    let columns = "subject; piles: piles, mean";
+    let mut table = Table::new("counts", "Piles by subject", columns);
     for subject in &experiment.subjects {
         let n_piles = |record: &Record| match record.value() {
             Some(AnswerValue::Piles(piles)) => piles.iter().max().map(|last| *last as f64 + 1.0),

@@ -182,14 +182,8 @@ fn span(bars: &[Bar]) -> [f64; 2] {
 }
 
 fn bar_table(bars: &[Bar], label: &str) -> Table {
-    let columns = [
-        ("name", ""),
-        ("group", "group"),
-        ("value", label),
-        ("low", "from"),
-        ("high", "to"),
-    ];
-    let mut table = Table::new("points", "", &columns);
+    let mut table = Table::new("points", "", "name: ; group; value; low: from; high: to");
+    label.clone_into(&mut table.columns[2].heading);
     for bar in bars {
         let ends = [0, 1].map(|end| known(bar.interval.map(|ends| ends[end]), "no interval"));
         table.push(cells![&bar.name, &bar.group, bar.value, ends]);
@@ -226,12 +220,10 @@ pub(super) fn figure(
 
 /// Dots and lines by name over two axes.
 pub(crate) fn scatter(key: &str, title: &str, axes: [Axis; 2], series: Vec<Series>) -> Drawn {
-    let columns = [
-        ("series", "series"),
-        ("x", axes[0].label.as_str()),
-        ("y", axes[1].label.as_str()),
-    ];
-    let mut points = Table::new("points", "", &columns);
+    let mut points = Table::new("points", "", "series; x; y");
+    for (column, axis) in points.columns[1..].iter_mut().zip(&axes) {
+        column.heading.clone_from(&axis.label);
+    }
     for one in &series {
         for [x, y] in &one.points {
             points.push(cells![&one.name, *x, *y]);

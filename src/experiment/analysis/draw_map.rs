@@ -5,6 +5,7 @@ use super::model::{Cell, Drawn, Table, cells, known};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Ink, Raster, Scale, Series, Style, Tone, Upright, Weight, Words,
 };
+use selvedge_foundation::numerics::to_whole;
 use selvedge_statistics::properties::Ellipse;
 
 /// Corners of an ellipse.
@@ -80,17 +81,9 @@ impl MapDrawing<'_> {
     }
 
     fn table(&self) -> Table {
-        let columns = [
-            ("name", ""),
-            ("x1", "x₁"),
-            ("x2", "x₂"),
-            ("ellipse_x1", "middle x₁"),
-            ("ellipse_x2", "middle x₂"),
-            ("half_axis_1", "half axis"),
-            ("half_axis_2", "half axis"),
-            ("angle_deg", "angle, °"),
-        ];
-        let mut table = Table::new("points", "", &columns);
+        let columns = "name: ; x1: x₁; x2: x₂; ellipse_x1: middle x₁; ellipse_x2: middle x₂; \
+            half_axis_1: half axis; half_axis_2: half axis; angle_deg: angle, °";
+        let mut table = Table::new("points", "", columns);
         for (i, (name, point)) in self.names.iter().zip(self.points).enumerate() {
             let place = [0, 1].map(|axis| known(point.get(axis).copied(), "a line has one axis"));
             let ellipse = self.ellipses.get(i).map_or_else(
@@ -231,8 +224,8 @@ pub(super) fn heat(
 
 fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
     let n = names.len();
-    let columns = [("row", "row"), ("column", "column"), ("value", label)];
-    let mut points = Table::new("points", "", &columns);
+    let mut points = Table::new("points", "", "row; column; value");
+    label.clone_into(&mut points.columns[2].heading);
     for (at, value) in values.iter().enumerate() {
         let value = known(*value, "never met, or itself");
         points.push(cells![&names[at / n], &names[at % n], value]);
@@ -243,13 +236,8 @@ fn heat_table(label: &str, names: &[String], values: &[Option<f64>]) -> Table {
 /// From nearly white to deep blue.
 fn shade(share: f64) -> [u8; 3] {
     let (light, dark) = ([247.0, 250.0, 253.0], [8.0, 48.0, 107.0]);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 255"
-    )]
-    let mix = |i: usize| (light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0)).round() as u8;
-    [0, 1, 2].map(mix)
+    let mix = |i: usize| light[i] + (dark[i] - light[i]) * share.clamp(0.0, 1.0);
+    [0, 1, 2].map(|i| to_whole(mix(i).round()))
 }
 
 #[cfg(test)]

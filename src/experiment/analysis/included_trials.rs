@@ -154,8 +154,8 @@ fn keep(key: String, mut sessions: Vec<&Found>) -> Experiment<'_> {
         format!("{}: sessions", design.title),
     );
     describe_rules(design, &mut section);
-    let mut table = Table::new("held", "Sessions, and what became of them", &HELD);
-    let mut left_out = Table::new("left-out", "What the rules leave out", &LEFT_OUT);
+    let mut table = Table::new("held", "Sessions, and what became of them", HELD);
+    let mut left_out = Table::new("left-out", "What the rules leave out", LEFT_OUT);
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     let are_all_pilots = sessions.iter().all(|found| is_pilot(found));
     for &found in &sessions {
@@ -215,24 +215,9 @@ fn why_out(session: &Session<'_>, are_all_pilots: bool) -> Option<String> {
     (n < least).then(|| format!("{n} trials, fewer than {least}"))
 }
 
-const HELD: [(&str, &str); 10] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("trials", "trials answered"),
-    ("planned", "of at most"),
-    ("practice", "practice"),
-    ("aborted", "aborted"),
-    ("void", "void"),
-    ("state", "state"),
-    ("device", "device"),
-    ("software", "log"),
-];
-const LEFT_OUT: [(&str, &str); 4] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("trials", "trials"),
-    ("why", "why"),
-];
+const HELD: &str = "subject; session; trials: trials answered; planned: of at most; practice; \
+    aborted; void; state; device; software: log";
+const LEFT_OUT: &str = "subject; session; trials; why";
 
 fn describe_rules(design: &Design, section: &mut Section) {
     let rules = &design.rules;

@@ -72,22 +72,10 @@ fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) ->
     section
 }
 
-const YES_NO: [(&str, &str); 14] = [
-    ("subject", "subject"),
-    ("hits", "hits"),
-    ("n_real", "of real"),
-    ("false_alarms", "false alarms"),
-    ("n_generated", "of generated"),
-    ("hit_rate", "H, corrected"),
-    ("false_alarm_rate", "F, corrected"),
-    ("correction", "correction"),
-    ("d_prime", "d′"),
-    ("d_prime_ci_low", "95 % CI from"),
-    ("d_prime_ci_high", "to"),
-    ("criterion", "c"),
-    ("ln_beta", "ln β"),
-    ("uncorrected_d_prime", "d′ uncorrected"),
-];
+const YES_NO: &str = "subject; hits; n_real: of real; false_alarms: false alarms; n_generated: of \
+    generated; hit_rate: H, corrected; false_alarm_rate: F, corrected; correction; d_prime: d′; \
+    d_prime_ci_low: 95 % CI from; d_prime_ci_high: to; criterion: c; ln_beta: ln β; \
+    uncorrected_d_prime: d′ uncorrected";
 
 fn counts(subject: &Subject<'_>) -> Answers {
     let mut answers = Answers {
@@ -109,7 +97,7 @@ fn counts(subject: &Subject<'_>) -> Answers {
 }
 
 fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
-    let mut table = Table::new("subjects", "Sensitivity and bias by subject", &YES_NO);
+    let mut table = Table::new("subjects", "Sensitivity and bias by subject", YES_NO);
     let mut d_primes = Vec::new();
     for subject in &experiment.subjects {
         let answers = counts(subject);

@@ -40,17 +40,9 @@ pub(super) fn section(experiment: &Experiment<'_>, grades: u8) -> Section {
          probability that a real one is rated higher than a generated one; d_a = √2 z(area). All \
          together: pooled ratings, which make the area too small where subjects differ.",
     );
-    let columns = [
-        ("subject", "subject"),
-        ("n_real", "real"),
-        ("n_generated", "generated"),
-        ("area", "area"),
-        ("se", "SE"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-        ("d_a", "d_a"),
-    ];
-    let mut table = Table::new("areas", "Areas under the curve", &columns);
+    let columns = "subject; n_real: real; n_generated: generated; area; se: SE; ci_low: 95 % CI \
+        from; ci_high: to; d_a";
+    let mut table = Table::new("areas", "Areas under the curve", columns);
     let mut areas = Vec::new();
     for subject in &experiment.subjects {
         let [real, others] = ratings(subject.trials().flat_map(judgements), grades);

@@ -35,22 +35,11 @@ pub(super) fn section(experiment: &Experiment<'_>, percents: &[f64]) -> Section 
 }
 
 fn equivalence(experiment: &Experiment<'_>, percents: &[f64]) -> Table {
-    let columns = [
-        ("what", "of what"),
-        ("n", "n"),
-        ("mean_percent", "mean, %"),
-        ("low_percent", "bounds from"),
-        ("high_percent", "to"),
-        ("t_low", "t against the lower"),
-        ("t_high", "against the upper"),
-        ("df", "df"),
-        ("p", "p"),
-        ("ci_low_percent", "90 % CI from"),
-        ("ci_high_percent", "to"),
-        ("power", "power if it lay midway"),
-    ];
+    let columns = "what: of what; n; mean_percent: mean, %; low_percent: bounds from; \
+        high_percent: to; t_low: t against the lower; t_high: against the upper; df; p; \
+        ci_low_percent: 90 % CI from; ci_high_percent: to; power: power if it lay midway";
     let title = "Equivalence (two one-sided tests)";
-    let mut table = Table::new("equivalence", title, &columns);
+    let mut table = Table::new("equivalence", title, columns);
     let mut enter = |what: &str, values: &[f64], middle: f64| {
         let bounds = [middle - BOUNDS_PERCENT, middle + BOUNDS_PERCENT];
         let found = Summary::of(values).and_then(|s| tost(&s, bounds, ALPHA));
@@ -140,13 +129,10 @@ impl Curve {
     }
 
     fn table(&self) -> Table {
-        let columns = [
-            ("true_percent", "true share right, %"),
-            ("power_as_seen", "power, spread as seen"),
-            ("power_alike", "power, subjects alike"),
-        ];
+        let columns = "true_percent: true share right, %; power_as_seen: power, spread as seen; \
+            power_alike: power, subjects alike";
         let title = "Power of the two-sided t test against 50 % at 0.05";
-        let mut table = Table::new("power", title, &columns);
+        let mut table = Table::new("power", title, columns);
         for ((share, seen), alike) in self.shares.iter().zip(&self.as_seen).zip(&self.alike) {
             table.push(cells![*share, seen, alike]);
         }

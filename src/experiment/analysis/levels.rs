@@ -11,10 +11,10 @@ use crate::design::{Adaptation, Seeks, Track};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::quantity::fixed;
+use selvedge_statistics::Computed;
 use selvedge_statistics::psychometric::{
     Block, Estimate, Evidence, Family, Fit, Goodness, Guess, Model, Population, blocks,
 };
-use selvedge_statistics::{Computed, Interval};
 
 /// Points of a drawn curve.
 const N_DRAWN: u32 = 100;
@@ -155,11 +155,7 @@ fn just_noticeable(width: &Estimate) -> Estimate {
     Estimate {
         value: share * width.value,
         se: share * width.se,
-        interval: Interval {
-            low: share * width.interval.low,
-            high: share * width.interval.high,
-            ..width.interval
-        },
+        interval: width.interval.map(|end| share * end),
     }
 }
 
@@ -223,7 +219,7 @@ impl<'a> Found<'a> {
 
     /// The estimate of the population first.
     fn group(&self, levels: &Adaptation) -> Table {
-        let columns: Vec<_> = [("what", "of what")].into_iter().chain(SUMMARY).collect();
+        let columns = format!("what: of what; {SUMMARY}");
         let mut table = Table::new("group", "Of the group", &columns);
         let own: Vec<f64> = self
             .fits
@@ -267,10 +263,10 @@ impl<'a> Found<'a> {
 
     fn fits(&self, levels: &Adaptation) -> Table {
         let title = format!("{}, by subject", levels.quantity());
-        let mut table = Table::new("fits", &title, &FITS);
+        let mut table = Table::new("fits", &title, FITS);
         for (name, counts, found) in &self.rows {
             let cells = |at: &usize| fit_cells(&self.fits[*at].1, &self.goodness[*at]);
-            let found = or_undefined(found.as_ref().map(cells), FITS.len() - 3);
+            let found = or_undefined(found.as_ref().map(cells), table.columns.len() - 3);
             table.push(cells![*name, *counts, found]);
         }
         table
@@ -291,22 +287,9 @@ fn goodness(evidence: &[Evidence], fits: &[Fit], options: &Options) -> Vec<Goodn
     all.into_iter().flatten().collect()
 }
 
-const FITS: [(&str, &str); 14] = [
-    ("subject", "subject"),
-    ("trials", "trials"),
-    ("levels", "levels"),
-    ("threshold_db", "own"),
-    ("ci_low_db", "95 % CI from"),
-    ("ci_high_db", "to"),
-    ("pooled_db", "pooled"),
-    ("pooled_low_db", "95 % CI from"),
-    ("pooled_high_db", "to"),
-    ("width", "width, 5 to 95 %"),
-    ("lapse", "lapses"),
-    ("deviance", "deviance"),
-    ("p_deviance", "its p"),
-    ("remarks", "remarks"),
-];
+const FITS: &str = "subject; trials; levels; threshold_db: own; ci_low_db: 95 % CI from; \
+    ci_high_db: to; pooled_db: pooled; pooled_low_db: 95 % CI from; pooled_high_db: to; width: \
+    width, 5 to 95 %; lapse: lapses; deviance; p_deviance: its p; remarks";
 
 fn fit_cells(fit: &Fit, goodness: &Goodness) -> Vec<Cell> {
     cells![

@@ -49,17 +49,8 @@ pub(super) fn run_again(
     Ok(staircase)
 }
 
-const REVERSALS: [(&str, &str); 9] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("track", "series"),
-    ("trials", "trials"),
-    ("reversals", "reversals"),
-    ("averaged", "averaged"),
-    ("mean_db", "mean of the last"),
-    ("sd_db", "sd"),
-    ("remarks", "remarks"),
-];
+const REVERSALS: &str = "subject; session; track: series; trials; reversals; averaged; mean_db: \
+    mean of the last; sd_db: sd; remarks";
 
 pub(super) fn staircases_section(
     experiment: &Experiment<'_>,
@@ -79,7 +70,7 @@ pub(super) fn staircases_section(
         None => format!("level of {percent} right, dB re 1 µm"),
         Some(_) => format!("difference of {percent} right, dB"),
     };
-    let mut table = Table::new("reversals", &what, &REVERSALS);
+    let mut table = Table::new("reversals", &what, REVERSALS);
     let (mut means, mut series) = (Vec::new(), Vec::new());
     for subject in &experiment.subjects {
         let own = of_subject(subject, (levels, track), (&mut table, &mut series));
@@ -117,7 +108,7 @@ fn of_subject(
             let staircase = run_again(levels, track, nth, &own);
             let found =
                 staircase.map(|staircase| reversal_cells(&staircase, track, levels, &mut means));
-            let found = or_undefined(found, REVERSALS.len() - 4);
+            let found = or_undefined(found, table.columns.len() - 4);
             table.push(cells![subject.name, number, nth + 1, own.len(), found]);
             let name = format!("{}, session {number}, series {}", subject.name, nth + 1);
             let at = own
@@ -150,15 +141,8 @@ fn reversal_cells(
     ]
 }
 
-const POSTERIOR: [(&str, &str); 7] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("trial", "trial"),
-    ("level_db", "level, dB re 1 µm"),
-    ("is_right", "right"),
-    ("mean_db", "mean"),
-    ("sd_db", "sd"),
-];
+const POSTERIOR: &str = "subject; session; trial; level_db: level, dB re 1 µm; is_right: right; \
+    mean_db: mean; sd_db: sd";
 
 /// The posterior of every session after every trial, from its answers.
 pub(super) fn quest_plus_section(
@@ -173,7 +157,7 @@ pub(super) fn quest_plus_section(
          the group is told by stands above.",
     );
     let title = "Posterior of the threshold after every trial, dB";
-    let mut table = Table::new("posterior", title, &POSTERIOR);
+    let mut table = Table::new("posterior", title, POSTERIOR);
     let mut series = Vec::new();
     for subject in &experiment.subjects {
         for session in &subject.sessions {

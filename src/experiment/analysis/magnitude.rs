@@ -9,7 +9,7 @@ use crate::{AnswerValue, Record};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
-use selvedge_statistics::{Interval, Summary, mean, paired_t};
+use selvedge_statistics::{Summary, mean, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
 fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
@@ -36,16 +36,8 @@ fn estimates(experiment: &Experiment<'_>, condition: &str) -> Vec<Estimate> {
     all
 }
 
-const EXPONENTS: [(&str, &str); 8] = [
-    ("condition", "condition"),
-    ("subject", "subject"),
-    ("stimuli", "stimuli"),
-    ("exponent", "exponent"),
-    ("ci_low", "95 % CI from"),
-    ("ci_high", "to"),
-    ("constant", "number at 1 µm"),
-    ("r_squared", "r²"),
-];
+const EXPONENTS: &str = "condition; subject; stimuli; exponent; ci_low: 95 % CI from; ci_high: \
+    to; constant: number at 1 µm; r_squared: r²";
 
 pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let mut section = experiment.section("exponents", "Stevens' exponents");
@@ -61,7 +53,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
         section.table(means(experiment));
         return vec![section];
     }
-    let mut table = Table::new("exponents", "Exponents", &EXPONENTS);
+    let mut table = Table::new("exponents", "Exponents", EXPONENTS);
     let mut found: Vec<(&str, Stevens)> = Vec::new();
     for condition in conditions {
         match stevens(&estimates(experiment, condition), 0.95) {
@@ -73,7 +65,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
                 found.push((condition, law));
             }
             Err(why) => {
-                let blank = vec![Cell::none(&why.reason); EXPONENTS.len() - 2];
+                let blank = vec![Cell::none(&why.reason); table.columns.len() - 2];
                 table.push(cells![condition, "all", blank]);
             }
         }
@@ -97,14 +89,9 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
 
 /// Geometric means of every stimulus over subjects, of each subject's numbers over their own mean.
 fn means(experiment: &Experiment<'_>) -> Table {
-    let columns = [
-        ("item", "stimulus"),
-        ("n", "subjects"),
-        ("mean", "geometric mean, over that of all"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-    ];
-    let mut table = Table::new("means", "Numbers by stimulus", &columns);
+    let columns = "item: stimulus; n: subjects; mean: geometric mean, over that of all; ci_low: \
+        95 % CI from; ci_high: to";
+    let mut table = Table::new("means", "Numbers by stimulus", columns);
     let logarithms: Vec<Vec<(usize, f64)>> = (experiment.subjects.iter())
         .map(|subject| {
             let number = |record: &Record| match (record.trial.task.item(), record.value()) {
@@ -126,11 +113,7 @@ fn means(experiment: &Experiment<'_>) -> Table {
         };
         let values: Vec<f64> = logarithms.iter().filter_map(of).collect();
         let interval = Summary::of(&values).and_then(|summary| summary.interval(0.95));
-        let interval = interval.map(|i| Interval {
-            low: i.low.exp(),
-            high: i.high.exp(),
-            ..i
-        });
+        let interval = interval.map(|interval| interval.map(f64::exp));
         let centre = mean(&values).map(f64::exp);
         table.push(cells![name, values.len(), centre, interval]);
     }

@@ -232,20 +232,11 @@ pub(super) fn loss_heading(loss: Loss) -> &'static str {
 }
 
 fn stress_table(maps: &[Map], (elbow, loss): (&Elbow, Loss), chance: &[Null]) -> Table {
-    let columns = [
-        ("dims", "dimensions"),
-        ("sstress", "S-stress"),
-        ("stress1", "stress-1"),
-        ("spearman", "Spearman of distances"),
-        ("starts", "starts"),
-        ("reached_best", "reached the best"),
-        ("first_difference", "fall to here"),
-        ("second_difference", "second difference"),
-        ("random_mean", "mean of random ranks"),
-        ("random_5_percent", "5 % of them"),
-        ("random_p", "p against them"),
-    ];
-    let mut table = Table::new("stress", "Maps in one to five dimensions", &columns);
+    let columns = "dims: dimensions; sstress: S-stress; stress1: stress-1; spearman: Spearman of \
+        distances; starts; reached_best: reached the best; first_difference: fall to here; \
+        second_difference: second difference; random_mean: mean of random ranks; \
+        random_5_percent: 5 % of them; random_p: p against them";
+    let mut table = Table::new("stress", "Maps in one to five dimensions", columns);
     for (i, map) in maps.iter().enumerate() {
         let differences = [&elbow.first_differences, &elbow.second_differences].map(|all| {
             let value = all.get(i).copied().flatten();
@@ -273,18 +264,10 @@ fn stress_table(maps: &[Map], (elbow, loss): (&Elbow, Loss), chance: &[Null]) ->
 }
 
 fn coordinates(names: &[String], maps: &[Map]) -> Table {
-    let columns = [
-        ("dims", "dimensions"),
-        ("item", "item"),
-        ("x1", "x₁"),
-        ("x2", "x₂"),
-        ("x3", "x₃"),
-        ("x4", "x₄"),
-        ("x5", "x₅"),
-        ("stress", "stress of its pairs"),
-    ];
+    let columns = "dims: dimensions; item; x1: x₁; x2: x₂; x3: x₃; x4: x₄; x5: x₅; stress: stress \
+        of its pairs";
     let title = "Coordinates: centred, principal axes, mean square distance 1";
-    let mut table = Table::new("coordinates", title, &columns);
+    let mut table = Table::new("coordinates", title, columns);
     for map in maps {
         for (i, name) in names.iter().enumerate() {
             let x = &map.points[i];

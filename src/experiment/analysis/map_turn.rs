@@ -21,22 +21,9 @@ const PAIRS: [(&str, &str); 5] = [
     ("sum_own_speed", "difference_own_speed"),
 ];
 
-const TURNS: [(&str, &str); 14] = [
-    ("first", "axis 1 to"),
-    ("second", "axis 2 to"),
-    ("n", "n"),
-    ("r1", "r of axis 1"),
-    ("r1_ci_low", "95 % CI from"),
-    ("r1_ci_high", "to"),
-    ("p1", "p"),
-    ("r2", "r of axis 2"),
-    ("r2_ci_low", "95 % CI from"),
-    ("r2_ci_high", "to"),
-    ("p2", "p"),
-    ("p_sum", "p of both"),
-    ("angle_deg", "angle, °"),
-    ("is_mirrored", "mirrored"),
-];
+const TURNS: &str = "first: axis 1 to; second: axis 2 to; n; r1: r of axis 1; r1_ci_low: 95 % CI \
+    from; r1_ci_high: to; p1: p; r2: r of axis 2; r2_ci_low: 95 % CI from; r2_ci_high: to; p2: p; \
+    p_sum: p of both; angle_deg: angle, °; is_mirrored: mirrored";
 
 impl Mapping<'_> {
     /// The plane map as it is and turned to A40 and A320, drawn where it is worth it.
@@ -53,7 +40,7 @@ impl Mapping<'_> {
         self.measures.describe(section);
         let measures = self.measures;
         self.fitted(plane, section);
-        let mut turns = Table::new("turns", "The plane map turned to two measures", &TURNS);
+        let mut turns = Table::new("turns", "The plane map turned to two measures", TURNS);
         let mut best = None;
         for (first, second) in PAIRS {
             let pair = measures.named(first).zip(measures.named(second));
@@ -179,19 +166,10 @@ fn turned_ellipse(ellipse: &Ellipse, turn: &BestTurn) -> Ellipse {
 }
 
 fn vectors(fits: &[(&Measure, Computed<PropertyVector>)], n: usize) -> Table {
-    let columns = [
-        ("measure", "measure"),
-        ("n", "n"),
-        ("multiple_r", "multiple R"),
-        ("f", "F"),
-        ("df", "df"),
-        ("df_error", "df error"),
-        ("p", "p"),
-        ("x1", "direction x₁"),
-        ("x2", "x₂"),
-    ];
+    let columns = "measure; n; multiple_r: multiple R; f: F; df; df_error: df error; p; x1: \
+        direction x₁; x2: x₂";
     let title = "Measures fitted into the plane map, whatever its turn";
-    let mut table = Table::new("vectors", title, &columns);
+    let mut table = Table::new("vectors", title, columns);
     for (measure, fit) in fits {
         let found = fit.as_ref().map(|fit| {
             let [df, df_error] = fit.df.map(|df| df as f64);

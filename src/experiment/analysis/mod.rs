@@ -131,8 +131,8 @@ pub fn analyse_with_unread(
 fn left_out(unread: &[Unread]) -> Section {
     let mut section = Section::new(UNREAD, "Logs that cannot be read");
     section.note("**These logs are left out of everything below.** The others are analysed.");
-    let columns = [("log", "log"), ("why", "why, and how to mend it")];
-    let mut table = Table::new("logs", "Logs left out", &columns);
+    let columns = "log; why: why, and how to mend it";
+    let mut table = Table::new("logs", "Logs left out", columns);
     for one in unread {
         let name = one.log.file_name().unwrap_or_default().to_string_lossy();
         table.push(cells![name.into_owned(), one.error.to_string()]);

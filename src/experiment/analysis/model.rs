@@ -102,13 +102,17 @@ impl Section {
 }
 
 impl Table {
-    /// An empty table with columns by name and heading.
-    pub fn new(key: &str, title: &str, columns: &[(&str, &str)]) -> Self {
-        let column = |(name, heading): &(&str, &str)| Column::new(name, heading);
+    /// An empty table. Columns stand between `; `, each by its name, and its heading where that is
+    /// another: `n; ci_low: 95 % CI from`.
+    pub fn new(key: &str, title: &str, columns: &str) -> Self {
+        let column = |one: &str| {
+            let (name, heading) = one.split_once(": ").unwrap_or((one, one));
+            Column::new(name, heading)
+        };
         Self {
             key: key.to_owned(),
             title: title.to_owned(),
-            columns: columns.iter().map(column).collect(),
+            columns: columns.split("; ").map(column).collect(),
             rows: Vec::new(),
         }
     }
@@ -166,7 +170,7 @@ impl Column {
         self.name == "p" || self.name.starts_with("p_") || self.name.ends_with("_p")
     }
 
-    fn new(name: &str, heading: &str) -> Self {
+    pub(super) fn new(name: &str, heading: &str) -> Self {
         Self {
             name: name.to_owned(),
             heading: heading.to_owned(),
@@ -360,9 +364,5 @@ pub(super) fn ends(interval: &Computed<Interval>) -> [Cell; 2] {
 
 /// Wilson's interval of a share, %.
 pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<Interval> {
-    wilson(hits, n, 0.95).map(|mut interval| {
-        interval.low *= 100.0;
-        interval.high *= 100.0;
-        interval
-    })
+    wilson(hits, n, 0.95).map(|interval| interval.map(|share| share * 100.0))
 }

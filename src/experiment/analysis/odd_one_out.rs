@@ -95,19 +95,9 @@ pub(crate) fn grade_weights(composition: &Composition) -> GradeWeights {
     }
 }
 
-const SHARES: [(&str, &str); 11] = [
-    ("subject", "subject"),
-    ("session", "session"),
-    ("triads", "triads"),
-    ("right", "right"),
-    ("percent", "%"),
-    ("ci_low_percent", "95 % CI from"),
-    ("ci_high_percent", "to"),
-    ("p", "exact binomial p, above ⅓"),
-    ("d_prime", "d′, triangle"),
-    ("d_prime_ci_low", "95 % CI from"),
-    ("d_prime_ci_high", "to"),
-];
+const SHARES: &str = "subject; session; triads; right; percent: %; ci_low_percent: 95 % CI from; \
+    ci_high_percent: to; p: exact binomial p, above ⅓; d_prime: d′, triangle; d_prime_ci_low: 95 \
+    % CI from; d_prime_ci_high: to";
 
 fn share_row(subject: &str, session: Cell, answers: &[TriadAnswer]) -> Vec<Cell> {
     let (right, n) = (n_right(answers), answers.len() as u64);
@@ -132,7 +122,7 @@ fn accuracy(experiment: &Experiment<'_>, options: &Options) -> Section {
          Intervals of shares are Wilson's, p is exact (binomial).",
     );
     section.note(D_PRIME_NOTE);
-    let mut table = Table::new("subjects", "Right answers by subject and session", &SHARES);
+    let mut table = Table::new("subjects", "Right answers by subject and session", SHARES);
     let mut shown = Vec::new();
     for subject in &experiment.subjects {
         for session in &subject.sessions {
@@ -218,12 +208,7 @@ fn graded(experiment: &Experiment<'_>, is_correct: bool, grade: Grade) -> (usize
 fn grades(experiment: &Experiment<'_>) -> Section {
     let mut section = experiment.section("grades", "easy, normal, hard");
     section.note("Shares of a subject's right (or wrong) answers with each grade.");
-    let own = [
-        ("answers", "answers"),
-        ("grade", "grade"),
-        ("count", "count"),
-    ];
-    let columns: Vec<_> = own.into_iter().chain(SUMMARY).collect();
+    let columns = format!("answers; grade; count; {SUMMARY}");
     let title = "Grades of right and wrong answers: shares over subjects, %";
     let mut table = Table::new("grades", title, &columns);
     let mut shown = Vec::new();
@@ -266,16 +251,10 @@ fn distances(experiment: &Experiment<'_>, found: &OddOneOut, names: &[String]) -
 }
 
 fn errors_by_fabric(found: &OddOneOut, names: &[String]) -> Table {
-    let columns = [
-        ("item", "fabric"),
-        ("triads", "triads with it"),
-        ("wrong", "wrong"),
-        ("percent", "%"),
-        ("ci_low_percent", "95 % CI from"),
-        ("ci_high_percent", "to"),
-    ];
+    let columns = "item: fabric; triads: triads with it; wrong; percent: %; ci_low_percent: 95 % \
+        CI from; ci_high_percent: to";
     let title = "Wrong answers by fabric; both fabrics of a triad count";
-    let mut table = Table::new("errors", title, &columns);
+    let mut table = Table::new("errors", title, columns);
     for (name, errors) in names.iter().zip(&found.errors) {
         let (wrong, n) = (errors.n_wrong as u64, errors.n_triads as u64);
         let share = percent_of(wrong, n, "never asked");

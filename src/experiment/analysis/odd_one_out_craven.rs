@@ -45,19 +45,8 @@ impl Craven {
     }
 }
 
-const PAIRS: [(&str, &str); 11] = [
-    ("one", "fabric"),
-    ("other", "and"),
-    ("triads", "triads"),
-    ("right", "right"),
-    ("percent", "%"),
-    ("distance", "d′"),
-    ("se", "SE"),
-    ("ci_low", "95 % CI from"),
-    ("ci_high", "to"),
-    ("correction", "correction"),
-    ("below_chance", "below chance"),
-];
+const PAIRS: &str = "one: fabric; other: and; triads; right; percent: %; distance: d′; se: SE; \
+    ci_low: 95 % CI from; ci_high: to; correction; below_chance: below chance";
 
 /// The distances as a matrix and pair by pair.
 pub(super) fn section(
@@ -81,7 +70,7 @@ pub(super) fn section(
     let cells = craven.distances.iter();
     let cells = cells.map(|d| known(*d, "itself, or never asked"));
     section.table(matrix("distances", "Craven's distances, d′", names, cells));
-    let mut table = Table::new("pairs", "Craven's distances, pair by pair", &PAIRS);
+    let mut table = Table::new("pairs", "Craven's distances, pair by pair", PAIRS);
     for pair in &found.pairs {
         table.push(row(pair, names));
     }

@@ -54,20 +54,10 @@ impl Variant {
     }
 }
 
-const VARIANTS: [(&str, &str); 12] = [
-    ("distances", "distances by"),
-    ("ceiling", "pairs at the ceiling"),
-    ("floor", "at the floor"),
-    ("pairs", "pairs"),
-    ("spearman", "rank correlation with the design's"),
-    ("stress1_line", "stress-1 on a line"),
-    ("m2_line", "m² against the design's line"),
-    ("p_line", "PROTEST p"),
-    ("stress1_plane", "stress-1 in the plane"),
-    ("m2_plane", "m² against the design's plane"),
-    ("p_plane", "PROTEST p"),
-    ("remark", "remark"),
-];
+const VARIANTS: &str = "distances: distances by; ceiling: pairs at the ceiling; floor: at the \
+    floor; pairs; spearman: rank correlation with the design's; stress1_line: stress-1 on a line; \
+    m2_line: m² against the design's line; p_line: PROTEST p; stress1_plane: stress-1 in the \
+    plane; m2_plane: m² against the design's plane; p_plane: PROTEST p; remark";
 
 /// Distances by other weights and by Craven beside the design's, and their maps laid over its map.
 ///
@@ -95,8 +85,8 @@ pub(super) fn section(
     let names = &mapping.names;
     let own = Variant::weighted(found);
     let own_maps = own.maps(names, &mds, progress)?;
-    let mut table = Table::new("variants", "Maps by other distances", &VARIANTS);
-    let mut places = Table::new("coordinates", "Plane maps, laid over the design's", &PLACES);
+    let mut table = Table::new("variants", "Maps by other distances", VARIANTS);
+    let mut places = Table::new("coordinates", "Plane maps, laid over the design's", PLACES);
     table.push(own.row(&own, (&own_maps, None), options));
     enter(&mut places, &own.described, names, &plane(&own_maps));
     for variant in variants(names.len(), all, craven) {
@@ -190,12 +180,7 @@ fn laid(map: Computed<&Map>, own: Computed<&Map>, options: &Options) -> Vec<Cell
     or_undefined(found, 2)
 }
 
-const PLACES: [(&str, &str); 4] = [
-    ("distances", "distances by"),
-    ("item", "fabric"),
-    ("x1", "x₁"),
-    ("x2", "x₂"),
-];
+const PLACES: &str = "distances: distances by; item: fabric; x1: x₁; x2: x₂";
 
 fn enter(table: &mut Table, described: &str, names: &[String], points: &Computed<Vec<Vec<f64>>>) {
     for (name, point) in names.iter().zip(points.iter().flatten()) {

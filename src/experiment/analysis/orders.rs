@@ -83,8 +83,7 @@ fn scored(experiment: &Experiment<'_>) -> Section {
     let all: Vec<Vec<Option<f64>>> = (experiment.subjects.iter())
         .map(|subject| scores(subject, names.len()))
         .collect();
-    let mut columns = vec![("item", "stimulus")];
-    columns.extend(SUMMARY);
+    let columns = format!("item: stimulus; {SUMMARY}");
     let mut table = Table::new("scores", "Scores by stimulus", &columns);
     let mut shown = Vec::new();
     for (item, name) in names.iter().enumerate() {

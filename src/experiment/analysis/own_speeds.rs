@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::included_trials::{Experiment, Subject};
 use crate::session::path_file;
-use selvedge_foundation::numerics::{in_pieces, n_threads, quantile};
+use selvedge_foundation::numerics::{in_pieces, n_threads, quantile, to_whole};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_render::scene::{ExplorationPath, TICKS_PER_S};
 use selvedge_textile::Textile;
@@ -74,12 +74,7 @@ impl OwnSpeeds {
 /// The nearest step of speed, 0 at the speed of reference.
 fn step_of(speed_mm_per_s: f64) -> i32 {
     let speed = speed_mm_per_s.clamp(MOVING_MM_PER_S, FASTEST_MM_PER_S);
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a few dozen steps to either side"
-    )]
-    let step = ((speed / LEVEL_SPEED_MM_PER_S).ln() / STEP.ln()).round() as i32;
-    step
+    to_whole(((speed / LEVEL_SPEED_MM_PER_S).ln() / STEP.ln()).round())
 }
 
 /// The speed of a step, mm/s.

@@ -32,22 +32,12 @@ pub(super) const NOTE: &str = "Bradley and Terry's values are logits: the natura
     the unit of d′. Row means of z (Mosteller) are in the same unit. Scales have no zero of their \
     own: values sum to 0.";
 
-const SCALES: [(&str, &str); 14] = [
-    ("item", "item"),
-    ("preferred", "preferred"),
-    ("compared", "of comparisons"),
-    ("bradley_terry", "Bradley & Terry, logits"),
-    ("bradley_terry_se", "SE, comparisons independent"),
-    ("bradley_terry_se_subjects", "SE over subjects"),
-    ("bradley_terry_ci_low", "95 % CI over subjects from"),
-    ("bradley_terry_ci_high", "to"),
-    ("thurstone", "Thurstone, sd of a difference"),
-    ("thurstone_se", "SE, comparisons independent"),
-    ("thurstone_se_subjects", "SE over subjects"),
-    ("thurstone_ci_low", "95 % CI over subjects from"),
-    ("thurstone_ci_high", "to"),
-    ("row_mean_z", "row mean of z"),
-];
+const SCALES: &str = "item; preferred; compared: of comparisons; bradley_terry: Bradley & Terry, \
+    logits; bradley_terry_se: SE, comparisons independent; bradley_terry_se_subjects: SE over \
+    subjects; bradley_terry_ci_low: 95 % CI over subjects from; bradley_terry_ci_high: to; \
+    thurstone: Thurstone, sd of a difference; thurstone_se: SE, comparisons independent; \
+    thurstone_se_subjects: SE over subjects; thurstone_ci_low: 95 % CI over subjects from; \
+    thurstone_ci_high: to; row_mean_z: row mean of z";
 
 impl<'a> Pairs<'a> {
     /// Of each subject.
@@ -130,7 +120,7 @@ impl Pairs<'_> {
         });
         let z = mosteller(all);
         let title = format!("Pairs of {of}: scales of how often each was preferred");
-        let mut table = Table::new(&format!("{key}-scales"), &title, &SCALES);
+        let mut table = Table::new(&format!("{key}-scales"), &title, SCALES);
         for (item, name) in self.names.iter().enumerate() {
             let count =
                 |wins: &dyn Fn(usize) -> u64| -> u64 { (0..self.names.len()).map(wins).sum() };
@@ -149,18 +139,11 @@ impl Pairs<'_> {
     }
 
     fn consistency(&self, key: &str, of: &str, all: &Preferences) -> Table {
-        let columns = [
-            ("subject", "subject"),
-            ("pairs", "pairs compared"),
-            ("undecided", "as often either way"),
-            ("triads", "triads of decided pairs"),
-            ("circular", "circular"),
-            ("circular_percent", "%, 25 by chance"),
-            ("zeta", "Kendall's ζ"),
-            ("p", "p of as few by chance"),
-        ];
+        let columns = "subject; pairs: pairs compared; undecided: as often either way; triads: \
+            triads of decided pairs; circular; circular_percent: %, 25 by chance; zeta: Kendall's \
+            ζ; p: p of as few by chance";
         let title = format!("Pairs of {of}: circular triads, each pair by majority");
-        let mut table = Table::new(&format!("{key}-consistency"), &title, &columns);
+        let mut table = Table::new(&format!("{key}-consistency"), &title, columns);
         let all = std::iter::once(("all together", all));
         let subjects = self.subjects.iter().map(|(name, own)| (*name, own));
         for (name, own) in subjects.chain(all) {

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::included_trials::Experiment;
-use super::model::{Cell, Section, Table, cells};
+use super::model::{Cell, Column, Section, Table, cells};
 use super::options::Options;
 use super::own_speeds::{self, MOVING_MM_PER_S, OwnSpeeds};
 use crate::design::Source;
@@ -170,13 +170,9 @@ impl Measures {
 
     /// All of them, a row a stimulus.
     pub(super) fn table(&self, names: &[String]) -> Table {
-        let mut columns = vec![("item", "textile")];
-        columns.extend(
-            self.all
-                .iter()
-                .map(|m| (m.name.as_str(), m.heading.as_str())),
-        );
-        let mut table = Table::new("measures", "Physical measures", &columns);
+        let mut table = Table::new("measures", "Physical measures", "item: textile");
+        let own = self.all.iter().map(|m| Column::new(&m.name, &m.heading));
+        table.columns.extend(own);
         for (i, name) in names.iter().enumerate() {
             let values: Vec<Cell> = self.all.iter().map(|m| m.values[i].into()).collect();
             table.push(cells![name, values]);

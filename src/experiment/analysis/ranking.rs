@@ -71,23 +71,10 @@ pub(super) fn sections(
     Ok(sections)
 }
 
-const SUBJECTS: [(&str, &str); 15] = [
-    ("subject", "subject"),
-    ("trials", "trials"),
-    ("first", "target first"),
-    ("percent", "%"),
-    ("ci_low_percent", "95 % CI from"),
-    ("ci_high_percent", "to"),
-    ("p_one_sided", "exact binomial p, above ¼"),
-    ("p_two_sided", "two-sided p"),
-    ("effect_h", "Cohen's h"),
-    ("d_prime", "d′, 4-AFC"),
-    ("d_prime_ci_low", "95 % CI from"),
-    ("d_prime_ci_high", "to"),
-    ("correction", "correction"),
-    ("mean_rank", "mean rank of the target"),
-    ("at_chance", "below chance"),
-];
+const SUBJECTS: &str = "subject; trials; first: target first; percent: %; ci_low_percent: 95 % CI \
+    from; ci_high_percent: to; p_one_sided: exact binomial p, above ¼; p_two_sided: two-sided p; \
+    effect_h: Cohen's h; d_prime: d′, 4-AFC; d_prime_ci_low: 95 % CI from; d_prime_ci_high: to; \
+    correction; mean_rank: mean rank of the target; at_chance: below chance";
 
 fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &Options) -> Section {
     let mut section = experiment.section("identification", "identification");
@@ -96,7 +83,7 @@ fn identification(experiment: &Experiment<'_>, all: &[Rankings<'_>], options: &O
          is exact (binomial); d′ of four alternatives without bias, its interval from Wilson's.",
     );
     section.note(D_PRIME_NOTE);
-    let mut table = Table::new("subjects", "Identification by subject", &SUBJECTS);
+    let mut table = Table::new("subjects", "Identification by subject", SUBJECTS);
     let mut d_primes = Vec::new();
     let mut shown = Vec::new();
     for one in all {

@@ -63,17 +63,10 @@ fn by_target(experiment: &Experiment<'_>, ranks: &MeanRanks, names: &[String]) -
 }
 
 fn targets(counts: &[usize], first: &[usize], names: &[String]) -> Table {
-    let columns = [
-        ("target", "target"),
-        ("trials", "trials"),
-        ("first", "identified"),
-        ("percent", "%"),
-        ("ci_low_percent", "95 % CI from"),
-        ("ci_high_percent", "to"),
-        ("most_taken_for", "most often taken for"),
-    ];
+    let columns = "target; trials; first: identified; percent: %; ci_low_percent: 95 % CI from; \
+        ci_high_percent: to; most_taken_for: most often taken for";
     let title = "Identification by target, subjects pooled";
-    let mut table = Table::new("targets", title, &columns);
+    let mut table = Table::new("targets", title, columns);
     let n = names.len();
     for (target, name) in names.iter().enumerate() {
         let row = target * n..(target + 1) * n;
@@ -110,15 +103,11 @@ fn asymmetry(ranks: &MeanRanks, names: &[String], section: &mut Section) {
         fixed(found.largest, 3),
         found.pairs.len()
     ));
-    let columns = [
-        ("one", "textile"),
-        ("other", "and"),
-        ("difference", "|M − Mᵀ|"),
-    ];
+    let columns = "one: textile; other: and; difference: |M − Mᵀ|";
     let mut table = Table::new(
         "asymmetry",
         "Asymmetry of mean ranks, largest first",
-        &columns,
+        columns,
     );
     let mut pairs = found.pairs;
     pairs.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));

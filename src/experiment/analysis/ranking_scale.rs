@@ -55,7 +55,7 @@ pub(super) fn section(
     );
     let names = experiment.ids();
     let targets = targets(names.len(), all, progress)?;
-    let mut table = Table::new("likeness", "Likeness to each target", &LIKENESS);
+    let mut table = Table::new("likeness", "Likeness to each target", LIKENESS);
     let mut against: Vec<(String, Computed<Outcome>)> = Vec::new();
     for (target, (name, found)) in names.iter().zip(targets).enumerate() {
         for (alternative, other) in names.iter().enumerate().filter(|(a, _)| *a != target) {
@@ -75,21 +75,10 @@ pub(super) fn section(
     Ok(section)
 }
 
-const LIKENESS: [(&str, &str); 13] = [
-    ("target", "target"),
-    ("alternative", "alternative"),
-    ("rankings", "rankings"),
-    ("log_worth", "log-worth"),
-    ("se", "SE"),
-    ("ci_low", "95 % CI from"),
-    ("ci_high", "to"),
-    ("se_subjects", "SE over subjects"),
-    ("subjects_ci_low", "95 % CI from"),
-    ("subjects_ci_high", "to"),
-    ("bradley_terry", "Bradley & Terry, logits"),
-    ("bradley_terry_se", "SE, pairs independent"),
-    ("bradley_terry_se_subjects", "SE over subjects"),
-];
+const LIKENESS: &str = "target; alternative; rankings; log_worth: log-worth; se: SE; ci_low: 95 % \
+    CI from; ci_high: to; se_subjects: SE over subjects; subjects_ci_low: 95 % CI from; \
+    subjects_ci_high: to; bradley_terry: Bradley & Terry, logits; bradley_terry_se: SE, pairs \
+    independent; bradley_terry_se_subjects: SE over subjects";
 
 impl Model {
     /// One model of rankings: of all subjects, and of draws of them.

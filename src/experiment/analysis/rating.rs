@@ -56,8 +56,7 @@ pub(super) fn sections(
         "Means over subjects of each subject's mean over repeats. Correlations are between these \
          means, n the stimuli.",
     );
-    let mut columns = vec![("scale", "scale"), ("item", "stimulus")];
-    columns.extend(SUMMARY);
+    let columns = format!("scale; item: stimulus; {SUMMARY}");
     let mut table = Table::new("means", "Ratings by scale and stimulus", &columns);
     let mut by_scale: Vec<(String, Vec<Option<f64>>)> = Vec::new();
     let mut found: Vec<(String, Computed<Outcome>)> = Vec::new();

@@ -35,28 +35,10 @@ pub(super) fn group_d_prime(n: usize, found: Computed<GroupDPrime>) -> Vec<Cell>
 }
 
 /// Columns of [`tests`].
-const TESTS: [(&str, &str); 20] = [
-    ("what", "of what"),
-    ("test", "test"),
-    ("n", "n"),
-    ("n_second", "n of the second"),
-    ("statistic", "statistic"),
-    ("value", "value"),
-    ("df", "df"),
-    ("df_error", "df error"),
-    ("p", "p"),
-    ("sides", "sides"),
-    ("effect", "effect size"),
-    ("effect_value", "value"),
-    ("effect_low", "95 % CI from"),
-    ("effect_high", "to"),
-    ("estimate", "estimate"),
-    ("estimate_value", "value"),
-    ("ci_low", "CI from"),
-    ("ci_high", "to"),
-    ("ci_level", "level"),
-    ("remarks", "remarks"),
-];
+const TESTS: &str = "what: of what; test; n; n_second: n of the second; statistic; value; df; \
+    df_error: df error; p; sides; effect: effect size; effect_value: value; effect_low: 95 % CI \
+    from; effect_high: to; estimate; estimate_value: value; ci_low: CI from; ci_high: to; \
+    ci_level: level; remarks";
 
 /// A table of tests, one a row: what was tested, and what came of it.
 pub(super) fn tests<S: AsRef<str>>(
@@ -64,9 +46,9 @@ pub(super) fn tests<S: AsRef<str>>(
     title: &str,
     all: &[(S, Computed<Outcome>)],
 ) -> Table {
-    let mut table = Table::new(key, title, &TESTS);
+    let mut table = Table::new(key, title, TESTS);
     for (what, outcome) in all {
-        let found = or_undefined(outcome.as_ref().map(cells_of), TESTS.len() - 1);
+        let found = or_undefined(outcome.as_ref().map(cells_of), table.columns.len() - 1);
         table.push(cells![what.as_ref(), found]);
     }
     table
@@ -118,14 +100,7 @@ fn cells_of(outcome: &Outcome) -> Vec<Cell> {
 }
 
 /// Columns of [`summary_cells`].
-pub(super) const SUMMARY: [(&str, &str); 6] = [
-    ("n", "n"),
-    ("mean", "mean"),
-    ("sd", "sd"),
-    ("se", "SE"),
-    ("ci_low", "95 % CI from"),
-    ("ci_high", "to"),
-];
+pub(super) const SUMMARY: &str = "n; mean; sd; se: SE; ci_low: 95 % CI from; ci_high: to";
 
 /// n, mean, sd, SE and the interval of the mean by Student's t.
 pub(super) fn summary_cells(values: &[f64]) -> Vec<Cell> {
@@ -139,7 +114,7 @@ pub(super) fn summary_cells(values: &[f64]) -> Vec<Cell> {
 
 /// A table of means, one quantity a row.
 pub(super) fn summaries<S: AsRef<str>>(key: &str, title: &str, all: &[(S, Vec<f64>)]) -> Table {
-    let columns: Vec<_> = [("what", "of what")].into_iter().chain(SUMMARY).collect();
+    let columns = format!("what: of what; {SUMMARY}");
     let mut table = Table::new(key, title, &columns);
     for (what, values) in all {
         table.push(cells![what.as_ref(), summary_cells(values)]);
@@ -149,19 +124,10 @@ pub(super) fn summaries<S: AsRef<str>>(key: &str, title: &str, all: &[(S, Vec<f6
 
 /// Intervals of means by drawing subjects again, one quantity a row.
 fn resampled<S: AsRef<str>>(all: &[(S, Vec<f64>)], how: Resampling) -> Table {
-    let columns = [
-        ("what", "of what"),
-        ("n", "n"),
-        ("mean", "mean"),
-        ("se", "SE"),
-        ("percentile_low", "95 % percentiles from"),
-        ("percentile_high", "to"),
-        ("bca_low", "bias-corrected and accelerated from"),
-        ("bca_high", "to"),
-        ("resamples", "resamples"),
-    ];
+    let columns = "what: of what; n; mean; se: SE; percentile_low: 95 % percentiles from; \
+        percentile_high: to; bca_low: bias-corrected and accelerated from; bca_high: to; resamples";
     let title = "Means, their intervals by drawing subjects again";
-    let mut table = Table::new("bootstrap", title, &columns);
+    let mut table = Table::new("bootstrap", title, columns);
     for (what, values) in all {
         let of = |drawn: &[usize]| mean(&drawn.iter().map(|i| values[*i]).collect::<Vec<f64>>());
         let found = bootstrap(values.len(), of, how);
@@ -169,7 +135,7 @@ fn resampled<S: AsRef<str>>(all: &[(S, Vec<f64>)], how: Resampling) -> Table {
         table.push(cells![
             what.as_ref(),
             values.len(),
-            or_undefined(found, columns.len() - 2)
+            or_undefined(found, table.columns.len() - 2)
         ]);
     }
     table
@@ -182,8 +148,7 @@ pub(super) fn matrix(
     names: &[String],
     cells: impl IntoIterator<Item = Cell>,
 ) -> Table {
-    let mut table =
-        Table::new(key, title, &[("item", "")]).with_columns(names.iter().map(String::as_str));
+    let mut table = Table::new(key, title, "item: ").with_columns(names.iter().map(String::as_str));
     let mut cells = cells.into_iter();
     for name in names {
         let row: Vec<Cell> = cells.by_ref().take(names.len()).collect();

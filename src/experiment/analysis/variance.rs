@@ -4,27 +4,11 @@ use super::model::{Cell, Table, cells, or_undefined};
 use selvedge_statistics::variance::{Comparison, Crossed, Effect, Repeated, every_pair};
 use selvedge_statistics::{Computed, Named};
 
-const EFFECTS: [(&str, &str); 19] = [
-    ("effect", "effect"),
-    ("n", "n"),
-    ("ss", "SS"),
-    ("df", "df"),
-    ("ss_error", "SS error"),
-    ("df_error", "df error"),
-    ("f", "F"),
-    ("p", "p"),
-    ("partial_eta_squared", "partial η²"),
-    ("partial_eta_squared_low", "95 % CI (noncentral F) from"),
-    ("partial_eta_squared_high", "to"),
-    ("generalised_eta_squared", "generalised η²"),
-    ("mauchly_w", "Mauchly's W"),
-    ("mauchly_p", "its p"),
-    ("greenhouse_geisser", "ε, Greenhouse–Geisser"),
-    ("p_greenhouse_geisser", "p so corrected"),
-    ("huynh_feldt", "ε, Huynh–Feldt"),
-    ("p_huynh_feldt", "p so corrected"),
-    ("remarks", "remarks"),
-];
+const EFFECTS: &str = "effect; n; ss: SS; df; ss_error: SS error; df_error: df error; f: F; p; \
+    partial_eta_squared: partial η²; partial_eta_squared_low: 95 % CI (noncentral F) from; \
+    partial_eta_squared_high: to; generalised_eta_squared: generalised η²; mauchly_w: Mauchly's \
+    W; mauchly_p: its p; greenhouse_geisser: ε, Greenhouse–Geisser; p_greenhouse_geisser: p so \
+    corrected; huynh_feldt: ε, Huynh–Feldt; p_huynh_feldt: p so corrected; remarks";
 
 /// The cells of every subject, where nobody lacks one.
 pub(super) fn complete_rows(crossed: &Computed<Crossed>) -> Computed<Vec<Vec<f64>>> {
@@ -38,7 +22,7 @@ pub(super) fn complete_rows(crossed: &Computed<Crossed>) -> Computed<Vec<Vec<f64
 
 /// Every effect of an analysis, a row each, or one row that says why there is none.
 pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Table {
-    let mut table = Table::new(key, title, &EFFECTS);
+    let mut table = Table::new(key, title, EFFECTS);
     match found {
         Ok(found) => {
             for effect in &found.effects {
@@ -46,7 +30,7 @@ pub(super) fn effects(key: &str, title: &str, found: &Computed<Repeated>) -> Tab
             }
         }
         Err(why) => {
-            let blank = vec![Cell::none(&why.reason); EFFECTS.len() - 2];
+            let blank = vec![Cell::none(&why.reason); table.columns.len() - 2];
             table.push(cells!["all", blank, format!("refused: {}", why.reason)]);
         }
     }
@@ -89,21 +73,11 @@ fn row(effect: &Effect, n: usize) -> Vec<Cell> {
 /// Every two stimuli that anybody answered to, subject by subject, their p values adjusted for each
 /// other by Holm.
 pub(super) fn every_two(key: &str, crossed: &Computed<Crossed>) -> Table {
-    let columns = [
-        ("first", "first"),
-        ("second", "second"),
-        ("n", "n"),
-        ("difference", "mean difference"),
-        ("ci_low", "95 % CI from"),
-        ("ci_high", "to"),
-        ("p", "p (paired t)"),
-        ("p_holm", "p by Holm"),
-        ("d_z", "d_z"),
-        ("d_z_low", "95 % CI (noncentral t) from"),
-        ("d_z_high", "to"),
-    ];
+    let columns = "first; second; n; difference: mean difference; ci_low: 95 % CI from; ci_high: \
+        to; p: p (paired t); p_holm: p by Holm; d_z; d_z_low: 95 % CI (noncentral t) from; \
+        d_z_high: to";
     let title = "Every two stimuli, subject by subject";
-    let mut table = Table::new(key, title, &columns);
+    let mut table = Table::new(key, title, columns);
     let names = crossed.as_ref().map_or(&[][..], Crossed::levels);
     let column = |rows: &Vec<Vec<f64>>, at: usize| rows.iter().map(|row| row[at]).collect();
     let found = complete_rows(crossed).and_then(|rows| {
@@ -113,7 +87,7 @@ pub(super) fn every_two(key: &str, crossed: &Computed<Crossed>) -> Table {
     match found {
         Ok(all) => all.iter().for_each(|one| table.push(pair(one, names))),
         Err(why) => {
-            let blank = vec![Cell::none(&why.reason); columns.len() - 2];
+            let blank = vec![Cell::none(&why.reason); table.columns.len() - 2];
             table.push(cells!["all", "all", blank]);
         }
     }

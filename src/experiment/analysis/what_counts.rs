@@ -65,8 +65,8 @@ pub(super) fn catch_verdicts(subject: &Subject<'_>) -> Vec<bool> {
 pub(super) fn planned(sessions: &[&Found], n_subjects: usize) -> Option<Table> {
     let frozen = sessions.iter().find_map(|found| found.plan.as_ref())?;
     let plan = &frozen.plan;
-    let columns = [("what", "what"), ("planned", "planned"), ("done", "done")];
-    let mut table = Table::new("plan", "The plan, and what was done", &columns);
+    let columns = "what; planned; done";
+    let mut table = Table::new("plan", "The plan, and what was done", columns);
     table.push(cells!["subjects", plan.subjects, n_subjects]);
     let is_by_it = |found: &&&Found| found.plan_sha256.as_ref() == Some(&frozen.sha256);
     let n_by_it = sessions.iter().filter(is_by_it).count();

@@ -10,6 +10,7 @@ use super::model::{Analysis, Cell, Column, Drawn, LEAST_PROBABILITY, Table};
 use crate::ExperimentError;
 use crate::session::make_folder;
 use selvedge_foundation::files::{TableWriter, encode_png_rgba, to_json_string, write_atomic};
+use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::quantity::fixed;
 
 /// Pixels across a PNG.
@@ -128,13 +129,10 @@ fn readable(value: f64) -> String {
     if !(1e-4..1e6).contains(&magnitude) {
         return format!("{value:.2e}").replace('-', "−");
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 7"
-    )]
-    let decimals = (3.0 - magnitude.log10().floor()).clamp(0.0, 7.0) as usize;
-    fixed(value, decimals)
+    fixed(
+        value,
+        to_whole((3.0 - magnitude.log10().floor()).clamp(0.0, 7.0)),
+    )
 }
 
 impl Table {

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::parameter::Tunable;
 use crate::named::named;
-use selvedge_statistics::adaptive::{Rule, Stage, StaircasePlan, StepScale, Stop};
+use selvedge_statistics::adaptive::{Rule, Stage, StaircasePlan, Stop};
 use selvedge_statistics::psychometric::Family;
 use selvedge_textile::tactile::Band;
 
@@ -138,7 +138,6 @@ impl StaircaseTrack {
         };
         StaircasePlan {
             rule: self.rule(),
-            scale: StepScale::Linear,
             start,
             stages: self.steps.iter().map(stage).collect(),
             limits,

@@ -6,7 +6,7 @@ use crate::design::{
     Adaptation, Design, Needs, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track,
 };
 use crate::trial::{Adapted, Answer, AnswerError, Trial};
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Random, to_whole};
 use selvedge_statistics::Computed;
 use selvedge_statistics::adaptive::{
     Interleaved, Procedure as _, QuestGrid, QuestPlus, Staircase, Stop,
@@ -188,12 +188,7 @@ fn staircases(
 /// The design's numbers make no series.
 pub(crate) fn quest_plus(adaptation: &Adaptation, track: &QuestPlusTrack) -> Computed<QuestPlus> {
     let [low, high] = adaptation.range.map(|value| adaptation.stimulus(value));
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a design has at most 500 steps"
-    )]
-    let n_steps = ((high - low) / track.grid + 1e-6) as u32;
+    let n_steps: u32 = to_whole((high - low) / track.grid + 1e-6);
     let grid: Vec<f64> = (0..=n_steps)
         .map(|n| low + f64::from(n) * track.grid)
         .collect();

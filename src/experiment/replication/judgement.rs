@@ -46,14 +46,9 @@ pub(super) fn section(
         "The paper's figure 9 is of what was called real by fabric and signal; its bars are not \
          known here, only the means over all fabrics, which the dashed lines are.",
     );
-    let columns = [
-        ("observer", "observer"),
-        ("fabrics", "fabrics"),
-        ("significant", "studies with p < 0.05 of the signal, %"),
-        ("studies", "studies"),
-    ];
+    let columns = "observer; fabrics; significant: studies with p < 0.05 of the signal, %; studies";
     let title = "How often the analysis of variance finds the signal";
-    let mut table = Table::new("power", title, &columns);
+    let mut table = Table::new("power", title, columns);
     let kinds = [guessing(), by_levels()];
     let cases = kinds.map(|kind| (laid, kind));
     let found = each_study(&cases, "judgements", options, progress, found)?;

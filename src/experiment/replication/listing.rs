@@ -3,20 +3,9 @@
 use super::comparison::{Comparison, Options};
 use crate::analysis::{Cell, Section, Table, cells, known};
 
-const COLUMNS: [(&str, &str); 12] = [
-    ("paper", "paper"),
-    ("quantity", "quantity"),
-    ("printed", "printed"),
-    ("obtained", "obtained"),
-    ("low", "95 of 100 studies from"),
-    ("high", "to"),
-    ("within", "printed lies within"),
-    ("se", "SE of obtained"),
-    ("studies", "studies"),
-    ("observer", "observer"),
-    ("assumed", "assumed"),
-    ("difference", "obtained less printed"),
-];
+const COLUMNS: &str = "paper; quantity; printed; obtained; low: 95 of 100 studies from; high: to; \
+    within: printed lies within; se: SE of obtained; studies; observer; assumed; difference: \
+    obtained less printed";
 
 pub(super) fn section(comparisons: &[Comparison], options: &Options) -> Section {
     let mut section = Section::new("published", "Published against obtained");
@@ -36,7 +25,7 @@ pub(super) fn section(comparisons: &[Comparison], options: &Options) -> Section 
          deviation of its logarithm). Textiles are those that the program ships, not the papers'.",
         options.n_studies, options.spread
     ));
-    let mut table = Table::new("numbers", "Printed and obtained", &COLUMNS);
+    let mut table = Table::new("numbers", "Printed and obtained", COLUMNS);
     for one in comparisons {
         let why = "nothing printed to compare with";
         let spread = one.obtained;

@@ -246,16 +246,10 @@ fn figure_3b(found: &[Mapped], laid: &DesignWithStimuli) -> Computed<Drawn> {
 }
 
 fn by_loss(trials: &[RankTrial], laid: &DesignWithStimuli) -> Table {
-    let columns = [
-        ("loss", "made small"),
-        ("ties", "ties"),
-        ("sstress", "S-stress"),
-        ("stress1", "stress-1"),
-        ("r1", "r of dimension 1 and A40"),
-        ("r2", "r of dimension 2 and A320"),
-    ];
+    let columns = "loss: made small; ties; sstress: S-stress; stress1: stress-1; r1: r of \
+        dimension 1 and A40; r2: r of dimension 2 and A320";
     let title = "One study of eight who go by levels, by loss and rule for ties";
-    let mut table = Table::new("ties", title, &columns);
+    let mut table = Table::new("ties", title, columns);
     for loss in [Loss::SStress, Loss::Stress1] {
         for ties in [Ties::Secondary, Ties::Primary] {
             let one = mapped(trials.to_vec(), laid, &mds(loss, ties, N_STARTS_OF_ONE));

@@ -40,14 +40,8 @@ const ASSUMED: [&str; 4] = [
     "nothing",
 ];
 
-const ELBOW: [(&str, &str); 6] = [
-    ("group", "group"),
-    ("one", "one"),
-    ("two", "two"),
-    ("more", "more"),
-    ("below_chance", "a map below the 5 % point of random ranks"),
-    ("studies", "studies"),
-];
+const ELBOW: &str = "group; one; two; more; below_chance: a map below the 5 % point of random \
+    ranks; studies";
 
 /// What one study came to.
 struct Found {
@@ -101,7 +95,7 @@ pub(super) fn section(
         each_study(&cases, "triads", options, part, found)
     })?;
     let title = "How many dimensions the elbow finds, share of studies, %";
-    let mut chosen = Table::new("elbow", title, &ELBOW);
+    let mut chosen = Table::new("elbow", title, ELBOW);
     for ((_, kind), found) in cases.iter().zip(&found) {
         let elbows = found.iter().filter_map(|f| elbow(f, &chance).ok());
         let elbows: Vec<Elbow> = elbows.collect();

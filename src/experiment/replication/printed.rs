@@ -100,16 +100,8 @@ pub(super) fn section() -> Section {
         "From printed numbers, at both ends of what rounds to them. A number that cannot be \
          reached so does not follow from them.",
     );
-    let columns = [
-        ("paper", "paper"),
-        ("from", "from"),
-        ("what", "follows"),
-        ("low", "computed, from"),
-        ("high", "to"),
-        ("printed", "printed"),
-        ("verdict", "verdict"),
-    ];
-    let mut table = Table::new("check", "Printed values recomputed", &columns);
+    let columns = "paper; from; what: follows; low: computed, from; high: to; printed; verdict";
+    let mut table = Table::new("check", "Printed values recomputed", columns);
     for one in all() {
         table.push(row(&one));
     }

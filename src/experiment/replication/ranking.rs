@@ -253,15 +253,10 @@ pub(super) fn crossing(points: &[[f64; 2]], value: f64) -> Computed {
 }
 
 fn table(key: &str, (at, heading): (&str, &str), title: &str, swept: &[Swept]) -> Table {
-    let columns = [
-        ("observer", "observer"),
-        (at, heading),
-        ("percent", "target first, %"),
-        ("se", "SE"),
-        ("low", "95 of 100 studies from"),
-        ("high", "to"),
-        ("studies", "studies"),
-    ];
+    let columns = format!(
+        "observer; {at}: {heading}; percent: target first, %; se: SE; low: 95 of 100 studies \
+         from; high: to; studies"
+    );
     let mut table = Table::new(key, title, &columns);
     for one in swept {
         let Spread {

@@ -12,6 +12,7 @@ use super::{
     COMMENT_COLUMNS, COMMENTS, GUESS_COLUMNS, GUESSES, LONGEST_COMMENT, Tally, VISIT_COLUMNS,
     VISITS, Visit,
 };
+use selvedge_foundation::numerics::to_whole;
 
 /// As much is written in a day, bytes.
 const MAX_BYTES_A_DAY: usize = 10_000_000;
@@ -48,10 +49,10 @@ impl VisitLog {
             let column = |name| table.required_numbers(name);
             let rows = column("guesses")?.into_iter().zip(column("right")?);
             for (n_guesses, n_right) in rows {
-                tally.count(count(n_guesses), count(n_right));
+                tally.count(to_whole(n_guesses), to_whole(n_right));
             }
             let numbers = column("visit")?;
-            last_number = numbers.into_iter().map(count).max().unwrap_or(0) as u64;
+            last_number = numbers.into_iter().map(to_whole).max().unwrap_or(0);
         }
         Ok(Self {
             folder: folder.to_owned(),
@@ -159,13 +160,4 @@ fn opened(path: &Path, columns: &[&str]) -> Result<(Journal, Option<Table>), Fil
 
 fn line(cells: &[String]) -> Result<Vec<u8>, String> {
     row_line(cells, Path::new("")).map_err(|error| error.to_string())
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a count that was written as one"
-)]
-fn count(number: f64) -> usize {
-    number.max(0.0) as usize
 }

@@ -1,7 +1,7 @@
 //! Files written so that a crash leaves the old one or the new one.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -21,12 +21,6 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         drop(fs::remove_file(&staged));
         FileError::write(path)(error)
     })
-}
-
-/// Creates (or empties) a file for a stream of rows.
-pub fn create(path: &Path) -> Result<BufWriter<File>, FileError> {
-    let file = File::create(path);
-    Ok(BufWriter::new(file.map_err(FileError::write(path))?))
 }
 
 /// A name that no other process and no other thread of this one stages under.

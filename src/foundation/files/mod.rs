@@ -34,7 +34,7 @@ mod table;
 mod xml;
 
 pub use archive::{Archive, pack};
-pub use atomic::{create, write_atomic};
+pub use atomic::write_atomic;
 pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
 pub use edited_keys::{EditedKeys, KeyPlace};

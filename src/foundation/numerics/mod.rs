@@ -15,6 +15,7 @@ mod plane;
 mod random;
 mod series;
 mod simplex;
+mod whole;
 
 pub use correlation::overlap_autocorrelation;
 pub use fft::{ChirpTransform, Complex, RealTransform};
@@ -26,26 +27,16 @@ pub use plane::PlaneTransform;
 pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
 pub use simplex::{Lowest, lowest};
+pub use whole::{Whole, to_whole};
 
-/// The whole part of a number as an index or a count: 0 of what is negative or no number, and the
-/// largest there is of what is larger.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates, as is said"
-)]
+/// The whole part of a number as an index or a count.
 pub fn to_index(x: f64) -> usize {
-    x as usize
+    to_whole(x)
 }
 
-/// The same as a byte: 0 to 255.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates, as is said"
-)]
+/// The whole part of a number as a byte.
 pub fn to_byte(x: f64) -> u8 {
-    x as u8
+    to_whole(x)
 }
 
 /// The nearest number of single precision: a place or a share for the screen, an amplitude that
@@ -60,6 +51,21 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     let values = values.into_iter();
     values.fold(none, |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// The middle of what `n` halvings leave of an interval: what is sought lies above the places that
+/// `is_below` holds for.
+pub fn bisected([mut low, mut high]: [f64; 2], n: u32, is_below: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..n {
+        let middle = 0.5 * (low + high);
+        let end = if is_below(middle) {
+            &mut low
+        } else {
+            &mut high
+        };
+        *end = middle;
+    }
+    0.5 * (low + high)
 }
 
 /// The median of some values; of an even number, the mean of the middle two. NaN of none.

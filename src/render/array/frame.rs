@@ -104,16 +104,7 @@ impl DisplayFrame {
     /// Rounds the exact amplitudes into the stream.
     pub(super) fn round(&mut self) {
         for (rounded, exact) in self.amplitudes_um.iter_mut().zip(&self.exact_um) {
-            *rounded = exact.map(single);
+            *rounded = exact.map(crate::single);
         }
     }
-}
-
-/// A number as the stream holds it. Beyond the range of f32 it saturates to infinity.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "design in f64, stream in f32"
-)]
-pub fn single(x: f64) -> f32 {
-    x as f32
 }

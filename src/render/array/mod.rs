@@ -20,10 +20,11 @@ mod table;
 mod trace;
 
 pub use drive::DriveSynth;
-pub use frame::{DisplayFrame, single};
+pub use frame::DisplayFrame;
 pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
+pub use selvedge_foundation::numerics::to_single as single;
 pub use table::TableCache;
 pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 

@@ -282,11 +282,6 @@ impl Scene {
 }
 
 impl Display {
-    /// The display with contactors turned as on the finger at a path's `angle_deg`.
-    pub fn turn(&self, angle_deg: f64) -> Rotation {
-        Rotation::from_degrees(self.rotation_deg + angle_deg)
-    }
-
     fn from_keys(keys: DisplayKeys, index: usize) -> Result<Self, Flaw> {
         let geometry = match (keys.geometry, keys.contactors_mm) {
             (Some(name), None) => {

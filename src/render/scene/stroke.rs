@@ -1,6 +1,6 @@
-//! Generated strokes: a line, a circle or a raster, drawn for ever at a set speed.
+//! Generated strokes: a line or a circle, drawn for ever at a set speed.
 //!
-//! Pure functions of time; who draws them keeps the clock. Lines and rasters go there and back,
+//! Pure functions of time; who draws them keeps the clock. Lines go there and back,
 //! so that the velocity turns at the ends and nothing ever jumps.
 
 use super::{Pose, SceneError};
@@ -8,7 +8,7 @@ use selvedge_foundation::geometry::{Displacement, Point, Velocity};
 
 /// The fastest stroke, mm/s: well above what is felt.
 const MAX_SPEED_MM_PER_S: f64 = 1e5;
-/// The farthest place or the longest raster, mm.
+/// The farthest place or the longest stroke, mm.
 const MAX_LENGTH_MM: f64 = 1e9;
 
 /// A stroke that is drawn for ever.
@@ -32,33 +32,16 @@ pub enum Stroke {
         /// How fast along the circle, mm/s.
         speed_mm_per_s: f64,
     },
-    /// Rows to the right and to the left in turn, from the lower left up and all the way back.
-    Raster {
-        /// Its lower-left corner.
-        corner: Point,
-        /// Its width and height, mm.
-        size_mm: [f64; 2],
-        /// Distance between rows, mm.
-        spacing_mm: f64,
-        /// How fast along the rows and between them, mm/s.
-        speed_mm_per_s: f64,
-    },
 }
 
 impl Stroke {
     /// Refuses numbers that draw nothing: not finite, a negative speed, no extent.
     pub fn check(&self) -> Result<(), SceneError> {
-        let (place, extents) = match *self {
-            Self::Line { start, end, .. } => ([start, end], [(end - start).length_mm(); 3]),
+        let (place, extent_mm) = match *self {
+            Self::Line { start, end, .. } => ([start, end], (end - start).length_mm()),
             Self::Circle {
                 centre, radius_mm, ..
-            } => ([centre; 2], [radius_mm; 3]),
-            Self::Raster {
-                corner,
-                size_mm: [width, height],
-                spacing_mm,
-                ..
-            } => ([corner; 2], [width, height, spacing_mm]),
+            } => ([centre; 2], radius_mm),
         };
         let speed = self.speed_mm_per_s();
         let wrong = |what: String, mend: &str| SceneError::Value {
@@ -76,10 +59,9 @@ impl Stroke {
                 "give finite places in mm",
             ));
         }
-        let is_extent = |&mm: &f64| mm > 0.0 && mm <= MAX_LENGTH_MM;
-        if let Some(mm) = extents.iter().find(|mm| !is_extent(mm)) {
+        if !(extent_mm > 0.0 && extent_mm <= MAX_LENGTH_MM) {
             return Err(wrong(
-                format!("the stroke is {mm} mm long"),
+                format!("the stroke is {extent_mm} mm long"),
                 "give more than 0 mm",
             ));
         }
@@ -91,19 +73,12 @@ impl Stroke {
         let round_mm = match *self {
             Self::Line { start, end, .. } => 2.0 * (end - start).length_mm(),
             Self::Circle { radius_mm, .. } => std::f64::consts::TAU * radius_mm,
-            Self::Raster {
-                size_mm,
-                spacing_mm,
-                ..
-            } => 2.0 * raster_length_mm(size_mm, spacing_mm),
         };
         round_mm / self.speed_mm_per_s()
     }
 
     fn speed_mm_per_s(&self) -> f64 {
-        let (Self::Line { speed_mm_per_s, .. }
-        | Self::Circle { speed_mm_per_s, .. }
-        | Self::Raster { speed_mm_per_s, .. }) = *self;
+        let (Self::Line { speed_mm_per_s, .. } | Self::Circle { speed_mm_per_s, .. }) = *self;
         speed_mm_per_s
     }
 
@@ -135,18 +110,6 @@ impl Stroke {
                     centre + Displacement::new(radius_mm * cos, radius_mm * sin),
                     velocity,
                 )
-            }
-            Self::Raster {
-                corner,
-                size_mm,
-                spacing_mm,
-                speed_mm_per_s,
-            } => {
-                let length_mm = raster_length_mm(size_mm, spacing_mm);
-                let (done_mm, sign) = there_and_back(speed_mm_per_s * t_s, length_mm);
-                let (offset, [x, y]) = raster_at(size_mm, spacing_mm, done_mm);
-                let speed = sign * speed_mm_per_s;
-                (corner + offset, Velocity::new(x * speed, y * speed))
             }
         }
     }
@@ -181,43 +144,10 @@ fn still_if_slow(velocity: Velocity, speed_mm_per_s: f64) -> Velocity {
     }
 }
 
-/// Rows and the steps between them: the last row is the last that fits.
-fn raster_length_mm([width_mm, height_mm]: [f64; 2], spacing_mm: f64) -> f64 {
-    let n_steps = (height_mm / spacing_mm + 1e-9).floor();
-    (n_steps + 1.0) * width_mm + n_steps * spacing_mm
-}
-
-/// Offset from the corner and direction after `done_mm` of the way up.
-fn raster_at(size_mm: [f64; 2], spacing_mm: f64, done_mm: f64) -> (Displacement, [f64; 2]) {
-    let width_mm = size_mm[0];
-    let row = (done_mm / (width_mm + spacing_mm)).floor();
-    let in_row_mm = done_mm - row * (width_mm + spacing_mm);
-    let is_leftward = row.rem_euclid(2.0) > 0.5;
-    let y_mm = row * spacing_mm;
-    if in_row_mm > width_mm {
-        let x_mm = if is_leftward { 0.0 } else { width_mm };
-        return (
-            Displacement::new(x_mm, y_mm + in_row_mm - width_mm),
-            [0.0, 1.0],
-        );
-    }
-    if is_leftward {
-        (Displacement::new(width_mm - in_row_mm, y_mm), [-1.0, 0.0])
-    } else {
-        (Displacement::new(in_row_mm, y_mm), [1.0, 0.0])
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const RASTER: Stroke = Stroke::Raster {
-        corner: Point::new(10.0, 20.0),
-        size_mm: [30.0, 4.0],
-        spacing_mm: 2.0,
-        speed_mm_per_s: 60.0,
-    };
     const CIRCLE: Stroke = Stroke::Circle {
         centre: Point::new(5.0, 5.0),
         radius_mm: 3.0,
@@ -237,7 +167,7 @@ mod tests {
             speed_mm_per_s: 50.0,
         };
         assert_eq!(line.period_s(), 2.0);
-        for stroke in [line, RASTER, CIRCLE] {
+        for stroke in [line, CIRCLE] {
             let period_s = stroke.period_s();
             for t_s in [0.0, 0.1, 0.37] {
                 let ((at, _), (again, _)) = (stroke.at(t_s), stroke.at(t_s + period_s));
@@ -262,7 +192,7 @@ mod tests {
 
     #[test]
     fn every_stroke_keeps_its_speed_and_never_jumps() {
-        for (stroke, speed) in [(RASTER, 60.0), (CIRCLE, 40.0), (LINE, 100.0)] {
+        for (stroke, speed) in [(CIRCLE, 40.0), (LINE, 100.0)] {
             assert!(stroke.check().is_ok(), "{stroke:?}");
             let dt_s = 1e-4;
             for n in 0..40_000 {
@@ -276,19 +206,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn a_raster_visits_its_rows_in_turn() {
-        // 0.5 s a row, 2 mm up in between; three rows in a height of 4 mm.
-        assert_eq!(RASTER.at(0.25).0, Point::new(25.0, 20.0));
-        let second_row_s = (32.0 + 15.0) / 60.0;
-        let (place, velocity) = RASTER.at(second_row_s);
-        assert!(
-            (place - Point::new(25.0, 22.0)).length_mm() < 1e-12,
-            "{place:?}"
-        );
-        assert_eq!(velocity, Velocity::new(-60.0, 0.0));
     }
 
     #[test]

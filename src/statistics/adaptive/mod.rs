@@ -23,7 +23,7 @@ pub use interleaved::Interleaved;
 pub use quest_plus::QuestSummary;
 pub use quest_plus::Reckoned;
 pub use quest_plus::{QuestGrid, QuestPlus};
-pub use rule::{Rule, StepScale};
+pub use rule::Rule;
 #[cfg(test)]
 pub(crate) use staircase::Limit;
 pub use staircase::Reversal;

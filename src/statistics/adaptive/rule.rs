@@ -3,38 +3,6 @@
 use crate::detection::inverted;
 use crate::{Computed, Undefined, undefined};
 
-/// What steps are steps of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum StepScale {
-    /// The stimulus: steps are added.
-    #[default]
-    Linear,
-    /// Its decimal logarithm: a step of 0.1 multiplies by 1.26.
-    Log,
-    /// Its decibels, 20 log₁₀: a step of 2 multiplies by 1.26.
-    Decibel,
-}
-
-impl StepScale {
-    /// Where a stimulus lies on the scale; −∞ or NaN without a logarithm.
-    pub fn place(self, stimulus: f64) -> f64 {
-        match self {
-            Self::Linear => stimulus,
-            Self::Log => stimulus.log10(),
-            Self::Decibel => 20.0 * stimulus.log10(),
-        }
-    }
-
-    /// The stimulus at a place.
-    pub fn stimulus(self, place: f64) -> f64 {
-        match self {
-            Self::Linear => place,
-            Self::Log => 10.0_f64.powf(place),
-            Self::Decibel => 10.0_f64.powf(place / 20.0),
-        }
-    }
-}
-
 /// Up after `n_up` wrong answers in a row, down after `m_down` right ones in a row (Levitt 1971);
 /// every move begins the count anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,14 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn scales_lead_back_and_what_is_no_rule_is_refused() {
-        for scale in [StepScale::Linear, StepScale::Log, StepScale::Decibel] {
-            assert!(
-                (scale.stimulus(scale.place(3.7)) - 3.7).abs() < 1e-12,
-                "{scale:?}"
-            );
-        }
-        assert_eq!(StepScale::Decibel.place(10.0), 20.0);
+    fn what_is_no_rule_is_refused() {
         assert!(
             Rule { n_up: 0, m_down: 1 }.target(1.0, 1.0).is_err(),
             "none up"

@@ -1,10 +1,10 @@
 //! A staircase: steps down after right answers, up after wrong ones.
 
-use super::{Procedure, Reached, Rule, StepScale, Stop, Trial, over};
+use super::{Procedure, Reached, Rule, Stop, Trial, over};
 use crate::summary::{centred, sum_of_squares};
 use crate::{Computed, Undefined, undefined};
 
-/// Steps of one size, in the unit of the scale.
+/// Steps of one size, in the unit of the stimulus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
     /// How far up.
@@ -20,8 +20,6 @@ pub struct Stage {
 pub struct StaircasePlan {
     /// When it moves.
     pub rule: Rule,
-    /// What its steps are steps of.
-    pub scale: StepScale,
     /// Its first stimulus.
     pub start: f64,
     /// Its steps, stage after stage.
@@ -34,20 +32,16 @@ pub struct StaircasePlan {
 
 impl StaircasePlan {
     /// Equal steps throughout.
-    pub fn steady(rule: Rule, scale: StepScale, start: f64, [up, down]: [f64; 2]) -> Self {
+    pub fn steady(rule: Rule, start: f64, [up, down]: [f64; 2]) -> Self {
         Self {
             rule,
-            scale,
             start,
             stages: vec![Stage {
                 up,
                 down,
                 n_reversals: 0,
             }],
-            limits: match scale {
-                StepScale::Linear => [f64::MIN, f64::MAX],
-                _ => [f64::MIN_POSITIVE, f64::MAX],
-            },
+            limits: [f64::MIN, f64::MAX],
             stop: Stop::Any(vec![Stop::Trials(200), Stop::Reversals(12)]),
         }
     }
@@ -75,8 +69,7 @@ impl StaircasePlan {
             }
         }
         let [low, high] = self.limits;
-        let has_place = |x: f64| self.scale.place(x).is_finite();
-        let is_placed = [low, self.start, high].into_iter().all(has_place);
+        let is_placed = [low, self.start, high].into_iter().all(f64::is_finite);
         if !(low < high && (low..=high).contains(&self.start) && is_placed) {
             let start = self.start;
             let reason = format!("a start of {start} between limits of {low} and {high}");
@@ -147,7 +140,7 @@ impl Staircase {
     pub fn new(plan: StaircasePlan) -> Computed<Self> {
         plan.check()?;
         Ok(Self {
-            place: plan.scale.place(plan.start),
+            place: plan.start,
             plan,
             stage: 0,
             n_turns_of_stage: 0,
@@ -204,7 +197,7 @@ impl Staircase {
     pub fn reversal_mean(&self, n_last: usize) -> Computed<ReversalMean> {
         let last_stage = self.plan.stages.len() - 1;
         let kept = self.reversals.iter().filter(|r| r.stage == last_stage);
-        let mut places: Vec<f64> = kept.map(|r| self.plan.scale.place(r.stimulus)).collect();
+        let mut places: Vec<f64> = kept.map(|r| r.stimulus).collect();
         let n_reversals = places.len().min(n_last) / 2 * 2;
         if n_reversals < 2 {
             let found = places.len();
@@ -214,7 +207,7 @@ impl Staircase {
         let (mean, deviations) = centred(&places.split_off(places.len() - n_reversals));
         let variance = sum_of_squares(&deviations) / (n_reversals as f64 - 1.0);
         Ok(ReversalMean {
-            threshold: self.plan.scale.stimulus(mean),
+            threshold: mean,
             sd: variance.sqrt(),
             n_reversals,
             target: self.plan.target()?,
@@ -239,7 +232,7 @@ impl Staircase {
         self.went_down = Some(is_down);
         let stage = &self.plan.stages[self.stage];
         let wanted = self.place + if is_down { -stage.down } else { stage.up };
-        let limits = self.plan.limits.map(|limit| self.plan.scale.place(limit));
+        let limits = self.plan.limits;
         self.place = wanted.clamp(limits[0], limits[1]);
         let is_cut = [wanted < limits[0], wanted > limits[1]];
         for (n, is_cut) in self.n_clamped.iter_mut().zip(is_cut) {
@@ -263,7 +256,7 @@ impl Staircase {
 
     fn asked(&self) -> f64 {
         let [low, high] = self.plan.limits;
-        self.plan.scale.stimulus(self.place).clamp(low, high)
+        self.place.clamp(low, high)
     }
 }
 
@@ -274,7 +267,7 @@ impl Procedure for Staircase {
 
     fn answer(&mut self, presented: f64, is_right: bool) -> Computed<()> {
         let asked = self.stimulus().ok_or_else(over)?;
-        if !self.plan.scale.place(presented).is_finite() {
+        if !presented.is_finite() {
             let reason = format!("a stimulus of {presented} has no place among steps");
             return undefined(reason);
         }

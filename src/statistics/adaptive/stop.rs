@@ -40,16 +40,6 @@ impl Stop {
         }
     }
 
-    /// Whether it comes true whatever is answered: only a number of trials is sure to be reached.
-    pub fn is_sure(&self) -> bool {
-        match self {
-            Self::Trials(_) => true,
-            Self::Reversals(_) | Self::PosteriorSd(_) => false,
-            Self::Any(of) => of.iter().any(Self::is_sure),
-            Self::All(of) => of.iter().all(Self::is_sure),
-        }
-    }
-
     /// Refuses what makes no sense for a procedure with what `reached` has.
     pub(super) fn check(&self, reached: &Reached) -> Computed<()> {
         let reason = match self {
@@ -116,9 +106,6 @@ mod tests {
             !met(19, 9) && met(20, 8) && !met(29, 7) && met(30, 0),
             "or of and"
         );
-        assert!(stop.is_sure(), "30 trials");
-        let all = Stop::All(vec![Stop::Reversals(8), Stop::Trials(20)]);
-        assert!(!all.is_sure(), "reversals may never come");
     }
 
     #[test]

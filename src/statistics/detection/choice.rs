@@ -2,6 +2,7 @@
 //! have no z, what is found of one subject, and how a relation is turned round.
 
 use crate::{Computed, Interval};
+use selvedge_foundation::numerics::to_whole;
 
 /// What is done about shares of 0 and 1, whose z is infinite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -69,12 +70,7 @@ pub(crate) fn inverted(
 /// The integral of a smooth function that is nothing at both ends, by the trapezoidal rule with
 /// steps of 1/32: of φ times a smooth function the error is below rounding.
 pub(super) fn integral(function: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred steps"
-    )]
-    let n_steps = (32.0 * (to - from)).ceil() as u32;
+    let n_steps: u32 = to_whole((32.0 * (to - from)).ceil());
     let step = (to - from) / f64::from(n_steps);
     let at = |i: u32| function(from + f64::from(i) * step);
     step * (0..=n_steps).map(at).sum::<f64>()

@@ -3,7 +3,7 @@
 use super::choice::{Choice, Correction, inverted};
 use crate::distribution::{normal_lower, normal_quantile};
 use crate::interval::wilson;
-use crate::{Computed, Interval, undefined};
+use crate::{Computed, undefined};
 
 /// The largest d′ that a share is turned into.
 const MOST: f64 = 30.0;
@@ -54,11 +54,7 @@ pub fn same_different(hits: [u64; 2], false_alarms: [u64; 2]) -> Computed<Choice
         } else {
             undefined("the share hardly changes with d′ here")
         },
-        interval: Ok(Interval {
-            low: d_prime_of(ends.low),
-            high: d_prime_of(ends.high),
-            level: ends.level,
-        }),
+        interval: Ok(ends.map(d_prime_of)),
     })
 }
 

@@ -125,11 +125,7 @@ impl Relation {
         let se = (share * (1.0 - share) / trials as f64).sqrt() / slope;
         let interval = self.d_prime(ends.low).and_then(|low| {
             let high = self.d_prime(ends.high)?;
-            Ok(Interval {
-                low,
-                high,
-                level: LEVEL,
-            })
+            Ok(Interval::new([low, high], LEVEL))
         });
         Ok(Choice {
             share,
@@ -179,11 +175,13 @@ impl Relation {
         let n = (p * (1.0 - p) / (shares.se * shares.se)).min(n_trials);
         let middle = (p + 0.5 * t * t / n) / (1.0 + t * t / n);
         let half = t / (1.0 + t * t / n) * (p * (1.0 - p) / n + 0.25 * t * t / (n * n)).sqrt();
-        let interval = Interval {
-            low: mean(self.d_prime(middle - half)?),
-            high: mean(self.d_prime(middle + half)?),
-            level: LEVEL,
-        };
+        let interval = Interval::new(
+            [
+                mean(self.d_prime(middle - half)?),
+                mean(self.d_prime(middle + half)?),
+            ],
+            LEVEL,
+        );
         Ok(GroupDPrime {
             mean: mean(at),
             spread,

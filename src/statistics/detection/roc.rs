@@ -58,11 +58,9 @@ pub fn roc(signals: &[u64], others: &[u64]) -> Computed<Roc> {
     });
     let level = 0.95;
     let z = normal_quantile(0.5 + 0.5 * level)?;
-    let interval = se.clone().map(|se| Interval {
-        low: (area - z * se).max(0.0),
-        high: (area + z * se).min(1.0),
-        level,
-    });
+    let interval = se
+        .clone()
+        .map(|se| Interval::new([(area - z * se).max(0.0), (area + z * se).min(1.0)], level));
     let d_a = normal_quantile(area)
         .map(|z| std::f64::consts::SQRT_2 * z)
         .map_err(|_infinite| Undefined::because(format!("an area of {area} has no finite d′")));

@@ -273,10 +273,9 @@ fn estimate(draws: &[(Point, f64)], of: &dyn Fn(&Point) -> f64) -> Estimate {
     Estimate {
         value: quantile(0.5),
         se: over(&|v| (v - mean).powi(2)).sqrt(),
-        interval: Interval {
-            low: quantile(0.5 * (1.0 - LEVEL)),
-            high: quantile(0.5 * (1.0 + LEVEL)),
-            level: LEVEL,
-        },
+        interval: Interval::new(
+            [quantile(0.5 * (1.0 - LEVEL)), quantile(0.5 * (1.0 + LEVEL))],
+            LEVEL,
+        ),
     }
 }

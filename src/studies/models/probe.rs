@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::readable::{apart_percent, whole};
 use crate::{Bench, Findings, ReportError, Row, Study};
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, bisected};
 use selvedge_textile::surface::Probe;
 
 /// Length of the stroke, mm.
@@ -69,16 +69,8 @@ pub(super) fn parallel_um((a_um, per_mm): (f64, f64), radius_mm: f64, x_mm: f64)
     let slope = |x: f64| -a_mm * omega * (omega * x).sin();
     let shift = |x: f64| radius_mm * slope(x) / slope(x).hypot(1.0);
     // Where it touches: x = x_c − shift(x_c) rises with x_c, so halving the interval finds it.
-    let (mut low, mut high) = (x_mm - radius_mm, x_mm + radius_mm);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if middle - shift(middle) < x_mm {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let touch = 0.5 * (low + high);
+    let ends = [x_mm - radius_mm, x_mm + radius_mm];
+    let touch = bisected(ends, 60, |middle| middle - shift(middle) < x_mm);
     let up_mm = radius_mm / slope(touch).hypot(1.0) - radius_mm;
     a_um * (omega * touch).cos() + 1000.0 * up_mm
 }

@@ -4,8 +4,7 @@
 use super::Run;
 use selvedge_foundation::numerics::Random;
 use selvedge_statistics::adaptive::{
-    ConstantStimuli, Procedure, QuestGrid, QuestPlus, Rule, Stage, Staircase, StaircasePlan,
-    StepScale, Stop,
+    ConstantStimuli, Procedure, QuestGrid, QuestPlus, Rule, Stage, Staircase, StaircasePlan, Stop,
 };
 use selvedge_statistics::psychometric::{Family, Guess, Model, Psychometric};
 use selvedge_statistics::{Computed, Undefined};
@@ -115,7 +114,7 @@ fn staircase(rule: Rule, steps: [[f64; 2]; 2], n_trials: u32) -> Computed<Sessio
         stages: vec![stage(steps[0], 2), stage(steps[1], 0)],
         limits: [-60.0, 30.0],
         stop: Stop::Trials(n_trials),
-        ..StaircasePlan::steady(rule, StepScale::Linear, 20.0, [1.0, 1.0])
+        ..StaircasePlan::steady(rule, 20.0, [1.0, 1.0])
     };
     Staircase::new(plan).map(Session::Staircase)
 }

@@ -1,6 +1,8 @@
 //! Lattices of the plane: two vectors that span one, which other pairs span the same, and coarser
 //! ones inside.
 
+use selvedge_foundation::numerics::to_whole;
+
 /// A place or a shift in pixels: x to the right, y down.
 pub type Place = [f64; 2];
 
@@ -31,12 +33,8 @@ pub(super) fn mix(a: Place, s: f64, b: Place, t: f64) -> Place {
 }
 
 /// The nearest whole number of one that is finite and small.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "indices of a lattice in a picture; anything larger saturates"
-)]
 pub(super) fn whole(x: f64) -> isize {
-    x.round() as isize
+    to_whole(x.round())
 }
 
 impl Basis {

@@ -181,6 +181,12 @@ pub struct Group {
     pub parameters: Vec<Parameter>,
 }
 
+impl Group {
+    pub(crate) fn new(title: &'static str, parameters: Vec<Parameter>) -> Self {
+        Self { title, parameters }
+    }
+}
+
 /// A parameter of the source itself.
 pub(crate) fn parameter(
     key: &'static str,

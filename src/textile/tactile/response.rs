@@ -5,6 +5,7 @@
 
 use super::{Band, Filters};
 use crate::surface::{BIN_SPACING_PER_MM, N_BINS};
+use selvedge_foundation::numerics::to_whole;
 
 /// Bins at or above this frequency are not rendered, Hz.
 pub const MAX_FREQUENCY_HZ: f64 = 1000.0;
@@ -23,13 +24,7 @@ pub fn n_audible_bins(speed_mm_per_s: f64) -> usize {
         |&k: &u16| speed_mm_per_s * BIN_SPACING_PER_MM * f64::from(k) < MAX_FREQUENCY_HZ;
     // From the quotient, corrected by the very comparison that defines it.
     let bound = (MAX_FREQUENCY_HZ / (BIN_SPACING_PER_MM * speed_mm_per_s)).min(N_BINS as f64 + 1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 … 501"
-    )]
-    let guess = bound as u16;
-    let upper = (guess + 1).min(500);
+    let upper = (to_whole::<u16>(bound) + 1).min(500);
     (1..=upper).rev().find(is_audible).map_or(0, usize::from)
 }
 

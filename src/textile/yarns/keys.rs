@@ -39,8 +39,5 @@ pub(crate) fn touch_group(noise: Vec<Parameter>) -> Group {
         seed(),
     ];
     parameters.extend(noise);
-    Group {
-        title: "Touch",
-        parameters,
-    }
+    Group::new("Touch", parameters)
 }

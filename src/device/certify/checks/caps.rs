@@ -56,14 +56,14 @@ const BOUNDS: &[Bound] = &[
 
 fn bounds(c: &mut Client<'_>) -> Verdict {
     for (what, holds) in BOUNDS {
-        ensure(holds(&c.caps), || (*what).to_owned())?;
+        ensure!(holds(&c.caps), "{what}")?;
     }
     let payload = &c.caps_payload;
     let name_len = usize::from(payload.get(63).copied().unwrap_or(0));
-    ensure(name_len <= 32, || format!("name_len is {name_len}"))?;
+    ensure!(name_len <= 32, "name_len is {name_len}")?;
     let name = payload.get(64..64 + name_len).unwrap_or(&[]);
     let is_text = std::str::from_utf8(name).is_ok_and(|name| !name.chars().any(char::is_control));
-    ensure(is_text, || String::from("the name is no UTF-8 text"))
+    ensure!(is_text, "the name is no UTF-8 text")
 }
 
 fn again(c: &mut Client<'_>) -> Verdict {
@@ -75,10 +75,14 @@ fn again(c: &mut Client<'_>) -> Verdict {
 fn ready(c: &mut Client<'_>) -> Verdict {
     let status = c.status()?;
     super::steps::expect(&status, crate::message::DeviceState::Ready, 0)?;
-    ensure(status.last_seq == 0, || {
-        format!("last_seq {} before the first FRAME", status.last_seq)
-    })?;
-    ensure(status.age_ms == u16::MAX, || {
-        format!("age_ms {} before the first FRAME", status.age_ms)
-    })
+    ensure!(
+        status.last_seq == 0,
+        "last_seq {} before the first FRAME",
+        status.last_seq
+    )?;
+    ensure!(
+        status.age_ms == u16::MAX,
+        "age_ms {} before the first FRAME",
+        status.age_ms
+    )
 }

@@ -7,7 +7,7 @@ use crate::certify::client::Client;
 use crate::certify::predict::{Allowed, Between};
 use crate::certify::say::{Say, Want, packet};
 use crate::certify::verdict::{Trouble, Verdict, ensure};
-use crate::message::{Config, DeviceState, NEXT_TICK, Status, kind};
+use crate::message::{DeviceState, NEXT_TICK, Status, kind};
 
 checks! { "frames":
     Quick "a second of faint frames" stream, "each is played in the next tick: amp_sum as sent";
@@ -24,11 +24,7 @@ checks! { "frames":
 
 fn armed(c: &mut Client<'_>) -> Verdict {
     // A long hold, so that two ticks without a FRAME are no ramp.
-    let config = Config {
-        hold_ms: 90,
-        ramp_ms: 10,
-        ..c.usual()
-    };
+    let config = c.silent_after(90, 10);
     c.tell_with(|c| c.arming(&config)).map(drop)
 }
 
@@ -63,10 +59,12 @@ fn stream_one(c: &mut Client<'_>, nth: u16) -> Verdict {
     let status = status_of(c, tick + 1)?;
     let expected = sum(c, &codes);
     expect(&status, DeviceState::Run, expected)?;
-    ensure(status.last_seq == seq, || {
-        format!("last_seq {} instead of {seq}", status.last_seq)
-    })?;
-    ensure(status.age_ms <= 25, || format!("age_ms {}", status.age_ms))
+    ensure!(
+        status.last_seq == seq,
+        "last_seq {} instead of {seq}",
+        status.last_seq
+    )?;
+    ensure!(status.age_ms <= 25, "age_ms {}", status.age_ms)
 }
 
 fn queue(c: &mut Client<'_>) -> Verdict {
@@ -92,17 +90,21 @@ fn queue(c: &mut Client<'_>) -> Verdict {
         let codes = c.faint(small(ahead));
         let expected = sum(c, &codes);
         expect(&status, DeviceState::Run, expected)?;
-        ensure(
+        ensure!(
             depth > 40 || u32::from(status.queued) == depth - ahead,
-            || format!("queued {} instead of {}", status.queued, depth - ahead),
+            "queued {} instead of {}",
+            status.queued,
+            depth - ahead
         )?;
     }
     for ahead in 3..=depth.min(8) {
         // The age is kept young by FRAMEs that are repeated.
         let status = status_of(c, tick + ahead)?;
-        ensure(u32::from(status.queued) <= depth - ahead, || {
-            format!("queued {} at tick + {ahead}", status.queued)
-        })?;
+        ensure!(
+            u32::from(status.queued) <= depth - ahead,
+            "queued {} at tick + {ahead}",
+            status.queued
+        )?;
     }
     Ok(())
 }
@@ -124,16 +126,16 @@ fn last_writer(c: &mut Client<'_>) -> Verdict {
     let expected = sum(c, &third);
     expect(&status, DeviceState::Run, expected)?;
     if depth == 2 {
-        ensure(status.queued == 1, || {
-            format!("queued {} instead of 1", status.queued)
-        })?;
+        ensure!(status.queued == 1, "queued {} instead of 1", status.queued)?;
         let expected = sum(c, &second);
         expect(&status_of(c, tick + 2)?, DeviceState::Run, expected)?;
     }
     let status = status_of(c, tick + depth + 1)?;
-    ensure(status.state == DeviceState::Hold.code(), || {
-        format!("a FRAME is played twice: {}", super::steps::shown(&status))
-    })
+    ensure!(
+        status.state == DeviceState::Hold.code(),
+        "a FRAME is played twice: {}",
+        super::steps::shown(&status)
+    )
 }
 
 fn late(c: &mut Client<'_>) -> Verdict {
@@ -150,9 +152,7 @@ fn late(c: &mut Client<'_>) -> Verdict {
         let status = status_of(c, tick + 1)?;
         let expected = sum(c, &codes);
         expect(&status, DeviceState::Run, expected)?;
-        ensure(status.last_seq == seq, || {
-            String::from("a late FRAME is not in last_seq")
-        })?;
+        ensure!(status.last_seq == seq, "a late FRAME is not in last_seq")?;
         c.tally.compare(&status)?;
     }
     Ok(())
@@ -234,9 +234,11 @@ fn refused(c: &mut Client<'_>) -> Verdict {
     c.tell_at(tick + 1, 12_000, &says)?;
     let status = status_of(c, tick + 2)?;
     expect(&status, DeviceState::Hold, expected)?;
-    ensure(status.last_seq == seq, || {
-        format!("last_seq {} is of a refused FRAME", status.last_seq)
-    })?;
+    ensure!(
+        status.last_seq == seq,
+        "last_seq {} is of a refused FRAME",
+        status.last_seq
+    )?;
     age_is(&status, heard, "a refused FRAME")
 }
 
@@ -244,9 +246,11 @@ fn refused(c: &mut Client<'_>) -> Verdict {
 fn age_is(status: &Status, heard: Between, after: &str) -> Verdict {
     let ages_ms = heard.ages_ms(u64::from(status.tick) * 25_000);
     let age_ms = u64::from(status.age_ms);
-    ensure((ages_ms[0]..=ages_ms[1]).contains(&age_ms), || {
-        format!("age_ms {age_ms} after {after}, {} is right", ages_ms[0])
-    })
+    ensure!(
+        (ages_ms[0]..=ages_ms[1]).contains(&age_ms),
+        "age_ms {age_ms} after {after}, {} is right",
+        ages_ms[0]
+    )
 }
 
 fn missing(c: &mut Client<'_>) -> Verdict {
@@ -260,15 +264,13 @@ fn missing(c: &mut Client<'_>) -> Verdict {
     let hold = status_of(c, tick + 2)?;
     expect(&hold, DeviceState::Hold, expected)?;
     let n_missed = hold.underrun.wrapping_sub(run.underrun);
-    ensure(n_missed == 1, || format!("underrun rose by {n_missed}"))?;
+    ensure!(n_missed == 1, "underrun rose by {n_missed}")?;
     let frame = c.frame_next(&codes);
     c.tell_at(tick + 2, 6000, &[frame])?;
     let again = status_of(c, tick + 3)?;
     expect(&again, DeviceState::Run, expected)?;
     let n_missed = again.underrun.wrapping_sub(hold.underrun);
-    ensure(n_missed == 0, || {
-        format!("underrun rose by {n_missed} in RUN")
-    })
+    ensure!(n_missed == 0, "underrun rose by {n_missed} in RUN")
 }
 
 fn depth(c: &mut Client<'_>) -> Verdict {
@@ -281,9 +283,10 @@ fn depth(c: &mut Client<'_>) -> Verdict {
         let status = status_of(c, tick + n_later)?;
         expect(&status, DeviceState::Hold, 0)?;
         let n_missed = u32::from(status.underrun.wrapping_sub(before.underrun));
-        ensure(n_missed == n_later, || {
-            format!("underrun rose by {n_missed} in {n_later} ticks")
-        })?;
+        ensure!(
+            n_missed == n_later,
+            "underrun rose by {n_missed} in {n_later} ticks"
+        )?;
     }
     Ok(())
 }

@@ -46,15 +46,9 @@ fn sounds(c: &mut Client<'_>) -> Verdict {
     for ms in [58, 63, 68] {
         sound(c, &config, 0, ms, u32::from(amp))?;
     }
-    let limited = Config {
-        comp_limit: [0, amp / 2],
-        ..config
-    };
+    let limited = c.usual_but(|wish| wish.comp_limit = [0, amp / 2]);
     sound(c, &limited, last, 30, u32::from(amp / 2))?;
-    let masked = Config {
-        mask: ChannelMask::first(usize::from(last)),
-        ..config
-    };
+    let masked = c.usual_but(|wish| wish.mask = ChannelMask::first(usize::from(last)));
     sound(c, &masked, last, 30, 0)
 }
 
@@ -71,10 +65,11 @@ fn sound(c: &mut Client<'_>, config: &Config, channel: u16, ms: u16, sum: u32) -
         let is_sum = status.amp_sum == sum && at_us < over_us[1] + 1000;
         let is_over = status.amp_sum == 0 && at_us >= over_us[0];
         let is_armed = status.state == DeviceState::Armed.code();
-        ensure(is_armed && (is_sum || is_over), || {
-            let shown = super::steps::shown(&status);
-            format!("{shown} at an IDENT of {sum} for {ms} ms")
-        })?;
+        let shown = super::steps::shown(&status);
+        ensure!(
+            is_armed && (is_sum || is_over),
+            "{shown} at an IDENT of {sum} for {ms} ms"
+        )?;
     }
     Ok(())
 }
@@ -114,9 +109,7 @@ fn ends(c: &mut Client<'_>) -> Verdict {
         let first = ident(c, 0, 900, amp);
         c.tell_at(there.tick, there.phase_us, &[first])?;
         let status = status_of(c, there.tick + 1)?;
-        ensure(status.amp_sum == u32::from(amp), || {
-            String::from("IDENT did not sound")
-        })?;
+        ensure!(status.amp_sum == u32::from(amp), "IDENT did not sound")?;
         let (end, sum) = match by {
             kind::STOP => (c.stop(0), 0),
             kind::FRAME => {
@@ -128,9 +121,11 @@ fn ends(c: &mut Client<'_>) -> Verdict {
         };
         let heard = c.tell_at(there.tick + 2, 3000, &[end])?;
         let status = status_of(c, there.tick + 3)?;
-        ensure(status.amp_sum == sum, || {
-            format!("amp_sum {} instead of {sum}", status.amp_sum)
-        })?;
+        ensure!(
+            status.amp_sum == sum,
+            "amp_sum {} instead of {sum}",
+            status.amp_sum
+        )?;
         if heard.to_us < heard.from_us {
             return Err(Trouble::Late);
         }

@@ -58,14 +58,12 @@ fn expires(c: &mut Client<'_>, heard: Between, lease_ms: u64) -> Verdict {
         .map_or(heard.to_us / tick_us, |s| u64::from(s.tick));
     // The ms in which it ends may still be of the session.
     let (least, most) = ((ends_us / tick_us), (ends_us + 1000) / tick_us);
-    ensure((least..=most).contains(&last), || {
-        let over_us = (last * tick_us).abs_diff(ends_us);
-        let which = if last < least { "before" } else { "after" };
-        format!(
-            "STATUS stopped {} ms {which} the end of the lease",
-            over_us / 1000
-        )
-    })
+    let over_ms = (last * tick_us).abs_diff(ends_us) / 1000;
+    let which = if last < least { "before" } else { "after" };
+    ensure!(
+        (least..=most).contains(&last),
+        "STATUS stopped {over_ms} ms {which} the end of the lease"
+    )
 }
 
 /// A packet that is valid, whatever comes of it.
@@ -110,11 +108,7 @@ fn renewed(c: &mut Client<'_>) -> Verdict {
 /// The same for a FRAME with the seq of the last.
 fn duplicate_renews(c: &mut Client<'_>, codes: &[[u16; 2]]) -> Verdict {
     // At 80 ms the FRAME is still held.
-    let config = Config {
-        hold_ms: 100,
-        ramp_ms: 0,
-        ..c.usual()
-    };
+    let config = c.silent_after(100, 0);
     let frame = c.frame_next(codes);
     let seq = frame.seq;
     let says = [
@@ -140,9 +134,10 @@ fn renews(c: &mut Client<'_>, sign: Say) -> Verdict {
     c.tell_after(&[sign], &[])?;
     let n_ticks = c.statuses_since(before).len();
     // Six ticks begin in any 160 ms, five in 120 ms at most.
-    ensure(n_ticks >= 6, || {
-        format!("the session ended although type {kind:02X} came")
-    })
+    ensure!(
+        n_ticks >= 6,
+        "the session ended although type {kind:02X} came"
+    )
 }
 
 fn not_renewed(c: &mut Client<'_>) -> Verdict {
@@ -163,11 +158,7 @@ fn not_renewed(c: &mut Client<'_>) -> Verdict {
 /// The lease is shorter than the hold, so that it ends first.
 fn running(c: &mut Client<'_>) -> Verdict {
     let (lease_ms, ramp_ms) = (40, 20);
-    let config = Config {
-        hold_ms: 80,
-        ramp_ms,
-        ..c.usual()
-    };
+    let config = c.silent_after(80, ramp_ms);
     let says = [
         c.hello_with([1, 1], 1, lease_ms, 1),
         c.config(&config),
@@ -196,23 +187,24 @@ fn running(c: &mut Client<'_>) -> Verdict {
     // The last tick that begins in the ramp.
     let end_us = last.from_us + u64::from(lease_ms + ramp_ms - 1) * 1000;
     let is_heard = |status: &Status| u64::from(status.tick) == end_us / u64::from(TICK_US);
-    ensure(statuses.iter().any(is_heard), || {
-        String::from("STATUS stopped before the ramp was over")
-    })?;
+    ensure!(
+        statuses.iter().any(is_heard),
+        "STATUS stopped before the ramp was over"
+    )?;
     for status in &statuses {
         let at_us = u64::from(status.tick) * u64::from(TICK_US);
         let n_steps = last.steps_until(lease_ms, at_us)[0];
         let n_steps = [n_steps.saturating_sub(1), n_steps + 1];
         let [least, most] = crate::certify::predict::ramped(sum, ramp_ms, n_steps);
-        ensure((least..=most).contains(&status.amp_sum), || {
-            format!("{} in place of {least}…{most}", super::steps::shown(status))
-        })?;
+        ensure!(
+            (least..=most).contains(&status.amp_sum),
+            "{} in place of {least}…{most}",
+            super::steps::shown(status)
+        )?;
         let is_told = status.faults & fault_bit::LEASE_LOST == 0 || n_steps[1] > 0;
-        ensure(is_told, || String::from("bit 5 before the lease was over"))?;
+        ensure!(is_told, "bit 5 before the lease was over")?;
         let is_over = n_steps[0] > u64::from(ramp_ms);
-        ensure(!is_over, || {
-            String::from("STATUS after the ramp of a lost lease")
-        })?;
+        ensure!(!is_over, "STATUS after the ramp of a lost lease")?;
     }
     Ok(())
 }

@@ -20,10 +20,7 @@ checks! { "limits":
 
 /// Everything as asked, at 0 V: a device that does not grant that gets no large codes.
 fn unpowered(c: &mut Client<'_>) -> Result<Config, Trouble> {
-    let config = Config {
-        hv_dv: 0,
-        ..c.usual()
-    };
+    let config = c.usual_but(|wish| wish.hv_dv = 0);
     let says = [c.hello(), c.config(&config)];
     match c.tell(&says) {
         Err(Trouble::Wrong(what)) => Err(Trouble::Untested(format!(
@@ -85,10 +82,7 @@ const WISHES: &[Wish] = &[
 
 fn clamps(c: &mut Client<'_>) -> Verdict {
     for change in WISHES {
-        let mut wish = Config {
-            hv_dv: 0,
-            ..c.usual()
-        };
+        let mut wish = c.usual_but(|wish| wish.hv_dv = 0);
         change(&mut wish, &c.caps);
         c.tell_with(|c| [c.config(&wish)])?;
     }
@@ -96,10 +90,7 @@ fn clamps(c: &mut Client<'_>) -> Verdict {
 }
 
 fn last_config(c: &mut Client<'_>) -> Verdict {
-    let silent = Config {
-        comp_limit: [0; 2],
-        ..c.usual()
-    };
+    let silent = c.usual_but(|wish| wish.comp_limit = [0; 2]);
     let usual = c.usual();
     c.tell_with(|c| [c.config(&silent), c.config(&usual), c.config(&silent)])?;
     c.tell_with(|c| [c.config(&usual), c.arm()])?;
@@ -131,7 +122,7 @@ fn frame_is(
 fn play_is(c: &mut Client<'_>, config: &Config, codes: &[[u16; 2]]) -> Verdict {
     c.tell_with(|c| c.arming(config))?;
     let allowed = Allowed::of(codes, config);
-    c.tally.due.clipped = c.tally.due.clipped.wrapping_add(allowed.clipped);
+    c.tally.clipped(&allowed);
     let status = frame_is(c, codes, allowed.sum(), 2 * allowed.n_scaled)?;
     c.tally.compare(&status)
 }
@@ -148,10 +139,7 @@ fn comp_limit(c: &mut Client<'_>) -> Verdict {
         [most[0], 0],
         [0, 0],
     ] {
-        let config = Config {
-            comp_limit: limits,
-            ..c.usual()
-        };
+        let config = c.usual_but(|wish| wish.comp_limit = limits);
         play_is(c, &config, &codes)?;
     }
     Ok(())
@@ -164,17 +152,10 @@ fn clipped(c: &mut Client<'_>) -> Verdict {
         )));
     }
     let codes = c.faint(3);
-    let config = Config {
-        comp_limit: [1, 1],
-        ..c.usual()
-    };
+    let config = c.usual_but(|wish| wish.comp_limit = [1, 1]);
     c.tell_with(|c| c.arming(&config))?;
     let (tick, _) = c.tell_in_tick(|c, tick| vec![c.frame(tick + 2, &codes)])?;
-    c.tally.due.clipped = c
-        .tally
-        .due
-        .clipped
-        .wrapping_add(Allowed::of(&codes, &config).clipped);
+    c.tally.clipped(&Allowed::of(&codes, &config));
     let status = status_of(c, tick + 1)?;
     c.tally.compare(&status)
 }
@@ -183,38 +164,24 @@ fn clipped(c: &mut Client<'_>) -> Verdict {
 fn mask(c: &mut Client<'_>) -> Verdict {
     let n_ch = c.n_ch();
     let codes = c.faint(4);
-    let usual = c.usual();
     let limits = codes
         .first()
         .map_or([1; 2], |code| code.map(|code| code.saturating_sub(1)));
     let n_bits = usize::BITS - (n_ch - 1).leading_zeros();
     for bit in 0..n_bits {
         let mask = ChannelMask::of(n_ch, |channel| channel >> bit & 1 == 1);
-        play_is(c, &Config { mask, ..usual }, &codes)?;
-        play_is(
-            c,
-            &Config {
-                mask,
-                comp_limit: limits,
-                ..usual
-            },
-            &codes,
-        )?;
+        let masked = c.usual_but(|wish| wish.mask = mask);
+        play_is(c, &masked, &codes)?;
+        let limited = c.usual_but(|wish| (wish.mask, wish.comp_limit) = (mask, limits));
+        play_is(c, &limited, &codes)?;
     }
-    let nothing = Config {
-        mask: ChannelMask::default(),
-        ..usual
-    };
+    let nothing = c.usual_but(|wish| wish.mask = ChannelMask::default());
     play_is(c, &nothing, &codes)
 }
 
 fn slew(c: &mut Client<'_>) -> Verdict {
-    let config = Config {
-        slew: 30,
-        hold_ms: 90,
-        ramp_ms: 10,
-        ..c.usual()
-    };
+    let mut config = c.silent_after(90, 10);
+    config.slew = 30;
     c.tell_with(|c| c.arming(&config))?;
     let [up, down] = [
         c.faint(1),
@@ -282,14 +249,15 @@ fn guard(c: &mut Client<'_>) -> Verdict {
         for _ in 0..n_ticks.max(1) {
             let frame = c.frame_next(&codes);
             let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
-            c.tally.due.clipped = c.tally.due.clipped.wrapping_add(allowed.clipped);
+            c.tally.clipped(&allowed);
             status = Some(status_of(c, tick + 1)?);
         }
         let Some(status) = status else { continue };
         let (sum, slack) = (allowed.sum(), 2 * allowed.n_scaled);
-        ensure(
+        ensure!(
             (sum - slack.min(sum)..=sum).contains(&status.amp_sum),
-            || format!("amp_sum {} where {sum} is right", status.amp_sum),
+            "amp_sum {} where {sum} is right",
+            status.amp_sum
         )?;
         c.tally.compare(&status)?;
     }
@@ -323,7 +291,7 @@ fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
         let frame = c.frame_next(&codes);
         let (tick, _) = c.tell_in_tick(|_, _| vec![frame])?;
         let aim = Allowed::of(&codes, &config);
-        c.tally.due.clipped = c.tally.due.clipped.wrapping_add(aim.clipped);
+        c.tally.clipped(&aim);
         if let Some((from, aim)) = &before {
             // Ticks without a FRAME, where the link is slow, move towards the last one.
             for _ in from + 1..=tick {
@@ -340,12 +308,11 @@ fn shares(c: &mut Client<'_>, config: &Config) -> Verdict {
             .sum::<u32>();
         let slack = 2 * allowed.n_scaled;
         let sums = sum.saturating_sub(slack)..=sum + slack;
-        ensure(sums.contains(&status.amp_sum), || {
-            format!(
-                "amp_sum {} on the way by slew, {sum} is right",
-                status.amp_sum
-            )
-        })?;
+        ensure!(
+            sums.contains(&status.amp_sum),
+            "amp_sum {} on the way by slew, {sum} is right",
+            status.amp_sum
+        )?;
     }
     Ok(())
 }

@@ -23,9 +23,12 @@ fn pacing(c: &mut Client<'_>) -> Verdict {
     for pair in statuses.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
         let (n_ticks, us) = (b.tick.wrapping_sub(a.tick), b.dev_us.wrapping_sub(a.dev_us));
-        ensure(n_ticks == 1 && us.abs_diff(25_000) < 1000, || {
-            format!("{us} µs from tick {} to tick {}", a.tick, b.tick)
-        })?;
+        ensure!(
+            n_ticks == 1 && us.abs_diff(25_000) < 1000,
+            "{us} µs from tick {} to tick {}",
+            a.tick,
+            b.tick
+        )?;
     }
     Ok(())
 }
@@ -63,13 +66,12 @@ fn states(c: &mut Client<'_>) -> Verdict {
             Place::Run => Place::Hold.state(),
             place => place.state(),
         };
-        ensure(status.state == state.code(), || {
-            format!(
-                "PING in {} led to {}",
-                place.state(),
-                super::steps::shown(&status)
-            )
-        })?;
+        ensure!(
+            status.state == state.code(),
+            "PING in {} led to {}",
+            place.state(),
+            super::steps::shown(&status)
+        )?;
     }
     c.tell_with(|c| [c.hello_with([2, 2], 1, 0, 0)])?;
     c.tell(&[]).map(drop)

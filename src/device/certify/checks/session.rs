@@ -89,9 +89,11 @@ fn hello_anywhere(c: &mut Client<'_>) -> Verdict {
         c.tell_at(there.tick, there.phase_us, &says)?;
         for status in c.statuses(2)? {
             expect(&status, DeviceState::Ready, 0)?;
-            ensure(status.last_seq == 0, || {
-                format!("last_seq {} after HELLO", status.last_seq)
-            })?;
+            ensure!(
+                status.last_seq == 0,
+                "last_seq {} after HELLO",
+                status.last_seq
+            )?;
         }
     }
     Ok(())
@@ -121,7 +123,7 @@ pub(super) fn silent_for(c: &mut Client<'_>, n_ticks: u64) -> Verdict {
         c.pass(25_000)?;
         let now = c.tell(&[])?;
         let n_heard = c.statuses_since(mark).len();
-        ensure(n_heard == 0, || String::from("STATUS came"))?;
+        ensure!(n_heard == 0, "STATUS came")?;
         if now.from_us > from + n_ticks * 25_000 {
             return Ok(());
         }
@@ -164,12 +166,13 @@ fn counters(c: &mut Client<'_>) -> Verdict {
     let after = c.status()?;
     c.tally.compare(&after)?;
     let n_missed = after.underrun.wrapping_sub(before.underrun);
-    ensure(n_missed <= 1, || {
-        format!("underrun rose by {n_missed} over HELLO")
-    })?;
-    ensure(after.tick.wrapping_sub(before.tick) < 40, || {
-        format!("tick {} before HELLO, {} after", before.tick, after.tick)
-    })?;
+    ensure!(n_missed <= 1, "underrun rose by {n_missed} over HELLO")?;
+    ensure!(
+        after.tick.wrapping_sub(before.tick) < 40,
+        "tick {} before HELLO, {} after",
+        before.tick,
+        after.tick
+    )?;
     // HELLO forgets which FRAME was the last.
     let mut says = vec![c.config(&config), c.arm()];
     let mut frame = c.frame(NEXT_TICK, &codes);
@@ -179,9 +182,10 @@ fn counters(c: &mut Client<'_>) -> Verdict {
     says.push(frame);
     c.tell(&says)?;
     let status = c.status()?;
-    ensure(status.last_seq == before.last_seq, || {
-        String::from("a FRAME with the last seq of another session was not accepted")
-    })
+    ensure!(
+        status.last_seq == before.last_seq,
+        "a FRAME with the last seq of another session was not accepted"
+    )
 }
 
 /// The codes of a FRAME as bytes.

@@ -98,10 +98,13 @@ fn revived(c: &mut Client<'_>) -> Verdict {
             .map(|gain| u64::from(played.sum) * gain / full);
         let sum = u64::from(status.amp_sum);
         let is_run = status.state == DeviceState::Run.code();
-        ensure(is_run && (sums[0]..=sums[1]).contains(&sum), || {
-            let shown = super::steps::shown(&status);
-            format!("{shown}, RUN with {}…{} is right", sums[0], sums[1])
-        })?;
+        let shown = super::steps::shown(&status);
+        let [least, most] = sums;
+        let is_near = (least..=most).contains(&sum);
+        ensure!(
+            is_run && is_near,
+            "{shown}, RUN with {least}…{most} is right"
+        )?;
     }
     Ok(())
 }

@@ -102,9 +102,12 @@ fn stays(c: &mut Client<'_>, place: Place) -> Verdict {
     c.tell_at(there.tick, there.phase_us, &says)?;
     let status = status_of(c, there.tick + 1)?;
     let Some(played) = there.played else {
-        return ensure(status.state == place.state().code(), || {
-            format!("{} became {}", place.state(), super::steps::shown(&status))
-        });
+        return ensure!(
+            status.state == place.state().code(),
+            "{} became {}",
+            place.state(),
+            super::steps::shown(&status)
+        );
     };
     judge_silence(&played, &status)?;
     super::steps::follow_silence(c, &played)

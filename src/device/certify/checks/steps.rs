@@ -64,15 +64,16 @@ pub(super) fn status_of(c: &mut Client<'_>, tick: u32) -> Result<Status, Trouble
         if ahead == 0 {
             return Ok(status);
         }
-        ensure(ahead < 0, || format!("no STATUS of tick {tick} came"))?;
+        ensure!(ahead < 0, "no STATUS of tick {tick} came")?;
     }
 }
 
 /// State and sum, and their names when they are others.
 pub(super) fn expect(status: &Status, state: DeviceState, sum: u32) -> Verdict {
-    ensure(
+    ensure!(
         status.state == state.code() && status.amp_sum == sum,
-        || format!("{} instead of {state} with amp_sum {sum}", shown(status)),
+        "{} instead of {state} with amp_sum {sum}",
+        shown(status)
     )
 }
 
@@ -98,13 +99,17 @@ pub(super) fn judge_silence(played: &Played, status: &Status) -> Verdict {
     let ages_ms = played.heard.ages_ms(at_us);
     let age_ms = u64::from(status.age_ms);
     let is_live = status.device_state().is_some_and(DeviceState::is_live);
-    ensure(
+    ensure!(
         !is_live || (ages_ms[0]..=ages_ms[1]).contains(&age_ms),
-        || format!("age_ms {age_ms} instead of {}", ages_ms[0]),
+        "age_ms {age_ms} instead of {}",
+        ages_ms[0]
     )?;
-    ensure(status.last_seq == played.seq || !is_live, || {
-        format!("last_seq {} instead of {}", status.last_seq, played.seq)
-    })
+    ensure!(
+        status.last_seq == played.seq || !is_live,
+        "last_seq {} instead of {}",
+        status.last_seq,
+        played.seq
+    )
 }
 
 /// STATUS so many steps into a ramp.
@@ -119,13 +124,12 @@ pub(super) fn judge_ramp(
     let is_state = status
         .device_state()
         .is_some_and(|state| fits_ramp(state, before, ramp_ms, n_steps));
-    ensure(is_state && (least..=most).contains(&status.amp_sum), || {
-        let steps = n_steps[0];
-        format!(
-            "{} where {steps} ms of the ramp of {ramp_ms} ms are over, {least}…{most} is right",
-            shown(status)
-        )
-    })
+    ensure!(
+        is_state && (least..=most).contains(&status.amp_sum),
+        "{} where {} ms of the ramp of {ramp_ms} ms are over, {least}…{most} is right",
+        shown(status),
+        n_steps[0]
+    )
 }
 
 /// Follows a lone FRAME to READY.

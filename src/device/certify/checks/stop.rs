@@ -57,9 +57,11 @@ fn ramp_in(c: &mut Client<'_>, place: Place, reason: u8) -> Verdict {
             .0
             .steps_until(from.1, u64::from(tick) * u64::from(TICK_US));
         judge_ramp(&status, played.sum, DeviceState::Ramp, ramp_ms, n_steps)?;
-        ensure(status.queued == 0, || {
-            format!("{} FRAMEs wait after STOP", status.queued)
-        })?;
+        ensure!(
+            status.queued == 0,
+            "{} FRAMEs wait after STOP",
+            status.queued
+        )?;
     }
     expect(&c.status()?, DeviceState::Ready, 0)
 }
@@ -130,9 +132,11 @@ fn queue(c: &mut Client<'_>) -> Verdict {
     })?;
     for status in c.statuses(5)? {
         expect(&status, DeviceState::Armed, 0)?;
-        ensure(status.queued == 0, || {
-            format!("{} FRAMEs wait after STOP", status.queued)
-        })?;
+        ensure!(
+            status.queued == 0,
+            "{} FRAMEs wait after STOP",
+            status.queued
+        )?;
     }
     Ok(())
 }
@@ -157,7 +161,5 @@ fn reached(c: &mut Client<'_>, what: &str, is_there: impl Fn(u32) -> bool) -> Ve
         }
         c.tell_with(|c| [c.ping()])?;
     }
-    ensure(false, || {
-        format!("hv_dV is {last} a second after it went {what}")
-    })
+    ensure!(false, "hv_dV is {last} a second after it went {what}")
 }

@@ -6,6 +6,7 @@
 //! longer than 1/n octave are cut into equal parts.
 
 use crate::plan::whole_part;
+use selvedge_foundation::numerics::to_whole;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
 use selvedge_textile::tactile::{MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
@@ -109,14 +110,9 @@ fn lowest_speed(n_bins: usize) -> f64 {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "9.8 octaves at most, a few hundred parts each"
-)]
 fn n_parts(octaves: f64, per_octave: u32) -> u32 {
     // A hair less, so that a segment of just 1/n octave stays in one part.
-    (octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0) as u32
+    to_whole((octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0))
 }
 
 /// How many bins sound at a speed that is felt: [`selvedge_textile::tactile::n_audible_bins`]

@@ -8,6 +8,7 @@ use std::path::Path;
 use super::{Pose, SceneError, TICKS_PER_S};
 use selvedge_foundation::files::{self, FileError, Table, TableWriter};
 use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_foundation::numerics::to_whole;
 
 /// Within this of a row, a tick is the row itself, s.
 const SAME_TIME_S: f64 = 1e-9;
@@ -136,13 +137,7 @@ impl ExplorationPath {
 
     /// How many ticks it has: `⌊40 (t_last − t_first) + 1e-6⌋ + 1`.
     pub fn n_ticks(&self) -> u64 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a duration of 0 … 10⁶ s"
-        )]
-        let last = (TICKS_PER_S * self.duration_s() + LAST_TICK_SLACK).floor() as u64;
-        last + 1
+        to_whole::<u64>(TICKS_PER_S * self.duration_s() + LAST_TICK_SLACK) + 1
     }
 
     /// The ticks in order, each with its number from 0.

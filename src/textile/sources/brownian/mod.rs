@@ -291,10 +291,7 @@ impl Recipe for Brownian {
         ]);
         parameters.extend(tip);
         parameters.push(seed());
-        vec![Group {
-            title: "Surface",
-            parameters,
-        }]
+        vec![Group::new("Surface", parameters)]
     }
 
     fn example() -> Result<Option<Example<Self>>, TextileError> {

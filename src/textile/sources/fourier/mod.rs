@@ -198,10 +198,7 @@ impl Recipe for Fourier {
             ("Along the weft", "source.weft_template"),
         ];
         let axes = axes.into_iter().zip(templates);
-        let mut groups = vec![Group {
-            title: "Surface",
-            parameters: surface,
-        }];
+        let mut groups = vec![Group::new("Surface", surface)];
         groups.extend(axes.map(of_axis));
         groups
     }

@@ -189,10 +189,7 @@ impl Recipe for Knit {
         let mut cloth = parameters_of("source", Self::KEYS, FIRST);
         let noise = cloth.split_off(cloth.len() - 1);
         vec![
-            Group {
-                title: "Cloth",
-                parameters: cloth,
-            },
+            Group::new("Cloth", cloth),
             Yarn::group("source.yarn", "Yarn"),
             touch_group(noise),
         ]

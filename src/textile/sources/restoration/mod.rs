@@ -196,10 +196,7 @@ impl Recipe for Restoration {
         let mut surface = parameters_of("source", Self::KEYS, &[]);
         surface.push(seed());
         vec![
-            Group {
-                title: "Surface",
-                parameters: surface,
-            },
+            Group::new("Surface", surface),
             Reduced::group("source.warp", "Warp profile"),
             Reduced::group("source.weft", "Weft profile"),
         ]

@@ -6,7 +6,9 @@ use super::period::{line, period};
 use crate::error::TextileError;
 use crate::recipe::{Group, KeySpec, keys, parameters_of};
 use crate::surface::{Profile, mean_deviation};
-use selvedge_foundation::numerics::{Complex, Random, RealTransform, to_index, without_line};
+use selvedge_foundation::numerics::{
+    Complex, Random, RealTransform, bisected, to_index, without_line,
+};
 
 /// Bands an octave of the residual.
 const BANDS_PER_OCTAVE: f64 = 3.0;
@@ -177,19 +179,12 @@ impl Reduced {
                 .map(|(a, b)| a + share * b)
                 .collect()
         };
-        let (mut low, mut high) = (0.0, 1.0);
-        while mean_deviation(&with(high)) < self.smd_um && high < 1e3 {
+        let is_smooth = |share: f64| mean_deviation(&with(share)) < self.smd_um;
+        let mut high = 1.0;
+        while is_smooth(high) && high < 1e3 {
             high *= 2.0;
         }
-        for _ in 0..50 {
-            let middle = 0.5 * (low + high);
-            if mean_deviation(&with(middle)) < self.smd_um {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let mut restored = with(0.5 * (low + high));
+        let mut restored = with(bisected([0.0, high], 50, is_smooth));
         let found = mean_deviation(&restored);
         if found > self.smd_um * 1.001 {
             let factor = self.smd_um / found;

@@ -168,10 +168,7 @@ impl Recipe for Weave {
         let mut cloth = parameters_of("source", Self::KEYS, &[]);
         let noise = cloth.split_off(cloth.len() - 1);
         vec![
-            Group {
-                title: "Cloth",
-                parameters: cloth,
-            },
+            Group::new("Cloth", cloth),
             Yarn::group("source.warp", "Warp yarn"),
             Yarn::group("source.weft", "Weft yarn"),
             touch_group(noise),
