@@ -211,7 +211,7 @@ mod tests {
         let tree = Tree::from_str(&svg, &Options::default()).expect("it is a drawing");
         for side in ICON_SIDES {
             let mut pixmap = Pixmap::new(side, side).expect("a size");
-            let scale = single(f64::from(side)) / tree.size().width();
+            let scale = to_single(f64::from(side)) / tree.size().width();
             resvg::render(
                 &tree,
                 Transform::from_scale(scale, scale),

@@ -4,7 +4,7 @@ use crate::bench::error::AppError;
 use crate::bench::recording::Recording;
 use crate::tools::timeline::figure::Moment;
 use selvedge_chart::{Axis, Chart, Ink, Raster, Series, Style, Weight, Words};
-use selvedge_foundation::geometry::Point;
+use selvedge_foundation::geometry::{Point, Rotation};
 use selvedge_foundation::numerics::to_index;
 use selvedge_render::scene::LoadedScene;
 use selvedge_textile::Appearance;
@@ -31,7 +31,7 @@ pub(crate) fn map(
     let way = some.map(|(_, pose)| [pose.position.x_mm, pose.position.y_mm]);
     let display = scene.displays.first();
     let contactors = display.map_or_else(Vec::new, |display| {
-        let turn = display.turn(moment.pose.angle_deg);
+        let turn = Rotation::from_degrees(display.rotation_deg + moment.pose.angle_deg);
         let offsets = display.geometry.contactors().into_iter();
         let middle = moment.pose.position;
         offsets.map(|offset| middle + turn.turn(offset)).collect()
