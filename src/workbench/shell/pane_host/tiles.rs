@@ -57,7 +57,10 @@ impl Behavior<Pane> for PaneHost<'_> {
         let Some(Tile::Pane(pane)) = tiles.get(tile) else {
             return response;
         };
-        tell(&response, about(*pane));
+        // A pointer that was left on a tab hides no notice.
+        if self.context.bench.notices.shown().is_empty() {
+            tell(&response, about(*pane));
+        }
         if response.clicked() {
             self.context.bench.pointer.pane_in_use = Some(*pane);
             if response.double_clicked() {
