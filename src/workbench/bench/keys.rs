@@ -19,8 +19,8 @@ const OF_WIDGETS: [Key; 7] = [
     Key::ArrowDown,
     Key::Backspace,
 ];
-/// Keys that hold a slot of tunings with Alt.
-const OF_SLOTS: [Key; 8] = [
+/// Keys that hold a slot of tunings with Alt, in the order of the letters.
+pub(crate) const OF_SLOTS: [Key; 8] = [
     Key::A,
     Key::B,
     Key::C,

@@ -15,6 +15,7 @@ use crate::bench::Bench;
 use crate::bench::command::Commands;
 use crate::bench::command::edit::Edit;
 use crate::bench::gain_set::{GainSet, slot};
+use crate::bench::keys::OF_SLOTS;
 use crate::bench::perceptual_level::as_strong;
 use crate::bench::tool::PaneContext;
 use crate::kit::theme;
@@ -30,18 +31,6 @@ use selvedge_statistics::{Sides, exact_binomial};
 const SIDE: f32 = 22.0;
 /// Height of a row, points.
 const LINE: f32 = 24.0;
-/// Keys of the letters, held with Alt.
-const KEYS: [Key; 8] = [
-    Key::A,
-    Key::B,
-    Key::C,
-    Key::D,
-    Key::E,
-    Key::F,
-    Key::G,
-    Key::H,
-];
-
 /// What is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Held {
@@ -346,7 +335,7 @@ fn held_key(bench: &Bench, is_blind: bool) -> Option<Held> {
                 .position(|key| input.key_down(*key));
             return nth.map(Held::Blind);
         }
-        let mut keys = KEYS.iter().zip(SlotLetter::ALL);
+        let mut keys = OF_SLOTS.iter().zip(SlotLetter::ALL);
         let held = keys.find(|(key, _)| input.key_down(**key));
         held.map(|(_, letter)| Held::Slot(letter))
     })
