@@ -46,11 +46,7 @@ impl Bench {
                 if let Some(path) = &opened.path {
                     self.settings.preferences.remember_scene(path);
                 }
-                let changed = opened.loaded.changed();
                 self.show_scene(*opened);
-                if let Some(changed) = changed {
-                    self.notices.give(changed);
-                }
                 if let Some(document) = restoring {
                     self.document = document;
                 }
@@ -211,6 +207,27 @@ mod tests {
     use selvedge_foundation::geometry::Point;
     use selvedge_render::scene::{ExplorationPath, PathRow};
     use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn a_textile_that_has_changed_is_told_by_the_first_scene_as_by_later_ones() {
+        let ctx = eframe::egui::Context::default();
+        let folder = ScratchFolder::made("changed");
+        let text = "name = \"a\"\nsize_mm = [99.0, 99.0]\n[[textile]]\nid = \"denim\"\n\
+                    origin_mm = [1.0, 1.0]\nsize_mm = [9.0, 9.0]\n[content]\ndenim = \"0\"\n";
+        let scene = folder.write("a.scene.toml", text);
+        let n_told = |bench: &Bench| {
+            let told = bench.notices.shown().iter();
+            told.filter(|notice| notice.text.starts_with("denim is not what it was"))
+                .map(|notice| notice.n_times)
+                .sum::<u32>()
+        };
+        let mut bench = Bench::new(&ctx, Some(&scene), Drive::Stepped).unwrap();
+        assert_eq!(n_told(&bench), 1);
+        bench.open(Origin::File(scene));
+        assert_eq!(n_told(&bench), 2);
+        bench.open(Origin::Shipped);
+        assert_eq!(n_told(&bench), 2, "nothing is stated there");
+    }
 
     #[test]
     fn the_recording_at_hand_is_written_as_every_kind() {

@@ -226,12 +226,12 @@ impl Bench {
             ctx: ctx.clone(),
             stepped_at: is_stepped.then_some(now),
         };
-        bench.begin(drive, complaint);
+        bench.begin(drive, [complaint, opened.changed]);
         Ok(bench)
     }
 
     /// Takes up the settings and whatever else a new window begins with.
-    fn begin(&mut self, drive: Drive, complaint: Option<String>) {
+    fn begin(&mut self, drive: Drive, complaints: [Option<String>; 2]) {
         if drive != Drive::Stepped {
             self.log_links();
             self.read_arrays();
@@ -245,7 +245,7 @@ impl Bench {
                 self.files.recovery = Recovery::in_folder(root);
             }
         }
-        if let Some(complaint) = complaint {
+        for complaint in complaints.into_iter().flatten() {
             self.notices.give(complaint);
         }
         let kept = &self.settings.preferences;
@@ -277,6 +277,9 @@ impl Bench {
     pub(crate) fn show_scene(&mut self, opened: Opened) {
         self.engine_scene.serial = opened.prepared.serial();
         self.engine_scene.rendering = opened.rendering;
+        if let Some(changed) = opened.changed {
+            self.notices.give(changed);
+        }
         self.send(Command::SetScene(Box::new(opened.prepared)));
         self.document = document_of(&opened.loaded, opened.path.as_deref());
         self.library.view =

@@ -43,6 +43,8 @@ pub(crate) struct Opened {
     pub rendering: Rendering,
     /// The tables that were made for it.
     pub cache: TableCache,
+    /// That textiles are not what they were when it was saved.
+    pub(crate) changed: Option<String>,
     /// The textiles of its library.
     pub(crate) library_view: Vec<LibraryEntry>,
 }
@@ -72,6 +74,7 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
         prepared,
         rendering,
         cache,
+        changed: loaded.changed(),
         library_view: crate::bench::library_shelf::items_of(loaded.library(), None),
         loaded,
     })
