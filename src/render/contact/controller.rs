@@ -108,15 +108,12 @@ impl HapticLoop {
     }
 
     /// Reads a device and finds what is to be held.
-    pub(super) fn sense(
-        &mut self,
-        device: &mut dyn StylusDevice,
-    ) -> Result<LoopTick, RenderError> {
+    pub(super) fn sense(&mut self, device: &mut dyn StylusDevice) -> Result<LoopTick, RenderError> {
         let mut place_mm = device.read_mm()?;
         let spec = *device.spec();
         let before_mm = self.before_mm.unwrap_or(place_mm);
-        let velocity = [0, 1, 2]
-            .map(|axis| 1e-3 * (place_mm[axis] - before_mm[axis]) / self.period_s);
+        let velocity =
+            [0, 1, 2].map(|axis| 1e-3 * (place_mm[axis] - before_mm[axis]) / self.period_s);
         let ([x_mm, y_mm, _], [vx, vy, vz]) = (place_mm, velocity);
         self.contact.look(2, [x_mm, y_mm], [vx, vy]);
         let mut at = Motion {

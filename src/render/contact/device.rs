@@ -226,9 +226,8 @@ impl Hand {
             (mass_kg * from.velocity_m_per_s[axis] + step_s * drive_n) / inertia
         });
         Along {
-            place_mm: [0, 1].map(|axis| {
-                from.place_mm[axis] + 1e3 * step_s * velocity_m_per_s[axis]
-            }),
+            place_mm: [0, 1]
+                .map(|axis| from.place_mm[axis] + 1e3 * step_s * velocity_m_per_s[axis]),
             velocity_m_per_s,
         }
     }

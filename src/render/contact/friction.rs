@@ -144,9 +144,8 @@ impl Bristles {
         velocity_m_per_s: [f64; 2],
         step_s: f64,
     ) -> [f64; 2] {
-        let moved = [0, 1].map(|axis| {
-            (self.bend_m[axis] + step_s * velocity_m_per_s[axis]) / hold.decay
-        });
+        let moved =
+            [0, 1].map(|axis| (self.bend_m[axis] + step_s * velocity_m_per_s[axis]) / hold.decay);
         let length = moved[0].hypot(moved[1]);
         let kept = if length > hold.most_m {
             hold.most_m / length

@@ -122,10 +122,14 @@ impl WallCase {
     fn is_bounded(&self) -> bool {
         match self.delay_ticks {
             Some(ticks) => {
-                let within = self.characteristic(ticks).map(|all| is_within(all, 1.0 + ROUNDING));
+                let within = self
+                    .characteristic(ticks)
+                    .map(|all| is_within(all, 1.0 + ROUNDING));
                 within.unwrap_or(false)
             }
-            None => self.step_growth().is_some_and(|growth| growth <= 1.0 + ROUNDING),
+            None => self
+                .step_growth()
+                .is_some_and(|growth| growth <= 1.0 + ROUNDING),
         }
     }
 
@@ -265,7 +269,10 @@ impl WallCase {
 
     /// What a person should know of the setting: one line.
     pub fn advice(&self) -> String {
-        let (k, hz) = (rounded(self.stiffness_n_per_m), rounded(1.0 / self.period_s));
+        let (k, hz) = (
+            rounded(self.stiffness_n_per_m),
+            rounded(1.0 / self.period_s),
+        );
         let limit = rounded(self.largest_stiffness());
         let is_sampled = self.delay_ticks.is_some();
         let name = self.method.name();
@@ -311,7 +318,8 @@ impl WallCase {
             let why = "a held force leaves a linear plant, which is stepped exactly";
             (Stepper::Exact, why.to_owned())
         } else if turned <= 0.01 && semi.standing() == Standing::Stable {
-            let why = format!("{phase} is small and the device's damping covers K h/2: the cheapest");
+            let why =
+                format!("{phase} is small and the device's damping covers K h/2: the cheapest");
             (Stepper::SemiImplicitEuler, why)
         } else if is_linear {
             let why = format!("{phase}; the wall is piecewise linear, so its solution is known");

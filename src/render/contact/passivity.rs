@@ -36,7 +36,12 @@ impl Passivity {
     }
 
     /// The force to hold from this place on, instead of the one that was asked for, N.
-    pub(super) fn pass(&mut self, place_mm: [f64; 3], asked_n: [f64; 3], period_s: f64) -> [f64; 3] {
+    pub(super) fn pass(
+        &mut self,
+        place_mm: [f64; 3],
+        asked_n: [f64; 3],
+        period_s: f64,
+    ) -> [f64; 3] {
         let before_mm = self.place_mm.unwrap_or(place_mm);
         let moved_m = [0, 1, 2].map(|axis| 1e-3 * (place_mm[axis] - before_mm[axis]));
         let work_j: f64 = (0..3).map(|axis| self.held_n[axis] * moved_m[axis]).sum();

@@ -177,9 +177,7 @@ impl Contact {
             0.5 * (first + self.spring.force_n(after, z_m[1], after.rise_m_per_s))
         };
         pairs
-            .map(|(before, after)| {
-                mean_n(before, after) * (after.height_m - before.height_m)
-            })
+            .map(|(before, after)| mean_n(before, after) * (after.height_m - before.height_m))
             .sum()
     }
 
@@ -238,12 +236,7 @@ impl Contact {
     }
 
     /// Rubs for a step, and gives the friction at its end, N.
-    pub(super) fn rub(
-        &mut self,
-        hold: &Hold,
-        velocity_m_per_s: [f64; 2],
-        step_s: f64,
-    ) -> [f64; 2] {
+    pub(super) fn rub(&mut self, hold: &Hold, velocity_m_per_s: [f64; 2], step_s: f64) -> [f64; 2] {
         self.bristles
             .bend(&self.friction, hold, velocity_m_per_s, step_s)
     }

@@ -81,7 +81,10 @@ impl Relief {
             let profile = surface.profile(surface.taken_from(direction))?;
             Lattice::of_profile(profile, is_weft)
         };
-        let axes = [(Direction::WarpForward, false), (Direction::WeftForward, true)];
+        let axes = [
+            (Direction::WarpForward, false),
+            (Direction::WeftForward, true),
+        ];
         Self {
             lattices: axes.into_iter().filter_map(of).collect(),
         }
@@ -160,19 +163,22 @@ impl Lattice {
     /// Samples around and below a sphere, by how far its underside is above its lowest point: the
     /// nearest first. What is farther than the heights reach cannot touch.
     fn drops_mm(&self, radius_mm: f64) -> Vec<(f64, [isize; 2])> {
-        let [low, high] = selvedge_foundation::numerics::extent(
-            self.heights_mm.values().iter().copied(),
-        );
+        let [low, high] =
+            selvedge_foundation::numerics::extent(self.heights_mm.values().iter().copied());
         let reach = |axis: usize| {
             let is_alone = self.n()[axis] == 1;
             let n = radius_mm / self.step_mm[axis];
-            if is_alone { 0 } else { to_whole::<i32>(n.min(1e6)) }
+            if is_alone {
+                0
+            } else {
+                to_whole::<i32>(n.min(1e6))
+            }
         };
         let mut drops = Vec::new();
         for row in -reach(1)..=reach(1) {
             for column in -reach(0)..=reach(0) {
-                let away_mm = (f64::from(column) * self.step_mm[0])
-                    .hypot(f64::from(row) * self.step_mm[1]);
+                let away_mm =
+                    (f64::from(column) * self.step_mm[0]).hypot(f64::from(row) * self.step_mm[1]);
                 let depth_mm = (radius_mm - away_mm) * (radius_mm + away_mm);
                 let drop_mm = radius_mm - depth_mm.max(0.0).sqrt();
                 if away_mm <= radius_mm && drop_mm <= high - low {
@@ -202,7 +208,9 @@ impl Lattice {
                     break;
                 }
                 let at = placed(column as isize + du, n_u, self.ends);
-                let height = self.heights_mm.row(placed(row as isize + dw, n_w, self.ends))[at];
+                let height = self
+                    .heights_mm
+                    .row(placed(row as isize + dw, n_w, self.ends))[at];
                 best = best.max(height - drop_mm);
             }
             best
@@ -278,4 +286,88 @@ fn placed(index: isize, n: usize, ends: Ends) -> usize {
         }
     };
     inside as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// A map that repeats nowhere.
+    fn map() -> HeightMap {
+        let mut random = selvedge_foundation::numerics::Random::new(5);
+        let grid = Grid::from_fn(30, 20, |_, _| 40.0 * random.normal());
+        HeightMap::new(grid, [0.1, 0.2]).unwrap()
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_the_height_and_both_are_continuous() {
+        let profile = Profile::new(0.1, (0..50).map(|i| f64::from(i * i % 17)).collect());
+        let mut profiles = selvedge_textile::surface::ProfileSet::default();
+        profiles[0] = profile.ok();
+        let lattice = Lattice::of_profile(profiles[0].as_ref().unwrap(), false).unwrap();
+        let along = Relief {
+            lattices: vec![lattice],
+        };
+        for relief in [
+            Relief::of_map(&map()),
+            Relief::of_map(&map().periodic()),
+            along,
+        ] {
+            for nth in -400_i32..800 {
+                let place = [0.013 * f64::from(nth), 0.007 * f64::from(nth)];
+                let spot = relief.at(place);
+                for axis in 0..2 {
+                    let near = |by_mm: f64| {
+                        let mut place = place;
+                        place[axis] += by_mm;
+                        relief.at(place)
+                    };
+                    let (before, after) = (near(-1e-6), near(1e-6));
+                    let slope = (after.height_mm - before.height_mm) / 2e-6;
+                    assert!((slope - spot.slope[axis]).abs() < 1e-4, "{place:?}");
+                    let jump = (after.slope[axis] - before.slope[axis]).abs();
+                    assert!(jump < 1e-3, "{place:?}: {jump}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn heights_at_points_are_the_measured_ones_and_go_on_as_is_said() {
+        let (map, height) = (map(), |relief: &Relief, u, w| {
+            1e3 * relief.height_mm([u, w])
+        });
+        let at = |column: usize, row: usize| map.heights_um().row(row)[column];
+        let (held, again) = (
+            Relief::of_map(&map),
+            Relief::of_map(&map.clone().periodic()),
+        );
+        assert!((height(&held, 0.7, 0.6) - at(7, 3)).abs() < 1e-9);
+        assert!((height(&held, -9.0, 0.6) - at(0, 3)).abs() < 1e-9);
+        assert!((height(&again, 0.7 - 3.0, 0.6 + 8.0) - at(7, 3)).abs() < 1e-9);
+        assert_eq!(Relief::flat().height_mm([f64::MAX, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn a_sphere_rides_on_crests_and_bridges_narrow_valleys() {
+        let wave = |column: usize, _| 20.0 * (TAU * column as f64 / 100.0).cos();
+        let map = HeightMap::new(Grid::from_fn(100, 1, wave), [0.01, 0.01]).unwrap();
+        let sharp = Relief::of_map(&map.periodic());
+        let curvature = 0.02 * TAU * TAU;
+        let under = |radius_mm| sharp.under_sphere(radius_mm).unwrap();
+        for radius_mm in [0.2, 0.9 / curvature, 3.0] {
+            let top = under(radius_mm).height_mm([0.0; 2]);
+            assert!((top - 0.02).abs() < 1e-12, "{radius_mm}: {top}");
+            let bottom = under(radius_mm).height_mm([0.5, 0.0]);
+            let is_in = radius_mm * curvature < 1.0;
+            assert_eq!(is_in, (bottom + 0.02).abs() < 1e-9, "{radius_mm}: {bottom}");
+        }
+        let large = 100.0;
+        let hung = under(large).height_mm([0.5, 0.0]);
+        assert!(
+            (hung - 0.02 + 0.125 / large).abs() < 2e-5,
+            "between two crests: {hung}"
+        );
+    }
 }

@@ -275,8 +275,7 @@ impl StylusRun {
         self.contact.rub(&hold, next.velocity_m_per_s, step_s);
         self.contact.set_off(next.velocity_m_per_s);
         if self.method == Stepper::RungeKutta4 {
-            let middle_mm =
-                [0, 1].map(|axis| 0.5 * (along.place_mm[axis] + next.place_mm[axis]));
+            let middle_mm = [0, 1].map(|axis| 0.5 * (along.place_mm[axis] + next.place_mm[axis]));
             self.contact.look(1, middle_mm, next.velocity_m_per_s);
         }
         self.contact.look(2, next.place_mm, next.velocity_m_per_s);
@@ -313,7 +312,11 @@ impl StylusRun {
         };
         if let Some((sampled, tick)) = &mut self.sampled {
             *tick = sampled.sense(&mut self.device)?;
-            row.place_mm[2] = if self.spec.axes[2] { z_mm } else { tick.place_mm[2] };
+            row.place_mm[2] = if self.spec.axes[2] {
+                z_mm
+            } else {
+                tick.place_mm[2]
+            };
             (row.force_n, row.tangential_n) = (tick.normal_n, tick.tangential_n);
         }
         [_, row.vibration_n] = self.crossover.split_n(row.force_n);

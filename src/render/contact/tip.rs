@@ -37,7 +37,8 @@ impl Tip {
                 if (row + column).abs() <= RINGS {
                     let u_mm = 2.0 * (f64::from(column) + 0.5 * f64::from(row));
                     let w_mm = 3.0_f64.sqrt() * f64::from(row);
-                    let rise_mm = curve_mm - (curve_mm * curve_mm - u_mm * u_mm - w_mm * w_mm).sqrt();
+                    let rise_mm =
+                        curve_mm - (curve_mm * curve_mm - u_mm * u_mm - w_mm * w_mm).sqrt();
                     contacts_mm.push([u_mm, w_mm, rise_mm]);
                 }
             }
