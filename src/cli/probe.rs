@@ -82,7 +82,12 @@ struct WayArgs {
     #[arg(long, value_name = "X,Y:X,Y", value_parser = stroke, allow_hyphen_values = true)]
     stroke: Option<[Point; 2]>,
     /// Speed of the stroke, mm/s
-    #[arg(long, value_name = "MM_PER_S", default_value_t = 50.0, requires = "stroke")]
+    #[arg(
+        long,
+        value_name = "MM_PER_S",
+        default_value_t = 50.0,
+        requires = "stroke"
+    )]
     speed: f64,
     /// How long (as long as the path, or there and back once; 1 s in place)
     #[arg(long, value_name = "S")]
@@ -103,10 +108,20 @@ struct WayArgs {
 #[derive(Debug, Args)]
 struct WallArgs {
     /// Stiffness of the surface, N/m
-    #[arg(long, value_name = "K", default_value_t = 1000.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 1000.0,
+        allow_negative_numbers = true
+    )]
     stiffness: f64,
     /// Damping of the surface, N·s/m
-    #[arg(long, value_name = "B", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "B",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     damping: f64,
     /// Largest contact force, N
     #[arg(long, value_name = "N")]
@@ -191,7 +206,10 @@ pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
         terminal::notice(&case.advice());
     }
     let rate_hz = setup.rate_hz;
-    let start = args.way.drop.map_or(StylusStart::Resting, StylusStart::Above);
+    let start = args
+        .way
+        .drop
+        .map_or(StylusStart::Resting, StylusStart::Above);
     let mut from_row = 0;
     let mut run = StylusRun::new(setup, way.place_mm(0.0, &mut from_row), start)?;
     let mut table = TableOut::new(args.out.as_deref(), &HEADER)?;
@@ -403,7 +421,9 @@ fn stroke(text: &str) -> Result<[Point; 2], String> {
 }
 
 fn controller(name: &str) -> Result<ControllerKind, String> {
-    let found = ControllerKind::ALL.into_iter().find(|one| one.name() == name);
+    let found = ControllerKind::ALL
+        .into_iter()
+        .find(|one| one.name() == name);
     found.ok_or_else(|| "use continuous or sampled".to_owned())
 }
 

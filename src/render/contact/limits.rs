@@ -20,6 +20,8 @@ const ROUNDING: f64 = 1e-9;
 const STIFFNESSES: [f64; 2] = [1e-6, 1e12];
 /// Ratio of those that are tried in turn.
 const RATIO: f64 = 1.25;
+/// Below this a limit is none: rounding feigns it, N/m.
+const NO_LIMIT: f64 = 1e-2;
 /// Halvings after that.
 const HALVINGS: u32 = 60;
 
@@ -245,7 +247,8 @@ impl WallCase {
         }
         while below < last {
             if !is_held(below * RATIO) {
-                return bisected([below, below * RATIO], HALVINGS, is_held);
+                let limit = bisected([below, below * RATIO], HALVINGS, is_held);
+                return if limit < NO_LIMIT { 0.0 } else { limit };
             }
             below *= RATIO;
         }

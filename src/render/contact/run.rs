@@ -70,6 +70,7 @@ pub struct StylusRun {
     spec: DeviceSpec,
     hand: Hand,
     method: Stepper,
+    rate_hz: f64,
     period_s: f64,
     target_mm: [f64; 2],
     crossover: Crossover,
@@ -187,6 +188,7 @@ impl StylusRun {
             spec,
             hand,
             method,
+            rate_hz,
             period_s,
         };
         run.sense()?;
@@ -303,7 +305,7 @@ impl StylusRun {
         let ([x_mm, y_mm], z_mm) = (self.device.along.place_mm, 1e3 * at.z_m);
         let load = self.contact.load(0, at);
         let mut row = StylusRow {
-            t_s: self.n_steps as f64 * self.period_s,
+            t_s: self.n_steps as f64 / self.rate_hz,
             place_mm: [x_mm, y_mm, z_mm],
             depth_um: 1e6 * load.depth_m,
             force_n: load.normal_n,
