@@ -76,8 +76,8 @@ pub struct StylusRun {
     crossover: Crossover,
     n_steps: u64,
     row: StylusRow,
-    /// Energy at the start, and what moving along the surface put in since: its sum, and the sum
-    /// of its sizes.
+    /// Energy at the start, and what leading it along the surface put in since: its sum, and the
+    /// sum of its sizes.
     start_j: f64,
     driven_j: [f64; 2],
     advice: String,
@@ -230,7 +230,7 @@ impl StylusRun {
                 mend: "give finite places in mm".to_owned(),
             });
         }
-        self.target_mm = target_mm;
+        self.lead_to(target_mm);
         let before_m = self.device.upright.z_m;
         if let Some((_, tick)) = &self.sampled {
             self.device.lead_to(target_mm);
@@ -244,14 +244,35 @@ impl StylusRun {
             self.step_free();
         }
         let after_m = self.device.upright.z_m;
-        let driven_j = self.contact.lifting_j([before_m, after_m]);
-        self.driven_j[0] += driven_j;
-        self.driven_j[1] += driven_j.abs();
+        // A tip that the surface cannot push aside is lifted by whoever leads it.
+        if self.hand.leads.is_none() || !(self.spec.axes[0] || self.spec.axes[1]) {
+            self.drive(self.contact.lifting_j([before_m, after_m]));
+        }
         self.contact.go_on(after_m);
         self.n_steps += 1;
         self.sense()?;
         self.check_bounded()?;
         Ok(&self.row)
+    }
+
+    /// The hand moves on, and puts into its spring what that takes.
+    fn lead_to(&mut self, target_mm: [f64; 2]) {
+        let stiffness = self.hand.leads.map_or(0.0, |[stiffness, _]| stiffness);
+        let before_j = self.spring_j(stiffness);
+        self.target_mm = target_mm;
+        self.drive(self.spring_j(stiffness) - before_j);
+    }
+
+    /// Energy of the leading hand's spring, J.
+    fn spring_j(&self, stiffness: f64) -> f64 {
+        let place_mm = self.device.along.place_mm;
+        let away_m = [0, 1].map(|i| 1e-3 * (self.target_mm[i] - place_mm[i]));
+        0.5 * stiffness * (away_m[0] * away_m[0] + away_m[1] * away_m[1])
+    }
+
+    fn drive(&mut self, work_j: f64) {
+        self.driven_j[0] += work_j;
+        self.driven_j[1] += work_j.abs();
     }
 
     /// A step with a force that acts at all times.
@@ -334,8 +355,7 @@ impl StylusRun {
         if let Some([stiffness, _]) = self.hand.leads {
             let [vx, vy] = along.velocity_m_per_s;
             of_motion += vx * vx + vy * vy;
-            let [x, y] = [0, 1].map(|i| 1e-3 * (self.target_mm[i] - along.place_mm[i]));
-            of_hand_j += 0.5 * stiffness * (x * x + y * y);
+            of_hand_j += self.spring_j(stiffness);
         }
         let of_contact_j = self.contact.energy_j(0, at.z_m);
         0.5 * self.spec.mass_kg * of_motion + of_contact_j + of_hand_j
@@ -344,8 +364,7 @@ impl StylusRun {
     fn check_bounded(&self) -> Result<(), RenderError> {
         let gained_j = self.gained_j();
         let put_in_j = self.start_j.abs() + self.driven_j[1] + NOTHING_J;
-        let is_led = self.hand.leads.is_some();
-        if gained_j.is_finite() && (is_led || gained_j <= MAX_GAIN * put_in_j) {
+        if gained_j.is_finite() && gained_j <= MAX_GAIN * put_in_j {
             return Ok(());
         }
         Err(RenderError::Stylus {

@@ -113,11 +113,37 @@ fn a_slow_hand_makes_dry_friction_stick_and_slip() {
         was_fast = is_fast;
         most_n = most_n.max(row.tangential_n);
     }
+    assert!(run.gained_j() < 0.0, "friction takes: {}", run.gained_j());
     assert!((4..200).contains(&n_slips), "{n_slips}");
     assert!(
         (0.55..=0.6 + 1e-9).contains(&most_n),
         "held by 0.6 of 1 N: {most_n}"
     );
+}
+
+#[test]
+fn a_hand_that_leads_a_mass_over_a_ripple_gives_and_takes_all_of_its_energy() {
+    for (method, friction) in [(Stepper::Exact, 0.0), (Stepper::Trapezoid, 0.3)] {
+        let law = ContactLaw {
+            stiffness_n_per_m: 500.0,
+            ..LAW
+        };
+        let friction = Friction::coulomb(friction);
+        let mut setup = setup(law, method, 10_000.0);
+        setup.contact = Contact::new(&ripple(), Tip::stylus(0.1), law, friction).unwrap();
+        setup.hand.leads = Some([300.0, 1.0]);
+        let mut run = StylusRun::new(setup, [0.0; 2], StylusStart::Resting).unwrap();
+        for nth in 0..20_000 {
+            let u_mm = 10.0 * (TAU * f64::from(nth) / 20_000.0).sin();
+            run.step([u_mm, 0.0]).unwrap();
+            assert!(
+                run.gained_j() < 2e-5,
+                "{method:?} {nth}: {}",
+                run.gained_j()
+            );
+        }
+        assert!(run.gained_j() < -1e-4, "{method:?}: {}", run.gained_j());
+    }
 }
 
 #[test]
