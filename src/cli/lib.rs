@@ -40,6 +40,7 @@ mod play_log;
 mod play_report;
 mod play_source;
 mod probe;
+mod probe_surface;
 mod record;
 mod render;
 mod render_out;

@@ -1,26 +1,22 @@
 //! `selvedge probe`: a stylus over a surface, row by row.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
 
 use super::output::TableOut;
+use super::probe_surface::{Felt, FeltArgs, tip};
 use super::terminal::{self, Meter};
-use super::textile::FromLibrary;
 use super::{CliError, signals};
 use selvedge_foundation::geometry::Point;
-use selvedge_foundation::named;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
 use selvedge_render::contact::{
-    Compression, Contact, ContactLaw, DeviceSpec, ForceParts, Friction, Hand, Relief, Sampling,
-    Standing, Stepper, StylusRow, StylusRun, StylusSetup, StylusStart, Tip,
+    Contact, ContactLaw, DeviceSpec, ForceParts, Friction, Hand, Sampling, Standing, Stepper,
+    StylusRow, StylusRun, StylusSetup, StylusStart,
 };
-use selvedge_render::scene::{ExplorationPath, Geometry, Stroke};
-use selvedge_textile::metrology::{self, HeightOptions};
-use selvedge_textile::surface::HeightMap;
-use selvedge_textile::{TextileError, read_measurement};
+use selvedge_render::scene::{ExplorationPath, Stroke};
 
 /// Most rows of one table.
 const MAX_ROWS: f64 = 2e7;
@@ -38,19 +34,6 @@ const HEADER: [&str; 9] = [
     "energy_j",
 ];
 
-named! {
-    /// How the force comes about.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    enum ControllerKind {
-        /// At all times.
-        Continuous = "continuous",
-        /// Computed at every tick and held until the next.
-        Sampled = "sampled",
-    }
-    /// Its name on the command line.
-    fn name;
-}
-
 /// What is felt, by what, and how.
 #[derive(Debug, Args)]
 pub(super) struct ProbeArgs {
@@ -58,7 +41,7 @@ pub(super) struct ProbeArgs {
     #[arg(long, value_name = "ID|FILE")]
     surface: String,
     #[command(flatten)]
-    from: FromLibrary,
+    felt: FeltArgs,
     #[command(flatten)]
     way: WayArgs,
     #[command(flatten)]
@@ -127,7 +110,7 @@ struct WallArgs {
     #[arg(long, value_name = "N")]
     ceiling: Option<f64>,
     /// Which part of the force is given: normal, lateral or both
-    #[arg(long, value_name = "PART", default_value = "both", value_parser = parts)]
+    #[arg(long, value_name = "PART", default_value = "both")]
     force: ForceParts,
     /// Coefficient of friction (the textile's measured trace if it has one, else none)
     #[arg(long, value_name = "MU")]
@@ -154,8 +137,9 @@ struct HowArgs {
     #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
     rate: f64,
     /// Whether the force acts at all times or is sampled and held: continuous, sampled
-    #[arg(long, value_name = "KIND", default_value = "continuous", value_parser = controller)]
-    controller: ControllerKind,
+    #[arg(long, value_name = "KIND", default_value = "continuous",
+          value_parser = ["continuous", "sampled"])]
+    controller: String,
     /// Ticks by which a sampled force is late
     #[arg(long, value_name = "N", default_value_t = 0)]
     delay: usize,
@@ -302,8 +286,8 @@ impl Way {
 
 fn setup(args: &ProbeArgs) -> Result<StylusSetup, CliError> {
     let (wall, device, how) = (&args.wall, &args.device, &args.how);
-    let tip = tip(wall)?;
-    let mut felt = Felt::open(args, &tip)?;
+    let tip = tip(&wall.tip, wall.tip_radius)?;
+    let mut felt = Felt::open(&args.surface, &args.felt, &tip)?;
     if let Some(mu) = wall.friction {
         felt.friction = Friction::coulomb(mu);
     }
@@ -319,7 +303,7 @@ fn setup(args: &ProbeArgs) -> Result<StylusSetup, CliError> {
         delay_ticks: how.delay,
         is_kept_passive: how.passive,
     };
-    let is_sampled = how.controller == ControllerKind::Sampled;
+    let is_sampled = how.controller == "sampled";
     if !is_sampled && (how.delay > 0 || how.passive) {
         let what = "a force that acts at all times is never late nor corrected; give --controller \
                     sampled";
@@ -345,70 +329,6 @@ fn setup(args: &ProbeArgs) -> Result<StylusSetup, CliError> {
     })
 }
 
-fn tip(wall: &WallArgs) -> Result<Tip, CliError> {
-    Ok(match wall.tip.as_str() {
-        "stylus" => Tip::stylus(wall.tip_radius),
-        "fingertip" => Tip::fingertip(),
-        name => {
-            let Some(layout) = selvedge_render::scene::ArrayLayout::named(name) else {
-                let what =
-                    format!("no tip {name:?}; use stylus, fingertip, exeter-24, 5x5 or 10x10");
-                return Err(CliError::Input(what));
-            };
-            Tip::array(&Geometry::Array(layout).contactors(), wall.tip_radius)
-        }
-    })
-}
-
-/// A surface, and what a textile says of it.
-struct Felt {
-    relief: Relief,
-    friction: Friction,
-    cloth: Option<Compression>,
-}
-
-impl Felt {
-    fn open(args: &ProbeArgs, tip: &Tip) -> Result<Self, CliError> {
-        let rigid = |relief: Relief| Self {
-            relief,
-            friction: Friction::none(),
-            cloth: None,
-        };
-        if args.surface == "flat" {
-            return Ok(rigid(Relief::flat()));
-        }
-        let path = Path::new(&args.surface);
-        if path.is_file() {
-            let heights =
-                metrology::open(&read_measurement(path)?, path, &HeightOptions::default())?;
-            let map = HeightMap::new(heights.heights_um, heights.step_mm);
-            let map = map.map_err(|source| TextileError::Surface {
-                path: path.to_owned(),
-                source,
-            })?;
-            return Ok(rigid(Relief::of_map(&map)));
-        }
-        let textile = args.from.open()?.load(&args.surface)?;
-        let relief = match textile.height_map()? {
-            Some(map) => Relief::of_map(&map),
-            None => Relief::of_surface(textile.surface()),
-        };
-        let measured = &textile.manifest().measured;
-        let figure = |key: &str| measured.get(key).copied();
-        let area_mm2 = std::f64::consts::PI * tip.radius_mm * tip.radius_mm;
-        let n_contacts = tip.contacts_mm.len() as f64;
-        let friction = textile.friction()?;
-        Ok(Self {
-            relief,
-            friction: friction.map_or_else(Friction::none, |trace| Friction {
-                trace: Some(trace),
-                ..Friction::coulomb(1.0)
-            }),
-            cloth: Compression::of_figures(figure, n_contacts * area_mm2),
-        })
-    }
-}
-
 fn stroke(text: &str) -> Result<[Point; 2], String> {
     let number = |text: &str| text.trim().parse().ok().filter(|mm: &f64| mm.is_finite());
     let place = |text: &str| {
@@ -418,16 +338,4 @@ fn stroke(text: &str) -> Result<[Point; 2], String> {
     let ends = text.split_once(':');
     ends.and_then(|(start, end)| Some([place(start)?, place(end)?]))
         .ok_or_else(|| "give two places in mm, such as 0,0:30,0".to_owned())
-}
-
-fn controller(name: &str) -> Result<ControllerKind, String> {
-    let found = ControllerKind::ALL
-        .into_iter()
-        .find(|one| one.name() == name);
-    found.ok_or_else(|| "use continuous or sampled".to_owned())
-}
-
-fn parts(name: &str) -> Result<ForceParts, String> {
-    let found = ForceParts::ALL.into_iter().find(|one| one.name() == name);
-    found.ok_or_else(|| "use normal, lateral or both".to_owned())
 }

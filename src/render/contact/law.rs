@@ -39,6 +39,15 @@ named! {
     pub fn name;
 }
 
+impl std::str::FromStr for ForceParts {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let found = Self::ALL.into_iter().find(|one| one.name() == name);
+        found.ok_or("use normal, lateral or both")
+    }
+}
+
 /// The compression of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compression {

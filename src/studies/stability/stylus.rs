@@ -3,8 +3,8 @@
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use selvedge_render::RenderError;
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, StylusSetup,
-    StylusStart, Tip,
+    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, StylusRun,
+    StylusSetup, StylusStart, Tip,
 };
 
 /// Steps of each run.
