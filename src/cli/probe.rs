@@ -58,7 +58,7 @@ pub(super) struct ProbeArgs {
 /// Where the stylus goes.
 #[derive(Debug, Args)]
 struct WayArgs {
-    /// Exploration in the textile's own frame: a CSV of t_s,x_mm,y_mm
+    /// Exploration in the textile's own frame: a path file, as of render
     #[arg(long, value_name = "PATH.csv", conflicts_with = "stroke")]
     path: Option<PathBuf>,
     /// A line there and back: X,Y:X,Y in mm

@@ -55,7 +55,7 @@ pub struct DeviceSpec {
     pub mass_kg: f64,
     /// Its own damping b, N·s/m.
     pub damping_n_s_per_m: f64,
-    /// Its own Coulomb friction f_c along z, N.
+    /// Its own Coulomb friction `f_c` along z, N.
     pub friction_n: f64,
     /// Resolution Δ of its encoders, mm; 0 is without steps.
     pub resolution_mm: f64,

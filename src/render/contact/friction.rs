@@ -1,6 +1,6 @@
 //! Friction along the surface: Coulomb's with stick and slip, and a viscous part.
 //!
-//! The model of Dahl with the Stribeck curve of LuGre (Canudas de Wit et al. 1995, without its
+//! The model of Dahl with the Stribeck curve of `LuGre` (Canudas de Wit et al. 1995, without its
 //! bristle damping): bristles bend by ζ, `ζ' = v − σ|v|/g(v) ζ`, `F = −σ ζ − c v`,
 //! `g(v) = N (µ_k + (µ_s − µ_k) exp(−(v/v_s)²))`. A step takes the decay at its end,
 //! `ζ⁺ = (ζ + h v)/(1 + h σ|v|/g)`, which is bounded by g/σ at any step, and bristles never bend
@@ -15,11 +15,11 @@ use selvedge_textile::surface::FrictionTrace;
 /// How a tip rubs.
 #[derive(Debug, Clone)]
 pub struct Friction {
-    /// Coefficient at rest, µ_s.
+    /// Coefficient at rest, `µ_s`.
     pub at_rest: f64,
-    /// Coefficient when sliding, µ_k.
+    /// Coefficient when sliding, `µ_k`.
     pub sliding: f64,
-    /// Speed v_s at which rest gives way to sliding, mm/s.
+    /// Speed `v_s` at which rest gives way to sliding, mm/s.
     pub stribeck_mm_per_s: f64,
     /// Stiffness σ of the bristles, N/m.
     pub bristle_n_per_m: f64,

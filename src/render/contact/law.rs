@@ -10,7 +10,7 @@
 //! `s` is `K d`, or a cloth on top of that wall. Its figures are those of a compression tester
 //! (Kawabata KES-FB3: 0.5 to 50 gf/cm²): thickness T0 and TM, linearity LC, resilience RC. With
 //! `x = d/(T0 − TM)` up to 1 the cloth's pressure is `P_m xⁿ`, `n = 2/LC − 1`, whose work is WC =
-//! LC P_m (T0 − TM)/2; what comes back from the deepest x_m is the share RC of that:
+//! `LC P_m (T0 − TM)/2`; what comes back from the deepest `x_m` is the share RC of that:
 //! `P_m x_mⁿ (x/x_m)^q` with `q = (n + 1)/RC − 1`. Deeper than T0 − TM the wall takes over. LC = 1
 //! and RC = 1 are a linear spring. The deepest is forgotten when the tip leaves.
 

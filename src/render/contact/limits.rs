@@ -11,8 +11,8 @@
 
 use super::stepper::Stepper;
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::bisected;
 use selvedge_foundation::numerics::ode::{LinearSystem, Propagator, StepMethod};
+use selvedge_foundation::numerics::{bisected, to_whole};
 
 /// A growth a step that rounding may feign.
 const ROUNDING: f64 = 1e-9;
@@ -344,7 +344,8 @@ fn is_within(mut all: Vec<f64>, radius: f64) -> bool {
     while all.len() > 1 {
         let n = all.len();
         let (first, last) = (all[0], all[n - 1]);
-        if !(first.abs() < last.abs()) {
+        let is_inside = first.abs() < last.abs();
+        if !is_inside {
             return false;
         }
         let ratio = first / last;
@@ -366,7 +367,7 @@ fn rounded(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{x}");
     }
-    let digits = 3 - x.abs().log10().floor().clamp(-9.0, 9.0) as i32;
+    let digits = 3 - to_whole::<i32>(x.abs().log10().floor().clamp(-9.0, 9.0));
     let scale = 10.0_f64.powi(digits);
     let four = (x * scale).round() / scale;
     if (1e-3..1e7).contains(&x.abs()) {
