@@ -4,22 +4,17 @@
 //! clock: the same scene gives the same bytes.
 
 use std::path::PathBuf;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use eframe::egui::{self, Vec2, vec2};
 
-use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+use crate::bench::command::{DeviceCommand, PlayCommand, PlaySource, ShowCommand};
 use crate::bench::error::AppError;
 use crate::bench::perspective::Perspective;
-use crate::bench::query;
 use crate::bench::stage::{StageOptions, StagePicture};
-use crate::bench::view::BridgeView;
 use crate::kit::theme::Palette;
 use crate::shell::headless::Headless;
 use crate::shell::raster::{Picture, Rasteriser};
-use selvedge_device::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
 const N_FRAMES: u32 = 425;
@@ -131,38 +126,6 @@ fn workbench(
     window.ctx.set_theme(theme);
     window.dispatch(ShowCommand::Perspective(wanted.perspective));
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    let bench = &mut window.workbench.bench;
-    bench.device.pictured = greeted_emulator(bench.engine.profile());
-    bench.device.target = bench
-        .device
-        .pictured
-        .as_ref()
-        .map(|_| query::device_name(&Target::Emulator));
-    bench.device.faults = bench.device.target.is_some().then(Default::default);
+    window.dispatch(DeviceCommand::ConnectEmulator);
     Ok(window)
-}
-
-/// How the emulator shows once it is ready, as in a window that has just been opened. It lives in
-/// real time, which a picture does not: so it is greeted here, and let go.
-fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
-    let mut bridge = Bridge::open(
-        Target::Emulator,
-        profile.clone(),
-        profile.n_contactors(),
-        || {},
-    );
-    let patience = Instant::now() + Duration::from_secs(3);
-    while bridge.state() != BridgeState::Ready && Instant::now() < patience {
-        while bridge.poll().is_some() {}
-        thread::sleep(Duration::from_millis(1));
-    }
-    let state = bridge.state();
-    (state == BridgeState::Ready).then(|| BridgeView {
-        state: state.label(),
-        phase: query::phase(state),
-        depth: bridge.session().depth(),
-        uid: bridge.session().caps().map(|caps| DeviceUid(caps.uid)),
-        can_identify: true,
-        ..BridgeView::default()
-    })
 }
