@@ -50,6 +50,12 @@ impl Headless {
         })
     }
 
+    /// One on the shipped scene, in a window as it opens at first.
+    #[cfg(test)]
+    pub(crate) fn shipped() -> Self {
+        Self::new(None, Vec2::new(1400.0, 900.0), 1.0).unwrap()
+    }
+
     /// The same with a stage.
     pub(crate) fn on_stage(
         options: StageOptions,
