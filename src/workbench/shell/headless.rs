@@ -9,7 +9,7 @@ use eframe::egui::{Context, FullOutput, Pos2, RawInput, Rect, Vec2};
 use eframe::egui::{Event, Key, Modifiers};
 
 use crate::bench::Drive;
-use crate::bench::command::{Command, DeviceCommand};
+use crate::bench::command::Command;
 use crate::bench::error::AppError;
 use crate::bench::stage::{StageOptions, StagePicture};
 use crate::shell::window::Workbench;
@@ -17,9 +17,6 @@ use crate::shell::window::Workbench;
 /// Ticks from frame to frame where time passes quickly.
 #[cfg(test)]
 const TICKS_A_FRAME: u32 = 4;
-
-/// Frames in which an emulator has been greeted.
-const N_GREETING_FRAMES: u32 = 20;
 
 /// A workbench, the toolkit around it, and no display.
 pub(crate) struct Headless {
@@ -90,10 +87,8 @@ impl Headless {
         self.workbench.dispatch(command.into());
     }
 
-    /// Brings the stage, with an emulator, to a state.
+    /// Brings the stage to a state.
     pub(crate) fn go_to(&mut self, picture: StagePicture) {
-        self.dispatch(DeviceCommand::ConnectEmulator);
-        self.pass(N_GREETING_FRAMES);
         if let Some(face) = &mut self.workbench.face {
             face.go_to(picture);
         }

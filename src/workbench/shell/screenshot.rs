@@ -18,7 +18,9 @@ use crate::shell::raster::{Picture, Rasteriser};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
 const N_FRAMES: u32 = 425;
-/// The same for the stage, whose pictures have come by then.
+/// Frames of the stage in which its emulator is greeted.
+const N_GREETING_FRAMES: u32 = 20;
+/// Frames of the stage in the state that is pictured, whose pictures have come by then.
 const N_STAGE_FRAMES: u32 = 40;
 
 /// Dark or light.
@@ -86,13 +88,20 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     };
     let size = vec2(width as f32, height as f32) / scale;
     let (mut window, n_frames) = match wanted.stage {
-        Some(picture) => (stage(wanted, picture, size, scale)?, N_STAGE_FRAMES),
+        Some(_) => (stage(wanted, size, scale)?, N_GREETING_FRAMES),
         None => (workbench(wanted, theme, size, scale)?, N_FRAMES),
     };
+    window.dispatch(DeviceCommand::ConnectEmulator);
     let theme = window.ctx.theme();
     let mut rasteriser = Rasteriser::default();
     for _ in 1..n_frames {
         rasteriser.apply(&mut window.run().textures_delta);
+    }
+    if let Some(picture) = wanted.stage {
+        window.go_to(picture);
+        for _ in 1..N_STAGE_FRAMES {
+            rasteriser.apply(&mut window.run().textures_delta);
+        }
     }
     let mut last = window.run();
     rasteriser.apply(&mut last.textures_delta);
@@ -101,18 +110,11 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
 }
 
-/// The stage, brought to a state.
-fn stage(
-    wanted: &Screenshot,
-    picture: StagePicture,
-    size: Vec2,
-    scale: f32,
-) -> Result<Headless, AppError> {
+/// The stage, which nobody has touched.
+fn stage(wanted: &Screenshot, size: Vec2, scale: f32) -> Result<Headless, AppError> {
     let mut options = StageOptions::default();
     options.scene.clone_from(&wanted.scene);
-    let mut window = Headless::on_stage(options, size, scale)?;
-    window.go_to(picture);
-    Ok(window)
+    Headless::on_stage(options, size, scale)
 }
 
 /// The workbench, moving by itself.
@@ -126,6 +128,5 @@ fn workbench(
     window.ctx.set_theme(theme);
     window.dispatch(ShowCommand::Perspective(wanted.perspective));
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    window.dispatch(DeviceCommand::ConnectEmulator);
     Ok(window)
 }
