@@ -46,6 +46,18 @@ pub struct Scene {
     /// What its textiles were when it was saved: the SHA-256 of their content by their ids. One
     /// that is not there may be anything.
     pub contents: BTreeMap<String, String>,
+    /// How the window stands that it is shown in; `None` leaves that to the window.
+    pub arrangement: Option<Arrangement>,
+}
+
+/// How a window stands, in its own words: held for it, and not understood here.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arrangement {
+    /// What it is arranged for.
+    pub perspective: String,
+    /// Which pane stands where.
+    pub panes: String,
 }
 
 /// A textile of the library and where it lies.
@@ -114,6 +126,8 @@ struct SceneKeys {
         skip_serializing_if = "BTreeMap::is_empty"
     )]
     contents: BTreeMap<String, String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    arrangement: Option<Arrangement>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -262,6 +276,7 @@ impl Scene {
             slots: keys.slots,
             recordings: keys.recordings,
             contents: keys.contents,
+            arrangement: keys.arrangement,
         })
     }
 
@@ -277,6 +292,7 @@ impl Scene {
             slots: self.slots.clone(),
             recordings: self.recordings.clone(),
             contents: self.contents.clone(),
+            arrangement: self.arrangement.clone(),
         }
     }
 }

@@ -22,7 +22,7 @@ mod slots;
 mod stroke;
 
 pub use error::SceneError;
-pub use file::{Display, PlacedTextile, Scene};
+pub use file::{Arrangement, Display, PlacedTextile, Scene};
 pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
 pub use loaded::LoadedScene;
 pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};

@@ -22,6 +22,7 @@ use crate::shell::state::{Cover, Tour};
 use crate::shell::tab_row::TabRow;
 use crate::shell::tour;
 use crate::shell::window::Workbench;
+use selvedge_render::scene::Arrangement;
 
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
@@ -210,8 +211,10 @@ impl Workbench {
         let perspective = self.bench.settings.preferences.perspective;
         if before == egui::Vec2::ZERO {
             self.shell.tree = self.arrangement_of(perspective);
+            self.arrange_as_scene();
             return;
         }
+        self.arrange_as_scene();
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
             self.shell.restore_panes();
             let kept = &self.bench.settings.preferences.arrangements;
@@ -222,6 +225,30 @@ impl Workbench {
                 self.shell.tree = arrangement_for(perspective, size);
             }
         }
+    }
+
+    /// Arranges the window as another scene wants it, and without a wish of its own as the user did.
+    fn arrange_as_scene(&mut self) {
+        let wanted = self.bench.document.arrangement();
+        if wanted == self.shell.of_scene.as_ref() {
+            return;
+        }
+        self.shell.of_scene = wanted.cloned();
+        self.shell.restore_panes();
+        let Some(Arrangement { perspective, panes }) = &self.shell.of_scene else {
+            let perspective = self.bench.settings.preferences.perspective;
+            self.shell.tree = self.arrangement_of(perspective);
+            return;
+        };
+        let perspective = Perspective::named(perspective);
+        let tree = perspective.and_then(|of| arrangement::from_text(panes, of));
+        let (Some(perspective), Some(tree)) = (perspective, tree) else {
+            let words = "The arrangement of the scene could not be used: arrange the panes and \
+                         save the scene to keep yours";
+            return self.bench.notices.give(words);
+        };
+        self.arrange_for(perspective);
+        self.shell.tree = tree;
     }
 
     /// The arrangement of a perspective that was kept, or its default one.

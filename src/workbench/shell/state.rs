@@ -22,6 +22,7 @@ use crate::shell::guide::Reading;
 use crate::shell::help::KeyList;
 use crate::shell::palette::Palette;
 use crate::shell::pointer::PointerTap;
+use selvedge_render::scene::Arrangement;
 
 /// The window around the tools.
 pub(crate) struct Shell {
@@ -29,6 +30,8 @@ pub(crate) struct Shell {
     pub(crate) tree: Tree<Pane>,
     /// The arrangements of the other perspectives, as far as they were shown.
     pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// The arrangement of the scene that was taken up last.
+    pub(crate) of_scene: Option<Arrangement>,
     /// What stands at the bottom.
     pub(crate) bar: Box<dyn Bar>,
     /// The size of everything between header and timeline, points.
@@ -73,6 +76,7 @@ impl Shell {
         Self {
             tree: arrangement::default_tree(Vec2::ZERO),
             resting: Default::default(),
+            of_scene: None,
             bar,
             size: Vec2::ZERO,
             dialogs,
