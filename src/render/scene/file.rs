@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::arrangement::Arrangement;
 use super::check::scene_flaw;
 use super::reference::RecordingReference;
 use super::slots::{SlotLetter, TuningSlot};
@@ -48,16 +49,6 @@ pub struct Scene {
     pub contents: BTreeMap<String, String>,
     /// How the window stands that it is shown in; `None` leaves that to the window.
     pub arrangement: Option<Arrangement>,
-}
-
-/// How a window stands, in its own words: held for it, and not understood here.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Arrangement {
-    /// What it is arranged for.
-    pub perspective: String,
-    /// Which pane stands where.
-    pub panes: String,
 }
 
 /// A textile of the library and where it lies.

@@ -218,7 +218,7 @@ impl Workbench {
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
             self.shell.restore_panes();
             let kept = &self.bench.settings.preferences.arrangements;
-            for (resting, kept) in self.shell.resting.iter_mut().zip(kept) {
+            for (resting, kept) in self.shell.resting.of_perspectives.iter_mut().zip(kept) {
                 resting.take_if(|_| kept.is_none());
             }
             if kept[perspective.index()].is_none() {
@@ -227,15 +227,15 @@ impl Workbench {
         }
     }
 
-    /// Arranges the window as another scene wants it, and without a wish of its own as the user did.
+    /// Arranges the window as another scene wants it; where that wants nothing, as the user did.
     fn arrange_as_scene(&mut self) {
         let wanted = self.bench.document.arrangement();
-        if wanted == self.shell.of_scene.as_ref() {
+        if wanted == self.shell.resting.of_scene.as_ref() {
             return;
         }
-        self.shell.of_scene = wanted.cloned();
+        self.shell.resting.of_scene = wanted.cloned();
         self.shell.restore_panes();
-        let Some(Arrangement { perspective, panes }) = &self.shell.of_scene else {
+        let Some(Arrangement { perspective, panes }) = &self.shell.resting.of_scene else {
             let perspective = self.bench.settings.preferences.perspective;
             self.shell.tree = self.arrangement_of(perspective);
             return;
@@ -275,10 +275,10 @@ impl Workbench {
         }
         self.bench.pointer.pane_in_use = None;
         self.shell.restore_panes();
-        let resting = self.shell.resting[perspective.index()].take();
+        let resting = self.shell.resting.of_perspectives[perspective.index()].take();
         let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
         let left = std::mem::replace(&mut self.shell.tree, tree);
-        self.shell.resting[before.index()] = Some(left);
+        self.shell.resting.of_perspectives[before.index()] = Some(left);
     }
 }
 

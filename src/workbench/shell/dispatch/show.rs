@@ -108,8 +108,10 @@ impl Workbench {
             self.bench.settings.preferences.arrangements[perspective.index()] = panes;
         } else if let Some(panes) = panes {
             let perspective = perspective.title().to_lowercase();
-            self.shell.of_scene = Some(Arrangement { perspective, panes });
-            self.bench.document.arrange(self.shell.of_scene.clone());
+            self.shell.resting.of_scene = Some(Arrangement { perspective, panes });
+            self.bench
+                .document
+                .arrange(self.shell.resting.of_scene.clone());
         }
     }
 
@@ -122,11 +124,13 @@ impl Workbench {
     fn toggle_scene_arrangement(&mut self) {
         let is_kept = self.bench.document.arrangement().is_some();
         let perspective = self.bench.settings.preferences.perspective;
-        self.shell.of_scene = (!is_kept).then(|| Arrangement {
+        self.shell.resting.of_scene = (!is_kept).then(|| Arrangement {
             perspective: perspective.title().to_lowercase(),
             panes: String::new(),
         });
-        self.bench.document.arrange(self.shell.of_scene.clone());
+        self.bench
+            .document
+            .arrange(self.shell.resting.of_scene.clone());
         let words = if is_kept {
             "The scene no longer keeps how its window stands"
         } else {
