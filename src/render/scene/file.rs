@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::arrangement::Arrangement;
 use super::check::scene_flaw;
 use super::reference::RecordingReference;
 use super::slots::{SlotLetter, TuningSlot};
@@ -46,6 +47,8 @@ pub struct Scene {
     /// What its textiles were when it was saved: the SHA-256 of their content by their ids. One
     /// that is not there may be anything.
     pub contents: BTreeMap<String, String>,
+    /// How the window stands that it is shown in; `None` leaves that to the window.
+    pub arrangement: Option<Arrangement>,
 }
 
 /// A textile of the library and where it lies.
@@ -114,6 +117,8 @@ struct SceneKeys {
         skip_serializing_if = "BTreeMap::is_empty"
     )]
     contents: BTreeMap<String, String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    arrangement: Option<Arrangement>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -262,6 +267,7 @@ impl Scene {
             slots: keys.slots,
             recordings: keys.recordings,
             contents: keys.contents,
+            arrangement: keys.arrangement,
         })
     }
 
@@ -277,6 +283,7 @@ impl Scene {
             slots: self.slots.clone(),
             recordings: self.recordings.clone(),
             contents: self.contents.clone(),
+            arrangement: self.arrangement.clone(),
         }
     }
 }

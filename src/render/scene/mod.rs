@@ -10,6 +10,7 @@
 //!   it gives the same again
 //! - only the textiles that a scene places are loaded
 
+mod arrangement;
 mod check;
 mod error;
 mod file;
@@ -21,6 +22,7 @@ mod reference;
 mod slots;
 mod stroke;
 
+pub use arrangement::Arrangement;
 pub use error::SceneError;
 pub use file::{Display, PlacedTextile, Scene};
 pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};

@@ -177,6 +177,10 @@ proptest! {
                 path: "strokes/slow.csv".into(),
             }],
             contents: [("sixteen:denim".to_owned(), "9f2c".to_owned())].into(),
+            arrangement: Some(Arrangement {
+                perspective: "cloth".to_owned(),
+                panes: "{\n  \"root\": 1\n}".to_owned(),
+            }),
         };
         prop_assert_eq!(read(&scene.to_toml().unwrap()).unwrap(), scene);
     }

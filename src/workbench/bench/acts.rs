@@ -304,6 +304,10 @@ fn pane_acts() -> Vec<Act> {
         .on(SHIFT, Key::F11)
         .also_while_typing(),
         show("Default arrangement", ShowCommand::DefaultArrangement).on(NONE, Key::F9),
+        show(
+            "The scene keeps this arrangement, or no longer",
+            ShowCommand::ToggleSceneArrangement,
+        ),
     ]);
     acts
 }

@@ -14,7 +14,7 @@ use crate::bench::gain_set::GainSet;
 use crate::bench::history::{History, Moment, StepList};
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
-use selvedge_render::scene::{PlacedTextile, Scene, SceneError};
+use selvedge_render::scene::{Arrangement, PlacedTextile, Scene, SceneError};
 use selvedge_textile::is_of_the_program;
 use selvedge_textile::tactile::Tuning;
 
@@ -26,12 +26,20 @@ pub(crate) struct Document {
     saved: Scene,
     default_tuning: Tuning,
     history: History<Scene, Target>,
+    /// How its window stands: what is seen of it, not what is felt, and so no step.
+    #[serde(default)]
+    arrangement: Option<Arrangement>,
+    #[serde(default)]
+    saved_arrangement: Option<Arrangement>,
 }
 
 impl Document {
     /// A scene as it was opened; without a path it is one that the program ships.
-    pub(crate) fn new(scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
+    pub(crate) fn new(mut scene: Scene, path: Option<PathBuf>, default_tuning: Tuning) -> Self {
+        let arrangement = scene.arrangement.take();
         Self {
+            saved_arrangement: arrangement.clone(),
+            arrangement,
             saved: scene.clone(),
             scene,
             path,
@@ -52,7 +60,17 @@ impl Document {
 
     /// Whether it differs from its file.
     pub(crate) fn is_edited(&self) -> bool {
-        self.scene != self.saved
+        self.scene != self.saved || self.arrangement != self.saved_arrangement
+    }
+
+    /// How its window stands; `None` leaves that to the window.
+    pub(crate) fn arrangement(&self) -> Option<&Arrangement> {
+        self.arrangement.as_ref()
+    }
+
+    /// Keeps how its window stands, or no longer.
+    pub(crate) fn arrange(&mut self, arrangement: Option<Arrangement>) {
+        self.arrangement = arrangement;
     }
 
     /// What no file holds of it, with every step.
@@ -64,6 +82,7 @@ impl Document {
         let file = file.map_or_else(String::new, |path| format!(" ({})", path.display()));
         let steps = self.steps();
         let n_steps = match steps.n_done {
+            0 => "how its window stands".to_owned(),
             1 => "1 step".to_owned(),
             n => format!("{n} steps"),
         };
@@ -83,6 +102,8 @@ impl Document {
         Self {
             path: self.path.clone(),
             saved: self.saved.clone(),
+            arrangement: self.arrangement.clone(),
+            saved_arrangement: self.saved_arrangement.clone(),
             ..Self::new(self.scene.clone(), None, self.default_tuning)
         }
     }
@@ -177,6 +198,7 @@ impl Document {
     ) -> Result<(), SceneError> {
         let mut scene = self.scene.clone();
         scene.contents = contents;
+        scene.arrangement.clone_from(&self.arrangement);
         if let Some(old) = self
             .path
             .as_deref()
@@ -198,6 +220,7 @@ impl Document {
         self.scene.library.clone_from(&scene.library);
         self.scene.recordings.clone_from(&scene.recordings);
         self.saved = self.scene.clone();
+        self.saved_arrangement.clone_from(&self.arrangement);
         self.path = Some(path.to_owned());
         Ok(())
     }

@@ -55,8 +55,6 @@ impl Bench {
 mod tests {
     use std::fs;
 
-    use eframe::egui::vec2;
-
     use super::*;
     use crate::bench::command::device::DeviceCommand;
     use crate::bench::command::{Edit, PlayCommand};
@@ -77,7 +75,7 @@ mod tests {
     fn the_log_says_which_scene_and_which_path_were_felt() {
         let root = ScratchFolder::made("felt");
         let file = root.join("bridge.csv");
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         let log = SessionLog::append(&file, None).unwrap();
         window.workbench.bench.engine.log_links_to(log);
         window.dispatch(DeviceCommand::ConnectEmulator);

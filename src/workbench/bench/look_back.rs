@@ -105,14 +105,13 @@ impl Bench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::vec2;
 
     use crate::bench::command::PlayCommand;
     use crate::shell::headless::Headless;
 
     /// A window whose display has explored by itself for as many ticks.
     fn explored(n_ticks: u32) -> Headless {
-        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut desk = Headless::shipped();
         desk.dispatch(PlayCommand::Toggle);
         desk.pass_ticks(n_ticks);
         desk

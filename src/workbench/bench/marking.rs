@@ -177,8 +177,6 @@ fn excerpt_page(whole: &About, ticks: &Range<u64>) -> About {
 mod tests {
     use std::fs;
 
-    use eframe::egui::vec2;
-
     use super::*;
     use crate::bench::command::{PlayCommand, PlaySource};
     use crate::bench::recording::file::read;
@@ -188,7 +186,7 @@ mod tests {
 
     /// A window that replays a recording of a hundred ticks, marked at its twentieth.
     fn replaying(root: &ScratchFolder) -> Headless {
-        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut desk = Headless::shipped();
         let recordings = &mut desk.workbench.bench.exploration.recordings;
         *recordings = Recordings::in_folder(root.to_path_buf());
         desk.dispatch(PlayCommand::Toggle);
@@ -252,7 +250,7 @@ mod tests {
     #[test]
     fn what_was_felt_last_is_kept_as_a_recording_that_nobody_began() {
         let root = ScratchFolder::made("kept");
-        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut desk = Headless::shipped();
         desk.workbench.bench.exploration.recordings = Recordings::in_folder(root.to_path_buf());
         desk.dispatch(PlayCommand::Toggle);
         desk.pass_ticks(80);
@@ -272,7 +270,7 @@ mod tests {
 
     #[test]
     fn without_a_recording_nothing_is_marked_and_it_is_said() {
-        let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut desk = Headless::shipped();
         desk.dispatch(PlayCommand::Mark);
         desk.pass(1);
         assert!(

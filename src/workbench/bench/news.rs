@@ -97,9 +97,6 @@ impl Bench {
             bridge.timing.log = Some(log.path().display().to_string());
             bridge.timing.log_failure = log.failure();
         }
-        if live.bridge.is_none() {
-            live.bridge.clone_from(&self.device.pictured);
-        }
         let largest = live.dots.iter().flat_map(|dot| dot.amplitude_um);
         let largest_um = largest.fold(0.0, f64::max);
         self.selection.scale = self.selection.scale.following(largest_um);

@@ -272,7 +272,6 @@ fn moved_aside(folder: &Path) -> Result<PathBuf, FileError> {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::vec2;
 
     use super::*;
     use crate::bench::command::{Command, PlayCommand};
@@ -287,7 +286,7 @@ mod tests {
 
     /// A window whose recordings lie in a folder, exploring by itself.
     fn window(root: &Path) -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         let recordings = &mut window.workbench.bench.exploration.recordings;
         *recordings = Recordings::in_folder(root.to_owned());
         window.dispatch(PlayCommand::Toggle);

@@ -28,7 +28,6 @@ use crate::bench::signals::history::History;
 use crate::bench::sound::Sound;
 use crate::bench::sources::Sources;
 use crate::bench::trail::Trail;
-use crate::bench::view::BridgeView;
 use selvedge_device::FaultWords;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
@@ -134,8 +133,6 @@ pub(crate) struct DeviceState {
     pub(crate) faults: Option<FaultWords>,
     /// Why the last device was refused, lost or stopped, in one line; nothing since it was armed.
     pub(crate) trouble: Option<String>,
-    /// A device that is shown though the engine has none: in pictures.
-    pub(crate) pictured: Option<BridgeView>,
     /// The device's measured interval between frames.
     pub(crate) interval: IntervalMeter,
     /// What the log of links was told.

@@ -145,7 +145,7 @@ pub(crate) trait PublicFace: Any {
     fn end(&mut self);
 
     /// Goes to a state, for a picture of it.
-    fn go_to(&mut self, picture: StagePicture, bench: &mut Bench);
+    fn go_to(&mut self, picture: StagePicture);
 }
 
 /// All tools of a window.

@@ -141,7 +141,6 @@ impl Workbench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::vec2;
 
     use super::*;
     use crate::shell::headless::Headless;
@@ -188,7 +187,7 @@ mod tests {
     #[test]
     fn what_is_dropped_is_opened_and_what_nobody_knows_is_said() {
         let root = ScratchFolder::made("dropped-on");
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         let scene = root.join("two.scene.toml");
         fs::write(&scene, "name = \"Two\"\nsize_mm = [99.0, 99.0]\n").unwrap();
@@ -215,7 +214,7 @@ mod tests {
     #[test]
     fn a_design_brings_the_window_to_where_it_is_worked_on() {
         let root = ScratchFolder::made("dropped-design");
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         let design = root.join("mine.toml");
         fs::write(&design, include_str!("../../../assets/designs/jnd-40.toml")).unwrap();

@@ -33,7 +33,7 @@ impl Workbench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Key, Modifiers, vec2};
+    use eframe::egui::{Key, Modifiers};
 
     use super::*;
     use crate::bench::command::{PlayCommand, ShowCommand};
@@ -43,7 +43,7 @@ mod tests {
     use selvedge_scratch::ScratchFolder;
 
     fn window() -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window
     }

@@ -22,6 +22,7 @@ use crate::shell::state::{Cover, Tour};
 use crate::shell::tab_row::TabRow;
 use crate::shell::tour;
 use crate::shell::window::Workbench;
+use selvedge_render::scene::Arrangement;
 
 /// Height of the header, points.
 const HEADER: f32 = 44.0;
@@ -210,18 +211,44 @@ impl Workbench {
         let perspective = self.bench.settings.preferences.perspective;
         if before == egui::Vec2::ZERO {
             self.shell.tree = self.arrangement_of(perspective);
+            self.arrange_as_scene();
             return;
         }
+        self.arrange_as_scene();
         if arrangement::is_roomy(before) != arrangement::is_roomy(size) {
             self.shell.restore_panes();
             let kept = &self.bench.settings.preferences.arrangements;
-            for (resting, kept) in self.shell.resting.iter_mut().zip(kept) {
+            for (resting, kept) in self.shell.resting.of_perspectives.iter_mut().zip(kept) {
                 resting.take_if(|_| kept.is_none());
             }
             if kept[perspective.index()].is_none() {
                 self.shell.tree = arrangement_for(perspective, size);
             }
         }
+    }
+
+    /// Arranges the window as another scene wants it; where that wants nothing, as the user did.
+    fn arrange_as_scene(&mut self) {
+        let wanted = self.bench.document.arrangement();
+        if wanted == self.shell.resting.of_scene.as_ref() {
+            return;
+        }
+        self.shell.resting.of_scene = wanted.cloned();
+        self.shell.restore_panes();
+        let Some(Arrangement { perspective, panes }) = &self.shell.resting.of_scene else {
+            let perspective = self.bench.settings.preferences.perspective;
+            self.shell.tree = self.arrangement_of(perspective);
+            return;
+        };
+        let perspective = Perspective::named(perspective);
+        let tree = perspective.and_then(|of| arrangement::from_text(panes, of));
+        let (Some(perspective), Some(tree)) = (perspective, tree) else {
+            let words = "The arrangement of the scene could not be used: arrange the panes and \
+                         save the scene to keep yours";
+            return self.bench.notices.give(words);
+        };
+        self.arrange_for(perspective);
+        self.shell.tree = tree;
     }
 
     /// The arrangement of a perspective that was kept, or its default one.
@@ -248,10 +275,10 @@ impl Workbench {
         }
         self.bench.pointer.pane_in_use = None;
         self.shell.restore_panes();
-        let resting = self.shell.resting[perspective.index()].take();
+        let resting = self.shell.resting.of_perspectives[perspective.index()].take();
         let tree = resting.unwrap_or_else(|| self.arrangement_of(perspective));
         let left = std::mem::replace(&mut self.shell.tree, tree);
-        self.shell.resting[before.index()] = Some(left);
+        self.shell.resting.of_perspectives[before.index()] = Some(left);
     }
 }
 

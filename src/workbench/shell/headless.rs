@@ -47,6 +47,12 @@ impl Headless {
         })
     }
 
+    /// One on the shipped scene, in a window as it opens at first.
+    #[cfg(test)]
+    pub(crate) fn shipped() -> Self {
+        Self::new(None, Vec2::new(1400.0, 900.0), 1.0).unwrap()
+    }
+
     /// The same with a stage.
     pub(crate) fn on_stage(
         options: StageOptions,
@@ -83,9 +89,8 @@ impl Headless {
 
     /// Brings the stage to a state.
     pub(crate) fn go_to(&mut self, picture: StagePicture) {
-        let Workbench { bench, face, .. } = &mut self.workbench;
-        if let Some(face) = face {
-            face.go_to(picture, bench);
+        if let Some(face) = &mut self.workbench.face {
+            face.go_to(picture);
         }
     }
 

@@ -330,7 +330,7 @@ mod tests {
 
     #[test]
     fn a_key_that_is_given_works_at_once_and_one_that_is_taken_is_refused() {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window.dispatch(ShowCommand::Help);
         window.pass(2);
@@ -360,7 +360,7 @@ mod tests {
 
     #[test]
     fn escape_leaves_a_key_as_it_is_and_the_list_open() {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window.dispatch(ShowCommand::Help);
         window.pass(2);

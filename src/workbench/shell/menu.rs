@@ -210,6 +210,7 @@ pub(crate) fn show_view_menu(ui: &mut Ui, appearance: &Appearance, commands: &mu
             ShowCommand::WalkPanes(1),
             ShowCommand::Maximise(None),
             ShowCommand::DefaultArrangement,
+            ShowCommand::ToggleSceneArrangement,
             ShowCommand::FullScreen,
         ] {
             entry(ui, command.into(), None, commands);

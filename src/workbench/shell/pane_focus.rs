@@ -103,7 +103,7 @@ fn reading_order(tree: &Tree<Pane>) -> Vec<Pane> {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Key, Memory, Modifiers, vec2};
+    use eframe::egui::{Key, Memory, Modifiers};
 
     use super::*;
     use crate::bench::command::ShowCommand;
@@ -111,7 +111,7 @@ mod tests {
     use crate::shell::headless::Headless;
 
     fn window() -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window
     }

@@ -132,8 +132,6 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use eframe::egui::vec2;
-
     use super::*;
     use crate::bench::command::lab::Beginning;
     use crate::bench::command::{Command, Edit, FileCommand, Purpose};
@@ -148,7 +146,7 @@ mod tests {
     use selvedge_textile::Place;
 
     fn window(root: &Path) -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.workbench.bench.files.recovery = Recovery::in_folder(root.to_owned());
         window.pass(2);
         window

@@ -4,26 +4,23 @@
 //! clock: the same scene gives the same bytes.
 
 use std::path::PathBuf;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use eframe::egui::{self, Vec2, vec2};
 
-use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+use crate::bench::command::{DeviceCommand, PlayCommand, PlaySource, ShowCommand};
 use crate::bench::error::AppError;
 use crate::bench::perspective::Perspective;
-use crate::bench::query;
 use crate::bench::stage::{StageOptions, StagePicture};
-use crate::bench::view::BridgeView;
 use crate::kit::theme::Palette;
 use crate::shell::headless::Headless;
 use crate::shell::raster::{Picture, Rasteriser};
-use selvedge_device::{ArrayProfile, Bridge, BridgeState, DeviceUid, Target};
 
 /// Frames that are run before the picture is taken, 25 ms apart: 11 s.
 const N_FRAMES: u32 = 425;
-/// The same for the stage, whose pictures have come by then.
+/// Frames of the stage in which its emulator is greeted.
+const N_GREETING_FRAMES: u32 = 20;
+/// Frames of the stage in the state that is pictured, whose pictures have come by then.
 const N_STAGE_FRAMES: u32 = 40;
 
 /// Dark or light.
@@ -91,13 +88,20 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     };
     let size = vec2(width as f32, height as f32) / scale;
     let (mut window, n_frames) = match wanted.stage {
-        Some(picture) => (stage(wanted, picture, size, scale)?, N_STAGE_FRAMES),
+        Some(_) => (stage(wanted, size, scale)?, N_GREETING_FRAMES),
         None => (workbench(wanted, theme, size, scale)?, N_FRAMES),
     };
+    window.dispatch(DeviceCommand::ConnectEmulator);
     let theme = window.ctx.theme();
     let mut rasteriser = Rasteriser::default();
     for _ in 1..n_frames {
         rasteriser.apply(&mut window.run().textures_delta);
+    }
+    if let Some(picture) = wanted.stage {
+        window.go_to(picture);
+        for _ in 1..N_STAGE_FRAMES {
+            rasteriser.apply(&mut window.run().textures_delta);
+        }
     }
     let mut last = window.run();
     rasteriser.apply(&mut last.textures_delta);
@@ -106,18 +110,11 @@ pub fn screenshot(wanted: &Screenshot) -> Result<Picture, AppError> {
     Ok(rasteriser.draw(&primitives, [width, height], scale, floor))
 }
 
-/// The stage, brought to a state.
-fn stage(
-    wanted: &Screenshot,
-    picture: StagePicture,
-    size: Vec2,
-    scale: f32,
-) -> Result<Headless, AppError> {
+/// The stage, which nobody has touched.
+fn stage(wanted: &Screenshot, size: Vec2, scale: f32) -> Result<Headless, AppError> {
     let mut options = StageOptions::default();
     options.scene.clone_from(&wanted.scene);
-    let mut window = Headless::on_stage(options, size, scale)?;
-    window.go_to(picture);
-    Ok(window)
+    Headless::on_stage(options, size, scale)
 }
 
 /// The workbench, moving by itself.
@@ -131,38 +128,5 @@ fn workbench(
     window.ctx.set_theme(theme);
     window.dispatch(ShowCommand::Perspective(wanted.perspective));
     window.dispatch(PlayCommand::Source(PlaySource::Stroke));
-    let bench = &mut window.workbench.bench;
-    bench.device.pictured = greeted_emulator(bench.engine.profile());
-    bench.device.target = bench
-        .device
-        .pictured
-        .as_ref()
-        .map(|_| query::device_name(&Target::Emulator));
-    bench.device.faults = bench.device.target.is_some().then(Default::default);
     Ok(window)
-}
-
-/// How the emulator shows once it is ready, as in a window that has just been opened. It lives in
-/// real time, which a picture does not: so it is greeted here, and let go.
-fn greeted_emulator(profile: &ArrayProfile) -> Option<BridgeView> {
-    let mut bridge = Bridge::open(
-        Target::Emulator,
-        profile.clone(),
-        profile.n_contactors(),
-        || {},
-    );
-    let patience = Instant::now() + Duration::from_secs(3);
-    while bridge.state() != BridgeState::Ready && Instant::now() < patience {
-        while bridge.poll().is_some() {}
-        thread::sleep(Duration::from_millis(1));
-    }
-    let state = bridge.state();
-    (state == BridgeState::Ready).then(|| BridgeView {
-        state: state.label(),
-        phase: query::phase(state),
-        depth: bridge.session().depth(),
-        uid: bridge.session().caps().map(|caps| DeviceUid(caps.uid)),
-        can_identify: true,
-        ..BridgeView::default()
-    })
 }

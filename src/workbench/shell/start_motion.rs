@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn the_display_moves_at_the_start_until_the_pointer_moves_over_the_workspace() {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.workbench.begin_motion();
         window.pass_ticks(20);
         assert_eq!(source(&window), Source::Stroke);

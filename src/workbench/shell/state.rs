@@ -22,13 +22,23 @@ use crate::shell::guide::Reading;
 use crate::shell::help::KeyList;
 use crate::shell::palette::Palette;
 use crate::shell::pointer::PointerTap;
+use selvedge_render::scene::Arrangement;
+
+/// Arrangements that are not in sight.
+#[derive(Default)]
+pub(crate) struct Resting {
+    /// Those of the other perspectives, as far as they were shown.
+    pub(crate) of_perspectives: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// That of the scene as it was taken up last.
+    pub(crate) of_scene: Option<Arrangement>,
+}
 
 /// The window around the tools.
 pub(crate) struct Shell {
     /// Which pane stands where.
     pub(crate) tree: Tree<Pane>,
-    /// The arrangements of the other perspectives, as far as they were shown.
-    pub(crate) resting: [Option<Tree<Pane>>; Perspective::ALL.len()],
+    /// Arrangements that are not in sight.
+    pub(crate) resting: Resting,
     /// What stands at the bottom.
     pub(crate) bar: Box<dyn Bar>,
     /// The size of everything between header and timeline, points.
@@ -72,7 +82,7 @@ impl Shell {
     pub(crate) fn new(tap: PointerTap, dialogs: Dialogs, bar: Box<dyn Bar>) -> Self {
         Self {
             tree: arrangement::default_tree(Vec2::ZERO),
-            resting: Default::default(),
+            resting: Resting::default(),
             bar,
             size: Vec2::ZERO,
             dialogs,

@@ -219,7 +219,7 @@ fn place_of(shape: &ClippedShape, text: &str) -> Option<Rect> {
 
 #[test]
 fn arming_stays_in_sight_however_far_the_pane_of_the_device_is_scrolled() {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(5);
     let places = |window: &mut Headless| {
         let output = window.run();

@@ -152,14 +152,14 @@ fn words(ui: &Ui, step: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
+    use eframe::egui::{Event, Key, Modifiers, pos2};
 
     use super::*;
     use crate::bench::command::{Command, DeviceCommand};
     use crate::shell::headless::Headless;
 
     fn window() -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window
     }

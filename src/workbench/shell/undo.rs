@@ -80,7 +80,6 @@ impl Workbench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::vec2;
 
     use super::*;
     use crate::bench::command::{Command, Edit};
@@ -91,7 +90,7 @@ mod tests {
     use selvedge_textile::Place;
 
     fn window() -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window
     }

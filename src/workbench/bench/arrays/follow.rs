@@ -109,7 +109,7 @@ impl Bench {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{self, vec2};
+    use eframe::egui::{self};
 
     use crate::bench::command::array::ArrayCommand;
     use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
@@ -121,7 +121,7 @@ mod tests {
     use selvedge_textile::tactile::Band;
 
     fn window() -> Headless {
-        Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap()
+        Headless::shipped()
     }
 
     #[test]

@@ -287,6 +287,8 @@ pub(crate) enum ShowCommand {
     Perspective(Perspective),
     /// Put every pane back in its place.
     DefaultArrangement,
+    /// The scene keeps how its window stands, or no longer.
+    ToggleSceneArrangement,
     /// Look closer at this contactor.
     SelectContactor(usize),
     /// Choose the textile at this place in the scene's list, or none.

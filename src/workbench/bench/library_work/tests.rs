@@ -11,7 +11,7 @@ use selvedge_textile::{Manifest, build};
 
 /// A window whose own library lies in a folder of this test's.
 fn window(folder: &ScratchFolder) -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.workbench.bench.library.acts.own_folder = Some(folder.to_path_buf());
     window.workbench.bench.open_own_library();
     window.pass(2);
@@ -209,7 +209,7 @@ fn what_lies_in_the_scene_is_not_deleted_and_what_replaces_it_is_felt() {
 
 #[test]
 fn without_a_folder_nothing_is_kept_and_a_sentence_says_so() {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(1);
     do_now(&mut window, Keep::of(new_textile("Mine", 1), true));
     let said = notices(&window);
@@ -222,7 +222,7 @@ fn a_folder_that_was_added_is_listed_until_it_is_forgotten() {
     let folder = ScratchFolder::new("added");
     let files = new_textile("Theirs", 3)[0].files.clone();
     selvedge_textile::write(&files, &folder.join("study").join("theirs")).unwrap();
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(1);
     let study = folder.join("study");
     do_now(&mut window, LibraryCommand::AddFolder(study.clone()));

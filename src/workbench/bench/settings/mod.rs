@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::thread::{self, JoinHandle};
 use std::{fs, io};
 
+use directories::{ProjectDirs, UserDirs};
 use selvedge_foundation::files::{FileError, read_text, write_atomic};
 use selvedge_textile::BuildCache;
 
@@ -47,20 +48,24 @@ struct Keeper {
 /// Where textiles that were built from recipes are kept for this user: a folder that may be
 /// deleted at any time. `None` on a system without such a place.
 pub fn build_cache() -> Option<BuildCache> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(BuildCache::in_folder(&folders.cache_dir().join("textiles")))
+    let folder = own_folders()?.cache_dir().join("textiles");
+    Some(BuildCache::in_folder(&folder))
 }
 
 /// Where the user's own libraries lie. `None` on a system without such a place.
 pub(crate) fn own_libraries() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().to_owned())
+    Some(own_folders()?.data_dir().to_owned())
+}
+
+/// The folders of this user. `None` on a system without such places.
+fn own_folders() -> Option<ProjectDirs> {
+    ProjectDirs::from("", "", "selvedge")
 }
 
 /// Where work that no file holds is kept for this user: the state folder, or where there is none
 /// the data folder. `None` on a system without such a place.
 pub(crate) fn own_work() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    let folders = own_folders()?;
     let state = folders
         .state_dir()
         .unwrap_or_else(|| folders.data_local_dir());
@@ -69,25 +74,22 @@ pub(crate) fn own_work() -> Option<PathBuf> {
 
 /// Where recordings of this user lie. `None` on a system without such a place.
 pub(crate) fn own_recordings() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().join("recordings"))
+    Some(own_folders()?.data_dir().join("recordings"))
 }
 
 /// Where the log of a public stage lies. `None` on a system without such a place.
 pub(crate) fn own_stage() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().join("stage"))
+    Some(own_folders()?.data_dir().join("stage"))
 }
 
 /// The file of whoever operates a public stage. `None` on a system without such a place.
 pub(crate) fn stage_file() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.config_dir().join("stage.toml"))
+    Some(own_folders()?.config_dir().join("stage.toml"))
 }
 
 /// Where the user keeps documents, or the home folder, or the present one.
 pub(crate) fn own_documents() -> PathBuf {
-    let folders = directories::UserDirs::new();
+    let folders = UserDirs::new();
     let own = folders.as_ref().map(|folders| {
         let documents = folders.document_dir().filter(|folder| folder.is_dir());
         documents.unwrap_or_else(|| folders.home_dir()).to_owned()
@@ -97,21 +99,18 @@ pub(crate) fn own_documents() -> PathBuf {
 
 /// Where links to devices are logged for this user. `None` on a system without such a place.
 pub(crate) fn session_log() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().join("logs").join("bridge.csv"))
+    Some(own_folders()?.data_dir().join("logs").join("bridge.csv"))
 }
 
 /// The folder of the certificates of devices that were tried for this user. `None` on a system
 /// without such a place.
 pub fn own_certificates() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().join("certificates"))
+    Some(own_folders()?.data_dir().join("certificates"))
 }
 
 /// The folder of the user's array profiles. `None` on a system without such a place.
 pub fn own_arrays() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
-    Some(folders.data_dir().join("arrays"))
+    Some(own_folders()?.data_dir().join("arrays"))
 }
 
 impl Settings {
@@ -127,7 +126,7 @@ impl Settings {
 
     /// The settings of the user, and a sentence when they could not be read.
     pub(crate) fn of_user() -> (Self, Option<String>) {
-        match directories::ProjectDirs::from("", "", "selvedge") {
+        match own_folders() {
             Some(folders) => Self::in_folder(folders.config_dir()),
             None => (Self::in_memory(), None),
         }
@@ -153,10 +152,7 @@ impl Settings {
                 (Self::in_memory(), Some(words))
             }
             Ok((preferences, None)) => (Self::preferences_at(path, preferences, true), None),
-            Ok((preferences, Some(line))) => {
-                let what = format!("{}:{line}: this value is not known", path.display());
-                Self::set_aside(path, preferences, &what)
-            }
+            Ok((preferences, Some(flaw))) => Self::set_aside(path, preferences, &flaw),
             Err(error) => Self::set_aside(path, Preferences::default(), &error.to_string()),
         }
     }
@@ -259,9 +255,11 @@ impl Settings {
     }
 }
 
-/// What a file holds, and the line of a value that is not known.
-fn preferences_in(path: &Path) -> Result<(Preferences, Option<usize>), FileError> {
-    Preferences::from_text(&read_text(path)?, path)
+/// What a file holds, and where a value is not known.
+fn preferences_in(path: &Path) -> Result<(Preferences, Option<String>), FileError> {
+    let (preferences, line) = Preferences::from_text(&read_text(path)?, path)?;
+    let flaw = line.map(|line| format!("{}:{line}: this value is not known", path.display()));
+    Ok((preferences, flaw))
 }
 
 /// Writes the file and, when need be, its folder.

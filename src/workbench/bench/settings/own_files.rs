@@ -3,7 +3,9 @@
 use std::io;
 use std::path::PathBuf;
 
-use crate::bench::settings::{NAME, Preferences, own_documents, own_recordings, preferences_in};
+use crate::bench::settings::{
+    NAME, Preferences, own_documents, own_folders, own_recordings, preferences_in,
+};
 use selvedge_foundation::files::FileError;
 
 /// Where a user's files are, and what is wrong with the settings.
@@ -21,14 +23,10 @@ pub struct OwnFiles {
 
 /// The files of this user. `None` on a system without a place for them.
 pub fn own_files() -> Option<OwnFiles> {
-    let folders = directories::ProjectDirs::from("", "", "selvedge")?;
+    let folders = own_folders()?;
     let settings = folders.config_dir().join(NAME);
     let (preferences, flaw) = match preferences_in(&settings) {
-        Ok((preferences, None)) => (preferences, None),
-        Ok((preferences, Some(line))) => {
-            let what = format!("{}:{line}: this value is not known", settings.display());
-            (preferences, Some(what))
-        }
+        Ok(found) => found,
         Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             (Preferences::default(), None)
         }

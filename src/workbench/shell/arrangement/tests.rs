@@ -1,6 +1,9 @@
 //! Arrangements: whole, kept and mended.
 
 use super::*;
+use crate::bench::command::{FileCommand, Purpose, ShowCommand};
+use crate::shell::headless::Headless;
+use selvedge_scratch::ScratchFolder;
 
 fn from_text(text: &str) -> Option<Tree<Pane>> {
     super::from_text(text, Perspective::Explore)
@@ -143,4 +146,47 @@ fn a_pane_comes_to_the_front_before_it_is_hidden() {
     assert!(!is_shown(&tree, Pane::DriveSpectrum), "hidden");
     toggle(&mut tree, Pane::DriveSpectrum);
     assert!(is_shown(&tree, Pane::DriveSpectrum), "and back");
+}
+
+/// Saved with its arrangement, opened by somebody who has another one, and left again.
+#[test]
+fn a_scene_that_keeps_its_arrangement_shows_it_and_leaves_the_users_own_alone() {
+    let folder = ScratchFolder::made("arrangement");
+    let path = folder.join("with-arrangement.toml");
+    let shows = |window: &Headless, pane| window.workbench.shell.shows(pane);
+    let mut window = Headless::shipped();
+    window.pass(2);
+    window.dispatch(ShowCommand::ToggleSceneArrangement);
+    assert!(window.workbench.bench.document.is_edited());
+    window.dispatch(ShowCommand::Reveal(Pane::Why));
+    window.dispatch(ShowCommand::Pane(Pane::Heatmaps));
+    window.pass(2);
+    window.dispatch(FileCommand::Use(Purpose::SaveScene, path.clone()));
+    let told = window.workbench.bench.notices.shown().to_vec();
+    assert!(!window.workbench.bench.document.is_edited(), "{told:?}");
+    let kept = window.workbench.bench.settings.preferences.arrangements[0].clone();
+    assert_eq!(kept, None, "the user's own is as it was");
+
+    let mut other = Headless::shipped();
+    other.dispatch(ShowCommand::Perspective(Perspective::Cloth));
+    other.pass(2);
+    other.dispatch(FileCommand::Use(Purpose::OpenScene, path.clone()));
+    other.pass(3);
+    assert!(shows(&other, Pane::Why) && !shows(&other, Pane::Heatmaps));
+    other.dispatch(FileCommand::OpenShipped);
+    other.pass(3);
+    assert!(shows(&other, Pane::Heatmaps) && !shows(&other, Pane::Why));
+
+    let text = folder.read("with-arrangement.toml");
+    let broken = text.replace("\"root\"", "\"rood\"");
+    assert_ne!(text, broken);
+    std::fs::write(&path, broken).unwrap();
+    other.dispatch(FileCommand::Use(Purpose::OpenScene, path.clone()));
+    other.pass(3);
+    assert!(shows(&other, Pane::Heatmaps), "as the user had it");
+    let told = other.workbench.bench.notices.shown();
+    let is_told = told
+        .iter()
+        .any(|notice| notice.text.contains("could not be used"));
+    assert!(is_told, "{told:?}");
 }

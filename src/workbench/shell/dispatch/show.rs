@@ -6,6 +6,7 @@ use crate::bench::Bench;
 use crate::bench::command::ShowCommand;
 use crate::bench::mute_solo::MuteSolo;
 use crate::bench::pane::Pane;
+use crate::bench::perspective::Perspective;
 use crate::shell::arrangement;
 use crate::shell::guide::{Reading, page_of};
 use crate::shell::help::KeyList;
@@ -14,6 +15,7 @@ use crate::shell::perspective::arrangement_for;
 use crate::shell::state::Cover;
 use crate::shell::tour;
 use crate::shell::window::Workbench;
+use selvedge_render::scene::Arrangement;
 
 impl Workbench {
     /// Shows something, or shows it otherwise.
@@ -31,11 +33,16 @@ impl Workbench {
             ShowCommand::Perspective(perspective) => self.arrange_for(perspective),
             ShowCommand::DefaultArrangement => {
                 self.shell.restore_panes();
-                let preferences = &mut self.bench.settings.preferences;
-                let perspective = preferences.perspective;
+                let perspective = self.bench.settings.preferences.perspective;
                 self.shell.tree = arrangement_for(perspective, self.shell.size);
-                preferences.arrangements[perspective.index()] = None;
+                if self.scene_keeps_arrangement() {
+                    self.keep_arrangement();
+                } else {
+                    let kept = &mut self.bench.settings.preferences.arrangements;
+                    kept[perspective.index()] = None;
+                }
             }
+            ShowCommand::ToggleSceneArrangement => self.toggle_scene_arrangement(),
             ShowCommand::WalkPanes(by) => self.walk_panes(by),
             ShowCommand::Maximise(pane) => self.maximise(pane),
             ShowCommand::FullScreen => self.fill_screen(),
@@ -92,11 +99,47 @@ impl Workbench {
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
     }
 
-    /// Keeps the arrangement as it is now, of all panes.
+    /// Keeps the arrangement as it is now, of all panes: with the scene if that has one.
     pub(crate) fn keep_arrangement(&mut self) {
-        let preferences = &mut self.bench.settings.preferences;
         let tree = self.shell.whole.as_ref().unwrap_or(&self.shell.tree);
-        preferences.arrangements[preferences.perspective.index()] = arrangement::to_text(tree);
+        let panes = arrangement::to_text(tree);
+        let perspective = self.bench.settings.preferences.perspective;
+        if !self.scene_keeps_arrangement() {
+            self.bench.settings.preferences.arrangements[perspective.index()] = panes;
+        } else if let Some(panes) = panes {
+            let perspective = perspective.title().to_lowercase();
+            self.shell.resting.of_scene = Some(Arrangement { perspective, panes });
+            self.bench
+                .document
+                .arrange(self.shell.resting.of_scene.clone());
+        }
+    }
+
+    fn scene_keeps_arrangement(&self) -> bool {
+        let perspective = self.bench.settings.preferences.perspective;
+        let of_scene = self.bench.document.arrangement();
+        of_scene.is_some_and(|own| Perspective::named(&own.perspective) == Some(perspective))
+    }
+
+    fn toggle_scene_arrangement(&mut self) {
+        let is_kept = self.bench.document.arrangement().is_some();
+        let perspective = self.bench.settings.preferences.perspective;
+        self.shell.resting.of_scene = (!is_kept).then(|| Arrangement {
+            perspective: perspective.title().to_lowercase(),
+            panes: String::new(),
+        });
+        self.bench
+            .document
+            .arrange(self.shell.resting.of_scene.clone());
+        let words = if is_kept {
+            "The scene no longer keeps how its window stands"
+        } else {
+            "The scene keeps how its window stands, from now on and once it is saved"
+        };
+        self.bench.notices.give(words);
+        if !is_kept {
+            self.keep_arrangement();
+        }
     }
 }
 

@@ -318,7 +318,6 @@ fn show_spans(ui: &mut Ui, spans: &[Span]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::vec2;
 
     use super::*;
     use crate::bench::command::ShowCommand;
@@ -338,7 +337,7 @@ mod tests {
 
     #[test]
     fn every_page_is_shown_and_escape_closes_the_guide() {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         for page in guide_pages() {
             window.dispatch(ShowCommand::Guide(Some(page.name.to_owned())));
@@ -354,7 +353,7 @@ mod tests {
 
     #[test]
     fn every_letter_of_the_guide_can_be_drawn() {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         for font in [theme::body(), theme::number()] {
             for page in guide_pages() {

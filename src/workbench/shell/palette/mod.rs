@@ -129,7 +129,7 @@ fn show_line(ui: &mut Ui, one: &Found, is_chosen: bool) -> egui::Response {
 
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Event, vec2};
+    use eframe::egui::Event;
 
     use super::*;
     use crate::bench::command::ShowCommand;
@@ -142,7 +142,7 @@ mod tests {
     }
 
     fn window() -> Headless {
-        let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+        let mut window = Headless::shipped();
         window.pass(2);
         window.press(Modifiers::COMMAND, Key::K);
         assert!(window.workbench.shell.cover.is_some());

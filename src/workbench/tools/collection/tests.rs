@@ -4,8 +4,6 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use eframe::egui::vec2;
-
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::bench::command::edit::Edit;
@@ -19,7 +17,7 @@ use selvedge_foundation::quantity::level_db;
 use selvedge_textile::tactile::{Band, Filters, Levels};
 
 fn window() -> Headless {
-    Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap()
+    Headless::shipped()
 }
 
 /// A window with the pane in front.

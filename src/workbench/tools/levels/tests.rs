@@ -1,13 +1,13 @@
 //! The pane under the hands of a simulated user.
 
-use eframe::egui::{Event, Id, PointerButton, Pos2, pos2, vec2};
+use eframe::egui::{Event, Id, PointerButton, Pos2, pos2};
 
 use super::*;
 use crate::bench::command::ShowCommand;
 use crate::shell::headless::Headless;
 
 fn window() -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.dispatch(ShowCommand::Reveal(Pane::Levels));
     window.pass(3);
     window

@@ -352,9 +352,9 @@ impl PublicFace for Stage {
         self.records.finish(ended);
     }
 
-    fn go_to(&mut self, picture: StagePicture, bench: &mut Bench) {
+    fn go_to(&mut self, picture: StagePicture) {
         let before_s = self.machine.now_s();
-        self.act_out(picture, bench);
+        self.act_out(picture);
         self.ahead_s += self.machine.now_s() - before_s;
     }
 }

@@ -231,7 +231,7 @@ fn lanes_are_drawn_anew_only_when_they_change() {
         ..view(Some(&take))
     };
     window.state.sight.turn_to(1);
-    let desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let desk = Headless::shipped();
     let tiles = &mut window.state.recorded;
     assert_eq!(
         tiles.follow(&desk.workbench.bench, &take, (9, false), 0),
@@ -275,7 +275,7 @@ fn the_wheel_zooms_a_drag_pans_and_two_clicks_show_all() {
 
 #[test]
 fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
-    let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut desk = Headless::shipped();
     desk.dispatch(PlayCommand::Toggle);
     desk.pass_ticks(10);
     desk.dispatch(PlayCommand::ToggleRecording);
@@ -309,7 +309,7 @@ fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
 
 #[test]
 fn while_the_ruler_is_dragged_the_tick_that_is_shown_is_heard_and_no_longer() {
-    let mut desk = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut desk = Headless::shipped();
     desk.dispatch(PlayCommand::Toggle);
     desk.pass_ticks(10);
     desk.dispatch(PlayCommand::ToggleRecording);

@@ -59,7 +59,7 @@ fn asked(folder: &Path) -> Asked {
 
 /// A window with the pane in front that is asked for this.
 fn window(asked: &Asked) -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     window.dispatch(ShowCommand::Pane(Pane::Analysis));
     ask(&mut window, asked);

@@ -1,6 +1,6 @@
 //! The builder in a window.
 
-use eframe::egui::{DragAndDrop, vec2};
+use eframe::egui::DragAndDrop;
 
 use super::view::block_of;
 use super::*;
@@ -15,7 +15,7 @@ use crate::tools::experiment::builder::study_text::Target;
 use selvedge_foundation::files::KeyValue;
 
 fn window() -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     window.dispatch(ShowCommand::Reveal(Pane::Builder));
     window.pass(3);

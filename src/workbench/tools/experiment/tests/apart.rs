@@ -62,7 +62,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
 #[test]
 fn a_session_that_begins_while_the_window_is_open_brings_no_second_view() {
     let folder = Folder::new("apart-first");
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     open(&mut window, true);
     let form = &mut experiment_mut(&mut window).form;

@@ -79,7 +79,7 @@ fn a_session_with_a_library_of_ones_own_is_resumed_wherever_its_log_lies() {
     fs::write(&design, text).unwrap();
     let library = concat!(env!("CARGO_MANIFEST_DIR"), "/../../textiles");
     copy(std::path::Path::new(library), &folder.0.join("cloth"));
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     let form = &mut experiment_mut(&mut window).form;
     form.choose(Chosen::File(design));
@@ -122,7 +122,7 @@ fn copy(from: &std::path::Path, to: &std::path::Path) {
 
 #[test]
 fn an_emulator_behind_a_port_is_no_array_that_somebody_feels() {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     let bench = &mut window.workbench.bench;
     bench.device.faults = None;

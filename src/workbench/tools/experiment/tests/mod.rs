@@ -35,7 +35,7 @@ use finger::{Frames, explore, feel, stroke};
 
 /// A window in which a session of a design was begun.
 fn begun(folder: &Folder, design: &'static str, pseudonym: &str) -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     let form = &mut experiment_mut(&mut window).form;
     form.choose(small(folder, design));
@@ -214,7 +214,7 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
 #[test]
 fn the_document_learns_nothing_and_the_users_scene_is_felt_again() {
     let folder = Folder::new("document");
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     window.dispatch(Edit::MasterGain(-7.5));
     window.dispatch(Edit::RemoveCloth(2));

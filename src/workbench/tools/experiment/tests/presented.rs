@@ -44,7 +44,7 @@ fn begun_on_array(folder: &Folder, design: &str) -> Headless {
     let path = folder.0.join(format!("{design}.toml"));
     fs::create_dir_all(&folder.0).unwrap();
     fs::write(&path, with_four(&text.join("\n"))).unwrap();
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.pass(2);
     let form = &mut experiment_mut(&mut window).form;
     form.choose(Chosen::File(path));

@@ -106,6 +106,8 @@ fn every_state_has_few_words_large_targets_and_nothing_cut_off() {
     ] {
         for state in STATES {
             let mut window = opened(with_pin(), size, scale);
+            window.dispatch(DeviceCommand::ConnectEmulator);
+            window.pass(20);
             window.go_to(state);
             window.pass(4);
             let whole = window.ctx.content_rect().expand(0.5);

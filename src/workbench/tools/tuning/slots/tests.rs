@@ -11,7 +11,7 @@ use crate::tools::tuning::Tuning;
 use selvedge_textile::tactile::Perception;
 
 fn window() -> Headless {
-    let mut window = Headless::new(None, vec2(1400.0, 900.0), 1.0).unwrap();
+    let mut window = Headless::shipped();
     window.dispatch(Edit::MasterGain(-9.0));
     window.dispatch(Edit::TextileGain(1, 3.0));
     window.dispatch(Edit::KeepSlot(SlotLetter::B));
