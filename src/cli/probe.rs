@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::output::TableOut;
-use super::probe_surface::{Felt, FeltArgs, tip};
+use super::probe_surface::{FeltArgs, felt, tip};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
 use selvedge_foundation::geometry::Point;
@@ -287,7 +287,7 @@ impl Way {
 fn setup(args: &ProbeArgs) -> Result<StylusSetup, CliError> {
     let (wall, device, how) = (&args.wall, &args.device, &args.how);
     let tip = tip(&wall.tip, wall.tip_radius)?;
-    let mut felt = Felt::open(&args.surface, &args.felt, &tip)?;
+    let mut felt = felt(&args.surface, &args.felt, &tip)?;
     if let Some(mu) = wall.friction {
         felt.friction = Friction::coulomb(mu);
     }

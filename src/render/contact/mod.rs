@@ -20,6 +20,7 @@
 mod controller;
 mod crossover;
 mod device;
+mod felt;
 mod friction;
 mod kernel;
 mod law;
@@ -34,6 +35,7 @@ mod tip;
 pub use controller::{HapticLoop, LoopTick, Sampling};
 pub use crossover::Crossover;
 pub use device::{DeviceSpec, Hand, SimulatedDevice, StylusDevice};
+pub use felt::FeltSurface;
 pub use friction::Friction;
 pub use law::{Compression, ContactLaw, ForceParts};
 pub use limits::{Standing, StiffnessLimits, WallCase};

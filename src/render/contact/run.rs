@@ -206,6 +206,11 @@ impl StylusRun {
         self.method
     }
 
+    /// Steps, or ticks of the controller, a second.
+    pub fn rate_hz(&self) -> f64 {
+        self.rate_hz
+    }
+
     /// The energy that the passivity observer counted, J; `None` of a force that acts at all
     /// times.
     pub fn observed_j(&self) -> Option<f64> {

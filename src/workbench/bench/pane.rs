@@ -60,6 +60,8 @@ panes! {
     Accuracy: "Accuracy", "Accuracy", 108.0, true;
     /// Two tunings, textiles or methods set against each other.
     Compare: "Compare", "Compare", 72.0, true;
+    /// What a stylus would feel where the display is.
+    Stylus: "Stylus", "Stylus", 0.0, true;
     /// The whole library at once.
     Collection: "Collection", "Collection", 0.0, true;
     /// A recipe of a textile, and what becomes of it.

@@ -18,6 +18,7 @@ pub(crate) mod recordings;
 pub(crate) mod response;
 pub(crate) mod spectra;
 pub(crate) mod stage;
+pub(crate) mod stylus;
 pub(crate) mod timeline;
 pub(crate) mod tuning;
 pub(crate) mod why;
@@ -39,6 +40,7 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(spectra::wave::DriveWave::default()),
         Box::new(spectra::spatial::SpatialSpectra::default()),
         Box::new(why::Why::default()),
+        Box::new(stylus::Stylus::default()),
         Box::new(picture::Picture::default()),
         Box::new(lab::Lab::default()),
         Box::new(collection::Collection::default()),

@@ -94,6 +94,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
         Pane::Response,
         Pane::Accuracy,
         Pane::Compare,
+        Pane::Stylus,
     ];
     let spatial = tabs(tiles, &closer);
     let lower = [(heatmaps, 0.27), (spectra, 0.39), (spatial, 0.34)];
@@ -132,6 +133,7 @@ fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
             Pane::Response,
             Pane::Accuracy,
             Pane::Compare,
+            Pane::Stylus,
             Pane::DriveWave,
             Pane::Experimenter,
         ],

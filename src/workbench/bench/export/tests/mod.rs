@@ -26,7 +26,7 @@ use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 
-const ALL: [Exportable; 17] = [
+const ALL: [Exportable; 18] = [
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -38,6 +38,7 @@ const ALL: [Exportable; 17] = [
     Exportable::Pane(Pane::Response),
     Exportable::Pane(Pane::Accuracy),
     Exportable::Pane(Pane::Compare),
+    Exportable::Pane(Pane::Stylus),
     Exportable::Pane(Pane::Lab),
     Exportable::Pane(Pane::Import),
     Exportable::Pane(Pane::Picture),

@@ -1,0 +1,442 @@
+//! What the pane draws, as charts: the array and the stylus over the same second, force over the
+//! way, spectra, the tip in its relief, and what can be held.
+
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+
+use selvedge_chart::{At, Axis, Band, Chart, Columns, Extent, Ink, Rule, Series, Style, Weight};
+use selvedge_chart::{Tone, Words};
+use selvedge_engine::TICKS_PER_S;
+use selvedge_foundation::numerics::{RealTransform, bisected, extent};
+use selvedge_foundation::quantity;
+use selvedge_render::contact::{Relief, Standing, StylusRow};
+
+use super::follow::{FeltRow, WINDOW};
+use super::settings::{DAMPINGS, STIFFNESSES, StylusSettings};
+
+/// The columns of a table of rows, as `selvedge probe` writes them.
+const COLUMNS: [(&str, fn(&StylusRow) -> f64); 8] = [
+    ("x_mm", |row| row.place_mm[0]),
+    ("y_mm", |row| row.place_mm[1]),
+    ("z_mm", |row| row.place_mm[2]),
+    ("depth_um", |row| row.depth_um),
+    ("force_n", |row| row.force_n),
+    ("tangential_n", |row| row.tangential_n),
+    ("vibration_n", |row| row.vibration_n),
+    ("energy_j", |row| row.energy_j),
+];
+/// Lines are drawn by the least and the largest of so many parts.
+const N_PARTS: usize = 400;
+/// The lowest level that is shown of the array, dB re 1 µm.
+const LOWEST_DB: f64 = -40.0;
+/// Frequencies of the spectra, Hz.
+const FREQUENCIES_HZ: [f64; 2] = [5.0, 1000.0];
+/// Amplitudes of the spectra that are shown, N.
+const AMPLITUDES_N: [f64; 2] = [1e-5, 1.0];
+/// Fewer rows have no spectrum.
+const FEWEST: usize = 64;
+/// Dampings of the map, and halvings that find a limit at each.
+const N_DAMPINGS: u32 = 40;
+const HALVINGS: u32 = 14;
+/// Points of a relief.
+const N_RELIEF: i32 = 240;
+
+/// The rows of one second, up to a column of the history.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Second<'a> {
+    pub(crate) rows: &'a VecDeque<FeltRow>,
+    /// The column at its end.
+    pub(crate) end: u64,
+}
+
+impl Second<'_> {
+    /// When a row was, s from the end.
+    fn t_s(&self, column: f64) -> f64 {
+        (column - self.end as f64) / TICKS_PER_S
+    }
+
+    /// A line of what rows say, with a gap between runs.
+    fn line(&self, x: &dyn Fn(&FeltRow) -> f64, y: &dyn Fn(&FeltRow) -> f64) -> Vec<[f64; 2]> {
+        let (mut line, mut run, mut before_s) = (Vec::new(), Vec::new(), -1.0);
+        for row in self.rows {
+            if row.felt.t_s <= before_s {
+                line.extend(thinned(&run));
+                line.push([f64::NAN; 2]);
+                run.clear();
+            }
+            before_s = row.felt.t_s;
+            run.push([x(row), y(row)]);
+        }
+        line.extend(thinned(&run));
+        line
+    }
+
+    fn over_time(&self, y: &dyn Fn(&FeltRow) -> f64) -> Vec<[f64; 2]> {
+        self.line(&|row| self.t_s(row.column), y)
+    }
+
+    /// The rows of the last run, which follow each other without a gap.
+    fn last_run(&self) -> Vec<&FeltRow> {
+        let mut last: Vec<&FeltRow> = Vec::new();
+        for row in self.rows.iter().rev() {
+            if last
+                .last()
+                .is_some_and(|after| after.felt.t_s <= row.felt.t_s)
+            {
+                break;
+            }
+            last.push(row);
+        }
+        last.reverse();
+        last
+    }
+
+    /// The numbers as `selvedge probe` writes them, with time from the end.
+    pub(crate) fn columns(&self) -> Columns {
+        let t_s: Vec<f64> = self.rows.iter().map(|row| self.t_s(row.column)).collect();
+        let start = Columns::default().with("t_s", t_s);
+        COLUMNS.iter().fold(start, |columns, (name, of)| {
+            let values: Vec<f64> = self.rows.iter().map(|row| of(&row.felt)).collect();
+            columns.with(*name, values)
+        })
+    }
+}
+
+/// The least and the largest of every part of a line.
+fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    if points.len() <= 2 * N_PARTS {
+        return points.to_vec();
+    }
+    let parts = points.chunks(points.len().div_ceil(N_PARTS));
+    let ends = parts.flat_map(|part| {
+        let by = |pick: fn(&[f64; 2], &[f64; 2]) -> bool| {
+            let indices = 1..part.len();
+            indices.fold(
+                0,
+                |best, i| if pick(&part[i], &part[best]) { i } else { best },
+            )
+        };
+        let (low, high) = (by(|a, b| a[1] < b[1]), by(|a, b| a[1] > b[1]));
+        [part[low.min(high)], part[low.max(high)]]
+    });
+    ends.collect()
+}
+
+fn series(name: &str, points: Vec<[f64; 2]>, (ink, weight): (Ink, Weight)) -> Series {
+    Series {
+        ink,
+        weight,
+        ..Series::of(name, Style::Line, points)
+    }
+}
+
+fn time() -> Axis {
+    let s = WINDOW as f64 / TICKS_PER_S;
+    Axis::linear("time before now, s").within([-s, 0.0])
+}
+
+/// The mean level of the array's contactors, ticks of [A40, A320] in µm.
+pub(crate) fn array(second: Second<'_>, ticks: &[(u64, [f64; 2])]) -> Chart {
+    let line = |band: usize| -> Vec<[f64; 2]> {
+        let mut line = Vec::new();
+        for (nth, (column, um)) in ticks.iter().enumerate() {
+            if nth > 0 && ticks[nth - 1].0 + 1 < *column {
+                line.push([f64::NAN; 2]);
+            }
+            let db = quantity::level_db(um[band]).max(LOWEST_DB);
+            line.push([second.t_s(*column as f64), db]);
+        }
+        line
+    };
+    Chart {
+        title: "Array, mean of its contactors".to_owned(),
+        x: time(),
+        y: Axis::linear("level, dB re 1 µm").within([LOWEST_DB, 40.0]),
+        series: vec![
+            series("A40", line(0), (Ink::Amber, Weight::Normal)),
+            series("A320", line(1), (Ink::Cyan, Weight::Normal)),
+        ],
+        ..Chart::default()
+    }
+}
+
+/// The stylus' force over time: all of it, and what a device can give.
+pub(crate) fn force(second: Second<'_>) -> Chart {
+    Chart {
+        title: "Stylus, contact force".to_owned(),
+        x: time(),
+        y: Axis::linear("force, N"),
+        series: vec![
+            series(
+                "contact",
+                second.over_time(&|row| row.felt.force_n),
+                (Ink::Violet, Weight::Thin),
+            ),
+            series(
+                "below 10 Hz",
+                second.over_time(&|row| row.felt.force_n - row.felt.vibration_n),
+                (Ink::Black, Weight::Normal),
+            ),
+            series(
+                "friction",
+                second.over_time(&|row| row.felt.tangential_n),
+                (Ink::Rose, Weight::Thin),
+            ),
+        ],
+        ..Chart::default()
+    }
+}
+
+/// What is above the device's bandwidth: the drive of a vibrating tip.
+pub(crate) fn vibration(second: Second<'_>) -> Chart {
+    Chart {
+        title: "Stylus, vibration".to_owned(),
+        x: time(),
+        y: Axis::linear("drive, N"),
+        series: vec![series(
+            "above 10 Hz",
+            second.over_time(&|row| row.felt.vibration_n),
+            (Ink::Violet, Weight::Thin),
+        )],
+        ..Chart::default()
+    }
+}
+
+/// Energy of the tip, and what the passivity observer counts.
+pub(crate) fn energy(second: Second<'_>) -> Chart {
+    Chart {
+        title: "Energy".to_owned(),
+        x: time(),
+        y: Axis::linear("energy, mJ"),
+        series: vec![
+            series(
+                "tip and contact",
+                second.over_time(&|row| 1e3 * row.felt.energy_j),
+                (Ink::Grey, Weight::Normal),
+            ),
+            series(
+                "taken less given",
+                second.over_time(&|row| 1e3 * row.observed_j),
+                (Ink::Black, Weight::Normal),
+            ),
+        ],
+        rules: vec![zero()],
+        ..Chart::default()
+    }
+}
+
+fn zero() -> Rule {
+    Rule {
+        at: At::Y(0.0),
+        ink: Ink::Grey,
+        extent: Extent::Dashed,
+        ..Rule::default()
+    }
+}
+
+/// Force over the way along the surface, of the run under way.
+pub(crate) fn over_way(second: Second<'_>) -> Chart {
+    let run = second.last_run();
+    let end_mm = run.last().map_or(0.0, |row| row.way_mm);
+    let points: Vec<[f64; 2]> = run
+        .iter()
+        .map(|row| [row.way_mm - end_mm, row.felt.force_n])
+        .collect();
+    Chart {
+        title: "Contact force along the way".to_owned(),
+        x: Axis::linear("way before here, mm"),
+        y: Axis::linear("force, N"),
+        series: vec![series("", thinned(&points), (Ink::Violet, Weight::Thin))],
+        ..Chart::default()
+    }
+}
+
+/// Peak amplitudes of what a device gives and of what is left to vibration, under a Hann window
+/// (periodic) whose gain is compensated.
+pub(crate) fn spectra(second: Second<'_>) -> Chart {
+    let run = second.last_run();
+    let rows = &run[run.len() % 2..];
+    let parts: [fn(&StylusRow) -> f64; 2] =
+        [|row| row.force_n - row.vibration_n, |row| row.vibration_n];
+    let lines = parts.map(|part| amplitudes(rows, part));
+    let [low, high] = lines.map(|line| thinned(&line));
+    let [least, most] = AMPLITUDES_N;
+    let largest = low.iter().chain(&high).map(|point| point[1]);
+    let [_, largest] = extent(largest.chain([most]));
+    Chart {
+        title: "Spectra of the same second".to_owned(),
+        x: Axis::log("frequency, Hz").within(FREQUENCIES_HZ),
+        y: Axis::log("amplitude, N").within([least, largest]),
+        series: vec![
+            series("force", low, (Ink::Black, Weight::Normal)),
+            series("vibration", high, (Ink::Violet, Weight::Thin)),
+        ],
+        ..Chart::default()
+    }
+}
+
+fn amplitudes(rows: &[&FeltRow], part: fn(&StylusRow) -> f64) -> Vec<[f64; 2]> {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return Vec::new();
+    };
+    let n = rows.len();
+    let span_s = (last.felt.t_s - first.felt.t_s) * n as f64 / (n as f64 - 1.0);
+    if n < FEWEST || span_s <= 0.0 {
+        return Vec::new();
+    }
+    let mean = rows.iter().map(|row| part(&row.felt)).sum::<f64>() / n as f64;
+    let windowed: Vec<f64> = rows
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let hann = 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos();
+            hann * (part(&row.felt) - mean)
+        })
+        .collect();
+    let spectrum = RealTransform::new(n).forward(&windowed);
+    // The window's mean is a half.
+    let scale = 4.0 / n as f64;
+    let bins = spectrum.iter().enumerate().map(|(bin, x)| {
+        let amplitude = (scale * x.norm()).max(AMPLITUDES_N[0]);
+        [bin as f64 / span_s, amplitude]
+    });
+    let [low, high] = FREQUENCIES_HZ;
+    bins.filter(|[hz, _]| (low..=high).contains(hz)).collect()
+}
+
+/// The tip in its relief, along the way that it moves; `aspect` is the frame's height over its
+/// width, by which heights are drawn larger than lengths, and said so.
+pub(crate) fn section(
+    second: Second<'_>,
+    relief: &Relief,
+    radius_mm: f64,
+    aspect: f64,
+) -> Option<Chart> {
+    let run = second.last_run();
+    let tip = run.last()?.felt;
+    let [u, w, z_mm] = tip.place_mm;
+    let moved = run.iter().rev().find_map(|row| {
+        let way = [u - row.felt.place_mm[0], w - row.felt.place_mm[1]];
+        let length = way[0].hypot(way[1]);
+        (length > 1e-3).then(|| way.map(|mm| mm / length))
+    });
+    let along = moved.unwrap_or([1.0, 0.0]);
+    let half_mm = (3.0 * radius_mm).max(1.0);
+    let at = |share: f64| share * half_mm;
+    let heights: Vec<[f64; 2]> = (-N_RELIEF..=N_RELIEF)
+        .map(|i| {
+            let s_mm = at(f64::from(i) / f64::from(N_RELIEF));
+            let place = [u + s_mm * along[0], w + s_mm * along[1]];
+            [s_mm, 1e3 * relief.height_mm(place)]
+        })
+        .collect();
+    let [low, high] = extent(heights.iter().map(|point| point[1]).chain([1e3 * z_mm]));
+    let span_um = (1.6 * (high - low)).max(20.0);
+    let ends = [low - 0.1 * span_um, low + span_um];
+    let ball: Vec<[f64; 2]> = (-N_RELIEF..=N_RELIEF)
+        .map(|i| radius_mm * f64::from(i) / f64::from(N_RELIEF))
+        .map(|s_mm| {
+            let rise_mm = radius_mm - (radius_mm * radius_mm - s_mm * s_mm).max(0.0).sqrt();
+            [s_mm, 1e3 * (z_mm + rise_mm)]
+        })
+        .filter(|[_, um]| *um <= ends[1])
+        .collect();
+    let times = 2.0 * half_mm * aspect / (1e-3 * (ends[1] - ends[0]));
+    Some(Chart {
+        title: "Tip and relief".to_owned(),
+        x: Axis::linear("along the way, mm").within([-half_mm, half_mm]),
+        y: Axis::linear(format!(
+            "height, drawn {} times, µm",
+            quantity::fixed(times, 1)
+        ))
+        .within(ends),
+        series: vec![
+            series("relief", heights, (Ink::Black, Weight::Normal)),
+            series("tip", ball, (Ink::Violet, Weight::Bold)),
+        ],
+        ..Chart::default()
+    })
+}
+
+/// What can be held over stiffness and damping, with the present setting.
+pub(crate) fn map(settings: &StylusSettings) -> Chart {
+    let [least, most] = DAMPINGS;
+    let decades = (most / least).log10();
+    let [floor, ceiling] = STIFFNESSES;
+    let dampings = (0..=N_DAMPINGS)
+        .map(|i| least * 10_f64.powf(decades * f64::from(i) / f64::from(N_DAMPINGS)));
+    let limits: Vec<[f64; 3]> = dampings
+        .map(|damping| {
+            let case = |log: f64| {
+                let with = StylusSettings {
+                    stiffness_n_per_m: 10_f64.powf(log),
+                    damping_n_s_per_m: damping,
+                    ..*settings
+                };
+                with.case().standing()
+            };
+            let limit = |holds: &dyn Fn(Standing) -> bool| {
+                let ends = [floor.log10(), ceiling.log10()];
+                match (holds(case(ends[0])), holds(case(ends[1]))) {
+                    (false, _) => floor,
+                    (_, true) => ceiling,
+                    _ => 10_f64.powf(bisected(ends, HALVINGS, |log| holds(case(log)))),
+                }
+            };
+            let stable = limit(&|standing| standing == Standing::Stable);
+            let held = limit(&|standing| standing != Standing::Unstable);
+            [damping, stable, held.max(stable)]
+        })
+        .collect();
+    let band = |name: &str, ends: &dyn Fn(&[f64; 3]) -> [f64; 2], ink| Band {
+        name: name.to_owned(),
+        points: (limits.iter())
+            .map(|limit| {
+                let [low, high] = ends(limit);
+                [limit[0], low, high]
+            })
+            .collect(),
+        ink,
+    };
+    let edge = |name: &str, of: usize, ink| {
+        let points = limits.iter().map(|limit| [limit[0], limit[of]]);
+        series(name, points.collect(), (ink, Weight::Normal))
+    };
+    Chart {
+        title: "What can be held".to_owned(),
+        x: Axis::log("damping B, N·s/m").within(DAMPINGS),
+        y: Axis::log("stiffness K, N/m").within(STIFFNESSES),
+        bands: vec![
+            band("", &|limit| [floor, limit[1]], Ink::Grey),
+            band("", &|limit| [limit[1], limit[2]], Ink::Violet),
+        ],
+        series: vec![
+            edge("stable", 1, Ink::Grey),
+            edge("active", 2, Ink::Violet),
+            Series {
+                ink: Ink::Black,
+                ..Series::of("", Style::Dots, [setting_at(settings)])
+            },
+        ],
+        words: words(settings),
+        ..Chart::default()
+    }
+}
+
+/// Where a setting lies on the map.
+pub(crate) fn setting_at(settings: &StylusSettings) -> [f64; 2] {
+    let [least, most] = DAMPINGS;
+    [
+        settings.damping_n_s_per_m.clamp(least, most),
+        settings.stiffness_n_per_m,
+    ]
+}
+
+/// What becomes of the present setting.
+fn words(settings: &StylusSettings) -> Vec<Words> {
+    vec![Words {
+        at: setting_at(settings),
+        text: settings.case().standing().word().to_owned(),
+        tone: Tone::Aside,
+    }]
+}

@@ -1,0 +1,245 @@
+//! The stylus beside the array: what a force-feedback device would feel where the display is.
+//!
+//! ```text
+//! history, look back ─▶ follow (a run of render::contact) ─▶ rows ─▶ chart ─▶ view, export
+//! textile, tip ─▶ ground (in the background) ──┘
+//! sliders ─▶ settings: what cannot be held waits until it is confirmed
+//! ```
+//!
+//! Nothing is prepared or computed while the pane is out of sight. It drives no device.
+
+pub(crate) mod chart;
+pub(crate) mod controls;
+pub(crate) mod follow;
+pub(crate) mod ground;
+pub(crate) mod settings;
+#[cfg(test)]
+mod tests;
+pub(crate) mod view;
+
+use eframe::egui::Ui;
+
+use crate::bench::Bench;
+use crate::bench::export::{Exported, NOTHING_FELT, row};
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use selvedge_chart::Chart;
+use selvedge_render::scene::{LoadedScene, PlacedTextile};
+
+use crate::tools::stylus::chart::Second;
+use crate::tools::stylus::follow::{Follower, Progress, Spot, WINDOW, Way};
+use crate::tools::stylus::ground::{Ground, GroundKey, Grounds};
+use crate::tools::stylus::settings::{Chosen, StylusSettings};
+
+/// Height of a chart in a file, pixels.
+const CHART_PX: f64 = 240.0;
+
+/// What the rows were made from, apart from the path.
+#[derive(Debug, Clone, PartialEq)]
+struct Circumstances {
+    settings: StylusSettings,
+    placed: Vec<PlacedTextile>,
+    n_clears: u64,
+}
+
+/// What the charts were made from: the column at their end, steps made, what is chosen.
+type Drawn = (u64, u64, StylusSettings);
+
+/// The stylus.
+#[derive(Debug, Default)]
+pub(crate) struct Stylus {
+    pub(crate) chosen: Chosen,
+    follower: Follower,
+    grounds: Grounds,
+    made_for: Option<Circumstances>,
+    /// Column at the end of what is shown; `None` before anything was felt.
+    end: Option<u64>,
+    /// The textile under the stylus at the end, if any.
+    under: Option<usize>,
+    /// Why there is nothing to see of a textile, or what is waited for.
+    pub(crate) note: Option<String>,
+    charts: Option<(Drawn, Vec<Chart>)>,
+    map: Option<(StylusSettings, Chart, f64)>,
+}
+
+/// Where a place of the workspace is on the topmost textile there.
+fn spot_at(
+    placed: &[PlacedTextile],
+    position: selvedge_foundation::geometry::Point,
+) -> Option<Spot> {
+    let mut from_top = placed.iter().enumerate().rev();
+    from_top.find_map(|(textile, placed)| {
+        let place = placed.workspace_from_textile().into_point(position);
+        placed.contains(place).then_some(Spot {
+            textile,
+            place_mm: [place.x_mm, place.y_mm],
+        })
+    })
+}
+
+impl Stylus {
+    /// The rows of the second that is shown.
+    pub(crate) fn second(&self) -> Second<'_> {
+        Second {
+            rows: self.follower.rows(),
+            end: self.end.unwrap_or_default(),
+        }
+    }
+
+    /// Steps made so far: it stands still while nothing moves or nobody looks.
+    #[cfg(test)]
+    pub(crate) fn n_steps(&self) -> u64 {
+        self.follower.n_steps()
+    }
+
+    /// The textile under the stylus, prepared.
+    fn ground(&self, loaded: &LoadedScene) -> Option<&Ground> {
+        let key = key_of(loaded, self.under?, self.chosen.applied.radius_mm)?;
+        self.grounds.get(&key)?.0.as_deref().ok()
+    }
+
+    /// Goes on to the tick that every view shows, as far as one frame may; says whether more is
+    /// due.
+    pub(crate) fn follow(&mut self, bench: &Bench) -> bool {
+        let history = &bench.past.history;
+        let looked_at = bench.past.look_back.as_ref().map(|back| back.column);
+        let newest = history.newest().map(|entry| entry.column);
+        let loaded = &bench.engine_scene.loaded;
+        let now = Circumstances {
+            settings: self.chosen.applied,
+            placed: loaded.scene().textiles.clone(),
+            n_clears: history.n_clears,
+        };
+        if self.made_for.as_ref() != Some(&now) {
+            self.follower.clear();
+            self.made_for = Some(now.clone());
+        }
+        self.end = looked_at.or(newest);
+        self.note = None;
+        let Some(end) = self.end else { return false };
+        let spot = |column: u64| {
+            let entry = history.at_column(column)?;
+            spot_at(&now.placed, entry.tick_sample.pose.position)
+        };
+        self.under = spot(end).map(|spot| spot.textile);
+        let (grounds, settings) = (&mut self.grounds, now.settings);
+        let key = |textile: usize| key_of(loaded, textile, settings.radius_mm);
+        for textile in textiles_of(&spot, end) {
+            if let Some(key) = key(textile) {
+                grounds.follow(bench, &key);
+            }
+        }
+        let setup = |textile: usize| match &grounds.get(&key(textile)?)?.0 {
+            Ok(ground) => Some(Ok(settings.setup(ground))),
+            Err(why) => Some(Err(why.clone())),
+        };
+        let way = Way {
+            spot: &spot,
+            setup: &setup,
+        };
+        let progress = self.follower.follow(&way, end);
+        if progress == Progress::Waits {
+            self.note = Some("The tip is being rolled over the textile".to_owned());
+        }
+        if progress == Progress::More {
+            bench.ctx.request_repaint();
+        }
+        progress == Progress::More
+    }
+
+    /// The charts of the second that is shown, made when it changed.
+    fn charts(&mut self, bench: &Bench) -> &[Chart] {
+        let end = self.end.unwrap_or_default();
+        let drawn = (end, self.follower.n_steps(), self.chosen.applied);
+        if self.charts.as_ref().is_none_or(|(of, _)| *of != drawn) {
+            let entries = bench.past.history.entries().iter();
+            let shown = end.saturating_sub(WINDOW)..=end;
+            let ticks: Vec<_> = entries
+                .filter(|entry| shown.contains(&entry.column))
+                .map(|entry| (entry.column, entry.tick_sample.mean_um.map(f64::from)))
+                .collect();
+            let second = self.second();
+            let charts = vec![
+                chart::array(second, &ticks),
+                chart::force(second),
+                chart::vibration(second),
+                chart::energy(second),
+                chart::over_way(second),
+                chart::spectra(second),
+            ];
+            self.charts = Some((drawn, charts));
+        }
+        self.charts.as_ref().map_or(&[], |(_, charts)| charts)
+    }
+
+    /// What can be held with the settings that the rows show, and up to which stiffness, N/m.
+    fn map(&mut self) -> (&Chart, f64) {
+        let settings = self.chosen.shown();
+        let is_made = self.map.as_ref().is_some_and(|(of, ..)| *of == settings);
+        if !is_made {
+            self.map = None;
+        }
+        let (_, chart, limit) = self.map.get_or_insert_with(|| {
+            let limit = settings.case().stiffness_limits(0.0, 0.0).exact;
+            (settings, chart::map(&settings), limit)
+        });
+        (chart, *limit)
+    }
+}
+
+/// A textile of the scene under a tip.
+fn key_of(loaded: &LoadedScene, textile: usize, radius_mm: f64) -> Option<GroundKey> {
+    let textile = loaded.textiles().get(textile)?.clone();
+    Some(GroundKey { textile, radius_mm })
+}
+
+/// The textiles of the second that is shown, the first one that is needed first.
+fn textiles_of(spot: &dyn Fn(u64) -> Option<Spot>, end: u64) -> Vec<usize> {
+    let mut found = Vec::new();
+    for column in end.saturating_sub(WINDOW)..=end {
+        let textile = spot(column).map(|spot| spot.textile);
+        found.extend(textile.filter(|textile| !found.contains(textile)));
+    }
+    found
+}
+
+impl Tool for Stylus {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Stylus]
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.follow(context.bench);
+        framed(ui, 10, |ui| view::show(ui, self, context));
+    }
+
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        while self.follow(bench) {}
+        if self.follower.rows().is_empty() {
+            return Err(NOTHING_FELT);
+        }
+        let mut rows: Vec<_> = (self.charts(bench).iter().cloned())
+            .map(|chart| row(chart, CHART_PX))
+            .collect();
+        rows.push(row(self.map().0.clone(), CHART_PX));
+        let settings = self.chosen.applied;
+        let note = "A simulated stylus led along the display's centre, the second up to the tick \
+                    that is shown, at every step of the simulation; places in the textile's frame. \
+                    Spectra: peak amplitudes under a Hann window whose gain is compensated.";
+        let method = self.follower.chosen.as_deref().unwrap_or_default();
+        let brief = settings.words();
+        let origin = (bench.rendered_origin()).and("stylus", &brief, &brief).and(
+            "stylus_method",
+            method,
+            method,
+        );
+        let (title, sheet) = ("Stylus on the path of the display", self.second().columns());
+        Ok(Exported::new(title.to_owned(), sheet, rows, note, origin))
+    }
+
+    fn leave_scene(&mut self, _bench: &mut Bench) {
+        self.grounds = Grounds::default();
+        self.made_for = None;
+    }
+}

@@ -1,0 +1,268 @@
+//! What holds the stylus and how it is computed, and whether that can be held: asked before it is
+//! applied.
+
+use crate::kit::widgets::scale::{Curve, Scale};
+use selvedge_render::contact::{
+    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, Stepper, StylusSetup, WallCase,
+};
+
+use super::ground::Ground;
+
+/// Everything that is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StylusSettings {
+    /// Stiffness K of the wall, N/m.
+    pub(crate) stiffness_n_per_m: f64,
+    /// Damping B of the wall, N·s/m.
+    pub(crate) damping_n_s_per_m: f64,
+    /// Steps, or ticks of the controller, a second.
+    pub(crate) rate_hz: f64,
+    /// Ticks by which a sampled force is late, a whole number.
+    pub(crate) delay_ticks: f64,
+    /// Radius of the tip, mm.
+    pub(crate) radius_mm: f64,
+    /// Mass at the tip, kg.
+    pub(crate) mass_kg: f64,
+    /// The device's own damping b, N·s/m.
+    pub(crate) own_damping_n_s_per_m: f64,
+    /// With what force the hand presses down, N.
+    pub(crate) press_n: f64,
+    /// How it is stepped.
+    pub(crate) method: Stepper,
+    /// Whether the force is sampled and held; else it acts at all times.
+    pub(crate) is_sampled: bool,
+    /// Whether forces along the surface are given too.
+    pub(crate) is_lateral: bool,
+}
+
+impl Default for StylusSettings {
+    /// A desk-top arm that follows a wall of 1 N/mm without ringing for long.
+    fn default() -> Self {
+        Self {
+            stiffness_n_per_m: 1000.0,
+            damping_n_s_per_m: 5.0,
+            rate_hz: 1000.0,
+            delay_ticks: 0.0,
+            radius_mm: 0.5,
+            mass_kg: DeviceSpec::default().mass_kg,
+            own_damping_n_s_per_m: 0.5,
+            press_n: 1.0,
+            method: Stepper::Auto,
+            is_sampled: false,
+            is_lateral: true,
+        }
+    }
+}
+
+/// A number that is chosen with a slider.
+pub(crate) struct Dial {
+    pub(crate) name: &'static str,
+    pub(crate) scale: Scale,
+    pub(crate) tip: &'static str,
+    /// Where it stands in the settings.
+    pub(crate) field: fn(&mut StylusSettings) -> &mut f64,
+    /// Whether it does something only where the force is sampled.
+    pub(crate) is_of_sampling: bool,
+}
+
+/// Stiffnesses of the slider and of the map, N/m.
+pub(crate) const STIFFNESSES: [f64; 2] = [10.0, 1e5];
+/// Dampings of the map, N·s/m.
+pub(crate) const DAMPINGS: [f64; 2] = [0.1, 1e3];
+
+/// A slider over decades that ends above zero.
+const fn decades(
+    ends: [f64; 2],
+    decades: f64,
+    resting: f64,
+    (decimals, unit): (usize, &'static str),
+) -> Scale {
+    Scale {
+        curve: Curve::Decades(decades),
+        ..Scale::even(ends, resting, 0.01, (decimals, unit))
+    }
+}
+
+/// All of them, in the order of their rows.
+pub(crate) const DIALS: [Dial; 8] = [
+    Dial {
+        name: "Stiffness K",
+        scale: decades(STIFFNESSES, 4.0, 1000.0, (0, "N/m")),
+        tip: "How stiffly the surface pushes back; the mark is the largest that can be held",
+        field: |settings| &mut settings.stiffness_n_per_m,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Damping B",
+        scale: decades([0.0, 1000.0], 4.0, 5.0, (1, "N·s/m")),
+        tip: "What the surface takes of motion into and out of it",
+        field: |settings| &mut settings.damping_n_s_per_m,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Rate",
+        scale: decades([250.0, 40_000.0], 2.204_12, 1000.0, (0, "Hz")),
+        tip: "Steps a second, or ticks of the controller",
+        field: |settings| &mut settings.rate_hz,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Delay",
+        scale: Scale::even([0.0, 20.0], 0.0, 1.0, (0, "ticks")),
+        tip: "By how many ticks a sampled force is late",
+        field: |settings| &mut settings.delay_ticks,
+        is_of_sampling: true,
+    },
+    Dial {
+        name: "Tip radius",
+        scale: decades([0.05, 5.0], 2.0, 0.5, (2, "mm")),
+        tip: "Valleys narrower than the ball at the tip are not felt",
+        field: |settings| &mut settings.radius_mm,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Mass",
+        scale: Scale {
+            factor: 1000.0,
+            ..decades([0.001, 1.0], 3.0, 0.075, (0, "g"))
+        },
+        tip: "What moves with the tip",
+        field: |settings| &mut settings.mass_kg,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Device b",
+        scale: decades([0.0, 10.0], 3.0, 0.5, (2, "N·s/m")),
+        tip: "The device's own damping: what a sampled wall is held by",
+        field: |settings| &mut settings.own_damping_n_s_per_m,
+        is_of_sampling: false,
+    },
+    Dial {
+        name: "Hand",
+        scale: decades([0.1, 10.0], 2.0, 1.0, (1, "N")),
+        tip: "With what force the hand presses down",
+        field: |settings| &mut settings.press_n,
+        is_of_sampling: false,
+    },
+];
+
+impl StylusSettings {
+    /// The case of a wall that this is.
+    pub(crate) fn case(&self) -> WallCase {
+        WallCase {
+            mass_kg: self.mass_kg,
+            damping_n_s_per_m: self.own_damping_n_s_per_m,
+            stiffness_n_per_m: self.stiffness_n_per_m,
+            wall_damping_n_s_per_m: self.damping_n_s_per_m,
+            period_s: 1.0 / self.rate_hz,
+            delay_ticks: self.sampling().map(|sampling| sampling.delay_ticks),
+            method: self.method,
+        }
+    }
+
+    fn sampling(&self) -> Option<Sampling> {
+        self.is_sampled.then(|| Sampling {
+            delay_ticks: selvedge_foundation::numerics::to_index(self.delay_ticks),
+            is_kept_passive: false,
+        })
+    }
+
+    /// Why it should not be applied unasked: a line with the limit; `None` if it can be held.
+    pub(crate) fn warning(&self) -> Option<String> {
+        let case = self.case();
+        (case.standing() == Standing::Unstable).then(|| case.advice())
+    }
+
+    /// All of a run on a surface.
+    pub(crate) fn setup(&self, ground: &Ground) -> StylusSetup {
+        let mut contact = ground.contact.clone();
+        // Numbers from the sliders are a law; any other leaves the default, which holds.
+        let law = ContactLaw {
+            stiffness_n_per_m: self.stiffness_n_per_m,
+            damping_n_s_per_m: self.damping_n_s_per_m,
+            parts: if self.is_lateral {
+                ForceParts::Both
+            } else {
+                ForceParts::Normal
+            },
+            ..*contact.law()
+        };
+        drop(contact.set_law(law));
+        StylusSetup {
+            contact,
+            device: DeviceSpec {
+                mass_kg: self.mass_kg,
+                damping_n_s_per_m: self.own_damping_n_s_per_m,
+                ..DeviceSpec::default()
+            },
+            hand: Hand {
+                press_n: self.press_n,
+                leads: None,
+            },
+            method: self.method,
+            rate_hz: self.rate_hz,
+            sampling: self.sampling(),
+        }
+    }
+}
+
+/// The settings in force, and those that nobody has confirmed.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Chosen {
+    pub(crate) applied: StylusSettings,
+    /// What was asked for and cannot be held, and why.
+    pub(crate) asked: Option<(StylusSettings, String)>,
+}
+
+impl Chosen {
+    /// What the rows show: what was asked for last.
+    pub(crate) fn shown(&self) -> StylusSettings {
+        self.asked
+            .as_ref()
+            .map_or(self.applied, |(asked, _)| *asked)
+    }
+
+    /// Applies settings that can be held; others wait for [`Self::confirm`].
+    pub(crate) fn ask(&mut self, settings: StylusSettings) {
+        // What was confirmed once is not asked for again.
+        self.asked = if settings == self.applied {
+            None
+        } else {
+            settings.warning().map(|why| (settings, why))
+        };
+        if self.asked.is_none() {
+            self.applied = settings;
+        }
+    }
+
+    /// Applies what waits although it cannot be held.
+    pub(crate) fn confirm(&mut self) {
+        if let Some((asked, _)) = self.asked.take() {
+            self.applied = asked;
+        }
+    }
+}
+
+impl StylusSettings {
+    /// All of it in a line.
+    pub(crate) fn words(&self) -> String {
+        let controller = if self.is_sampled {
+            format!("sampled, {} ticks late", self.delay_ticks)
+        } else {
+            "continuous".to_owned()
+        };
+        format!(
+            "K {} N/m, B {} N·s/m, {} Hz, {controller}, method {}, tip {} mm, mass {} kg, device b \
+             {} N·s/m, hand {} N, force along the surface {}",
+            self.stiffness_n_per_m,
+            self.damping_n_s_per_m,
+            self.rate_hz,
+            self.method.name(),
+            self.radius_mm,
+            self.mass_kg,
+            self.own_damping_n_s_per_m,
+            self.press_n,
+            if self.is_lateral { "on" } else { "off" }
+        )
+    }
+}
