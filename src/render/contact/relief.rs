@@ -15,7 +15,7 @@
 )]
 
 use crate::RenderError;
-use selvedge_foundation::numerics::{Grid, to_whole};
+use selvedge_foundation::numerics::{Grid, in_pieces, n_threads, to_whole};
 use selvedge_textile::surface::{Direction, HeightMap, Profile, Surface};
 
 /// Most comparisons that a dilation may take: some ten seconds.
@@ -177,17 +177,24 @@ impl Lattice {
         let mut drops = Vec::new();
         for row in -reach(1)..=reach(1) {
             for column in -reach(0)..=reach(0) {
-                let away_mm =
-                    (f64::from(column) * self.step_mm[0]).hypot(f64::from(row) * self.step_mm[1]);
-                let depth_mm = (radius_mm - away_mm) * (radius_mm + away_mm);
-                let drop_mm = radius_mm - depth_mm.max(0.0).sqrt();
-                if away_mm <= radius_mm && drop_mm <= high - low {
-                    drops.push((drop_mm, [column as isize, row as isize]));
-                }
+                let offset = [column as isize, row as isize];
+                let drop_mm = self.drop_mm(radius_mm, offset);
+                drops.extend(
+                    drop_mm
+                        .filter(|drop_mm| *drop_mm <= high - low)
+                        .map(|drop_mm| (drop_mm, offset)),
+                );
             }
         }
         drops.sort_by(|a, b| a.0.total_cmp(&b.0));
         drops
+    }
+
+    /// How far a sphere's underside is above its lowest point at a sample; `None` beside it.
+    fn drop_mm(&self, radius_mm: f64, [du, dw]: [isize; 2]) -> Option<f64> {
+        let away_mm = (du as f64 * self.step_mm[0]).hypot(dw as f64 * self.step_mm[1]);
+        let depth_mm = (radius_mm - away_mm) * (radius_mm + away_mm);
+        (away_mm <= radius_mm).then(|| radius_mm - depth_mm.max(0.0).sqrt())
     }
 
     fn dilated(&self, radius_mm: f64) -> Result<Self, RenderError> {
@@ -199,26 +206,50 @@ impl Lattice {
                 mend: "give a smaller radius, or a map of coarser steps".to_owned(),
             });
         }
-        let values = self.heights_mm.values();
-        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let rest = |column: usize, row: usize| {
-            let mut best = f64::NEG_INFINITY;
-            for &(drop_mm, [du, dw]) in &drops {
-                if high - drop_mm <= best {
-                    break;
-                }
-                let at = placed(column as isize + du, n_u, self.ends);
-                let height = self
-                    .heights_mm
-                    .row(placed(row as isize + dw, n_w, self.ends))[at];
-                best = best.max(height - drop_mm);
-            }
-            best
-        };
+        let mut rested = self.heights_mm.values().to_vec();
+        let high = rested.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let sphere = (radius_mm, drops.as_slice());
+        let work = |(): &mut (), row: usize, out: &mut [f64]| self.rest_on(sphere, high, row, out);
+        in_pieces(&mut rested, n_u, n_threads(), || (), work);
         Ok(Self {
-            heights_mm: Grid::from_fn(n_u, n_w, rest),
+            // As many as there were.
+            heights_mm: Grid::from_rows(n_u, rested).unwrap_or_else(|| self.heights_mm.clone()),
             ..*self
         })
+    }
+
+    /// Where a sphere rests over a row of heights up to `high`. Beside each other it mostly rests
+    /// on the same summit, which is tried first: what cannot reach as high is passed over.
+    fn rest_on(
+        &self,
+        (radius_mm, drops): (f64, &[(f64, [isize; 2])]),
+        high: f64,
+        row: usize,
+        out: &mut [f64],
+    ) {
+        let [n_u, n_w] = self.n();
+        let top = |column: usize, (drop_mm, [du, dw]): (f64, [isize; 2])| {
+            let at = placed(column as isize + du, n_u, self.ends);
+            let row = placed(row as isize + dw, n_w, self.ends);
+            self.heights_mm.row(row)[at] - drop_mm
+        };
+        let mut summit = [0, 0];
+        for (column, out) in out.iter_mut().enumerate() {
+            summit[0] -= 1;
+            let guess = self.drop_mm(radius_mm, summit);
+            let guess = guess.map(|drop_mm| top(column, (drop_mm, summit)));
+            let mut best = guess.unwrap_or(f64::NEG_INFINITY);
+            for &drop in drops {
+                if high - drop.0 <= best {
+                    break;
+                }
+                let reached = top(column, drop);
+                if reached > best {
+                    (best, summit) = (reached, drop.1);
+                }
+            }
+            *out = best;
+        }
     }
 }
 

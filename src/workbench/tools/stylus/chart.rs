@@ -4,15 +4,13 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use selvedge_chart::{At, Axis, Band, Chart, Columns, Extent, Ink, Rule, Series, Style, Weight};
-use selvedge_chart::{Tone, Words};
+use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Weight};
 use selvedge_engine::TICKS_PER_S;
-use selvedge_foundation::numerics::{RealTransform, bisected, extent};
+use selvedge_foundation::numerics::{RealTransform, extent};
 use selvedge_foundation::quantity;
-use selvedge_render::contact::{Relief, Standing, StylusRow};
+use selvedge_render::contact::{Relief, StylusRow};
 
 use super::follow::{FeltRow, WINDOW};
-use super::settings::{DAMPINGS, STIFFNESSES, StylusSettings};
 
 /// The columns of a table of rows, as `selvedge probe` writes them.
 const COLUMNS: [(&str, fn(&StylusRow) -> f64); 8] = [
@@ -35,9 +33,6 @@ const FREQUENCIES_HZ: [f64; 2] = [5.0, 1000.0];
 const AMPLITUDES_N: [f64; 2] = [1e-5, 1.0];
 /// Fewer rows have no spectrum.
 const FEWEST: usize = 64;
-/// Dampings of the map, and halvings that find a limit at each.
-const N_DAMPINGS: u32 = 40;
-const HALVINGS: u32 = 14;
 /// Points of a relief.
 const N_RELIEF: i32 = 240;
 
@@ -69,10 +64,6 @@ impl Second<'_> {
         }
         line.extend(thinned(&run));
         line
-    }
-
-    fn over_time(&self, y: &dyn Fn(&FeltRow) -> f64) -> Vec<[f64; 2]> {
-        self.line(&|row| self.t_s(row.column), y)
     }
 
     /// The rows of the last run, which follow each other without a gap.
@@ -160,78 +151,58 @@ pub(crate) fn array(second: Second<'_>, ticks: &[(u64, [f64; 2])]) -> Chart {
     }
 }
 
-/// The stylus' force over time: all of it, and what a device can give.
-pub(crate) fn force(second: Second<'_>) -> Chart {
-    Chart {
-        title: "Stylus, contact force".to_owned(),
-        x: time(),
-        y: Axis::linear("force, N"),
-        series: vec![
-            series(
-                "contact",
-                second.over_time(&|row| row.felt.force_n),
-                (Ink::Violet, Weight::Thin),
-            ),
-            series(
-                "below 10 Hz",
-                second.over_time(&|row| row.felt.force_n - row.felt.vibration_n),
-                (Ink::Black, Weight::Normal),
-            ),
-            series(
-                "friction",
-                second.over_time(&|row| row.felt.tangential_n),
-                (Ink::Rose, Weight::Thin),
-            ),
+/// A line over time: its name, what it says of a row, and how it is drawn.
+type Line = (&'static str, fn(&FeltRow) -> f64, (Ink, Weight));
+
+/// Charts of the stylus over the second, each with its title, what it measures, and its lines.
+const OVER_TIME: [(&str, &str, &[Line]); 3] = [
+    (
+        "Stylus, contact force",
+        "force, N",
+        &[
+            ("contact", |row| row.felt.force_n, THIN),
+            ("below 10 Hz", |row| slow_n(&row.felt), STRONG),
+            ("friction", |row| row.felt.tangential_n, ROSE),
         ],
-        ..Chart::default()
-    }
-}
-
-/// What is above the device's bandwidth: the drive of a vibrating tip.
-pub(crate) fn vibration(second: Second<'_>) -> Chart {
-    Chart {
-        title: "Stylus, vibration".to_owned(),
-        x: time(),
-        y: Axis::linear("drive, N"),
-        series: vec![series(
-            "above 10 Hz",
-            second.over_time(&|row| row.felt.vibration_n),
-            (Ink::Violet, Weight::Thin),
-        )],
-        ..Chart::default()
-    }
-}
-
-/// Energy of the tip, and what the passivity observer counts.
-pub(crate) fn energy(second: Second<'_>) -> Chart {
-    Chart {
-        title: "Energy".to_owned(),
-        x: time(),
-        y: Axis::linear("energy, mJ"),
-        series: vec![
-            series(
-                "tip and contact",
-                second.over_time(&|row| 1e3 * row.felt.energy_j),
-                (Ink::Grey, Weight::Normal),
-            ),
-            series(
-                "taken less given",
-                second.over_time(&|row| 1e3 * row.observed_j),
-                (Ink::Black, Weight::Normal),
-            ),
+    ),
+    (
+        "Stylus, vibration",
+        "drive, N",
+        &[("above 10 Hz", |row| row.felt.vibration_n, THIN)],
+    ),
+    (
+        "Energy",
+        "energy, mJ",
+        &[
+            ("tip and contact", |row| 1e3 * row.felt.energy_j, GREY),
+            ("taken less given", |row| 1e3 * row.observed_j, STRONG),
         ],
-        rules: vec![zero()],
-        ..Chart::default()
-    }
+    ),
+];
+const THIN: (Ink, Weight) = (Ink::Violet, Weight::Thin);
+const STRONG: (Ink, Weight) = (Ink::Black, Weight::Normal);
+const ROSE: (Ink, Weight) = (Ink::Rose, Weight::Thin);
+const GREY: (Ink, Weight) = (Ink::Grey, Weight::Normal);
+
+/// What a device can give.
+fn slow_n(row: &StylusRow) -> f64 {
+    row.force_n - row.vibration_n
 }
 
-fn zero() -> Rule {
-    Rule {
-        at: At::Y(0.0),
-        ink: Ink::Grey,
-        extent: Extent::Dashed,
-        ..Rule::default()
-    }
+/// Force, what a vibrating tip is left with, and energy.
+pub(crate) fn over_time(second: Second<'_>) -> [Chart; 3] {
+    OVER_TIME.map(|(title, y, lines)| Chart {
+        title: title.to_owned(),
+        x: time(),
+        y: Axis::linear(y),
+        series: (lines.iter())
+            .map(|(name, of, pen)| {
+                let line = second.line(&|row| second.t_s(row.column), of);
+                series(name, line, *pen)
+            })
+            .collect(),
+        ..Chart::default()
+    })
 }
 
 /// Force over the way along the surface, of the run under way.
@@ -246,7 +217,7 @@ pub(crate) fn over_way(second: Second<'_>) -> Chart {
         title: "Contact force along the way".to_owned(),
         x: Axis::linear("way before here, mm"),
         y: Axis::linear("force, N"),
-        series: vec![series("", thinned(&points), (Ink::Violet, Weight::Thin))],
+        series: vec![series("", thinned(&points), THIN)],
         ..Chart::default()
     }
 }
@@ -256,8 +227,7 @@ pub(crate) fn over_way(second: Second<'_>) -> Chart {
 pub(crate) fn spectra(second: Second<'_>) -> Chart {
     let run = second.last_run();
     let rows = &run[run.len() % 2..];
-    let parts: [fn(&StylusRow) -> f64; 2] =
-        [|row| row.force_n - row.vibration_n, |row| row.vibration_n];
+    let parts: [fn(&StylusRow) -> f64; 2] = [slow_n, |row| row.vibration_n];
     let lines = parts.map(|part| amplitudes(rows, part));
     let [low, high] = lines.map(|line| thinned(&line));
     let [least, most] = AMPLITUDES_N;
@@ -268,8 +238,8 @@ pub(crate) fn spectra(second: Second<'_>) -> Chart {
         x: Axis::log("frequency, Hz").within(FREQUENCIES_HZ),
         y: Axis::log("amplitude, N").within([least, largest]),
         series: vec![
-            series("force", low, (Ink::Black, Weight::Normal)),
-            series("vibration", high, (Ink::Violet, Weight::Thin)),
+            series("force", low, STRONG),
+            series("vibration", high, THIN),
         ],
         ..Chart::default()
     }
@@ -351,92 +321,9 @@ pub(crate) fn section(
         ))
         .within(ends),
         series: vec![
-            series("relief", heights, (Ink::Black, Weight::Normal)),
+            series("relief", heights, STRONG),
             series("tip", ball, (Ink::Violet, Weight::Bold)),
         ],
         ..Chart::default()
     })
-}
-
-/// What can be held over stiffness and damping, with the present setting.
-pub(crate) fn map(settings: &StylusSettings) -> Chart {
-    let [least, most] = DAMPINGS;
-    let decades = (most / least).log10();
-    let [floor, ceiling] = STIFFNESSES;
-    let dampings = (0..=N_DAMPINGS)
-        .map(|i| least * 10_f64.powf(decades * f64::from(i) / f64::from(N_DAMPINGS)));
-    let limits: Vec<[f64; 3]> = dampings
-        .map(|damping| {
-            let case = |log: f64| {
-                let with = StylusSettings {
-                    stiffness_n_per_m: 10_f64.powf(log),
-                    damping_n_s_per_m: damping,
-                    ..*settings
-                };
-                with.case().standing()
-            };
-            let limit = |holds: &dyn Fn(Standing) -> bool| {
-                let ends = [floor.log10(), ceiling.log10()];
-                match (holds(case(ends[0])), holds(case(ends[1]))) {
-                    (false, _) => floor,
-                    (_, true) => ceiling,
-                    _ => 10_f64.powf(bisected(ends, HALVINGS, |log| holds(case(log)))),
-                }
-            };
-            let stable = limit(&|standing| standing == Standing::Stable);
-            let held = limit(&|standing| standing != Standing::Unstable);
-            [damping, stable, held.max(stable)]
-        })
-        .collect();
-    let band = |name: &str, ends: &dyn Fn(&[f64; 3]) -> [f64; 2], ink| Band {
-        name: name.to_owned(),
-        points: (limits.iter())
-            .map(|limit| {
-                let [low, high] = ends(limit);
-                [limit[0], low, high]
-            })
-            .collect(),
-        ink,
-    };
-    let edge = |name: &str, of: usize, ink| {
-        let points = limits.iter().map(|limit| [limit[0], limit[of]]);
-        series(name, points.collect(), (ink, Weight::Normal))
-    };
-    Chart {
-        title: "What can be held".to_owned(),
-        x: Axis::log("damping B, N·s/m").within(DAMPINGS),
-        y: Axis::log("stiffness K, N/m").within(STIFFNESSES),
-        bands: vec![
-            band("", &|limit| [floor, limit[1]], Ink::Grey),
-            band("", &|limit| [limit[1], limit[2]], Ink::Violet),
-        ],
-        series: vec![
-            edge("stable", 1, Ink::Grey),
-            edge("active", 2, Ink::Violet),
-            Series {
-                ink: Ink::Black,
-                ..Series::of("", Style::Dots, [setting_at(settings)])
-            },
-        ],
-        words: words(settings),
-        ..Chart::default()
-    }
-}
-
-/// Where a setting lies on the map.
-pub(crate) fn setting_at(settings: &StylusSettings) -> [f64; 2] {
-    let [least, most] = DAMPINGS;
-    [
-        settings.damping_n_s_per_m.clamp(least, most),
-        settings.stiffness_n_per_m,
-    ]
-}
-
-/// What becomes of the present setting.
-fn words(settings: &StylusSettings) -> Vec<Words> {
-    vec![Words {
-        at: setting_at(settings),
-        text: settings.case().standing().word().to_owned(),
-        tone: Tone::Aside,
-    }]
 }

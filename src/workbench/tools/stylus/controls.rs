@@ -9,7 +9,7 @@ use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{button, named, row, toggles};
 use crate::tools::stylus::Stylus;
-use crate::tools::stylus::settings::DIALS;
+use crate::tools::stylus::settings::{DELAY, DIALS, StylusSettings};
 use selvedge_foundation::numerics::to_single;
 use selvedge_render::contact::Stepper;
 
@@ -24,7 +24,7 @@ pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus) {
     let mut settings = stylus.chosen.shown();
     let ink = Palette::in_ui(ui).text;
     for dial in &DIALS {
-        let is_used = settings.is_sampled || !dial.is_of_sampling;
+        let is_used = settings.is_sampled || dial.name != DELAY;
         let value = *(dial.field)(&mut settings);
         ui.add_enabled_ui(is_used, |ui| {
             let (new, response) = slider_row(ui, dial.name, ink, dial.scale, value);
@@ -50,7 +50,7 @@ pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus) {
     show_question(ui, stylus);
 }
 
-fn show_choices(ui: &mut Ui, settings: &mut super::settings::StylusSettings) {
+fn show_choices(ui: &mut Ui, settings: &mut StylusSettings) {
     row(ui, "Method", |ui| {
         let combo = ComboBox::from_id_salt("stylus method");
         let combo = combo.selected_text(settings.method.name()).width(METHODS);

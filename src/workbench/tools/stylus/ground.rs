@@ -71,7 +71,7 @@ impl Computed<GroundKey> for Prepared {
     }
 
     fn serves(under_way: &GroundKey, now: &GroundKey) -> bool {
-        under_way == now
+        under_way.radius_mm.to_bits() == now.radius_mm.to_bits()
     }
 }
 
@@ -95,18 +95,24 @@ impl Grounds {
         kept.map(|(_, prepared)| &**prepared)
     }
 
-    /// Has one prepared.
+    /// Has one prepared, after what is under way.
     pub(crate) fn follow(&mut self, bench: &Bench, key: &GroundKey) {
-        if self.get(key).is_some() {
-            return;
-        }
         self.preparing.poll();
-        self.preparing.follow(&bench.ctx, &bench.executor, key);
-        let is_there = self.preparing.key() == Some(key);
-        if let Some(prepared) = self.preparing.value().filter(|_| is_there) {
-            self.kept.push((key.clone(), Arc::clone(prepared)));
-            let n_old = self.kept.len().saturating_sub(MOST);
-            self.kept.drain(..n_old);
+        self.keep();
+        if self.get(key).is_none() {
+            self.preparing.follow(&bench.ctx, &bench.executor, key);
+            self.keep();
         }
+    }
+
+    /// Keeps what was prepared last.
+    fn keep(&mut self) {
+        let found = self.preparing.key().zip(self.preparing.value());
+        let Some((key, prepared)) = found.filter(|(key, _)| self.get(key).is_none()) else {
+            return;
+        };
+        self.kept.push((key.clone(), Arc::clone(prepared)));
+        let n_old = self.kept.len().saturating_sub(MOST);
+        self.kept.drain(..n_old);
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod chart;
 pub(crate) mod controls;
 pub(crate) mod follow;
 pub(crate) mod ground;
+pub(crate) mod map;
 pub(crate) mod settings;
 #[cfg(test)]
 mod tests;
@@ -125,10 +126,10 @@ impl Stylus {
         self.under = spot(end).map(|spot| spot.textile);
         let (grounds, settings) = (&mut self.grounds, now.settings);
         let key = |textile: usize| key_of(loaded, textile, settings.radius_mm);
-        for textile in textiles_of(&spot, end) {
-            if let Some(key) = key(textile) {
-                grounds.follow(bench, &key);
-            }
+        // One after the other: each takes a while.
+        let mut keys = textiles_of(&spot, end).into_iter().filter_map(key);
+        if let Some(wanted) = keys.find(|key| grounds.get(key).is_none()) {
+            grounds.follow(bench, &wanted);
         }
         let setup = |textile: usize| match &grounds.get(&key(textile)?)?.0 {
             Ok(ground) => Some(Ok(settings.setup(ground))),
@@ -160,14 +161,9 @@ impl Stylus {
                 .map(|entry| (entry.column, entry.tick_sample.mean_um.map(f64::from)))
                 .collect();
             let second = self.second();
-            let charts = vec![
-                chart::array(second, &ticks),
-                chart::force(second),
-                chart::vibration(second),
-                chart::energy(second),
-                chart::over_way(second),
-                chart::spectra(second),
-            ];
+            let mut charts = vec![chart::array(second, &ticks)];
+            charts.extend(chart::over_time(second));
+            charts.extend([chart::over_way(second), chart::spectra(second)]);
             self.charts = Some((drawn, charts));
         }
         self.charts.as_ref().map_or(&[], |(_, charts)| charts)
@@ -182,7 +178,7 @@ impl Stylus {
         }
         let (_, chart, limit) = self.map.get_or_insert_with(|| {
             let limit = settings.case().stiffness_limits(0.0, 0.0).exact;
-            (settings, chart::map(&settings), limit)
+            (settings, map::map(&settings), limit)
         });
         (chart, *limit)
     }

@@ -61,10 +61,10 @@ pub(crate) struct Dial {
     pub(crate) tip: &'static str,
     /// Where it stands in the settings.
     pub(crate) field: fn(&mut StylusSettings) -> &mut f64,
-    /// Whether it does something only where the force is sampled.
-    pub(crate) is_of_sampling: bool,
 }
 
+/// The row that does nothing where the force acts at all times.
+pub(crate) const DELAY: &str = "Delay";
 /// Stiffnesses of the slider and of the map, N/m.
 pub(crate) const STIFFNESSES: [f64; 2] = [10.0, 1e5];
 /// Dampings of the map, N·s/m.
@@ -83,67 +83,73 @@ const fn decades(
     }
 }
 
+const fn dial(
+    name: &'static str,
+    scale: Scale,
+    tip: &'static str,
+    field: fn(&mut StylusSettings) -> &mut f64,
+) -> Dial {
+    Dial {
+        name,
+        scale,
+        tip,
+        field,
+    }
+}
+
 /// All of them, in the order of their rows.
 pub(crate) const DIALS: [Dial; 8] = [
-    Dial {
-        name: "Stiffness K",
-        scale: decades(STIFFNESSES, 4.0, 1000.0, (0, "N/m")),
-        tip: "How stiffly the surface pushes back; the mark is the largest that can be held",
-        field: |settings| &mut settings.stiffness_n_per_m,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Damping B",
-        scale: decades([0.0, 1000.0], 4.0, 5.0, (1, "N·s/m")),
-        tip: "What the surface takes of motion into and out of it",
-        field: |settings| &mut settings.damping_n_s_per_m,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Rate",
-        scale: decades([250.0, 40_000.0], 2.204_12, 1000.0, (0, "Hz")),
-        tip: "Steps a second, or ticks of the controller",
-        field: |settings| &mut settings.rate_hz,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Delay",
-        scale: Scale::even([0.0, 20.0], 0.0, 1.0, (0, "ticks")),
-        tip: "By how many ticks a sampled force is late",
-        field: |settings| &mut settings.delay_ticks,
-        is_of_sampling: true,
-    },
-    Dial {
-        name: "Tip radius",
-        scale: decades([0.05, 5.0], 2.0, 0.5, (2, "mm")),
-        tip: "Valleys narrower than the ball at the tip are not felt",
-        field: |settings| &mut settings.radius_mm,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Mass",
-        scale: Scale {
+    dial(
+        "Stiffness K",
+        decades(STIFFNESSES, 4.0, 1000.0, (0, "N/m")),
+        "How stiffly the surface pushes back; the mark is the largest that can be held",
+        |settings| &mut settings.stiffness_n_per_m,
+    ),
+    dial(
+        "Damping B",
+        decades([0.0, 1000.0], 4.0, 5.0, (1, "N·s/m")),
+        "What the surface takes of motion into and out of it",
+        |settings| &mut settings.damping_n_s_per_m,
+    ),
+    dial(
+        "Rate",
+        decades([250.0, 40_000.0], 2.204_12, 1000.0, (0, "Hz")),
+        "Steps a second, or ticks of the controller",
+        |settings| &mut settings.rate_hz,
+    ),
+    dial(
+        DELAY,
+        Scale::even([0.0, 20.0], 0.0, 1.0, (0, "ticks")),
+        "By how many ticks a sampled force is late",
+        |settings| &mut settings.delay_ticks,
+    ),
+    dial(
+        "Tip radius",
+        decades([0.02, 2.0], 2.0, 0.5, (2, "mm")),
+        "Valleys narrower than the ball at the tip are not felt",
+        |settings| &mut settings.radius_mm,
+    ),
+    dial(
+        "Mass",
+        Scale {
             factor: 1000.0,
             ..decades([0.001, 1.0], 3.0, 0.075, (0, "g"))
         },
-        tip: "What moves with the tip",
-        field: |settings| &mut settings.mass_kg,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Device b",
-        scale: decades([0.0, 10.0], 3.0, 0.5, (2, "N·s/m")),
-        tip: "The device's own damping: what a sampled wall is held by",
-        field: |settings| &mut settings.own_damping_n_s_per_m,
-        is_of_sampling: false,
-    },
-    Dial {
-        name: "Hand",
-        scale: decades([0.1, 10.0], 2.0, 1.0, (1, "N")),
-        tip: "With what force the hand presses down",
-        field: |settings| &mut settings.press_n,
-        is_of_sampling: false,
-    },
+        "What moves with the tip",
+        |settings| &mut settings.mass_kg,
+    ),
+    dial(
+        "Device b",
+        decades([0.0, 10.0], 3.0, 0.5, (2, "N·s/m")),
+        "The device's own damping: what a sampled wall is held by",
+        |settings| &mut settings.own_damping_n_s_per_m,
+    ),
+    dial(
+        "Hand",
+        decades([0.1, 10.0], 2.0, 1.0, (1, "N")),
+        "With what force the hand presses down",
+        |settings| &mut settings.press_n,
+    ),
 ];
 
 impl StylusSettings {

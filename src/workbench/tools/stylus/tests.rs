@@ -10,15 +10,27 @@ use crate::bench::command::{PlayCommand, ShowCommand};
 use crate::shell::headless::Headless;
 use selvedge_render::contact::{Standing, Stepper};
 
+/// Radius of the tip, mm.
+const FINE_MM: f64 = 0.05;
+
 /// A window whose display has explored by itself, with the pane in sight.
 fn explored(n_ticks: u32) -> Headless {
     let mut desk = Headless::shipped();
+    // A fine tip is soon rolled over all textiles.
+    stylus(&mut desk).chosen.applied.radius_mm = FINE_MM;
     desk.dispatch(ShowCommand::Pane(Pane::Stylus));
     desk.dispatch(PlayCommand::Toggle);
     desk.pass_ticks(n_ticks);
     // What is due is done over several frames.
     desk.run_after(0).drop_without_applying_deltas();
     desk
+}
+
+fn fine() -> StylusSettings {
+    StylusSettings {
+        radius_mm: FINE_MM,
+        ..StylusSettings::default()
+    }
 }
 
 fn stylus(desk: &mut Headless) -> &mut Stylus {
@@ -86,7 +98,7 @@ fn what_cannot_be_held_is_asked_before_it_is_applied() {
         is_sampled: true,
         damping_n_s_per_m: 0.0,
         stiffness_n_per_m: 100.0,
-        ..StylusSettings::default()
+        ..fine()
     };
     let chosen = &mut stylus(&mut desk).chosen;
     chosen.ask(sampled);
@@ -134,7 +146,7 @@ fn the_mark_on_the_slider_is_where_the_loop_begins_to_grow() {
     };
     assert_ne!(standing(0.99), Standing::Unstable);
     assert_eq!(standing(1.01), Standing::Unstable);
-    let map = chart::map(&settings);
+    let map = map::map(&settings);
     let least = map.bands[1].points[0];
     assert!(
         (least[2] / limit - 1.0).abs() < 0.5,
@@ -152,9 +164,10 @@ fn every_end_of_every_slider_is_finite_or_refused_in_a_line() {
                 let mut settings = StylusSettings {
                     method,
                     is_sampled,
-                    ..StylusSettings::default()
+                    ..fine()
                 };
                 *(dial.field)(&mut settings) = end;
+                settings.radius_mm = settings.radius_mm.min(FINE_MM);
                 let chosen = &mut stylus(&mut desk).chosen;
                 chosen.ask(settings);
                 chosen.confirm();
@@ -231,8 +244,8 @@ fn the_dot_on_the_map_is_dragged() {
     desk.dispatch(ShowCommand::Maximise(Some(Pane::Stylus)));
     desk.pass(3);
     let before = stylus(&mut desk).chosen.applied;
-    // The map stands in the lower right corner.
-    let at = Pos2::new(1250.0, 760.0);
+    // The map stands in the lower right corner, the line of time below it.
+    let at = Pos2::new(1200.0, 720.0);
     desk.events.push(Event::PointerMoved(at));
     desk.pass(1);
     desk.events.push(Event::PointerButton {
