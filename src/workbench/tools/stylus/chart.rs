@@ -12,8 +12,11 @@ use selvedge_render::contact::{Relief, StylusRow};
 
 use super::follow::{FeltRow, WINDOW};
 
+/// What a row says.
+type Figure = fn(&StylusRow) -> f64;
+
 /// The columns of a table of rows, as `selvedge probe` writes them.
-const COLUMNS: [(&str, fn(&StylusRow) -> f64); 8] = [
+const COLUMNS: [(&str, Figure); 8] = [
     ("x_mm", |row| row.place_mm[0]),
     ("y_mm", |row| row.place_mm[1]),
     ("z_mm", |row| row.place_mm[2]),
@@ -227,7 +230,7 @@ pub(crate) fn over_way(second: Second<'_>) -> Chart {
 pub(crate) fn spectra(second: Second<'_>) -> Chart {
     let run = second.last_run();
     let rows = &run[run.len() % 2..];
-    let parts: [fn(&StylusRow) -> f64; 2] = [slow_n, |row| row.vibration_n];
+    let parts: [Figure; 2] = [slow_n, |row| row.vibration_n];
     let lines = parts.map(|part| amplitudes(rows, part));
     let [low, high] = lines.map(|line| thinned(&line));
     let [least, most] = AMPLITUDES_N;
@@ -245,7 +248,7 @@ pub(crate) fn spectra(second: Second<'_>) -> Chart {
     }
 }
 
-fn amplitudes(rows: &[&FeltRow], part: fn(&StylusRow) -> f64) -> Vec<[f64; 2]> {
+fn amplitudes(rows: &[&FeltRow], part: Figure) -> Vec<[f64; 2]> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
         return Vec::new();
     };
@@ -274,11 +277,12 @@ fn amplitudes(rows: &[&FeltRow], part: fn(&StylusRow) -> f64) -> Vec<[f64; 2]> {
     bins.filter(|[hz, _]| (low..=high).contains(hz)).collect()
 }
 
-/// The tip in its relief, along the way that it moves; `aspect` is the frame's height over its
+/// The tip in its relief, along the way that it moves, and where it would rest without force, on
+/// the relief under the whole tip; `aspect` is the frame's height over its
 /// width, by which heights are drawn larger than lengths, and said so.
 pub(crate) fn section(
     second: Second<'_>,
-    relief: &Relief,
+    [relief, under_tip]: [&Relief; 2],
     radius_mm: f64,
     aspect: f64,
 ) -> Option<Chart> {
@@ -300,17 +304,22 @@ pub(crate) fn section(
             [s_mm, 1e3 * relief.height_mm(place)]
         })
         .collect();
+    let rest_mm = under_tip.height_mm([u, w]);
     let [low, high] = extent(heights.iter().map(|point| point[1]).chain([1e3 * z_mm]));
     let span_um = (1.6 * (high - low)).max(20.0);
     let ends = [low - 0.1 * span_um, low + span_um];
-    let ball: Vec<[f64; 2]> = (-N_RELIEF..=N_RELIEF)
-        .map(|i| radius_mm * f64::from(i) / f64::from(N_RELIEF))
-        .map(|s_mm| {
-            let rise_mm = radius_mm - (radius_mm * radius_mm - s_mm * s_mm).max(0.0).sqrt();
-            [s_mm, 1e3 * (z_mm + rise_mm)]
-        })
-        .filter(|[_, um]| *um <= ends[1])
-        .collect();
+    let ball = |bottom_mm: f64| -> Vec<[f64; 2]> {
+        let places = (-N_RELIEF..=N_RELIEF).map(|i| f64::from(i) / f64::from(N_RELIEF));
+        let underside = places.map(|share| {
+            let rise_mm = radius_mm * (1.0 - (1.0 - share * share).max(0.0).sqrt());
+            [share * radius_mm, 1e3 * (bottom_mm + rise_mm)]
+        });
+        underside.filter(|[_, um]| *um <= ends[1]).collect()
+    };
+    let resting = Series {
+        style: Style::Dashed,
+        ..series("without force", ball(rest_mm), GREY)
+    };
     let times = 2.0 * half_mm * aspect / (1e-3 * (ends[1] - ends[0]));
     Some(Chart {
         title: "Tip and relief".to_owned(),
@@ -322,7 +331,8 @@ pub(crate) fn section(
         .within(ends),
         series: vec![
             series("relief", heights, STRONG),
-            series("tip", ball, (Ink::Violet, Weight::Bold)),
+            resting,
+            series("tip", ball(z_mm), (Ink::Violet, Weight::Bold)),
         ],
         ..Chart::default()
     })

@@ -114,7 +114,8 @@ impl Follower {
     /// Goes on to a column, as far as one frame may.
     pub(crate) fn follow(&mut self, way: &Way<'_>, target: u64) -> Progress {
         let shown_from = target.saturating_sub(WINDOW);
-        let start = leg_start(way.spot, shown_from);
+        // What is shown first may be the end of the run before.
+        let start = leg_start(way.spot, shown_from.saturating_sub(1));
         let goes_on = self.first <= shown_from && (start..=target + 1).contains(&self.next);
         if !goes_on {
             self.clear();
@@ -145,21 +146,22 @@ impl Follower {
             self.leg = None;
             return true;
         };
-        if begins(way.spot, column) {
-            let Some(setup) = (way.setup)(spot.textile) else {
-                return false;
-            };
-            self.begin(setup, column, spot);
-            return true;
+        let is_new = begins(way.spot, column);
+        let setup = is_new.then(|| (way.setup)(spot.textile));
+        if matches!(setup, Some(None)) {
+            return false;
         }
-        let now = spot.place_mm;
-        let before = (way.spot)(column - 1).map_or(now, |spot| spot.place_mm);
-        let earlier = (self.leg.as_ref())
-            .filter(|leg| column >= leg.start + 2)
-            .and_then(|_| (way.spot)(column - 2));
-        let moved = difference(now, before);
-        let moved_before = earlier.map_or(moved, |spot| difference(before, spot.place_mm));
-        self.go_on(column, before, [moved, moved_before]);
+        if let Some(before) = led_from(way.spot, column) {
+            let earlier = (self.leg.as_ref())
+                .filter(|leg| column >= leg.start + 2)
+                .and_then(|_| led_from(way.spot, column - 1));
+            let moved = difference(spot.place_mm, before);
+            let moved_before = earlier.map_or(moved, |earlier| difference(before, earlier));
+            self.go_on(column, before, [moved, moved_before]);
+        }
+        if let Some(setup) = setup.flatten() {
+            self.begin(setup, column, spot);
+        }
         true
     }
 
@@ -222,7 +224,7 @@ fn row_of(run: &StylusRun, column: f64, way_mm: f64) -> FeltRow {
     FeltRow {
         column,
         way_mm,
-        observed_j: run.observed_j().unwrap_or(-run.gained_j()),
+        observed_j: run.observed_j().unwrap_or_else(|| -run.gained_j()),
         felt: *run.row(),
     }
 }
@@ -231,14 +233,17 @@ fn difference(now: [f64; 2], before: [f64; 2]) -> [f64; 2] {
     [now[0] - before[0], now[1] - before[1]]
 }
 
+/// Where the display was a tick before, if it was led from there over the same textile.
+fn led_from(spot: &dyn Fn(u64) -> Option<Spot>, column: u64) -> Option<[f64; 2]> {
+    let (before, now) = (spot(column.checked_sub(1)?)?, spot(column)?);
+    let [x, y] = difference(now.place_mm, before.place_mm);
+    let is_led = before.textile == now.textile && x.hypot(y) <= LEAP_MM;
+    is_led.then_some(before.place_mm)
+}
+
 /// Whether a run begins at a column that lies on a textile.
 fn begins(spot: &dyn Fn(u64) -> Option<Spot>, column: u64) -> bool {
-    let before = column.checked_sub(1).and_then(spot);
-    let (Some(before), Some(now)) = (before, spot(column)) else {
-        return true;
-    };
-    let [x, y] = difference(now.place_mm, before.place_mm);
-    column.is_multiple_of(LEG) || before.textile != now.textile || x.hypot(y) > LEAP_MM
+    column.is_multiple_of(LEG) || led_from(spot, column).is_none()
 }
 
 /// The column where the run began that is under way at a column.

@@ -46,7 +46,7 @@ impl Default for StylusSettings {
             radius_mm: 0.5,
             mass_kg: DeviceSpec::default().mass_kg,
             own_damping_n_s_per_m: 0.5,
-            press_n: 1.0,
+            press_n: 0.3,
             method: Stepper::Auto,
             is_sampled: false,
             is_lateral: true,
@@ -146,7 +146,7 @@ pub(crate) const DIALS: [Dial; 8] = [
     ),
     dial(
         "Hand",
-        decades([0.1, 10.0], 2.0, 1.0, (1, "N")),
+        decades([0.1, 10.0], 2.0, 0.3, (1, "N")),
         "With what force the hand presses down",
         |settings| &mut settings.press_n,
     ),

@@ -64,9 +64,10 @@ fn the_stylus_is_where_the_displays_centre_is() {
     assert_eq!(last.column, entry.column as f64);
     assert!(z_mm.abs() < 2.0, "on the cloth: {z_mm} mm");
     let mean_n = rows.iter().map(|row| row.felt.force_n).sum::<f64>() / rows.len() as f64;
+    let press_n = fine().press_n;
     assert!(
-        (mean_n - 1.0).abs() < 0.3,
-        "the hand presses with 1 N: {mean_n}"
+        (mean_n / press_n - 1.0).abs() < 0.3,
+        "as much as the hand presses: {mean_n} N"
     );
     let is_number = |row: &FeltRow| {
         let felt = row.felt;
@@ -135,8 +136,8 @@ fn the_mark_on_the_slider_is_where_the_loop_begins_to_grow() {
         ..StylusSettings::default()
     };
     let limit = settings.case().stiffness_limits(0.0, 0.0).exact;
-    // Without damping of the wall the limit is known: K = 2 b/T.
-    assert!((limit / 1000.0 - 1.0).abs() < 1e-6, "{limit} N/m");
+    // Without damping of the wall a heavy mass has the limit K = 2 b/T, and 75 g nearly.
+    assert!((limit / 1000.0 - 1.0).abs() < 2e-3, "{limit} N/m");
     let standing = |factor: f64| {
         let settings = StylusSettings {
             stiffness_n_per_m: factor * limit,

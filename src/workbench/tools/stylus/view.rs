@@ -4,6 +4,7 @@
 use eframe::egui::{Align2, Margin, PointerButton, Rect, Sense, Ui, UiBuilder, pos2, vec2};
 
 use crate::bench::tool::PaneContext;
+use crate::bench::view::Cloth;
 use crate::kit::pane::{paint_sentence, scroll_area};
 use crate::kit::plot::{self, Drag, Setting};
 use crate::kit::theme::{self, Palette, STEP};
@@ -76,7 +77,7 @@ const NAMES: [&str; 6] = [
 ];
 
 /// Shows the pane.
-pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus, context: &mut PaneContext<'_>) {
+pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus, context: &PaneContext<'_>) {
     let size = ui.available_size();
     if size.x >= WIDE {
         let whole = ui.available_rect_before_wrap();
@@ -143,7 +144,7 @@ fn show_line(ui: &mut Ui, stylus: &Stylus, context: &PaneContext<'_>) {
     }
     let name = under.map_or_else(
         || "no textile under the display's centre".to_owned(),
-        |cloth| cloth.title(),
+        Cloth::title,
     );
     let room = right - rect.left() - STEP;
     paint_line(ui, rect.left_center(), room, quiet(name));
@@ -209,9 +210,10 @@ fn show_section(ui: &Ui, rect: Rect, stylus: &Stylus, context: &PaneContext<'_>)
     let area = rect - MARGIN;
     let aspect = f64::from(area.height() / area.width().max(1.0));
     let radius_mm = stylus.chosen.applied.radius_mm;
-    let relief = ground.map(|ground| &ground.felt.relief);
-    let shown =
-        relief.and_then(|relief| chart::section(stylus.second(), relief, radius_mm, aspect));
+    let shown = ground.and_then(|ground| {
+        let reliefs = [&ground.felt.relief, ground.contact.relief()];
+        chart::section(stylus.second(), reliefs, radius_mm, aspect)
+    });
     let Some(shown) = shown else {
         let words = "Move over a textile: the tip in its relief is drawn here";
         paint_sentence(ui.painter(), rect, stylus.note.as_deref().unwrap_or(words));
