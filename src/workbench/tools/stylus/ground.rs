@@ -84,7 +84,6 @@ pub(crate) struct Grounds {
 
 impl Grounds {
     /// Preparations begun so far.
-    #[cfg(test)]
     pub(crate) fn n_begun(&self) -> u64 {
         self.preparing.n_begun()
     }

@@ -33,6 +33,9 @@ use crate::tools::stylus::follow::{Follower, Progress, Spot, WINDOW, Way};
 use crate::tools::stylus::ground::{Ground, GroundKey, Grounds};
 use crate::tools::stylus::settings::{Chosen, StylusSettings};
 
+/// Why there is nothing to export for a moment.
+const PREPARING: &str =
+    "There is nothing to export yet: the tip is being rolled over the textile; try again";
 /// Height of a chart in a file, pixels.
 const CHART_PX: f64 = 240.0;
 
@@ -100,9 +103,8 @@ impl Stylus {
         self.grounds.get(&key)?.0.as_deref().ok()
     }
 
-    /// Goes on to the tick that every view shows, as far as one frame may; says whether more is
-    /// due.
-    pub(crate) fn follow(&mut self, bench: &Bench) -> bool {
+    /// Goes on to the tick that every view shows, as far as one frame may.
+    pub(crate) fn follow(&mut self, bench: &Bench) -> Progress {
         let history = &bench.past.history;
         let looked_at = bench.past.look_back.as_ref().map(|back| back.column);
         let newest = history.newest().map(|entry| entry.column);
@@ -118,7 +120,9 @@ impl Stylus {
         }
         self.end = looked_at.or(newest);
         self.note = None;
-        let Some(end) = self.end else { return false };
+        let Some(end) = self.end else {
+            return Progress::Done;
+        };
         let spot = |column: u64| {
             let entry = history.at_column(column)?;
             spot_at(&now.placed, entry.tick_sample.pose.position)
@@ -146,7 +150,7 @@ impl Stylus {
         if progress == Progress::More {
             bench.ctx.request_repaint();
         }
-        progress == Progress::More
+        progress
     }
 
     /// The charts of the second that is shown, made when it changed.
@@ -211,7 +215,15 @@ impl Tool for Stylus {
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
-        while self.follow(bench) {}
+        loop {
+            let n_begun = self.grounds.n_begun();
+            match self.follow(bench) {
+                Progress::Done => break,
+                // What is prepared in the background is not waited for.
+                Progress::Waits if self.grounds.n_begun() == n_begun => return Err(PREPARING),
+                Progress::More | Progress::Waits => {}
+            }
+        }
         if self.follower.rows().is_empty() {
             return Err(NOTHING_FELT);
         }

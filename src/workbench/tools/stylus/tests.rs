@@ -99,6 +99,7 @@ fn what_cannot_be_held_is_asked_before_it_is_applied() {
         is_sampled: true,
         damping_n_s_per_m: 0.0,
         stiffness_n_per_m: 100.0,
+        press_n: 1.0,
         ..fine()
     };
     let chosen = &mut stylus(&mut desk).chosen;
