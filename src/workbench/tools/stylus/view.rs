@@ -252,7 +252,7 @@ fn show_map(ui: &Ui, rect: Rect, stylus: &mut Stylus) {
         settings.damping_n_s_per_m = on(&DIALS[1].scale, damping);
         stylus.chosen.ask(settings);
     }
-    let tip = "Stable: the wall never gives more energy than it took\nActive: it may, and can chatter \
-               in a hand\nAbove both it grows\nDrag the dot";
+    let tip = "Stable: the wall never gives more energy than it took\nActive: it may, and can \
+               chatter in a hand\nAbove both it grows\nDrag the dot";
     response.clone().on_hover_text(tip);
 }
