@@ -8,6 +8,7 @@ mod adapting;
 mod check;
 mod check_adaptation;
 mod check_composition;
+mod check_presentation;
 mod composing;
 mod composition;
 mod file;

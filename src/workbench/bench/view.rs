@@ -175,7 +175,7 @@ pub(crate) struct EngineView {
     /// How steadily positions come.
     pub input: InputView,
     /// The step of a sequence of vibrations that is played.
-    pub(crate) vibration: Option<u16>,
+    pub(crate) sequence_step: Option<u16>,
     /// The device.
     pub bridge: Option<BridgeView>,
 }

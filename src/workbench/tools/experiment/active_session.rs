@@ -9,7 +9,7 @@ use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::now::{Began, Now, Pause};
 use crate::tools::experiment::presenting::Presented;
-use selvedge_engine::{RecordedSample, VibrationStep};
+use selvedge_engine::{RecordedSample, SequenceStep};
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
@@ -267,7 +267,7 @@ impl ActiveSession {
     }
 
     /// What is played at the beginning of this trial: silence first.
-    pub(crate) fn vibrations(&self) -> Vec<VibrationStep> {
+    pub(crate) fn vibrations(&self) -> Vec<SequenceStep> {
         let Some(trial) = self.trial() else {
             return Vec::new();
         };
@@ -275,7 +275,7 @@ impl ActiveSession {
         if steps.is_empty() {
             return steps;
         }
-        let lead = VibrationStep {
+        let lead = SequenceStep {
             amplitude_um: [0.0; 2],
             n_ticks: LEAD_TICKS,
         };

@@ -91,7 +91,7 @@ impl Experiment {
         if session.is_recording() {
             bench.send(Command::StopRecording);
         }
-        bench.send(Command::Vibrate(Vec::new()));
+        bench.send(Command::PlaySequence(Vec::new()));
         self.write_row(bench);
     }
 
@@ -99,7 +99,7 @@ impl Experiment {
     pub(crate) fn play_again(&self, bench: &mut Bench) {
         let session = self.session.as_ref();
         if let Some(session) = session.filter(|one| one.may_play_again() && one.is_open()) {
-            bench.send(Command::Vibrate(session.vibrations()));
+            bench.send(Command::PlaySequence(session.vibrations()));
         }
     }
 
@@ -207,7 +207,7 @@ impl Experiment {
                 bench.send(Command::UpdateScene(Box::new(prepared)));
                 let is_played = session.trial().is_some() && !session.is_waiting();
                 let steps = is_played.then(|| session.vibrations());
-                bench.send(Command::Vibrate(steps.unwrap_or_default()));
+                bench.send(Command::PlaySequence(steps.unwrap_or_default()));
             }
             Err(error) => bench.notices.give(error.to_string()),
         }
@@ -239,7 +239,7 @@ impl Experiment {
     fn leave_session(&mut self, bench: &mut Bench) {
         self.asked = None;
         bench.session.active = None;
-        bench.send(Command::Vibrate(Vec::new()));
+        bench.send(Command::PlaySequence(Vec::new()));
         let n_contactors = bench.n_contactors();
         let mask = bench.selection.mute_solo.contactor_mask(n_contactors);
         bench.send(Command::SetContactorMask(mask));
