@@ -10,8 +10,8 @@ use assert_no_alloc::assert_no_alloc;
 
 use selvedge_device::{ArrayProfile, BridgeState, Target};
 use selvedge_engine::{
-    Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
-    Played, ProgramLink, SequenceStep, SoundSource as _, TICK, loopback, sonification,
+    Command, Engine, EngineConfig, InputSource, Played, PointerSample, PointerSender,
+    PreparedScene, ProgramLink, SequenceStep, SoundSource as _, TICK, loopback, sonification,
 };
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge_render::array::{Accuracy, Method};

@@ -178,7 +178,8 @@ impl PresentationKeys {
             })
         };
         let is_textile = |one: &Stimulus| matches!(one.source, Source::Textile { .. });
-        let usual_ms = if stimuli.iter().any(is_textile) {
+        let is_in_time = self.kind == Shown::Intervals;
+        let usual_ms = if is_in_time && stimuli.iter().any(is_textile) {
             CLOTH_INTERVAL_MS
         } else {
             interval_ms()

@@ -91,7 +91,8 @@ impl Experiment {
         if session.is_recording() {
             bench.send(Command::StopRecording);
         }
-        bench.send(Command::PlaySequence(Vec::new()));
+        let after = session.after_sequence().into_iter().collect();
+        bench.send(Command::PlaySequence(after));
         self.write_row(bench);
     }
 
@@ -99,7 +100,7 @@ impl Experiment {
     pub(crate) fn play_again(&self, bench: &mut Bench) {
         let session = self.session.as_ref();
         if let Some(session) = session.filter(|one| one.may_play_again() && one.is_open()) {
-            bench.send(Command::PlaySequence(session.vibrations()));
+            bench.send(Command::PlaySequence(session.sequence()));
         }
     }
 
@@ -204,10 +205,18 @@ impl Experiment {
         let prepared = session.materials.prepare(&session.design, layout, tuning);
         match prepared {
             Ok(prepared) => {
-                bench.send(Command::UpdateScene(Box::new(prepared)));
                 let is_played = session.trial().is_some() && !session.is_waiting();
-                let steps = is_played.then(|| session.vibrations());
-                bench.send(Command::PlaySequence(steps.unwrap_or_default()));
+                let steps = is_played.then(|| session.sequence()).unwrap_or_default();
+                // Whatever comes last is silent: textiles are not felt before their turn.
+                let is_first = !steps.is_empty();
+                let sequence = Command::PlaySequence(steps);
+                let scene = Command::UpdateScene(Box::new(prepared));
+                let in_order = if is_first {
+                    [sequence, scene]
+                } else {
+                    [scene, sequence]
+                };
+                in_order.into_iter().for_each(|one| bench.send(one));
             }
             Err(error) => bench.notices.give(error.to_string()),
         }
@@ -261,7 +270,7 @@ impl Experiment {
     /// Takes what threads and the engine have for a session. Once a frame.
     pub(crate) fn poll(&mut self, bench: &mut Bench) {
         if let Some(session) = &mut self.session {
-            session.vibration = bench.live.vibration;
+            session.sequence_step = bench.live.sequence_step;
             session.collect_recording();
         }
         match finished(&mut self.form.listing) {
@@ -309,7 +318,7 @@ impl Experiment {
             return;
         };
         let is_moving =
-            session.vibration.is_some() || matches!(session.now, Now::Familiarisation(_));
+            session.sequence_step.is_some() || matches!(session.now, Now::Familiarisation(_));
         match (&session.now, session.is_writing()) {
             (Now::Finished, _) => {}
             (_, true) => bench.ctx.request_repaint_after(FRAME),
