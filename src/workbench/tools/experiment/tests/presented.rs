@@ -174,6 +174,7 @@ fn every_kind() -> Vec<Asked> {
         ("compression-staircase", vec![place(1)]),
         ("equality-constant", vec![place(0)]),
         ("masked-threshold", vec![place(2)]),
+        ("roughness-intervals", vec![place(0)]),
         ("free-sorting", (0..4).map(Mark::NextPile).collect()),
         ("dissimilarity", vec![Mark::Rate(0, 30.0)]),
         (
