@@ -142,8 +142,8 @@ fn engine_on_stack(method: Method) -> Engine {
     engine
 }
 
-/// Bits of what every contactor does, from the first tick of a sequence on, where one textile of the
-/// stack lies alone.
+/// Bits of what every contactor does from the first tick of a sequence on, where one textile of
+/// the stack lies alone.
 fn alone(textile: usize, method: Method) -> Vec<Vec<[u32; 2]>> {
     let mut scene = stack();
     scene.textiles = vec![scene.textiles[textile].clone()];

@@ -60,7 +60,7 @@ pub(super) fn begun_on_array(folder: &Folder, design: &str) -> Headless {
 }
 
 /// A design of those that the analysis is tried with.
-fn composed(name: &str) -> String {
+pub(super) fn composed(name: &str) -> String {
     let designs = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../experiment/analysis/tests/designs"
