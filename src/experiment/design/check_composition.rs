@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::check::{MOST_REPEATS, need, need_within};
 use super::check_adaptation::check_adaptation;
 use super::check_presentation::{MOST_PLACES, MOST_SET, check_presentation};
+use super::needs::{MOST_REPEATS, need, need_within};
 use super::{
     Composition, Confidence, Design, Form, Response, Right, Scale, Sequence, Sets, Standard,
     Tunable, TunedParameter, is_name,

@@ -1,7 +1,7 @@
 //! What makes the way stimuli are shown wrong, and how to mend it.
 
-use super::check::{need, need_within};
 use super::check_adaptation::check_level;
+use super::needs::{need, need_within};
 use super::{Design, Medium, Shown, Source, Standard};
 use selvedge_foundation::files::Flaw;
 

@@ -13,6 +13,7 @@ mod composing;
 mod composition;
 mod file;
 mod kind;
+mod needs;
 mod old;
 mod parameter;
 mod vocabulary;

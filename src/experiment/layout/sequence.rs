@@ -10,13 +10,14 @@ use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_textile::tactile::Band;
 
 /// Between two intervals, ms.
-pub(crate) const PAUSE_MS: u32 = 300;
+const PAUSE_MS: u32 = 300;
 /// A vibration that is felt alone, ms.
 const ALONE_MS: u32 = 1000;
 
-/// What is played in a trial, a pause between each two: step 2n is interval n. Empty where cloth
-/// lies at places. What everything is compared with comes first. A textile goes by its number in
-/// the scene of the trial's [`Layout`].
+/// What is played in a trial, a pause between each two: step 2n is interval n.
+///
+/// Empty where cloth lies at places. What everything is compared with comes first. A textile goes
+/// by its number in the scene of the trial's [`Layout`].
 pub fn sequence(design: &Design, task: &Task) -> Vec<SequenceStep> {
     let presentation = &design.composition.presentation;
     let (played, ms) = match presentation.shown {
