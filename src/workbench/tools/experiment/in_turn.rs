@@ -72,7 +72,8 @@ impl ActiveSession {
         let step = self
             .sequence_step
             .and_then(|step| step.checked_sub(LEAD_STEPS));
-        let is_interval = |step: &u16| step % 2 == 0 && usize::from(*step) < 2 * intervals.n;
+        let is_interval =
+            |step: &u16| step.is_multiple_of(2) && usize::from(*step) < 2 * intervals.n;
         let played = step.filter(is_interval).map(|step| usize::from(step / 2));
         Some(Intervals {
             played,

@@ -205,18 +205,23 @@ impl Experiment {
         let prepared = session.materials.prepare(&session.design, layout, tuning);
         match prepared {
             Ok(prepared) => {
-                let is_played = session.trial().is_some() && !session.is_waiting();
-                let steps = is_played.then(|| session.sequence()).unwrap_or_default();
-                // Whatever comes last is silent: textiles are not felt before their turn.
-                let is_first = !steps.is_empty();
+                let steps = if session.is_waiting() {
+                    Vec::new()
+                } else {
+                    session.sequence()
+                };
+                // Whichever is silent comes first: no textile is felt before its turn.
+                let is_sequence_first = !steps.is_empty();
                 let sequence = Command::PlaySequence(steps);
                 let scene = Command::UpdateScene(Box::new(prepared));
-                let in_order = if is_first {
+                let in_order = if is_sequence_first {
                     [sequence, scene]
                 } else {
                     [scene, sequence]
                 };
-                in_order.into_iter().for_each(|one| bench.send(one));
+                for command in in_order {
+                    bench.send(command);
+                }
             }
             Err(error) => bench.notices.give(error.to_string()),
         }
