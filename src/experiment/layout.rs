@@ -1,16 +1,17 @@
 //! What a trial presents on the array: what lies where under which number, what the experimenter
-//! lays on the table, and which vibrations are played.
+//! lays on the table, and what is played in which sequence.
 //!
 //! Pure: a function of the design and the trial. Labels are numbers of places, never of stimuli.
 
+mod sequence;
+
+pub use sequence::sequence;
+
 use super::design::{Design, Form, Shown, Source, Standard, Tunable};
 use super::trial::Task;
-use selvedge_engine::{TICKS_PER_S, VibrationStep};
 use selvedge_foundation::geometry::Point;
-use selvedge_foundation::numerics::{to_single, to_whole};
-use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_render::scene::{Display, PlacedTextile, Scene};
-use selvedge_textile::tactile::{Band, Tuning};
+use selvedge_textile::tactile::Tuning;
 
 /// Side of a stimulus, mm (Philpott & Summers 2012).
 const SIDE_MM: f64 = 100.0;
@@ -18,10 +19,6 @@ const SIDE_MM: f64 = 100.0;
 const MARGIN_MM: f64 = 10.0;
 /// Between two stimuli without one in the middle, mm.
 const GAP_MM: f64 = 20.0;
-/// Between two intervals, ms.
-const PAUSE_MS: u32 = 300;
-/// A vibration that is felt alone, ms.
-const ALONE_MS: u32 = 1000;
 
 /// Where the stimuli of a trial lie.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,15 +44,18 @@ pub struct Place {
 
 impl Layout {
     /// Where the stimuli of a task lie: up to three side by side, four at the corners, more in
-    /// rows. A virtual reference lies in the middle of four, else behind the others.
+    /// rows. A virtual reference lies in the middle of four, else behind the others. Textiles that
+    /// come in intervals lie upon each other.
     pub fn of(design: &Design, task: &Task) -> Self {
         let composition = &design.composition;
-        if composition.presentation.shown == Shown::Intervals {
+        let is_in_time = composition.presentation.shown == Shown::Intervals;
+        if is_in_time && design.plays_vibrations() {
             return Self::empty();
         }
         let is_real = composition.presentation.reference == Standard::RealCloth;
         let reference = task.reference.filter(|_| !is_real);
         let mut layout = match (task.items.len(), reference) {
+            (_, reference) if is_in_time => upon_each_other(&task.items, reference),
             (4, reference) => four(&task.items, reference),
             (_, None) => in_rows(&task.items),
             (_, Some(reference)) => beside(&task.items, reference),
@@ -85,11 +85,16 @@ impl Layout {
 
     /// One stimulus with room for a guided movement.
     pub fn to_practise(stimulus: usize) -> Self {
-        let side_mm = SIDE_MM + 2.0 * MARGIN_MM;
-        Self {
-            size_mm: [side_mm; 2],
-            ..in_rows(&[stimulus])
-        }
+        in_rows(&[stimulus])
+    }
+
+    /// Whether what lies here is felt in turn at one place.
+    pub fn is_stacked(&self) -> bool {
+        let [first, others @ ..] = self.places.as_slice() else {
+            return false;
+        };
+        let is_there = |other: &Place| other.origin_mm == first.origin_mm;
+        !others.is_empty() && others.iter().all(is_there)
     }
 
     /// The scene of what lies here: textiles alone, each in its full size. `level_db` is the level
@@ -194,6 +199,22 @@ fn beside(items: &[usize], reference: usize) -> Layout {
     layout
 }
 
+/// All at the place of one that lies alone, the reference on top.
+fn upon_each_other(items: &[usize], reference: Option<usize>) -> Layout {
+    let numbers = (1..=items.len()).map(Some).chain([None]);
+    let stimuli = items.iter().copied().chain(reference);
+    let place = |(stimulus, number)| Place {
+        stimulus,
+        origin_mm: Point::new(MARGIN_MM, MARGIN_MM),
+        number,
+        adapted: None,
+    };
+    Layout {
+        size_mm: [SIDE_MM + 2.0 * MARGIN_MM; 2],
+        places: stimuli.zip(numbers).map(place).collect(),
+    }
+}
+
 /// Row by row from above, each from the left.
 fn grid(items: &[usize], n_columns: usize, gap_mm: f64) -> Layout {
     let n_rows = items.len().div_ceil(n_columns.max(1));
@@ -252,64 +273,6 @@ pub fn tuned(design: &Design, task: &Task, mut tuning: Tuning, values: &[f64]) -
         adaptation.parameter.set(&mut tuning, adapted.value);
     }
     tuning
-}
-
-/// What is played in a trial of vibrations, a pause between each two: step 2n is interval n. Empty
-/// where cloth is felt. What everything is compared with comes first.
-pub fn vibrations(design: &Design, task: &Task) -> Vec<VibrationStep> {
-    let presentation = &design.composition.presentation;
-    let ms = match presentation.shown {
-        Shown::Intervals => presentation.interval_ms,
-        _ => ALONE_MS,
-    };
-    let played: Vec<(Band, Option<f64>)> = match (&design.composition.adaptation, task.adapted) {
-        (Some(adaptation), Some(adapted)) if adaptation.is_vibration() => {
-            let level_db = |interval: usize| {
-                let is_adapted = presentation.n == 1 || Some(interval) == task.right;
-                is_adapted.then_some(adapted.value).or(adaptation.reference)
-            };
-            let intervals = 0..presentation.n;
-            intervals
-                .map(|at| (adaptation.band, level_db(at)))
-                .collect()
-        }
-        _ => {
-            let felt = task.reference.iter().chain(&task.items);
-            let vibration = |item: &usize| match design.stimuli.get(*item)?.source {
-                Source::Vibration { band, level_db } => Some((band, Some(level_db))),
-                _ => None,
-            };
-            felt.filter_map(vibration).collect()
-        }
-    };
-    let mut steps = Vec::new();
-    for (band, level_db) in played {
-        if !steps.is_empty() {
-            steps.push(step([None; 2], PAUSE_MS));
-        }
-        let mut levels_db = [presentation.masker_db; 2];
-        levels_db[band.index()] = level_db;
-        steps.push(step(levels_db, ms));
-    }
-    steps
-}
-
-/// Levels of both bands, dB re 1 µm; `None` is silence.
-fn step(levels_db: [Option<f64>; 2], ms: u32) -> VibrationStep {
-    VibrationStep {
-        amplitude_um: levels_db.map(|level_db| level_db.map_or(0.0, amplitude_of)),
-        n_ticks: ticks(ms),
-    }
-}
-
-/// A level as a peak amplitude, µm.
-fn amplitude_of(level_db: f64) -> f32 {
-    to_single(factor_of_gain(level_db))
-}
-
-/// The whole ticks that are nearest to a time, at least one.
-fn ticks(ms: u32) -> u32 {
-    to_whole((f64::from(ms) * 1e-3 * TICKS_PER_S).round().max(1.0))
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! What trials present, as hashes: the same where the same is felt, another where a textile, its
-//! gain, its place or a vibration differs.
+//! gain, its place or interval, or a vibration differs.
 
 use std::collections::BTreeMap;
 
 use crate::ExperimentError;
 use crate::design::{Design, Source};
-use crate::layout::{Layout, vibrations};
+use crate::layout::{Layout, sequence};
 use crate::trial::Task;
+use selvedge_engine::Played;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Library, TextileError};
@@ -76,8 +77,12 @@ impl StimulusHashes {
             .adapted
             .filter(|_| design.composition.presentation.n == 1);
         parts.extend(alone.map(|adapted| format!("{}\n", adapted.value)));
-        for step in vibrations(design, task) {
-            parts.push(format!("{:?} {}\n", step.amplitude_um, step.n_ticks));
+        for step in sequence(design, task) {
+            let played = match step.played {
+                Played::Vibration(amplitude_um) => format!("{amplitude_um:?}"),
+                Played::Textile(textile) => format!("place {textile}"),
+            };
+            parts.push(format!("{played} {}\n", step.n_ticks));
         }
         sha256_hex(parts.iter().map(String::as_bytes))
     }

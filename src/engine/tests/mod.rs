@@ -8,11 +8,11 @@ mod headroom;
 mod lift;
 mod mask;
 mod seek;
+mod sequence;
 mod shown;
 mod sound;
 mod tick_samples;
 mod update;
-mod vibration;
 
 use std::io::Cursor;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
 //! tell it from what lies where.
 
-use crate::design::{Design, Form, Medium, Sets, Source, Standard, Stimulus};
+use crate::design::{Composition, Design, Form, Medium, Sets, Shown, Source, Standard, Stimulus};
 use crate::trial::Task;
 use selvedge_foundation::quantity::with_unit;
 
@@ -53,7 +53,7 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
         let is_target = composition.order.sets == Sets::Targets;
         placed.push(Placed::new(
             if is_target { "target" } else { "standard" },
-            what,
+            format!("{what}{}", lasting(composition)),
         ));
     }
     if let [item] = task.items.as_slice() {
@@ -61,10 +61,28 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
         return placed;
     }
     let position = |(at, item): (usize, &usize)| {
-        Placed::new(format!("position {}", at + 1), named(design, *item))
+        let what = format!("{}{}", named(design, *item), lasting(composition));
+        Placed::new(format!("{} {}", place(composition), at + 1), what)
     };
     placed.extend(task.items.iter().enumerate().map(position));
     placed
+}
+
+/// Where or when a stimulus comes, but for its number.
+fn place(composition: &Composition) -> &'static str {
+    match composition.presentation.shown {
+        Shown::Intervals => "interval",
+        _ => "position",
+    }
+}
+
+/// How long it is felt where it comes in an interval.
+fn lasting(composition: &Composition) -> String {
+    let presentation = &composition.presentation;
+    match presentation.shown {
+        Shown::Intervals => format!(" for {} ms", presentation.interval_ms),
+        _ => String::new(),
+    }
 }
 
 fn adjusted(design: &Design, task: &Task) -> Vec<Placed> {
@@ -94,20 +112,15 @@ fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
                 adaptation.band.carrier_hz(),
                 with_unit(value, digits, parameter.unit()),
             );
-            return format!("{hz} Hz at {level} for {} ms", presentation.interval_ms);
+            return format!("{hz} Hz at {level}{}", lasting(composition));
         }
         let of = named(design, task.item().unwrap_or(0));
-        format!("{of} with {} = {value}", parameter.name())
+        let lasting = lasting(composition);
+        format!("{of} with {} = {value}{lasting}", parameter.name())
     };
-    let others = adaptation.reference.map_or_else(
-        || format!("nothing for {} ms", presentation.interval_ms),
-        at_value,
-    );
-    let place = if adaptation.is_vibration() {
-        "interval"
-    } else {
-        "position"
-    };
+    let nothing = || format!("nothing{}", lasting(composition));
+    let others = adaptation.reference.map_or_else(nothing, at_value);
+    let place = place(composition);
     let placed = |at: usize| {
         let is_adapted = presentation.n == 1 || Some(at) == task.right;
         let what = if is_adapted {
@@ -192,6 +205,24 @@ mod tests {
             jnd[0].replace("interval 1", ""),
             jnd[1].replace("interval 2", "")
         );
+    }
+
+    #[test]
+    fn cloth_in_intervals_is_told_interval_by_interval() {
+        let text = include_str!("../analysis/tests/designs/roughness-intervals.toml");
+        let design = Design::from_toml(text, std::path::Path::new("a.toml")).unwrap();
+        let task = Task {
+            items: vec![3, 0],
+            right: Some(0),
+            ..Task::default()
+        };
+        let placed = to_present(&design, &task);
+        let expected = [
+            Placed::new("interval 1", "denim for 2000 ms"),
+            Placed::new("interval 2", "silk-crepe for 2000 ms"),
+        ];
+        assert_eq!(placed, expected);
+        assert_eq!(super::super::form(&design), "type the interval: 1 or 2");
     }
 
     #[test]

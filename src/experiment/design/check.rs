@@ -1,49 +1,14 @@
 //! What makes a design's values wrong, and how to mend them.
 
 use std::collections::BTreeSet;
-use std::fmt::Display;
-use std::ops::RangeInclusive;
 
 use super::check_adaptation::check_level;
 use super::check_composition::check_composition;
+use super::needs::{MOST_REPEATS, MOST_STIMULI, need, need_within};
 use super::{Design, Form, Medium, Source, is_name};
 use selvedge_foundation::files::{Flaw, Place};
 
-/// Most stimuli of a design: schedules are made at once.
-pub(super) const MOST_STIMULI: usize = 400;
-/// Most times that a stimulus may come.
-pub(super) const MOST_REPEATS: usize = 1000;
-
 type Checked = Result<(), Flaw>;
-
-/// A flaw, unless all is right.
-pub(super) fn need(
-    is_right: bool,
-    place: Place,
-    what: impl Into<String>,
-    mend: impl Into<String>,
-) -> Checked {
-    if is_right {
-        return Ok(());
-    }
-    Err(Flaw::new(place, what, mend))
-}
-
-/// A flaw, unless a number lies within bounds.
-pub(super) fn need_within<T: PartialOrd + Display>(
-    place: Place,
-    value: &T,
-    bounds: RangeInclusive<T>,
-    unit: &str,
-) -> Checked {
-    let mend = format!("give {} to {}{unit}", bounds.start(), bounds.end());
-    need(
-        bounds.contains(value),
-        place,
-        format!("{} is {value}", place.2),
-        mend,
-    )
-}
 
 /// The first thing that is wrong with a design, whose first `n_named` stimuli are those of
 /// `textiles`.

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::check::{MOST_REPEATS, MOST_STIMULI, need, need_within};
+use super::needs::{MOST_REPEATS, MOST_STIMULI, need, need_within};
 use super::{
     Adaptation, Design, Form, QuestPlusTrack, Seeks, Sets, StaircaseTrack, Stopping, Track, Tunable,
 };

@@ -134,7 +134,7 @@ const ADAPTED: &str = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 
     reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
 
 /// Presentation, response and further tables, with what is said of them and how it is mended.
-const MISFITS: [([&str; 3], &str, &str); 18] = [
+const MISFITS: [([&str; 3], &str, &str); 20] = [
     (
         [SINGLE, "kind = \"choice\"", ""],
         "one alone to choose",
@@ -190,12 +190,30 @@ const MISFITS: [([&str; 3], &str, &str); 18] = [
     ),
     (
         [
-            "kind = \"intervals\"",
+            "kind = \"intervals\"\nreference = \"real-cloth\"",
+            "kind = \"choice\"",
+            "[order]\nsets = \"targets\"",
+        ],
+        "cloth on the table does not come in intervals",
+        "\"places\"",
+    ),
+    (
+        [
+            "kind = \"intervals\"\nmasker_db = 3",
             "kind = \"choice\"",
             "[order]\nsets = \"pairs\"",
         ],
-        "does not come in intervals",
-        "\"places\"",
+        "a masker under cloth",
+        "under vibrations alone",
+    ),
+    (
+        [
+            "kind = \"intervals\"\ninterval_ms = 1000",
+            "kind = \"choice\"",
+            "[order]\nsets = \"pairs\"",
+        ],
+        "interval_ms is 1000",
+        "1500 to 20000 for cloth",
     ),
     (
         [PAIR, "kind = \"number\"\nconfidence_grades = 3", ""],
@@ -311,6 +329,26 @@ fn two_stimuli_of_one_name_are_refused_at_the_second() {
         described.contains("a.toml:8: two stimuli are called \"a\""),
         "{described}"
     );
+}
+
+#[test]
+fn intervals_are_of_one_kind_and_cloth_has_longer_ones() {
+    let tables = "[presentation]\nkind = \"intervals\"\n[response]\nkind = \"choice\"\n\
+                  [order]\nsets = \"pairs\"\n";
+    let vibration = |id: &str| format!("[[stimulus]]\nid = \"{id}\"\nband_hz = 40\nlevel_db = 9\n");
+    let textiles = "textiles = [\"a\", \"b\"]\n";
+    let mixed = described(&format!("{HEAD}{textiles}{}{tables}", vibration("v")));
+    assert!(
+        mixed.contains("textiles and vibrations") && mixed.contains("of one kind"),
+        "{mixed}"
+    );
+    let ms = |stimuli: &str| {
+        let text = format!("{HEAD}{stimuli}{tables}");
+        let design = Design::from_toml(&text, Path::new("a.toml")).unwrap();
+        design.composition.presentation.interval_ms
+    };
+    assert_eq!(ms(textiles), 3000);
+    assert_eq!(ms(&(vibration("v") + &vibration("w"))), 500);
 }
 
 #[test]

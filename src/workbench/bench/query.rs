@@ -109,7 +109,7 @@ pub(crate) fn live_view(
         },
         reference_db: snapshot.rendering.compression_reference_db,
         input: input_view(&snapshot.pointer),
-        vibration: snapshot.vibration,
+        sequence_step: snapshot.sequence_step,
         bridge: snapshot
             .link
             .as_ref()

@@ -174,8 +174,8 @@ pub(crate) struct EngineView {
     pub reference_db: Option<f64>,
     /// How steadily positions come.
     pub input: InputView,
-    /// The step of a sequence of vibrations that is played.
-    pub(crate) vibration: Option<u16>,
+    /// The step of a sequence that is played.
+    pub(crate) sequence_step: Option<u16>,
     /// The device.
     pub bridge: Option<BridgeView>,
 }

@@ -30,7 +30,7 @@ macro_rules! composed {
 const N_OBSERVERS: usize = 6;
 
 /// Rows of subjects: all of them.
-const COMPOSED: [Composed; 15] = composed! {
+const COMPOSED: [Composed; 18] = composed! {
     "roughness-2afc": 42 => "choices", "subjects", 6;
     "abx": 84 => "choices", "subjects", 6;
     "triangle": 42 => "choices", "subjects", 6;
@@ -45,6 +45,9 @@ const COMPOSED: [Composed; 15] = composed! {
     "gain-yes-no": 60 => "thresholds", "fits", 6;
     "preference": 42 => "scales", "stimuli-scales", 7;
     "ranked-threes": 14 => "scores", "scores", 7;
+    "roughness-intervals": 42 => "choices", "subjects", 6;
+    "triangle-intervals": 42 => "choices", "subjects", 6;
+    "gain-intervals": 0 => "thresholds", "fits", 6;
     "masked-threshold": 40 => "thresholds", "fits", 6;
 };
 
@@ -122,6 +125,12 @@ fn answers_say_what_observers_feel() {
         ("triangle", "triangle-choices", 100.0 / 3.0),
         ("same-different", "same-different-choices", 50.0),
         ("roughness-2afc", "roughness-2afc-choices", 50.0),
+        ("roughness-intervals", "roughness-intervals-choices", 50.0),
+        (
+            "triangle-intervals",
+            "triangle-intervals-choices",
+            100.0 / 3.0,
+        ),
     ] {
         let (_, analysis) = analysed_of(name);
         let group = table(&analysis, section, "group");

@@ -21,7 +21,7 @@ fn wait(window: &mut Headless, what: &str, is_so: impl Fn(&Headless) -> bool) {
 }
 
 /// Connects the emulator and arms it, until it is at full strength.
-fn arm(window: &mut Headless) {
+pub(super) fn arm(window: &mut Headless) {
     if window.workbench.bench.live.bridge.is_none() {
         window.dispatch(DeviceCommand::ConnectEmulator);
     }
@@ -36,7 +36,7 @@ fn arm(window: &mut Headless) {
 }
 
 /// A window with a session on the emulator that counts, before its first trial, without practice.
-fn begun_on_array(folder: &Folder, design: &str) -> Headless {
+pub(super) fn begun_on_array(folder: &Folder, design: &str) -> Headless {
     let text = Design::shipped_text(design).map_or_else(|| composed(design), str::to_owned);
     let is_practice =
         |line: &&str| line.starts_with("practice_trials") || line.starts_with("least_practised");
@@ -60,7 +60,7 @@ fn begun_on_array(folder: &Folder, design: &str) -> Headless {
 }
 
 /// A design of those that the analysis is tried with.
-fn composed(name: &str) -> String {
+pub(super) fn composed(name: &str) -> String {
     let designs = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../experiment/analysis/tests/designs"
@@ -174,6 +174,7 @@ fn every_kind() -> Vec<Asked> {
         ("compression-staircase", vec![place(1)]),
         ("equality-constant", vec![place(0)]),
         ("masked-threshold", vec![place(2)]),
+        ("roughness-intervals", vec![place(0)]),
         ("free-sorting", (0..4).map(Mark::NextPile).collect()),
         ("dissimilarity", vec![Mark::Rate(0, 30.0)]),
         (
@@ -192,7 +193,7 @@ fn is_presented(window: &Headless) -> bool {
 }
 
 /// Ends a pause and lets the next presentation begin.
-fn present(window: &mut Headless) {
+pub(super) fn present(window: &mut Headless) {
     if session(window).pause == Pause::On {
         act(window, |one, bench| one.pause(false, bench));
     }
@@ -216,7 +217,7 @@ fn tick(window: &Headless) -> u64 {
 }
 
 /// The strongest of what the array is told now, µm.
-fn strongest_um(window: &Headless) -> f64 {
+pub(super) fn strongest_um(window: &Headless) -> f64 {
     let all = window.workbench.amplitudes_um();
     all.iter().flatten().copied().fold(0.0, f64::max)
 }
@@ -250,7 +251,7 @@ fn go_on(window: &mut Headless, marks: &[Mark]) {
 }
 
 /// The rows of the only session, which are as they were written.
-fn rows(folder: &Folder) -> Vec<Record> {
+pub(super) fn rows(folder: &Folder) -> Vec<Record> {
     let [found] = &find_sessions(&folder.0.join("logs")).unwrap().0[..] else {
         panic!("one session")
     };
