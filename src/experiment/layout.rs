@@ -3,10 +3,10 @@
 //!
 //! Pure: a function of the design and the trial. Labels are numbers of places, never of stimuli.
 
-use super::design::{Design, Form, Shown, Source, Standard, Tunable};
+use super::design::{Design, Form, Shown, Source, Standard, Tunable, Variant};
 use super::trial::Task;
 use selvedge_engine::{TICKS_PER_S, VibrationStep};
-use selvedge_foundation::geometry::Point;
+use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 use selvedge_foundation::numerics::{to_single, to_whole};
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_render::scene::{Display, PlacedTextile, Scene};
@@ -60,15 +60,14 @@ impl Layout {
             (_, None) => in_rows(&task.items),
             (_, Some(reference)) => beside(&task.items, reference),
         };
-        if let (Some(adapted), Some(adaptation)) = (task.adapted, &composition.adaptation) {
-            let places = layout.places.iter_mut().enumerate();
-            for (at, place) in places.filter(|_| composition.presentation.n > 1) {
-                let is_adapted = Some(at) == task.right;
-                place.adapted = if is_adapted {
-                    Some(adapted.value)
-                } else {
-                    adaptation.reference
-                };
+        let adaptation = composition.adaptation.as_ref().filter(|adaptation| {
+            // The tuning of one alone has its value.
+            let is_of_tuning = adaptation.parameter.is_of_tuning();
+            task.adapted.is_some() && !(is_of_tuning && composition.presentation.n == 1)
+        });
+        if let Some(adaptation) = adaptation {
+            for (at, place) in layout.places.iter_mut().enumerate() {
+                place.adapted = task.adapted_at(adaptation, at);
             }
         }
         layout
@@ -102,20 +101,23 @@ impl Layout {
     ) -> Scene {
         let placed = self.places.iter().filter_map(|place| {
             let stimulus = design.stimuli.get(place.stimulus)?;
-            let Source::Textile { id, gain_db } = &stimulus.source else {
+            let Source::Textile { id, variant } = &stimulus.source else {
                 return None;
             };
             let adapted = place.adapted.zip(design.composition.adaptation.as_ref());
-            let adapted_db = adapted.map_or(0.0, |(value, adaptation)| {
-                adapted_gain_db((adaptation.parameter, value), &tuning, level_db(id))
+            let variant = adapted.map_or(*variant, |(value, adaptation)| {
+                let parameter = adaptation.parameter;
+                let compressed_db = match parameter {
+                    Tunable::Compression => compressed_db(value, &tuning, level_db(id)),
+                    _ => 0.0,
+                };
+                let varied = variant.with(parameter, value);
+                varied.with(Tunable::Gain, compressed_db)
             });
             Some(PlacedTextile {
                 id: id.clone(),
-                origin_mm: place.origin_mm,
-                size_mm: [SIDE_MM; 2],
-                gain_db: *gain_db + adapted_db,
                 label: place.number.map_or_else(String::new, |n| n.to_string()),
-                ..PlacedTextile::default()
+                ..place.lay(&variant)
             })
         });
         Scene {
@@ -133,25 +135,47 @@ impl Layout {
 impl Place {
     /// Its extent, mm.
     pub const SIZE_MM: [f64; 2] = [SIDE_MM; 2];
+
+    /// A textile that lies here. One that is turned is a larger piece, about the same middle, of
+    /// which nothing but the place is felt: no edge tells how it is turned.
+    fn lay(&self, variant: &Variant) -> PlacedTextile {
+        let flat = PlacedTextile {
+            origin_mm: self.origin_mm,
+            size_mm: Self::SIZE_MM,
+            gain_db: variant.gain_db,
+            gain_40_db: variant.gain_40_db,
+            gain_320_db: variant.gain_320_db,
+            ..PlacedTextile::default()
+        };
+        if variant.rotation_deg.abs() <= 0.0 {
+            return flat;
+        }
+        let rotation = Rotation::from_degrees(variant.rotation_deg);
+        let (cos, sin) = rotation.cos_sin();
+        let half_mm = 0.5 * SIDE_MM;
+        let reach_mm = half_mm * (cos.abs() + sin.abs());
+        let to_middle = Displacement::new(half_mm, half_mm);
+        let from_middle = Displacement::new(-reach_mm, -reach_mm);
+        PlacedTextile {
+            origin_mm: self.origin_mm + to_middle + rotation.turn(from_middle),
+            size_mm: [2.0 * reach_mm; 2],
+            rotation_deg: variant.rotation_deg,
+            within_mm: Some([self.origin_mm, self.origin_mm + to_middle + to_middle]),
+            ..flat
+        }
+    }
 }
 
-/// What a place's own value of a parameter adds to its gain, dB: the tuning is that of the whole
-/// workspace.
-fn adapted_gain_db(
-    (parameter, value): (Tunable, f64),
-    tuning: &Tuning,
-    level_db: Option<f64>,
-) -> f64 {
-    match (parameter, tuning.compression_reference_db) {
-        (Tunable::Gain, _) => value,
-        (Tunable::Compression, Some(reference_db)) => {
-            let mut own = *tuning;
-            parameter.set(&mut own, value);
-            let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
-            gain_db(&own) - gain_db(tuning)
-        }
-        _ => 0.0,
-    }
+/// What a place's own compression adds to its gain, dB: the tuning is that of the whole workspace.
+fn compressed_db(compression: f64, tuning: &Tuning, level_db: Option<f64>) -> f64 {
+    let own = Tuning {
+        compression,
+        ..*tuning
+    };
+    tuning.compression_reference_db.map_or(0.0, |reference_db| {
+        let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
+        gain_db(&own) - gain_db(tuning)
+    })
 }
 
 /// Positions 1 and 2 above, 3 and 4 below; a reference in the middle takes as much room as a gap.
@@ -262,28 +286,29 @@ pub fn vibrations(design: &Design, task: &Task) -> Vec<VibrationStep> {
         Shown::Intervals => presentation.interval_ms,
         _ => ALONE_MS,
     };
-    let played: Vec<(Band, Option<f64>)> = match (&design.composition.adaptation, task.adapted) {
-        (Some(adaptation), Some(adapted)) if adaptation.is_vibration() => {
-            let level_db = |interval: usize| {
-                let is_adapted = presentation.n == 1 || Some(interval) == task.right;
-                is_adapted.then_some(adapted.value).or(adaptation.reference)
-            };
+    let adaptation = design.composition.adaptation.as_ref();
+    let adaptation = adaptation.filter(|_| task.adapted.is_some());
+    let played: Vec<(Band, Option<f64>, u32)> = match adaptation {
+        Some(adaptation) if adaptation.is_vibration() => {
             let intervals = 0..presentation.n;
-            intervals
-                .map(|at| (adaptation.band, level_db(at)))
-                .collect()
+            let interval = |at| (adaptation.band, task.adapted_at(adaptation, at), ms);
+            intervals.map(interval).collect()
         }
         _ => {
-            let felt = task.reference.iter().chain(&task.items);
-            let vibration = |item: &usize| match design.stimuli.get(*item)?.source {
-                Source::Vibration { band, level_db } => Some((band, Some(level_db))),
+            let lasts = adaptation.filter(|adaptation| adaptation.parameter == Tunable::Duration);
+            let ms_at = |at| lasts.and_then(|lasts| task.adapted_at(lasts, at));
+            let felt = task.reference.iter().chain(&task.items).enumerate();
+            let vibration = |(at, item): (usize, &usize)| match design.stimuli.get(*item)?.source {
+                Source::Vibration { band, level_db } => {
+                    Some((band, Some(level_db), ms_at(at).map_or(ms, to_whole)))
+                }
                 _ => None,
             };
             felt.filter_map(vibration).collect()
         }
     };
     let mut steps = Vec::new();
-    for (band, level_db) in played {
+    for (band, level_db, ms) in played {
         if !steps.is_empty() {
             steps.push(step([None; 2], PAUSE_MS));
         }

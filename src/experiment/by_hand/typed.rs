@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::design::{
-    Adaptation, Composition, Confidence, Design, Form, Kind, Scale, Sets, TunedParameter,
+    Composition, Confidence, Design, Form, Kind, Scale, Sets, Shown, TunedParameter,
 };
 use crate::trial::{Answer, AnswerError, AnswerValue, Task};
 
@@ -49,14 +49,7 @@ fn choice_form(composition: &Composition) -> String {
     let what = match composition.order.sets {
         Sets::Triads => "the odd position",
         Sets::Opposed => "the position of the real one",
-        Sets::Adapted
-            if composition
-                .adaptation
-                .as_ref()
-                .is_some_and(Adaptation::is_vibration) =>
-        {
-            "the interval"
-        }
+        Sets::Adapted if composition.presentation.shown == Shown::Intervals => "the interval",
         _ => "the position",
     };
     match &composition.response.confidence {

@@ -13,7 +13,7 @@ use super::slots::{SlotLetter, TuningSlot};
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
-use selvedge_textile::tactile::{Filters, Tuning};
+use selvedge_textile::tactile::{Band, Filters, Tuning};
 use selvedge_textile::{elsewhere, id_in, is_of_the_program};
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
@@ -65,6 +65,16 @@ pub struct PlacedTextile {
     /// Gain on top of the textile's own, dB; −∞ silences it.
     #[serde(default)]
     pub gain_db: f64,
+    /// What it adds to that at 40 Hz, dB.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub gain_40_db: f64,
+    /// The same at 320 Hz.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub gain_320_db: f64,
+    /// Lower left and upper right corner in the workspace of what it is felt within, whichever way
+    /// it is turned; `None` is all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within_mm: Option<[Point; 2]>,
     /// What the screen calls it.
     #[serde(default)]
     pub label: String,
@@ -147,8 +157,32 @@ impl PlacedTextile {
     /// Whether a point of the textile's own axes (u along the warp, w along the weft) is on it.
     pub fn contains(&self, textile_point: Point) -> bool {
         let [width_mm, height_mm] = self.size_mm;
-        is_within(textile_point.x_mm, width_mm) && is_within(textile_point.y_mm, height_mm)
+        let is_felt_at = |[from, to]: [Point; 2]| {
+            let at = self.workspace_from_textile().point(textile_point);
+            is_within(at.x_mm - from.x_mm, to.x_mm - from.x_mm)
+                && is_within(at.y_mm - from.y_mm, to.y_mm - from.y_mm)
+        };
+        is_within(textile_point.x_mm, width_mm)
+            && is_within(textile_point.y_mm, height_mm)
+            && self.within_mm.is_none_or(is_felt_at)
     }
+
+    /// What it adds to its gain in a band, dB.
+    pub fn band_gain_db(&self, band: Band) -> f64 {
+        match band {
+            Band::Low => self.gain_40_db,
+            Band::High => self.gain_320_db,
+        }
+    }
+}
+
+/// Whether a gain changes nothing; a key that does not is left out.
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference over"
+)]
+fn is_zero(gain_db: &f64) -> bool {
+    gain_db.abs() <= 0.0
 }
 
 /// Whether a library is named by where it lies, and not one of the program.

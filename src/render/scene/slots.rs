@@ -69,6 +69,7 @@ impl PlacedTextile {
             origin_mm: self.origin_mm,
             size_mm: self.size_mm,
             rotation_deg: self.rotation_deg,
+            within_mm: self.within_mm,
             ..Self::default()
         }
     }
