@@ -18,6 +18,8 @@ const SIDE_MM: f64 = 100.0;
 const MARGIN_MM: f64 = 10.0;
 /// Between two stimuli without one in the middle, mm.
 const GAP_MM: f64 = 20.0;
+/// How far a textile that is turned reaches beyond its place, where it is not felt, at least, mm.
+const HEM_MM: f64 = 1.0;
 /// Between two intervals, ms.
 const PAUSE_MS: u32 = 300;
 /// A vibration that is felt alone, ms.
@@ -153,7 +155,7 @@ impl Place {
         let rotation = Rotation::from_degrees(variant.rotation_deg);
         let (cos, sin) = rotation.cos_sin();
         let half_mm = 0.5 * SIDE_MM;
-        let reach_mm = half_mm * (cos.abs() + sin.abs());
+        let reach_mm = half_mm * (cos.abs() + sin.abs()) + HEM_MM;
         let to_middle = Displacement::new(half_mm, half_mm);
         let from_middle = Displacement::new(-reach_mm, -reach_mm);
         PlacedTextile {
