@@ -165,11 +165,8 @@ fn limit(window: &mut Headless, limit_um: f64) {
     window.pass(2);
 }
 
-/// A kind of trial, and a whole answer to it.
-type Asked = (&'static str, Vec<Mark>);
-
-/// Every kind that a participant's screen knows.
-fn every_kind() -> Vec<Asked> {
+/// Every kind of trial that a participant's screen knows, and a whole answer to it.
+fn every_kind() -> Vec<(&'static str, Vec<Mark>)> {
     let place = Mark::Place;
     vec![
         ("ranking-virtual-target", (0..4).map(place).collect()),
@@ -180,6 +177,8 @@ fn every_kind() -> Vec<Asked> {
         ("same-different", vec![place(0), Mark::Confidence(4)]),
         ("gain-yes-no", vec![place(0)]),
         ("compression-staircase", vec![place(1)]),
+        ("rotation-staircase", vec![place(1)]),
+        ("duration-constant", vec![place(1)]),
         ("equality-constant", vec![place(0)]),
         ("masked-threshold", vec![place(2)]),
         ("free-sorting", (0..4).map(Mark::NextPile).collect()),
