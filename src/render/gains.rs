@@ -1,8 +1,8 @@
 //! The gains of every placed textile and band: all that is applied after the spectra.
 //!
-//! `total dB = master + band + manifest + scene + compression`; what the scene gives a textile is its
-//! gain and that of the band alone. Changing them costs a few powers of
-//! ten and never touches a spectrum; it allocates nothing, so sliders may move while a tick is due.
+//! `total dB = master + band + manifest + scene + compression`; what the scene gives a textile is
+//! its gain and that of the band alone. Changing them costs a few powers of ten and never touches a
+//! spectrum; it allocates nothing, so sliders may move while a tick is due.
 
 use super::{PlacedLevel, RenderError, RenderScene};
 use selvedge_foundation::quantity::factor_of_gain;
