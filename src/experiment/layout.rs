@@ -7,9 +7,9 @@ mod sequence;
 
 pub use sequence::sequence;
 
-use super::design::{Design, Form, Shown, Source, Standard, Tunable};
+use super::design::{Design, Form, Shown, Source, Standard, Tunable, Variant};
 use super::trial::Task;
-use selvedge_foundation::geometry::Point;
+use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 use selvedge_render::scene::{Display, PlacedTextile, Scene};
 use selvedge_textile::tactile::Tuning;
 
@@ -19,6 +19,8 @@ const SIDE_MM: f64 = 100.0;
 const MARGIN_MM: f64 = 10.0;
 /// Between two stimuli without one in the middle, mm.
 const GAP_MM: f64 = 20.0;
+/// How far a textile that is turned reaches beyond its place, where it is not felt, at least, mm.
+const HEM_MM: f64 = 1.0;
 
 /// Where the stimuli of a trial lie.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,15 +62,14 @@ impl Layout {
             (_, None) => in_rows(&task.items),
             (_, Some(reference)) => beside(&task.items, reference),
         };
-        if let (Some(adapted), Some(adaptation)) = (task.adapted, &composition.adaptation) {
-            let places = layout.places.iter_mut().enumerate();
-            for (at, place) in places.filter(|_| composition.presentation.n > 1) {
-                let is_adapted = Some(at) == task.right;
-                place.adapted = if is_adapted {
-                    Some(adapted.value)
-                } else {
-                    adaptation.reference
-                };
+        let adaptation = composition.adaptation.as_ref().filter(|adaptation| {
+            // The tuning of one alone has its value.
+            let is_of_tuning = adaptation.parameter.is_of_tuning();
+            task.adapted.is_some() && !(is_of_tuning && composition.presentation.n == 1)
+        });
+        if let Some(adaptation) = adaptation {
+            for (at, place) in layout.places.iter_mut().enumerate() {
+                place.adapted = task.adapted_at(adaptation, at);
             }
         }
         layout
@@ -107,20 +108,23 @@ impl Layout {
     ) -> Scene {
         let placed = self.places.iter().filter_map(|place| {
             let stimulus = design.stimuli.get(place.stimulus)?;
-            let Source::Textile { id, gain_db } = &stimulus.source else {
+            let Source::Textile { id, variant } = &stimulus.source else {
                 return None;
             };
             let adapted = place.adapted.zip(design.composition.adaptation.as_ref());
-            let adapted_db = adapted.map_or(0.0, |(value, adaptation)| {
-                adapted_gain_db((adaptation.parameter, value), &tuning, level_db(id))
+            let variant = adapted.map_or(*variant, |(value, adaptation)| {
+                let parameter = adaptation.parameter;
+                let compressed_db = match parameter {
+                    Tunable::Compression => compressed_db(value, &tuning, level_db(id)),
+                    _ => 0.0,
+                };
+                let varied = variant.with(parameter, value);
+                varied.with(Tunable::Gain, compressed_db)
             });
             Some(PlacedTextile {
                 id: id.clone(),
-                origin_mm: place.origin_mm,
-                size_mm: [SIDE_MM; 2],
-                gain_db: *gain_db + adapted_db,
                 label: place.number.map_or_else(String::new, |n| n.to_string()),
-                ..PlacedTextile::default()
+                ..place.lay(&variant)
             })
         });
         Scene {
@@ -138,25 +142,47 @@ impl Layout {
 impl Place {
     /// Its extent, mm.
     pub const SIZE_MM: [f64; 2] = [SIDE_MM; 2];
+
+    /// A textile that lies here. One that is turned is a larger piece, about the same middle, of
+    /// which nothing but the place is felt: no edge tells how it is turned.
+    fn lay(&self, variant: &Variant) -> PlacedTextile {
+        let flat = PlacedTextile {
+            origin_mm: self.origin_mm,
+            size_mm: Self::SIZE_MM,
+            gain_db: variant.gain_db,
+            gain_40_db: variant.gain_40_db,
+            gain_320_db: variant.gain_320_db,
+            ..PlacedTextile::default()
+        };
+        if variant.rotation_deg.abs() <= 0.0 {
+            return flat;
+        }
+        let rotation = Rotation::from_degrees(variant.rotation_deg);
+        let (cos, sin) = rotation.cos_sin();
+        let half_mm = 0.5 * SIDE_MM;
+        let reach_mm = half_mm * (cos.abs() + sin.abs()) + HEM_MM;
+        let to_middle = Displacement::new(half_mm, half_mm);
+        let from_middle = Displacement::new(-reach_mm, -reach_mm);
+        PlacedTextile {
+            origin_mm: self.origin_mm + to_middle + rotation.turn(from_middle),
+            size_mm: [2.0 * reach_mm; 2],
+            rotation_deg: variant.rotation_deg,
+            within_mm: Some([self.origin_mm, self.origin_mm + to_middle + to_middle]),
+            ..flat
+        }
+    }
 }
 
-/// What a place's own value of a parameter adds to its gain, dB: the tuning is that of the whole
-/// workspace.
-fn adapted_gain_db(
-    (parameter, value): (Tunable, f64),
-    tuning: &Tuning,
-    level_db: Option<f64>,
-) -> f64 {
-    match (parameter, tuning.compression_reference_db) {
-        (Tunable::Gain, _) => value,
-        (Tunable::Compression, Some(reference_db)) => {
-            let mut own = *tuning;
-            parameter.set(&mut own, value);
-            let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
-            gain_db(&own) - gain_db(tuning)
-        }
-        _ => 0.0,
-    }
+/// What a place's own compression adds to its gain, dB: the tuning is that of the whole workspace.
+fn compressed_db(compression: f64, tuning: &Tuning, level_db: Option<f64>) -> f64 {
+    let own = Tuning {
+        compression,
+        ..*tuning
+    };
+    tuning.compression_reference_db.map_or(0.0, |reference_db| {
+        let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
+        gain_db(&own) - gain_db(tuning)
+    })
 }
 
 /// Positions 1 and 2 above, 3 and 4 below; a reference in the middle takes as much room as a gap.

@@ -62,15 +62,18 @@ impl StimulusHashes {
                 continue;
             };
             let what = match &stimulus.source {
-                Source::Textile { id, gain_db } => {
+                Source::Textile { id, variant } => {
                     let content = self.textiles.get(id).map_or(id.as_str(), String::as_str);
-                    format!("{content} {gain_db}")
+                    let [(_, gain_db, _), others @ ..] = variant.numbers();
+                    let others = others.into_iter().filter(|(_, value, _)| *value != 0.0);
+                    let others = others.map(|(key, value, _)| format!(" {key} {value}"));
+                    format!("{content} {gain_db}{}", others.collect::<String>())
                 }
                 Source::RealCloth(cloth) => format!("cloth {cloth}"),
                 Source::Vibration { .. } => String::new(),
             };
             parts.push(format!("{:?} {what}\n", place.number));
-            // Gain or compression of this place alone.
+            // What is adapted of this place alone.
             parts.extend(place.adapted.map(|value| format!("{value}\n")));
         }
         let alone = task

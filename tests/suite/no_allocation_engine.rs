@@ -34,6 +34,8 @@ fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
         size_mm: [100.0, 100.0],
         manifest_gain_db: 0.0,
         scene_gain_db: 0.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Known(3.0),
         surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
     };

@@ -1,7 +1,9 @@
 //! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
 //! tell it from what lies where.
 
-use crate::design::{Composition, Design, Form, Medium, Sets, Shown, Source, Standard, Stimulus};
+use crate::design::{
+    Composition, Design, Form, Medium, Sets, Shown, Source, Standard, Stimulus, Tunable,
+};
 use crate::trial::Task;
 use selvedge_foundation::quantity::with_unit;
 
@@ -101,7 +103,7 @@ fn adjusted(design: &Design, task: &Task) -> Vec<Placed> {
 /// What is adapted, at its value where it is adapted and at the reference elsewhere.
 fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
     let composition = &design.composition;
-    let (Some(adaptation), Some(adapted)) = (&composition.adaptation, task.adapted) else {
+    let Some(adaptation) = &composition.adaptation else {
         return Vec::new();
     };
     let presentation = &composition.presentation;
@@ -115,19 +117,17 @@ fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
             return format!("{hz} Hz at {level}{}", lasting(composition));
         }
         let of = named(design, task.item().unwrap_or(0));
-        let lasting = lasting(composition);
+        let lasting = match parameter {
+            Tunable::Duration => String::new(),
+            _ => lasting(composition),
+        };
         format!("{of} with {} = {value}{lasting}", parameter.name())
     };
     let nothing = || format!("nothing{}", lasting(composition));
-    let others = adaptation.reference.map_or_else(nothing, at_value);
     let place = place(composition);
     let placed = |at: usize| {
-        let is_adapted = presentation.n == 1 || Some(at) == task.right;
-        let what = if is_adapted {
-            at_value(adapted.value)
-        } else {
-            others.clone()
-        };
+        let value = task.adapted_at(adaptation, at);
+        let what = value.map_or_else(nothing, at_value);
         Placed::new(format!("{place} {}", at + 1), what)
     };
     (0..presentation.n).map(placed).collect()
@@ -145,8 +145,22 @@ fn named(design: &Design, item: usize) -> String {
     };
     match &stimulus.source {
         Source::RealCloth(cloth) => cloth.clone(),
-        Source::Textile { id, gain_db } if gain_db.abs() < f64::EPSILON => id.clone(),
-        Source::Textile { id, gain_db } => format!("{id} at {} more", with_unit(*gain_db, 1, "dB")),
+        Source::Textile { id, variant } => {
+            let differs = variant.numbers().into_iter();
+            let differs = differs.filter(|(_, value, _)| value.abs() > f64::EPSILON);
+            let words = |(key, value, unit): (&str, f64, &'static str)| {
+                let value = with_unit(value, 1, unit);
+                match key {
+                    "gain_db" => format!("at {value} more"),
+                    "rotation_deg" => format!("turned by {value}"),
+                    _ => format!("with {key} = {value}"),
+                }
+            };
+            let parts: Vec<String> = std::iter::once(id.clone())
+                .chain(differs.map(words))
+                .collect();
+            parts.join(" ")
+        }
         Source::Vibration { band, level_db } => {
             let level = with_unit(*level_db, 2, "dB re 1 µm");
             format!("{} Hz at {level}", band.carrier_hz())

@@ -78,17 +78,20 @@ fn check_source(source: &Source, medium: Medium, place: impl Fn(&'static str) ->
             let mend = "name a textile of the library, or set medium = \"real-cloth\"";
             need(medium != Medium::Array, place("cloth"), what, mend)
         }
-        Source::Textile { id, gain_db } => {
+        Source::Textile { id, variant } => {
             let what = format!("{id:?} is virtual, and the medium is \"real-cloth\"");
             let is_virtual = medium != Medium::RealCloth;
             need(is_virtual, place("textile"), what, "give cloth = \"…\"")?;
-            let what = format!("gain_db is {gain_db}");
-            need(
-                gain_db.is_finite(),
-                place("gain_db"),
-                what,
-                "give a finite number of dB",
-            )
+            for (key, value, unit) in variant.numbers() {
+                let mend = format!("give a finite number of {unit}");
+                need(
+                    value.is_finite(),
+                    place(key),
+                    format!("{key} is {value}"),
+                    mend,
+                )?;
+            }
+            Ok(())
         }
         Source::Vibration { level_db, .. } => check_level(place("level_db"), *level_db),
     }

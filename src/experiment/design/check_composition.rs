@@ -240,9 +240,9 @@ fn check_adjusting(parameters: &[TunedParameter]) -> Checked {
         let is_new = !seen.contains(&parameter.what);
         need(is_new, place("key"), what, "give another parameter")?;
         seen.push(parameter.what);
-        let is_tuning = parameter.what != Tunable::Level;
-        let what = "the level of a vibration is not turned by hand";
-        need(is_tuning, place("key"), what, "give gain_db")?;
+        let what = format!("{name} is not turned by hand");
+        let mend = "give a gain or compression, or adapt it with [adaptation]";
+        need(parameter.what.is_of_tuning(), place("key"), what, mend)?;
         let [from, to, step] = [parameter.from, parameter.to, parameter.step];
         let is_range = from.is_finite() && to.is_finite() && from < to;
         let is_step = step > 0.0 && step <= to - from;

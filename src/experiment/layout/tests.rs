@@ -5,6 +5,11 @@ use crate::Adapted;
 use crate::Procedure;
 use crate::design::{Medium, Subject};
 use selvedge_engine::{Played, SequenceStep};
+use selvedge_render::RenderScene;
+use selvedge_render::scene::LoadedScene;
+use selvedge_textile::Library;
+use std::path::Path;
+use std::sync::Arc;
 
 fn subject() -> Subject {
     Subject {
@@ -126,7 +131,7 @@ fn intervals_last_as_long_as_the_design_says_and_one_holds_the_signal() {
 }
 
 fn written(text: &str) -> Design {
-    Design::from_toml(text, std::path::Path::new("a.toml")).unwrap()
+    Design::from_toml(text, Path::new("a.toml")).unwrap()
 }
 
 /// The gains of a task's scene, and what is played in it.
@@ -195,4 +200,107 @@ fn what_intervals_are_compared_with_is_uncovered_first() {
     let places = Layout::of(&design, &task).places;
     assert_eq!(places[2].stimulus, task.reference.unwrap());
     assert_eq!(places[2].number, None);
+}
+
+/// A design in which one number of one stimulus is adapted, and a trial of it: the second is at
+/// `value`.
+fn adapted(lines: [&str; 3], value: f64) -> (Design, Task) {
+    let [stimulus, presentation, adaptation] = lines;
+    let text = format!(
+        "study = \"s\"\nexperiment = \"e\"\nmedium = \"array\"\nseed = 1\n[[stimulus]]\n\
+         id = \"jute-plain\"\n{stimulus}\n[presentation]\nkind = \"{presentation}\"\n\
+         [response]\nkind = \"choice\"\n[adaptation]\n{adaptation}\n[adaptation.constant]\n\
+         values = [{value:?}]\nrepeats = 2\n"
+    );
+    let design = Design::from_toml(&text, Path::new("a.toml")).unwrap();
+    let task = Task {
+        items: vec![0, 0],
+        right: Some(1),
+        adapted: Some(Adapted { track: 0, value }),
+        ..Task::default()
+    };
+    (design, task)
+}
+
+fn scene_of(design: &Design, task: &Task) -> Scene {
+    let tuning = Tuning {
+        gain_320_db: -1.0,
+        ..Tuning::default()
+    };
+    let layout = Layout::of(design, task);
+    let scene = layout.scene(design, (&Display::default(), tuning), |_| None);
+    scene.check().unwrap();
+    scene
+}
+
+#[test]
+fn the_gain_of_a_band_is_each_places_own() {
+    let adaptation = "parameter = \"gain_320_db\"\nreference = 0.5\nrange = [1.0, 9.0]";
+    let (design, task) = adapted(
+        ["gain_db = 2.0\ngain_40_db = -3.0", "pair", adaptation],
+        4.0,
+    );
+    let scene = scene_of(&design, &task);
+    let own = |textile: &PlacedTextile| [textile.gain_db, textile.gain_40_db, textile.gain_320_db];
+    let gains_db: Vec<[f64; 3]> = scene.textiles.iter().map(own).collect();
+    assert_eq!(gains_db, [[2.0, -3.0, 0.5], [2.0, -3.0, 4.0]]);
+    let text = scene.to_toml().unwrap();
+    assert_eq!(Scene::from_toml(&text, Path::new("a")).unwrap(), scene);
+    let library = Arc::new(Library::shipped().unwrap());
+    let rendered = RenderScene::of(&LoadedScene::load(scene, library).unwrap());
+    let bands_db = rendered.textiles.iter().map(|one| one.scene_band_gains_db);
+    assert_eq!(bands_db.collect::<Vec<_>>(), [[-3.0, 0.5], [-3.0, 4.0]]);
+    assert_eq!(rendered.tuning.gain_320_db, -1.0, "that of all stays");
+}
+
+#[test]
+fn a_turned_textile_fills_its_place_and_no_more() {
+    let adaptation = "parameter = \"rotation_deg\"\nreference = 0.0\nrange = [1.0, 180.0]";
+    for turn_deg in [1.0, 30.0, 45.0, 90.0, 137.0, 180.0] {
+        let (design, task) = adapted(["", "pair", adaptation], turn_deg);
+        let scene = scene_of(&design, &task);
+        let [flat, turned] = &scene.textiles[..] else {
+            panic!("two")
+        };
+        assert_eq!((flat.rotation_deg, flat.within_mm), (0.0, None));
+        assert_eq!(turned.rotation_deg, turn_deg);
+        let corner = Layout::of(&design, &task).places[1].origin_mm;
+        let middle = corner + Displacement::new(50.0, 50.0);
+        let own = turned.workspace_from_textile().into_point(middle);
+        let half_mm = 0.5 * turned.size_mm[0];
+        let off = own - Point::new(half_mm, half_mm);
+        assert!(
+            off.length_mm() < 1e-9,
+            "it is turned about its middle: {off:?}"
+        );
+        for step in 0..=50 {
+            let along = f64::from(step) * 2.0;
+            let edges = [(along, 0.0), (0.0, along), (along, 99.999), (99.999, along)];
+            for (x_mm, y_mm) in edges {
+                let at = corner + Displacement::new(x_mm.min(99.999), y_mm.min(99.999));
+                assert_eq!(scene.textile_at(at), Some(1), "{turn_deg}°: {at:?}");
+                let from_middle = at - middle;
+                let [x_mm, y_mm] = [from_middle.x_mm, from_middle.y_mm].map(|mm| 1.001 * mm);
+                let outside = middle + Displacement::new(x_mm, y_mm);
+                assert_eq!(scene.textile_at(outside), None, "{turn_deg}°: {outside:?}");
+            }
+        }
+    }
+    let (alone, task) = adapted(["rotation_deg = 10.0", "pair", adaptation], 30.0);
+    let turns = scene_of(&alone, &task).textiles.into_iter();
+    let turns: Vec<f64> = turns.map(|one| one.rotation_deg).collect();
+    assert_eq!(turns, [10.0, 40.0], "on top of its own");
+}
+
+#[test]
+fn an_adapted_length_is_that_of_its_interval() {
+    let adaptation = "parameter = \"duration_ms\"\nreference = 200.0\nrange = [225.0, 900.0]";
+    let stimulus = "band_hz = 320\nlevel_db = 0.0";
+    let (design, task) = adapted([stimulus, "intervals", adaptation], 425.0);
+    let steps = sequence(&design, &task);
+    let n_ticks: Vec<u32> = steps.iter().map(|step| step.n_ticks).collect();
+    assert_eq!(n_ticks, [8, 12, 17]);
+    let um = steps.iter().map(|step| step.played);
+    let played = [[0.0, 1.0], [0.0; 2], [0.0, 1.0]].map(Played::Vibration);
+    assert_eq!(um.collect::<Vec<_>>(), played);
 }

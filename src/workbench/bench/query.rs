@@ -40,6 +40,8 @@ pub(crate) fn scene_view(
         rotation_deg: placed.rotation_deg,
         is_muted: !mute_solo.is_felt(Part::Cloth(index)),
         gain_db: placed.gain_db,
+        band_gains_db: Band::ALL.map(|band| placed.band_gain_db(band)),
+        within_mm: placed.within_mm,
         picture: library_view.picture(&placed.id),
     });
     let display = scene.displays.first();
