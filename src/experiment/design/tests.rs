@@ -335,7 +335,7 @@ const OFF_THE_TICKS: [(&str, &str, &str); 8] = [
     (
         "band_hz = 40\nlevel_db = 20.0\n",
         "",
-        "does not come in intervals",
+        "has no duration_ms",
     ),
     (
         "\"duration_ms\"",

@@ -4,6 +4,7 @@ use super::*;
 use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
 use selvedge_device::FaultWords;
+use selvedge_engine::SequenceStep;
 use selvedge_experiment::analysis::{Cell, Options, analyse_folder};
 use selvedge_experiment::{Proof, Record, Validity};
 use selvedge_foundation::progress::unheard;
@@ -220,7 +221,9 @@ fn stroke_all(window: &mut Headless, nth: u64) {
 /// Ticks from the start of the emulator after which everything of the trial that waits was felt.
 fn felt_by(window: &Headless) -> u64 {
     let session = session(window);
-    let played: u32 = session.sequence().iter().map(|step| step.n_ticks).sum();
+    let sequence = session.sequence();
+    let lengths = sequence.iter().map(|step| step.n_ticks);
+    let played: u32 = lengths.filter(|n| *n != SequenceStep::UNTIL_NEXT).sum();
     let places = session.layout.places.len() as u64;
     ARMING_TICKS + u64::from(played) + PLACE_TICKS * (places + 1)
 }
