@@ -13,7 +13,12 @@ fn a_probe_that_falls_on_a_wall_is_its_closed_form() {
         "--seconds 0.02 --stiffness 3000 --damping 2 --rate 2000",
     ]
     .join(" ");
-    let rows = Rows::parse(&lab.print(&line.split_whitespace().collect::<Vec<_>>()));
+    let outcome = lab.run(&line.split_whitespace().collect::<Vec<_>>());
+    assert!(
+        outcome.err.contains("method exact: h √(K/m) = 0.1225"),
+        "{outcome:?}"
+    );
+    let rows = Rows::parse(&outcome.out);
     assert_eq!(
         rows.header(),
         "t_s,x_mm,y_mm,z_mm,depth_um,force_n,tangential_n,vibration_n,energy_j"

@@ -160,6 +160,31 @@ fn the_limits_of_sampled_walls_are_the_known_ones() {
     );
 }
 
+#[test]
+fn limits_of_fast_and_late_loops_are_near_the_rule() {
+    for (period_s, ticks) in [(1e-6, 0), (1e-6, 2), (2.5e-5, 0), (1e-4, 10), (1e-4, 32)] {
+        let case = WallCase {
+            period_s,
+            ..sampled(0.075, 0.1, 0.05, ticks)
+        };
+        let limits = case.stiffness_limits(0.0, 0.0);
+        let off = limits.exact / limits.rule - 1.0;
+        assert!(off.abs() < 0.03, "{period_s} {ticks}: {limits:?}");
+        assert_eq!(
+            case.with_stiffness(0.9 * limits.passive).standing(),
+            Standing::Stable
+        );
+        assert_eq!(
+            case.with_stiffness(0.99 * limits.exact).standing(),
+            Standing::Active
+        );
+        assert_eq!(
+            case.with_stiffness(1.01 * limits.exact).standing(),
+            Standing::Unstable
+        );
+    }
+}
+
 fn sampled(mass_kg: f64, b: f64, wall: f64, ticks: usize) -> WallCase {
     WallCase {
         mass_kg,
