@@ -133,9 +133,9 @@ impl WallCase {
         }
     }
 
-    /// Coefficients of the characteristic polynomial of the sampled loop in y, `z = (1 + y)/(1 − y)`,
-    /// the constant first. Roots near z = 1, of which there are three in a fast loop, are near y = 0,
-    /// where no digit of them is lost.
+    /// Coefficients of the characteristic polynomial of the sampled loop in y, the constant first;
+    /// `z = (1 + y)/(1 − y)`. Roots near z = 1, of which there are three in a fast loop, are near
+    /// y = 0, where no digit of them is lost.
     fn characteristic(&self, ticks: usize) -> Option<Vec<f64>> {
         let t = self.period_s;
         let held = self.plant(0.0, self.damping_n_s_per_m, StepMethod::ExactHold)?;
