@@ -22,6 +22,8 @@ const STIFFNESSES: [f64; 2] = [1e-6, 1e12];
 const RATIO: f64 = 1.25;
 /// Below this a limit is none: rounding feigns it, N/m.
 const NO_LIMIT: f64 = 1e-2;
+/// A part of 1/ω as long as which a step of a cloth is smooth.
+const SMOOTH: f64 = 0.3;
 /// Halvings after that.
 const HALVINGS: u32 = 60;
 
@@ -289,26 +291,21 @@ impl WallCase {
     /// Which stepper `auto` takes, and why, for a law that is piecewise linear or not.
     pub fn choose(&self, is_linear: bool) -> (Stepper, String) {
         let turned = self.period_s * (self.stiffness_n_per_m / self.mass_kg).sqrt();
-        let semi = Self {
-            method: Stepper::SemiImplicitEuler,
-            delay_ticks: None,
-            ..*self
-        };
         let phase = format!("h √(K/m) = {}", rounded(turned));
-        if self.delay_ticks.is_some() {
+        let (method, why) = if self.delay_ticks.is_some() {
             let why = "a held force leaves a linear plant, which is stepped exactly";
-            (Stepper::Exact, why.to_owned())
-        } else if turned <= 0.01 && semi.standing() == Standing::Stable {
-            let why =
-                format!("{phase} is small and the device's damping covers K h/2: the cheapest");
-            (Stepper::SemiImplicitEuler, why)
+            return (Stepper::Exact, why.to_owned());
         } else if is_linear {
-            let why = format!("{phase}; the wall is piecewise linear, so its solution is known");
+            let why = "the wall is piecewise linear, so its solution is known";
             (Stepper::Exact, why)
+        } else if turned <= SMOOTH {
+            let why = "the cloth is not linear, but smooth within such a step";
+            (Stepper::Trapezoid, why)
         } else {
-            let why = format!("{phase}; the cloth is not linear, and this never gives energy");
+            let why = "the cloth is not linear, and too stiff for such a step but by its end";
             (Stepper::ImplicitEuler, why)
-        }
+        };
+        (method, format!("{phase}; {why}"))
     }
 }
 

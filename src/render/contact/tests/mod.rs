@@ -313,6 +313,26 @@ fn a_sampled_wall_calms_down_below_its_limit_and_is_refused_above() {
 }
 
 #[test]
+fn a_passive_sampled_wall_never_throws_a_tip_higher_than_it_fell() {
+    let law = ContactLaw {
+        stiffness_n_per_m: 35.0,
+        damping_n_s_per_m: 0.002,
+        ..LAW
+    };
+    let mut setup = setup(law, Stepper::Exact, 1000.0);
+    setup.device.damping_n_s_per_m = 0.02;
+    setup.sampling = Some(Sampling::default());
+    assert_eq!(setup.case().standing(), Standing::Stable);
+    let mut run = dropped(setup, 40.0);
+    let mut high_mm = 0.0_f64;
+    for nth in 0..200_000 {
+        let z_mm = run.step([0.0; 2]).unwrap().place_mm[2];
+        high_mm = if nth < 100 { 0.0 } else { high_mm.max(z_mm) };
+    }
+    assert!(high_mm > 10.0 && high_mm < 40.0, "{high_mm}");
+}
+
+#[test]
 fn the_passivity_controller_holds_what_would_grow() {
     let mut run = sampled_wall(4500.0, true);
     for _ in 0..4000 {
