@@ -39,6 +39,8 @@ mod play_audio;
 mod play_log;
 mod play_report;
 mod play_source;
+mod probe;
+mod probe_surface;
 mod record;
 mod render;
 mod render_out;
@@ -98,6 +100,8 @@ struct Cli {
 enum Command {
     /// Replay an exploration: the amplitudes of every contactor at every tick
     Render(render::RenderArgs),
+    /// A stylus over a surface: place, force, friction, vibration and energy at every step
+    Probe(probe::ProbeArgs),
     /// Draw a whole exploration on one page: the way, amplitudes, spectra, levels, a caption
     Figure(figure::FigureArgs),
     /// Play an exploration in real time on a device
@@ -157,6 +161,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         None if cli.from_desktop => workbench::open_from_desktop(cli.scene.as_deref()),
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Probe(args)) => probe::run(&args),
         Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),

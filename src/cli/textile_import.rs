@@ -16,7 +16,7 @@ use selvedge_textile::{
 
 /// What a file may leave open.
 #[derive(Debug, Args)]
-struct AskedArgs {
+pub(super) struct AskedArgs {
     /// Unit of the heights, where the file does not state it: m, mm, um, nm
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     height_unit: Option<LengthUnit>,
@@ -38,7 +38,8 @@ struct AskedArgs {
 }
 
 impl AskedArgs {
-    fn asked(&self) -> HeightOptions {
+    /// The same for the reader of files.
+    pub(super) fn asked(&self) -> HeightOptions {
         HeightOptions {
             height_unit: self.height_unit,
             length_unit: self.length_unit,

@@ -64,4 +64,12 @@ pub enum RenderError {
         /// How to mend it.
         mend: &'static str,
     },
+    /// A stylus, its surface or its device that cannot be, or that no method holds.
+    #[error("{what}; {mend}")]
+    Stylus {
+        /// What is wrong.
+        what: String,
+        /// How to mend it.
+        mend: String,
+    },
 }

@@ -2,8 +2,9 @@
 //!
 //! `array` renders a display's contactors (reference, banded, table), writes the drive waveform
 //! and explains single contactors; `plan` decides what a tick has to evaluate; `replay` runs a
-//! whole path and measures cost and error; `difference` says by how much two runs differ. Knows
-//! nothing of files, devices, threads or screens.
+//! whole path and measures cost and error; `difference` says by how much two runs differ.
+//! `contact` is what a stylus feels instead of an array. Knows nothing of files, serial links,
+//! threads or screens.
 //!
 //! # Invariants
 //! - `tick` neither allocates, locks, logs, reads a clock nor fails; preparing allocates
@@ -16,6 +17,7 @@
 )]
 
 pub mod array;
+pub mod contact;
 mod difference;
 mod error;
 mod error_meter;

@@ -40,6 +40,7 @@ mod spectral_model;
 mod stability;
 mod staircases;
 mod study;
+mod stylus;
 #[cfg(test)]
 mod tests;
 mod textiles;
@@ -72,6 +73,8 @@ pub fn studies() -> Vec<Study> {
         picture::SCALE,
         picture::ROUTE,
         bimorph::STUDY,
+        stylus::STUDY,
+        stylus::LIMITS,
         readers::STUDY,
         mds::STUDY,
         staircases::STUDY,

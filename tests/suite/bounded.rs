@@ -15,12 +15,15 @@ use selvedge_workbench::Workbench;
 
 /// A command, and the file of its that is replaced.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 39] = [
+const READERS: [(&str, &str); 42] = [
     ("a.scene.toml", "a.scene.toml"),
     ("render a.scene.toml --path a.csv", "a.scene.toml"),
     ("screenshot a.scene.toml --out new", "a.scene.toml"),
     ("play a.scene.toml --path a.csv --port /dev/ptmx", "a.scene.toml"),
     ("render a.scene.toml --path a.csv", "a.csv"),
+    ("probe --surface map --stroke 0,0:1,0 --out new", "map"),
+    ("probe --surface flat --path a.csv --out new", "a.csv"),
+    ("probe --surface fine --library textiles --drop 1 --out new", "textiles/fine/warp.csv"),
     ("figure a.scene.toml --path a.csv --out new", "a.csv"),
     ("figure a.scene.toml --path a.csv --out new", "a.scene.toml"),
     ("play a.scene.toml --path a.csv --port /dev/ptmx", "a.csv"),

@@ -31,6 +31,7 @@ mod no_allocation;
 mod no_allocation_engine;
 mod old_designs;
 mod picture;
+mod probe;
 mod program;
 mod programs;
 mod report;

@@ -8,6 +8,10 @@ use selvedge_device::{ActuatorModel, ContactorModel, Skin};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_render::array::{Accuracy, ArrayRenderer, DriveSynth, Method};
+use selvedge_render::contact::{
+    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, StylusRun,
+    StylusSetup, StylusStart, Tip,
+};
 use selvedge_render::scene::Pose;
 use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 use selvedge_textile::surface::{HeightMap, Profile, ProfileSet, Surface};
@@ -103,6 +107,45 @@ fn a_tick_of_any_method_allocates_nothing() {
         let is_table = renderer.method() == Method::Table;
         let n_made = renderer.counters().nodes_made;
         assert_eq!(n_made > 0, is_table, "{method:?} made {n_made} nodes");
+    }
+}
+
+#[test]
+fn a_step_of_a_stylus_allocates_nothing() {
+    let mut random = Random::new(4);
+    let heights = (0..64 * 64).map(|_| 20.0 * random.normal()).collect();
+    let map = HeightMap::new(Grid::from_rows(64, heights).unwrap(), [0.05; 2]).unwrap();
+    let relief = Relief::of_map(&map.periodic());
+    let offsets = [0.0, 2.0, 4.0].map(|x_mm| Displacement::new(x_mm, 1.0));
+    for (method, is_sampled) in Stepper::ALL
+        .into_iter()
+        .zip([false, true].into_iter().cycle())
+    {
+        let tip = Tip::array(&offsets, 0.1);
+        let friction = Friction::coulomb(0.3);
+        let setup = StylusSetup {
+            contact: Contact::new(&relief, tip, ContactLaw::default(), friction).unwrap(),
+            device: DeviceSpec {
+                damping_n_s_per_m: 5.0,
+                ..DeviceSpec::default()
+            },
+            hand: Hand {
+                press_n: 1.0,
+                leads: is_sampled.then_some([500.0, 1.0]),
+            },
+            method,
+            rate_hz: 4000.0,
+            sampling: is_sampled.then_some(Sampling::default()),
+        };
+        let mut run = StylusRun::new(setup, [0.0; 2], StylusStart::Resting).unwrap();
+        let mut force_n = 0.0;
+        for nth in 0..500 {
+            assert_no_alloc(|| {
+                let row = run.step([0.02 * f64::from(nth), 0.0]);
+                force_n = row.map_or(f64::NAN, |row| row.force_n);
+            });
+        }
+        assert!(force_n > 0.1, "{method:?} pressed: {force_n}");
     }
 }
 

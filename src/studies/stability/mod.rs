@@ -21,6 +21,7 @@ mod picture;
 mod pointer;
 mod scene;
 mod shading;
+mod stylus;
 mod tuning;
 
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -55,6 +56,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         shading::cases(),
         device::cases(),
         contactor::cases(),
+        stylus::cases(),
         link_faults::cases(),
     ];
     try_all(cases.into_iter().flatten().collect(), PATIENCE, bench)

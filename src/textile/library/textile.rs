@@ -117,6 +117,15 @@ impl Textile {
         Ok(Some(Arc::clone(self.friction.get_or_init(|| trace))))
     }
 
+    /// Its heights over an area; `None` if its source knows profiles only. Read or built now, which
+    /// takes a second or so.
+    ///
+    /// # Errors
+    /// A file that has vanished, heights that are none.
+    pub fn height_map(&self) -> Result<Option<HeightMap>, TextileError> {
+        relief_of(&self.store, &self.id, &self.manifest)
+    }
+
     /// SHA-256 of its manifest and of the files that its surface comes from: what a textile that
     /// is made from it names.
     ///

@@ -164,8 +164,8 @@ impl ExplorationPath {
     }
 
     /// The row at a time that lies at or after row `from`, interpolated, and the row to start from
-    /// next time.
-    fn row_at(&self, t_s: f64, from: usize) -> (PathRow, usize) {
+    /// next time. Past the end it is the last row.
+    pub fn row_at(&self, t_s: f64, from: usize) -> (PathRow, usize) {
         let n_ahead = self.rows[from..]
             .iter()
             .take_while(|row| row.t_s <= t_s)

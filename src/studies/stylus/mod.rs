@@ -1,0 +1,218 @@
+//! The stylus: how a stiff surface should be stepped, and what a sampled one can be.
+//!
+//! `steppers` sets error against run time on three surfaces; `limits` sets textbook limits beside
+//! eigenvalues, and says what sampling does to a texture and what a tick costs.
+
+mod limits;
+mod surfaces;
+
+#[cfg(test)]
+mod tests;
+
+pub(crate) use limits::STUDY as LIMITS;
+
+use super::chart::{chart, lines_by};
+use super::readable::{largest, whole};
+use super::{Bench, Findings, ReportError, Row, Study};
+use selvedge_chart::{Axis, Chart};
+use selvedge_render::RenderError;
+use selvedge_render::contact::{Stepper, StylusRow, StylusRun, StylusStart};
+use surfaces::Surface;
+
+/// What exact steps keep within on a plane, as a share of the drop.
+const EXACT: f64 = 1e-9;
+/// How long a run lasts, s.
+const SECONDS: f64 = 0.1;
+/// Rate of the reference, Hz.
+const REFERENCE_HZ: f64 = 1e6;
+/// Rate at which places are compared, Hz: every other is a multiple of it.
+const COMPARED_HZ: f64 = 250.0;
+/// Steps of a run that is timed.
+const TIMED_STEPS: usize = 200;
+
+/// Error and cost of six steppers on three surfaces.
+pub(crate) const STUDY: Study = Study {
+    name: "stylus",
+    question: "How should a stylus on a stiff surface be stepped?",
+    reference: "The exact stepper in steps of 1 µs, which on a plane is the closed form.",
+    error: ("error of the height", "of 2 mm"),
+    cost_of: "second of a stylus",
+    run,
+};
+
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let stiffnesses = bench
+        .effort
+        .pick(&[1e3, 1e9][..], &[10.0, 1e3, 1e5, 1e7, 1e9]);
+    let rates = bench.effort.pick(&[1e3, 4e4][..], &[250.0, 1e3, 4e3, 4e4]);
+    let mut findings = Findings::default();
+    for (nth, surface) in Surface::ALL.into_iter().enumerate() {
+        let contact = surface.relief(bench.seed)?;
+        for stiffness in stiffnesses {
+            bench.step(nth as f64 / 3.0, surface.name())?;
+            let truth =
+                heights(&surface.run(&contact, *stiffness, Stepper::Exact, REFERENCE_HZ)?)?;
+            for rate_hz in rates {
+                for method in Stepper::ALL {
+                    if method == Stepper::Auto {
+                        continue;
+                    }
+                    let made = surface.run(&contact, *stiffness, method, *rate_hz)?;
+                    let named = (surface, method, *stiffness, *rate_hz);
+                    findings.rows.push(row(named, &made, &truth, bench));
+                }
+            }
+        }
+    }
+    findings.plots = plots(&findings.rows);
+    findings.notes = notes(&findings);
+    Ok(findings)
+}
+
+/// The run, led along its way.
+struct Led {
+    run: StylusRun,
+    rate_hz: f64,
+}
+
+impl Led {
+    fn step(&mut self, nth: usize) -> Result<StylusRow, RenderError> {
+        let t_s = nth as f64 / self.rate_hz;
+        self.run.step(surfaces::place_mm(t_s)).copied()
+    }
+}
+
+impl Surface {
+    fn run(
+        self,
+        contact: &selvedge_render::contact::Contact,
+        stiffness: f64,
+        method: Stepper,
+        rate_hz: f64,
+    ) -> Result<Led, ReportError> {
+        let setup = surfaces::setup(contact, (stiffness, method, rate_hz))?;
+        let start = match self {
+            Self::Flat => StylusStart::Above(surfaces::DROP_MM),
+            Self::Sine | Self::Broadband => StylusStart::Resting,
+        };
+        let run = StylusRun::new(setup, surfaces::place_mm(0.0), start)?;
+        Ok(Led { run, rate_hz })
+    }
+}
+
+/// Heights at the rate that all are compared at, mm.
+fn heights(led: &Led) -> Result<Vec<f64>, RenderError> {
+    let mut led = Led {
+        run: led.run.clone(),
+        ..*led
+    };
+    let every = whole(led.rate_hz / COMPARED_HZ);
+    let n = whole((SECONDS * led.rate_hz).round());
+    let mut heights = Vec::new();
+    for nth in 1..=n {
+        let row = led.step(nth)?;
+        if nth % every == 0 {
+            heights.push(row.place_mm[2]);
+        }
+    }
+    Ok(heights)
+}
+
+fn row(
+    (surface, method, stiffness, rate_hz): (Surface, Stepper, f64, f64),
+    led: &Led,
+    truth: &[f64],
+    bench: &Bench<'_>,
+) -> Row {
+    let found = heights(led);
+    let error = found.as_ref().ok().map(|found| {
+        let off = found.iter().zip(truth).map(|(a, b)| (a - b).abs());
+        largest(off) / surfaces::DROP_MM
+    });
+    let is_exact = method == Stepper::Exact && surface == Surface::Flat;
+    let cost = error.is_some().then(|| {
+        let n_repeats = bench.effort.pick(3, 9);
+        let timing = bench.time_repeated(n_repeats, TIMED_STEPS, || {
+            let mut led = Led {
+                run: led.run.clone(),
+                ..*led
+            };
+            (1..=TIMED_STEPS)
+                .filter_map(|nth| led.step(nth).ok())
+                .last()
+        });
+        timing.times(rate_hz)
+    });
+    let setting = format!("{rate_hz} Hz");
+    let standing = surfaces::standing(stiffness, method, rate_hz);
+    Row::of(
+        method.name(),
+        setting,
+        format!("{}, {stiffness:e} N/m", surface.name()),
+    )
+    .error(error)
+    .promised(is_exact.then_some(EXACT))
+    .cost(cost)
+    .with("rate_hz", rate_hz)
+    .with("stiffness_n_per_m", format!("{stiffness:e}"))
+    .with("standing", standing.word())
+    .with(
+        "gained_of_put_in",
+        drift(led).map_or_else(|| "grew".to_owned(), |x| format!("{x:.1e}")),
+    )
+}
+
+/// Energy that came from nowhere in a run, as a share of all that was there or put in.
+fn drift(led: &Led) -> Option<f64> {
+    let mut run = led.run.clone();
+    let n = whole(SECONDS * led.rate_hz);
+    for nth in 1..=n {
+        run.step(surfaces::place_mm(nth as f64 / led.rate_hz))
+            .ok()?;
+    }
+    Some(run.gained_j() / run.put_in_j())
+}
+
+/// Error against rate on each surface, at the stiffness that hands meet.
+fn plots(rows: &[Row]) -> Vec<(String, Chart)> {
+    let plot = |surface: Surface| {
+        let case = format!("{}, 1e3 N/m", surface.name());
+        let of_case = rows.iter().filter(|row| row.case == case);
+        let lines = lines_by(
+            of_case,
+            |row| &row.method,
+            |row| Some([row.further_number("rate_hz")?, row.error?]),
+        );
+        let drawn = chart(
+            format!("Error against rate: {case}"),
+            Axis::log("rate, Hz"),
+            Axis::log("error of the height, of 2 mm"),
+            lines,
+            "No dot where a method grows without end, or is exact to the last bit.",
+        );
+        (format!("stylus-{}", surface.word()), drawn)
+    };
+    Surface::ALL.map(plot).into()
+}
+
+fn notes(findings: &Findings) -> Vec<String> {
+    let of = |method: Stepper| {
+        let rows = findings
+            .rows
+            .iter()
+            .filter(|row| row.method == method.name());
+        let errors: Vec<Option<f64>> = rows.map(|row| row.error).collect();
+        let n_grown = errors.iter().filter(|error| error.is_none()).count();
+        let worst = largest(errors.iter().copied().flatten());
+        format!(
+            "{}: grows without end in {n_grown} of {} cases, at worst {worst:.1e} of 2 mm off \
+             elsewhere.",
+            method.name(),
+            errors.len()
+        )
+    };
+    let methods = Stepper::ALL.into_iter().filter(|one| *one != Stepper::Auto);
+    let thrown = "On the random relief above 10⁵ N/m the tip is thrown off crests, and every error \
+                  makes it another flight: no step of any method comes near there.";
+    methods.map(of).chain([thrown.to_owned()]).collect()
+}
