@@ -332,11 +332,7 @@ const OFF_THE_TICKS: [(&str, &str, &str); 8] = [
         "steps = [50, 25]\nup_over_down = 1.5",
         "up_over_down makes 37.5 ms",
     ),
-    (
-        "band_hz = 40\nlevel_db = 20.0\n",
-        "",
-        "has no duration_ms",
-    ),
+    ("band_hz = 40\nlevel_db = 20.0\n", "", "has no duration_ms"),
     (
         "\"duration_ms\"",
         "\"rotation_deg\"",
