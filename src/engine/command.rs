@@ -3,7 +3,7 @@
 //! Commands are plain values; what they need prepared (buffers, tables, ports) is prepared by
 //! [`Engine::send`](super::Engine::send) before they reach the thread.
 
-use super::{InputSource, PreparedScene, SoundFeed, Tap, VibrationStep};
+use super::{InputSource, PreparedScene, SequenceStep, SoundFeed, Tap};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
 use selvedge_render::{PlacedLevel, RenderError};
 use selvedge_textile::tactile::Tuning;
@@ -31,10 +31,10 @@ pub enum Command {
     /// Contactors beyond its end are felt, so an empty one feels all. It outlives scenes.
     SetContactorMask(Vec<bool>),
     /// Plays these one after another from the next tick on, in place of what the first display
-    /// feels of the scene; an empty list ends what is played. Tuning does not change them; limits,
-    /// calibration, soft start, mask and stops are those of every tick. While everything is off
-    /// nothing is played.
-    Vibrate(Vec<VibrationStep>),
+    /// feels of the whole scene; an empty list ends what is played. Tuning changes textiles and no
+    /// vibrations; limits, calibration, soft start, mask and stops are those of every tick. While
+    /// everything is off nothing is played.
+    PlaySequence(Vec<SequenceStep>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.

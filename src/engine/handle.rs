@@ -18,9 +18,9 @@ use super::input::{Control, playable};
 use super::ready::{CoreCommand, MAX_RETIRED, NextScene, ReadyCommand, Retired};
 use super::recording::recording;
 use super::runner::{Channels, Clock, NoticeRing, Runner};
+use super::sequence::Sequence;
 use super::snapshot_summary::Waker;
 use super::tick_sample::{TickSampler, TickSamples};
-use super::vibration::Vibration;
 use super::{
     Command, EngineCore, EngineError, Notice, PointerSender, PreparedScene, Recording, Snapshot,
     StopSwitch, TickSample,
@@ -207,7 +207,7 @@ impl Engine {
             }
             Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
             Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
-            Command::Vibrate(steps) => CoreCommand::Vibrate(Vibration::of(steps)).into(),
+            Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),
             Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
             Command::TurnBy(by_deg) => ReadyCommand::Core(CoreCommand::Turn(by_deg)),
             Command::Play => ReadyCommand::control(Control::Play),

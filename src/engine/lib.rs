@@ -37,6 +37,7 @@ mod ready;
 mod recording;
 mod runner;
 mod sample;
+mod sequence;
 mod snapshot;
 mod snapshot_summary;
 mod sound;
@@ -45,7 +46,6 @@ mod tap;
 mod tick_sample;
 mod track;
 mod velocity;
-mod vibration;
 
 pub use audio::{
     AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer, audio_outputs,
@@ -65,6 +65,7 @@ pub use prepared::{PreparedScene, array_of};
 pub use programs::{ProgramCounts, ProgramLink, loopback};
 pub use recording::{LinkTally, RecordedSample, RecordedTick, Recording};
 pub use sample::{PointerSample, SampleCounters};
+pub use sequence::{Played, SequenceStep};
 pub use snapshot::{
     ClockView, ContactorView, DisplayView, EngineCounters, LinkView, PointerView, RecordingView,
     RenderingView, Snapshot,
@@ -77,7 +78,6 @@ pub use stop::StopSwitch;
 pub use tap::Tap;
 pub use tick_sample::TickSample;
 pub use velocity::{Estimate, VelocityEstimator, VelocityMethod};
-pub use vibration::VibrationStep;
 
 use std::time::Duration;
 

@@ -4,8 +4,8 @@ use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{
-    ClockView, ContactorView, DisplayView, EngineCounters, EngineError, Playback, PointerView,
-    RecordingView, RenderingView, Snapshot, SourceKind,
+    ClockView, ContactorView, DisplayView, EngineCounters, EngineError, Playback, Played,
+    PointerView, RecordingView, RenderingView, Snapshot, SourceKind,
 };
 use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_foundation::geometry::Point;
@@ -131,22 +131,17 @@ impl PreparedScene {
     }
 
     /// Renders every display at this pose and looks which output limits its amplitudes meet.
-    /// Contactors of the first display that the mask says are not felt do nothing.
-    pub(super) fn render(&mut self, pose: Pose, mask: &[bool]) {
-        self.render_or_vibrate(pose, mask, None);
-    }
-
-    /// The same; where a vibration is played, every contactor of the first display has its
-    /// amplitudes [A40, A320] in place of the scene's, µm.
-    pub(super) fn render_or_vibrate(
-        &mut self,
-        pose: Pose,
-        mask: &[bool],
-        vibration_um: Option<[f32; 2]>,
-    ) {
+    /// Contactors of the first display that the mask says are not felt do nothing. Where something
+    /// is played, the first display feels that in place of the whole scene.
+    pub(super) fn render(&mut self, pose: Pose, mask: &[bool], played: Option<Played>) {
         self.poses.fill(pose);
+        let textile = match played {
+            Some(Played::Textile(textile)) => Some(textile),
+            Some(Played::Vibration(_)) | None => None,
+        };
+        self.renderer.uncover(0, textile);
         self.renderer.tick(&self.poses);
-        if let Some(amplitude_um) = vibration_um {
+        if let Some(Played::Vibration(amplitude_um)) = played {
             self.renderer.vibrate_display(0, amplitude_um);
         }
         self.renderer.mask_display(0, mask);
@@ -225,7 +220,7 @@ impl PreparedScene {
             displays: self.empty_views(),
             is_stopped: false,
             is_silent: false,
-            vibration: None,
+            sequence_step: None,
             rendering: RenderingView::of(&self.renderer),
             pointer: PointerView::default(),
             source: SourceKind::Pointer,

@@ -4,7 +4,7 @@ use triple_buffer::Input;
 
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
-use super::vibration::Vibration;
+use super::sequence::Sequence;
 use super::{PreparedScene, Snapshot, SoundFeed, Tap};
 use selvedge_device::{ArrayChange, Bridge, Coder};
 use selvedge_render::PlacedLevel;
@@ -87,8 +87,8 @@ pub(super) enum CoreCommand {
     Levels(Vec<PlacedLevel>),
     /// Which contactors of the first display are felt.
     Mask(Vec<bool>),
-    /// What is played in place of the scene.
-    Vibrate(Vibration),
+    /// What is felt in place of the whole scene.
+    PlaySequence(Sequence),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
     Angle(f64),
@@ -106,7 +106,7 @@ pub(super) enum Retired {
     Source(Box<dyn PointerInput>),
     Levels(Vec<PlacedLevel>),
     Mask(Vec<bool>),
-    Vibration(Vibration),
+    Sequence(Sequence),
     Bridge(Box<Bridge>),
     Array(Box<NextArray>),
     Tap(Box<Tap>),

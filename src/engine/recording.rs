@@ -34,8 +34,8 @@ pub struct RecordedTick {
     pub pose: Pose,
     /// The frame that went to an armed device; `None` when the tick was only shown.
     pub sent: Option<SentFrame>,
-    /// The step of a sequence of vibrations that was played, from 0.
-    pub vibration: Option<u16>,
+    /// The step of a sequence that was played, from 0.
+    pub sequence_step: Option<u16>,
     /// What the device had counted by then.
     pub tally: LinkTally,
 }
@@ -295,7 +295,7 @@ mod tests {
             tick: 100 + n,
             pose,
             sent: None,
-            vibration: None,
+            sequence_step: None,
             tally: LinkTally::default(),
         }
     }

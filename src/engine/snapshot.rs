@@ -44,8 +44,8 @@ pub struct Snapshot {
     /// Whether the device plays silence: stopped, or a replay that is held (whose amplitudes the
     /// displays go on to show).
     pub is_silent: bool,
-    /// Which step of a sequence of vibrations is played, from 0; `None` while none is.
-    pub vibration: Option<u16>,
+    /// Which step of a sequence is played, from 0; `None` while none is.
+    pub sequence_step: Option<u16>,
     /// How amplitudes are made.
     pub rendering: RenderingView,
     /// The pointer and its velocity.

@@ -1,16 +1,17 @@
 //! What a trial presents on the array: what lies where under which number, what the experimenter
-//! lays on the table, and which vibrations are played.
+//! lays on the table, and what is played in which sequence.
 //!
 //! Pure: a function of the design and the trial. Labels are numbers of places, never of stimuli.
 
-use super::design::{Design, Form, Shown, Source, Standard, Tunable};
+mod sequence;
+
+pub use sequence::sequence;
+
+use super::design::{Design, Form, Shown, Source, Standard, Tunable, Variant};
 use super::trial::Task;
-use selvedge_engine::{TICKS_PER_S, VibrationStep};
-use selvedge_foundation::geometry::Point;
-use selvedge_foundation::numerics::{to_single, to_whole};
-use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_foundation::geometry::{Displacement, Point, Rotation};
 use selvedge_render::scene::{Display, PlacedTextile, Scene};
-use selvedge_textile::tactile::{Band, Tuning};
+use selvedge_textile::tactile::Tuning;
 
 /// Side of a stimulus, mm (Philpott & Summers 2012).
 const SIDE_MM: f64 = 100.0;
@@ -18,10 +19,8 @@ const SIDE_MM: f64 = 100.0;
 const MARGIN_MM: f64 = 10.0;
 /// Between two stimuli without one in the middle, mm.
 const GAP_MM: f64 = 20.0;
-/// Between two intervals, ms.
-const PAUSE_MS: u32 = 300;
-/// A vibration that is felt alone, ms.
-const ALONE_MS: u32 = 1000;
+/// How far a textile that is turned reaches beyond its place, where it is not felt, at least, mm.
+const HEM_MM: f64 = 1.0;
 
 /// Where the stimuli of a trial lie.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,28 +46,30 @@ pub struct Place {
 
 impl Layout {
     /// Where the stimuli of a task lie: up to three side by side, four at the corners, more in
-    /// rows. A virtual reference lies in the middle of four, else behind the others.
+    /// rows. A virtual reference lies in the middle of four, else behind the others. Textiles that
+    /// come in intervals lie upon each other.
     pub fn of(design: &Design, task: &Task) -> Self {
         let composition = &design.composition;
-        if composition.presentation.shown == Shown::Intervals {
+        let is_in_time = composition.presentation.shown == Shown::Intervals;
+        if is_in_time && design.plays_vibrations() {
             return Self::empty();
         }
         let is_real = composition.presentation.reference == Standard::RealCloth;
         let reference = task.reference.filter(|_| !is_real);
         let mut layout = match (task.items.len(), reference) {
+            (_, reference) if is_in_time => upon_each_other(&task.items, reference),
             (4, reference) => four(&task.items, reference),
             (_, None) => in_rows(&task.items),
             (_, Some(reference)) => beside(&task.items, reference),
         };
-        if let (Some(adapted), Some(adaptation)) = (task.adapted, &composition.adaptation) {
-            let places = layout.places.iter_mut().enumerate();
-            for (at, place) in places.filter(|_| composition.presentation.n > 1) {
-                let is_adapted = Some(at) == task.right;
-                place.adapted = if is_adapted {
-                    Some(adapted.value)
-                } else {
-                    adaptation.reference
-                };
+        let adaptation = composition.adaptation.as_ref().filter(|adaptation| {
+            // The tuning of one alone has its value.
+            let is_of_tuning = adaptation.parameter.is_of_tuning();
+            task.adapted.is_some() && !(is_of_tuning && composition.presentation.n == 1)
+        });
+        if let Some(adaptation) = adaptation {
+            for (at, place) in layout.places.iter_mut().enumerate() {
+                place.adapted = task.adapted_at(adaptation, at);
             }
         }
         layout
@@ -85,11 +86,16 @@ impl Layout {
 
     /// One stimulus with room for a guided movement.
     pub fn to_practise(stimulus: usize) -> Self {
-        let side_mm = SIDE_MM + 2.0 * MARGIN_MM;
-        Self {
-            size_mm: [side_mm; 2],
-            ..in_rows(&[stimulus])
-        }
+        in_rows(&[stimulus])
+    }
+
+    /// Whether what lies here is felt in turn at one place.
+    pub fn is_stacked(&self) -> bool {
+        let [first, others @ ..] = self.places.as_slice() else {
+            return false;
+        };
+        let is_there = |other: &Place| other.origin_mm == first.origin_mm;
+        !others.is_empty() && others.iter().all(is_there)
     }
 
     /// The scene of what lies here: textiles alone, each in its full size. `level_db` is the level
@@ -102,20 +108,23 @@ impl Layout {
     ) -> Scene {
         let placed = self.places.iter().filter_map(|place| {
             let stimulus = design.stimuli.get(place.stimulus)?;
-            let Source::Textile { id, gain_db } = &stimulus.source else {
+            let Source::Textile { id, variant } = &stimulus.source else {
                 return None;
             };
             let adapted = place.adapted.zip(design.composition.adaptation.as_ref());
-            let adapted_db = adapted.map_or(0.0, |(value, adaptation)| {
-                adapted_gain_db((adaptation.parameter, value), &tuning, level_db(id))
+            let variant = adapted.map_or(*variant, |(value, adaptation)| {
+                let parameter = adaptation.parameter;
+                let compressed_db = match parameter {
+                    Tunable::Compression => compressed_db(value, &tuning, level_db(id)),
+                    _ => 0.0,
+                };
+                let varied = variant.with(parameter, value);
+                varied.with(Tunable::Gain, compressed_db)
             });
             Some(PlacedTextile {
                 id: id.clone(),
-                origin_mm: place.origin_mm,
-                size_mm: [SIDE_MM; 2],
-                gain_db: *gain_db + adapted_db,
                 label: place.number.map_or_else(String::new, |n| n.to_string()),
-                ..PlacedTextile::default()
+                ..place.lay(&variant)
             })
         });
         Scene {
@@ -133,25 +142,47 @@ impl Layout {
 impl Place {
     /// Its extent, mm.
     pub const SIZE_MM: [f64; 2] = [SIDE_MM; 2];
+
+    /// A textile that lies here. One that is turned is a larger piece, about the same middle, of
+    /// which nothing but the place is felt: no edge tells how it is turned.
+    fn lay(&self, variant: &Variant) -> PlacedTextile {
+        let flat = PlacedTextile {
+            origin_mm: self.origin_mm,
+            size_mm: Self::SIZE_MM,
+            gain_db: variant.gain_db,
+            gain_40_db: variant.gain_40_db,
+            gain_320_db: variant.gain_320_db,
+            ..PlacedTextile::default()
+        };
+        if variant.rotation_deg.abs() <= 0.0 {
+            return flat;
+        }
+        let rotation = Rotation::from_degrees(variant.rotation_deg);
+        let (cos, sin) = rotation.cos_sin();
+        let half_mm = 0.5 * SIDE_MM;
+        let reach_mm = half_mm * (cos.abs() + sin.abs()) + HEM_MM;
+        let to_middle = Displacement::new(half_mm, half_mm);
+        let from_middle = Displacement::new(-reach_mm, -reach_mm);
+        PlacedTextile {
+            origin_mm: self.origin_mm + to_middle + rotation.turn(from_middle),
+            size_mm: [2.0 * reach_mm; 2],
+            rotation_deg: variant.rotation_deg,
+            within_mm: Some([self.origin_mm, self.origin_mm + to_middle + to_middle]),
+            ..flat
+        }
+    }
 }
 
-/// What a place's own value of a parameter adds to its gain, dB: the tuning is that of the whole
-/// workspace.
-fn adapted_gain_db(
-    (parameter, value): (Tunable, f64),
-    tuning: &Tuning,
-    level_db: Option<f64>,
-) -> f64 {
-    match (parameter, tuning.compression_reference_db) {
-        (Tunable::Gain, _) => value,
-        (Tunable::Compression, Some(reference_db)) => {
-            let mut own = *tuning;
-            parameter.set(&mut own, value);
-            let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
-            gain_db(&own) - gain_db(tuning)
-        }
-        _ => 0.0,
-    }
+/// What a place's own compression adds to its gain, dB: the tuning is that of the whole workspace.
+fn compressed_db(compression: f64, tuning: &Tuning, level_db: Option<f64>) -> f64 {
+    let own = Tuning {
+        compression,
+        ..*tuning
+    };
+    tuning.compression_reference_db.map_or(0.0, |reference_db| {
+        let gain_db = |tuning: &Tuning| tuning.compression_gain_db(level_db, reference_db);
+        gain_db(&own) - gain_db(tuning)
+    })
 }
 
 /// Positions 1 and 2 above, 3 and 4 below; a reference in the middle takes as much room as a gap.
@@ -192,6 +223,22 @@ fn beside(items: &[usize], reference: usize) -> Layout {
         last.number = None;
     }
     layout
+}
+
+/// All at the place of one that lies alone, the reference on top.
+fn upon_each_other(items: &[usize], reference: Option<usize>) -> Layout {
+    let numbers = (1..=items.len()).map(Some).chain([None]);
+    let stimuli = items.iter().copied().chain(reference);
+    let place = |(stimulus, number)| Place {
+        stimulus,
+        origin_mm: Point::new(MARGIN_MM, MARGIN_MM),
+        number,
+        adapted: None,
+    };
+    Layout {
+        size_mm: [SIDE_MM + 2.0 * MARGIN_MM; 2],
+        places: stimuli.zip(numbers).map(place).collect(),
+    }
 }
 
 /// Row by row from above, each from the left.
@@ -252,64 +299,6 @@ pub fn tuned(design: &Design, task: &Task, mut tuning: Tuning, values: &[f64]) -
         adaptation.parameter.set(&mut tuning, adapted.value);
     }
     tuning
-}
-
-/// What is played in a trial of vibrations, a pause between each two: step 2n is interval n. Empty
-/// where cloth is felt. What everything is compared with comes first.
-pub fn vibrations(design: &Design, task: &Task) -> Vec<VibrationStep> {
-    let presentation = &design.composition.presentation;
-    let ms = match presentation.shown {
-        Shown::Intervals => presentation.interval_ms,
-        _ => ALONE_MS,
-    };
-    let played: Vec<(Band, Option<f64>)> = match (&design.composition.adaptation, task.adapted) {
-        (Some(adaptation), Some(adapted)) if adaptation.is_vibration() => {
-            let level_db = |interval: usize| {
-                let is_adapted = presentation.n == 1 || Some(interval) == task.right;
-                is_adapted.then_some(adapted.value).or(adaptation.reference)
-            };
-            let intervals = 0..presentation.n;
-            intervals
-                .map(|at| (adaptation.band, level_db(at)))
-                .collect()
-        }
-        _ => {
-            let felt = task.reference.iter().chain(&task.items);
-            let vibration = |item: &usize| match design.stimuli.get(*item)?.source {
-                Source::Vibration { band, level_db } => Some((band, Some(level_db))),
-                _ => None,
-            };
-            felt.filter_map(vibration).collect()
-        }
-    };
-    let mut steps = Vec::new();
-    for (band, level_db) in played {
-        if !steps.is_empty() {
-            steps.push(step([None; 2], PAUSE_MS));
-        }
-        let mut levels_db = [presentation.masker_db; 2];
-        levels_db[band.index()] = level_db;
-        steps.push(step(levels_db, ms));
-    }
-    steps
-}
-
-/// Levels of both bands, dB re 1 µm; `None` is silence.
-fn step(levels_db: [Option<f64>; 2], ms: u32) -> VibrationStep {
-    VibrationStep {
-        amplitude_um: levels_db.map(|level_db| level_db.map_or(0.0, amplitude_of)),
-        n_ticks: ticks(ms),
-    }
-}
-
-/// A level as a peak amplitude, µm.
-fn amplitude_of(level_db: f64) -> f32 {
-    to_single(factor_of_gain(level_db))
-}
-
-/// The whole ticks that are nearest to a time, at least one.
-fn ticks(ms: u32) -> u32 {
-    to_whole((f64::from(ms) * 1e-3 * TICKS_PER_S).round().max(1.0))
 }
 
 #[cfg(test)]

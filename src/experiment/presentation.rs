@@ -5,10 +5,10 @@
 //! confirmed by the experimenter; simulated observers feel by definition.
 
 use crate::design::Design;
-use crate::layout::{Layout, Place, vibrations};
+use crate::layout::{Layout, Place, sequence};
 use crate::named::named;
 use crate::trial::Task;
-use selvedge_engine::TICKS_PER_S;
+use selvedge_engine::{Played, SequenceStep, TICKS_PER_S};
 use selvedge_foundation::geometry::Point;
 
 /// Every textile that is compared is felt for so long at least, s.
@@ -120,8 +120,8 @@ pub struct PresentedTick {
     pub position: Point,
     /// How fast it moved, mm/s.
     pub speed_mm_per_s: f64,
-    /// The step of the vibrations that was played.
-    pub vibration: Option<u16>,
+    /// The step of a sequence that was played.
+    pub sequence_step: Option<u16>,
 }
 
 /// How it stands with a presentation.
@@ -141,8 +141,8 @@ pub struct Watch {
     proof: Proof,
     /// What has to be explored, in the order of places.
     places: Vec<Explored>,
-    /// Steps of vibration: how long each is, and how long it was played, ticks.
-    steps: Vec<[u32; 2]>,
+    /// What is played, and how long each step was, ticks.
+    steps: Vec<(SequenceStep, u32)>,
     may_limit: bool,
     n_ticks: u64,
     n_armed: u64,
@@ -152,7 +152,7 @@ pub struct Watch {
     missed: Option<Counted>,
     limited: Option<Counted>,
     missed_in_a_row: u32,
-    /// The first tick of a vibration, from the first of all.
+    /// The first tick of what is played, from the first of all.
     onset_tick: Option<u64>,
     void: Option<String>,
 }
@@ -196,15 +196,18 @@ impl Watch {
             n_ticks: 0,
             is_needed: is_compared,
         };
-        let steps = vibrations(design, task);
+        let steps = sequence(design, task);
+        let is_textile = |step: &SequenceStep| matches!(step.played, Played::Textile(_));
+        // Vibrations are felt wherever the finger is.
+        let is_at_places = steps.is_empty() || steps.iter().any(is_textile);
         Self {
             proof,
-            places: if steps.is_empty() {
+            places: if is_at_places {
                 places.into_iter().map(explored).collect()
             } else {
                 Vec::new()
             },
-            steps: steps.iter().map(|step| [step.n_ticks, 0]).collect(),
+            steps: steps.into_iter().map(|step| (step, 0)).collect(),
             may_limit: !design.composition.parameters().is_empty(),
             n_ticks: 0,
             n_armed: 0,
@@ -218,7 +221,7 @@ impl Watch {
         }
     }
 
-    /// Looks at the next tick. `lead` steps of vibration come before those of the task.
+    /// Looks at the next tick. `lead` steps of a sequence come before those of the task.
     pub fn tick(&mut self, tick: &PresentedTick, lead: u16) {
         self.n_ticks += 1;
         self.n_armed += u64::from(tick.is_sent);
@@ -230,40 +233,47 @@ impl Watch {
             0 => 0,
             n => self.missed_in_a_row + u32::try_from(n).unwrap_or(u32::MAX),
         };
-        self.explore(tick);
-        self.play(tick, lead);
+        let played = self.play(tick, lead);
+        self.explore(tick, played);
         if self.missed_in_a_row >= MISSED_IN_A_ROW || !tick.is_sent {
             self.end(NOT_ARMED);
         }
     }
 
-    fn explore(&mut self, tick: &PresentedTick) {
+    /// Counts a tick of movement for what is felt: what is uncovered now, or what lies there.
+    fn explore(&mut self, tick: &PresentedTick, played: Option<Played>) {
         if tick.speed_mm_per_s < LEAST_SPEED_MM_PER_S || !tick.is_sent {
             return;
         }
         let [width_mm, height_mm] = Place::SIZE_MM;
-        // The last of several that lie upon each other is on top.
-        let felt = self.places.iter_mut().rev().find(|explored| {
+        let is_on = |explored: &&mut Explored| {
             let corner = explored.place.origin_mm;
             let (x_mm, y_mm) = (
                 tick.position.x_mm - corner.x_mm,
                 tick.position.y_mm - corner.y_mm,
             );
             (0.0..=width_mm).contains(&x_mm) && (0.0..=height_mm).contains(&y_mm)
-        });
+        };
+        let felt = match played {
+            Some(Played::Textile(textile)) => self.places.get_mut(textile).filter(is_on),
+            None if self.steps.is_empty() => {
+                // The last of several that lie upon each other is on top.
+                self.places.iter_mut().rev().find(is_on)
+            }
+            _ => None,
+        };
         if let Some(explored) = felt {
             explored.n_ticks += 1;
         }
     }
 
-    fn play(&mut self, tick: &PresentedTick, lead: u16) {
-        let step = tick.vibration.and_then(|step| step.checked_sub(lead));
-        let Some([_, n_played]) = step.and_then(|step| self.steps.get_mut(usize::from(step)))
-        else {
-            return;
-        };
+    /// Counts a tick of a step of the sequence, and says what that plays.
+    fn play(&mut self, tick: &PresentedTick, lead: u16) -> Option<Played> {
+        let step = tick.sequence_step?.checked_sub(lead)?;
+        let (step, n_played) = self.steps.get_mut(usize::from(step))?;
         *n_played += u32::from(tick.is_sent);
         self.onset_tick.get_or_insert(self.n_ticks - 1);
+        Some(step.played)
     }
 
     /// Ends it, after its last tick, for a reason that no tick shows: a stop, a fault, a device
@@ -298,10 +308,31 @@ impl Watch {
             let percent = 100.0 * self.limited_share();
             return Standing::Void(format!("limits changed {percent:.1} % of the values"));
         }
+        if let Some(why) = self.passed_unfelt() {
+            return Standing::Void(why);
+        }
         match self.missing() {
             Some(what) => Standing::Incomplete(what),
             None => Standing::Valid,
         }
+    }
+
+    /// An interval that is over and was not explored: it does not come again in this presentation.
+    fn passed_unfelt(&self) -> Option<String> {
+        let over = self.steps.iter().filter(|(step, n)| *n >= step.n_ticks);
+        let mut felt = over.filter_map(|(step, _)| match step.played {
+            Played::Textile(textile) => self.places.get(textile),
+            Played::Vibration(_) => None,
+        });
+        let one = felt.find(|one| one.is_unfelt())?;
+        let name = match one.place.number {
+            Some(number) => format!("interval {number}"),
+            None => "what the intervals are compared with".to_owned(),
+        };
+        Some(format!(
+            "{name} was felt in movement for {:.2} s, not {LEAST_EXPLORED_S} s",
+            one.felt_s()
+        ))
     }
 
     /// What was not presented yet.
@@ -312,12 +343,11 @@ impl Watch {
         if self
             .steps
             .iter()
-            .any(|[n_ticks, n_played]| n_played < n_ticks)
+            .any(|(step, n_played)| *n_played < step.n_ticks)
         {
             return Some("it is still being played".to_owned());
         }
-        let is_unfelt = |one: &&Explored| one.is_needed && one.felt_s() < LEAST_EXPLORED_S;
-        let one = self.places.iter().find(is_unfelt)?;
+        let one = self.places.iter().find(|one| one.is_unfelt())?;
         Some(match one.place.number {
             Some(number) => format!("number {number} was not felt for {LEAST_EXPLORED_S} s yet"),
             None => format!("the one in the middle was not felt for {LEAST_EXPLORED_S} s yet"),
@@ -355,6 +385,10 @@ impl Watch {
 impl Explored {
     fn felt_s(&self) -> f64 {
         f64::from(self.n_ticks) / TICKS_PER_S
+    }
+
+    fn is_unfelt(&self) -> bool {
+        self.is_needed && self.felt_s() < LEAST_EXPLORED_S
     }
 }
 

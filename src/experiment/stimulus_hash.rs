@@ -1,12 +1,13 @@
 //! What trials present, as hashes: the same where the same is felt, another where a textile, its
-//! gain, its place or a vibration differs.
+//! gain, its place or interval, or a vibration differs.
 
 use std::collections::BTreeMap;
 
 use crate::ExperimentError;
 use crate::design::{Design, Source};
-use crate::layout::{Layout, vibrations};
+use crate::layout::{Layout, sequence};
 use crate::trial::Task;
+use selvedge_engine::Played;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::{Library, TextileError};
@@ -61,23 +62,30 @@ impl StimulusHashes {
                 continue;
             };
             let what = match &stimulus.source {
-                Source::Textile { id, gain_db } => {
+                Source::Textile { id, variant } => {
                     let content = self.textiles.get(id).map_or(id.as_str(), String::as_str);
-                    format!("{content} {gain_db}")
+                    let [(_, gain_db, _), others @ ..] = variant.numbers();
+                    let others = others.into_iter().filter(|(_, value, _)| *value != 0.0);
+                    let others = others.map(|(key, value, _)| format!(" {key} {value}"));
+                    format!("{content} {gain_db}{}", others.collect::<String>())
                 }
                 Source::RealCloth(cloth) => format!("cloth {cloth}"),
                 Source::Vibration { .. } => String::new(),
             };
             parts.push(format!("{:?} {what}\n", place.number));
-            // Gain or compression of this place alone.
+            // What is adapted of this place alone.
             parts.extend(place.adapted.map(|value| format!("{value}\n")));
         }
         let alone = task
             .adapted
             .filter(|_| design.composition.presentation.n == 1);
         parts.extend(alone.map(|adapted| format!("{}\n", adapted.value)));
-        for step in vibrations(design, task) {
-            parts.push(format!("{:?} {}\n", step.amplitude_um, step.n_ticks));
+        for step in sequence(design, task) {
+            let played = match step.played {
+                Played::Vibration(amplitude_um) => format!("{amplitude_um:?}"),
+                Played::Textile(textile) => format!("place {textile}"),
+            };
+            parts.push(format!("{played} {}\n", step.n_ticks));
         }
         sha256_hex(parts.iter().map(String::as_bytes))
     }

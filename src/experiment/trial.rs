@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::design::{Composition, Form, Scale, Seeks};
+use super::design::{Adaptation, Composition, Form, Scale, Seeks};
 pub use selvedge_statistics::ranking::Grade;
 
 /// One trial of a session.
@@ -46,6 +46,15 @@ pub struct Adapted {
 }
 
 impl Task {
+    /// What is adapted is at this value at a position; `None` is nothing.
+    pub(crate) fn adapted_at(&self, adaptation: &Adaptation, position: usize) -> Option<f64> {
+        let is_adapted = adaptation.alternatives == 1 || Some(position) == self.right;
+        let adapted = self.adapted.filter(|_| is_adapted);
+        adapted
+            .map(|adapted| adapted.value)
+            .or(adaptation.reference)
+    }
+
     /// The first stimulus, which is the only one where one is felt alone.
     pub fn item(&self) -> Option<usize> {
         self.items.first().copied()

@@ -1,7 +1,8 @@
 //! The gains of every placed textile and band: all that is applied after the spectra.
 //!
-//! `total dB = master + band + manifest + scene + compression`. Changing them costs a few powers of
-//! ten and never touches a spectrum; it allocates nothing, so sliders may move while a tick is due.
+//! `total dB = master + band + manifest + scene + compression`; what the scene gives a textile is
+//! its gain and that of the band alone. Changing them costs a few powers of ten and never touches a
+//! spectrum; it allocates nothing, so sliders may move while a tick is due.
 
 use super::{PlacedLevel, RenderError, RenderScene};
 use selvedge_foundation::quantity::factor_of_gain;
@@ -19,7 +20,7 @@ pub struct GainTerms {
     pub band_db: f64,
     /// The gain of the textile's manifest.
     pub manifest_db: f64,
-    /// The gain that the scene gives the textile.
+    /// The gain that the scene gives the textile, in this band.
     pub scene_db: f64,
     /// The gain that compression gives it; 0 while its level is pending.
     pub compression_db: f64,
@@ -42,6 +43,8 @@ impl GainTerms {
 struct TextileGain {
     manifest_db: f64,
     scene_db: f64,
+    /// On top of that, by band.
+    scene_band_db: [f64; 2],
     level: PlacedLevel,
     factors: [f64; 2],
 }
@@ -59,6 +62,7 @@ impl Gains {
         let textile = |placed: &super::PlacedSurface| TextileGain {
             manifest_db: placed.manifest_gain_db,
             scene_db: placed.scene_gain_db,
+            scene_band_db: placed.scene_band_gains_db,
             level: placed.level,
             factors: [0.0; 2],
         };
@@ -178,7 +182,7 @@ fn terms_of(
             Band::High => tuning.gain_320_db,
         },
         manifest_db: textile.manifest_db,
-        scene_db: textile.scene_db,
+        scene_db: textile.scene_db + textile.scene_band_db[band.index()],
         compression_db: reference_db.map_or(0.0, compress),
     }
 }
@@ -191,6 +195,7 @@ mod tests {
         let textile = |&level: &PlacedLevel| TextileGain {
             manifest_db: -2.0,
             scene_db: 1.0,
+            scene_band_db: [0.5, 0.0],
             level,
             factors: [0.0; 2],
         };
@@ -219,7 +224,7 @@ mod tests {
         assert_eq!(terms.compression_db, -7.0);
         assert_eq!(terms.total_db(), 3.0 - 6.0 - 2.0 + 1.0 - 7.0);
         assert_eq!(gains.terms(2, Band::Low).compression_db, 0.0);
-        assert_eq!(gains.factors(1)[0], factor_of_gain(2.0 + 7.0));
+        assert_eq!(gains.factors(1)[0], factor_of_gain(2.0 + 0.5 + 7.0));
         assert!(!gains.compression_is_pending(), "all levels are known");
     }
 

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use super::RenderError;
 use crate::scene::LoadedScene;
-use selvedge_foundation::geometry::{Displacement, Frame};
+use selvedge_foundation::geometry::{Displacement, Frame, Point};
 use selvedge_textile::surface::Surface;
-use selvedge_textile::tactile::{Filters, Tuning, check_gain};
+use selvedge_textile::tactile::{Band, Filters, Tuning, check_gain};
 
 /// Most textiles that a scene to render may hold.
 const MAX_TEXTILES: usize = 65_000;
@@ -35,10 +35,15 @@ pub struct PlacedSurface {
     pub workspace_from_textile: Frame,
     /// Its extent along warp and weft, mm.
     pub size_mm: [f64; 2],
+    /// Lower left and upper right corner in the workspace of what it is felt within; `None` is all
+    /// of it.
+    pub within_mm: Option<[Point; 2]>,
     /// The gain of its manifest, dB.
     pub manifest_gain_db: f64,
     /// The gain that the scene gives it, dB.
     pub scene_gain_db: f64,
+    /// What it adds to that at 40 and 320 Hz, dB.
+    pub scene_band_gains_db: [f64; 2],
     /// How strong it is as a whole.
     pub level: PlacedLevel,
     /// Its spectra.
@@ -93,8 +98,10 @@ impl RenderScene {
         let textiles = placed.map(|((placed, textile), level_db)| PlacedSurface {
             workspace_from_textile: placed.workspace_from_textile(),
             size_mm: placed.size_mm,
+            within_mm: placed.within_mm,
             manifest_gain_db: textile.manifest().gain_db,
             scene_gain_db: placed.gain_db,
+            scene_band_gains_db: Band::ALL.map(|band| placed.band_gain_db(band)),
             level: PlacedLevel::of(*level_db),
             surface: Arc::clone(textile.surface()),
         });
@@ -124,6 +131,9 @@ impl RenderScene {
         for (index, textile) in self.textiles.iter().enumerate() {
             check_gain("gain_db", textile.manifest_gain_db)?;
             check_gain("gain_db", textile.scene_gain_db)?;
+            let [low_db, high_db] = textile.scene_band_gains_db;
+            check_gain("gain_40_db", low_db)?;
+            check_gain("gain_320_db", high_db)?;
             if !textile.is_finite() {
                 return Err(RenderError::NotFinite {
                     what: "textile",
@@ -146,7 +156,10 @@ impl PlacedSurface {
     fn is_finite(&self) -> bool {
         let (cos, sin) = self.workspace_from_textile.rotation.cos_sin();
         let numbers = [cos, sin, self.size_mm[0], self.size_mm[1]];
-        self.workspace_from_textile.origin.is_finite() && numbers.iter().all(|x| x.is_finite())
+        let corners = self.within_mm.as_ref().map_or(&[][..], |corners| corners);
+        self.workspace_from_textile.origin.is_finite()
+            && numbers.iter().all(|x| x.is_finite())
+            && corners.iter().all(|corner| corner.is_finite())
     }
 }
 

@@ -75,6 +75,8 @@ pub(crate) fn placed(surface: &Arc<Surface>, origin: Point) -> PlacedSurface {
         size_mm: [WIDTH_MM; 2],
         manifest_gain_db: 0.0,
         scene_gain_db: 0.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Silent,
         surface: Arc::clone(surface),
     }

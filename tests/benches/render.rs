@@ -221,6 +221,8 @@ fn scene(array: ContactorArray) -> RenderScene {
             size_mm: [120.0, 120.0],
             manifest_gain_db: 0.0,
             scene_gain_db: 0.0,
+            scene_band_gains_db: [0.0; 2],
+            within_mm: None,
             level: PlacedLevel::Known(3.0),
             surface: Arc::new(surface(number as u64)),
         }

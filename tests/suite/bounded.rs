@@ -23,7 +23,7 @@ const READERS: [(&str, &str); 42] = [
     ("render a.scene.toml --path a.csv", "a.csv"),
     ("probe --surface map --stroke 0,0:1,0 --out new", "map"),
     ("probe --surface flat --path a.csv --out new", "a.csv"),
-    ("probe --surface fine --library textiles --stroke 0,0:1,0 --out new", "textiles/fine/warp.csv"),
+    ("probe --surface fine --library textiles --drop 1 --out new", "textiles/fine/warp.csv"),
     ("figure a.scene.toml --path a.csv --out new", "a.csv"),
     ("figure a.scene.toml --path a.csv --out new", "a.scene.toml"),
     ("play a.scene.toml --path a.csv --port /dev/ptmx", "a.csv"),

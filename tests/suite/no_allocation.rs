@@ -48,6 +48,8 @@ fn scene() -> RenderScene {
         size_mm: [80.0, 80.0],
         manifest_gain_db: 0.0,
         scene_gain_db: -2.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Pending,
         surface,
     };

@@ -10,8 +10,8 @@ use assert_no_alloc::assert_no_alloc;
 
 use selvedge_device::{ArrayProfile, BridgeState, Target};
 use selvedge_engine::{
-    Command, Engine, EngineConfig, InputSource, PointerSample, PointerSender, PreparedScene,
-    ProgramLink, SoundSource as _, TICK, VibrationStep, loopback, sonification,
+    Command, Engine, EngineConfig, InputSource, Played, PointerSample, PointerSender,
+    PreparedScene, ProgramLink, SequenceStep, SoundSource as _, TICK, loopback, sonification,
 };
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge_render::array::{Accuracy, Method};
@@ -34,6 +34,8 @@ fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
         size_mm: [100.0, 100.0],
         manifest_gain_db: 0.0,
         scene_gain_db: 0.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Known(3.0),
         surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
     };
@@ -115,24 +117,26 @@ fn ticks_with_a_mouse_a_recording_and_live_gains_allocate_nothing() {
 }
 
 #[test]
-fn vibrations_in_place_of_cloth_allocate_nothing() {
+fn sequences_of_vibrations_and_textiles_allocate_nothing() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
-    let step = |um, n_ticks| VibrationStep {
-        amplitude_um: [um, 0.0],
-        n_ticks,
-    };
+    let step = |played, n_ticks| SequenceStep { played, n_ticks };
+    let vibration = Played::Vibration([2.0, 0.0]);
     for n in 0..40_u32 {
         if n % 10 == 0 {
-            let steps = vec![step(2.0, 3), step(0.0, 2), step(4.0, 3)];
-            engine.send(Command::Vibrate(steps)).unwrap();
+            let steps = vec![
+                step(vibration, 3),
+                SequenceStep::silence(2),
+                step(Played::Textile(0), 3),
+            ];
+            engine.send(Command::PlaySequence(steps)).unwrap();
         }
         assert_no_alloc(|| {
             let stamp = start + TICK * n;
             push(&mut pointer, stamp, (stamp - start).as_secs_f64());
             engine.step_uncollected(start + TICK * (n + 1));
         });
-        let is_played = engine.snapshot().vibration.is_some();
+        let is_played = engine.snapshot().sequence_step.is_some();
         assert_eq!(is_played, n % 10 < 8, "tick {n}");
     }
 }

@@ -13,7 +13,12 @@ fn a_probe_that_falls_on_a_wall_is_its_closed_form() {
         "--seconds 0.02 --stiffness 3000 --damping 2 --rate 2000",
     ]
     .join(" ");
-    let rows = Rows::parse(&lab.print(&line.split_whitespace().collect::<Vec<_>>()));
+    let outcome = lab.run(&line.split_whitespace().collect::<Vec<_>>());
+    assert!(
+        outcome.err.contains("method exact: h √(K/m) = 0.1225"),
+        "{outcome:?}"
+    );
+    let rows = Rows::parse(&outcome.out);
     assert_eq!(
         rows.header(),
         "t_s,x_mm,y_mm,z_mm,depth_um,force_n,tangential_n,vibration_n,energy_j"
@@ -70,4 +75,41 @@ fn a_probe_that_cannot_be_held_is_refused_with_the_limit() {
     refused("--rate 0", &["the rate is 0 Hz"]);
     refused("--delay 3", &["--controller sampled"]);
     refused("--method magic", &["no method \"magic\""]);
+}
+
+#[test]
+fn a_textiles_own_friction_and_compression_are_felt() {
+    let lab = Lab::with_scene();
+    let manifest = lab.read("textiles/fine/textile.toml");
+    let friction = "x_mm,mu\n0,0.25\n0.1,0.25\n0.2,0.25\n";
+    lab.write("textiles/fine/friction.csv", friction);
+    let source = "[source]\nfriction = \"friction.csv\"";
+    let rubbing = manifest.replace("[source]", source);
+    let figures = "[measured]\nt0_mm = 1.5\ntm_mm = 1.0\nlc = 0.4\nrc_percent = 50.0\n";
+    let probe = |manifest: &str, more: &str| {
+        lab.write("textiles/fine/textile.toml", manifest);
+        let line = "probe --surface fine --library textiles --stroke 0,0:10,0 --damping 2 ";
+        let line = [line, more].concat();
+        let outcome = lab.run(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(outcome.code, 0, "{outcome:?}");
+        let rows = Rows::parse(&outcome.out);
+        (rows, outcome.err)
+    };
+    let (rows, _) = probe(&rubbing, "");
+    let [force_n, tangential_n] = ["force_n", "tangential_n"].map(|name| rows.numbers(name));
+    let there = force_n.iter().zip(tangential_n).take(190).skip(10);
+    for (force_n, tangential_n) in there {
+        let mu = tangential_n / force_n;
+        assert!((mu - 0.25).abs() < 0.03, "{tangential_n} of {force_n}");
+    }
+    let soft = [rubbing.as_str(), "\n", figures].concat();
+    let (rows, told) = probe(&soft, "--tip-radius 3");
+    assert!(told.contains("the cloth is not linear"), "{told}");
+    let deep_um = rows.numbers("depth_um")[5];
+    assert!(
+        deep_um > 500.0 && deep_um < 1600.0,
+        "the wall is below 0.5 mm: {deep_um}"
+    );
+    let (_, told) = probe(&soft, "--tip-radius 3 --rigid");
+    assert!(told.contains("piecewise linear"), "{told}");
 }

@@ -30,6 +30,9 @@ abx 0 .18,.43 .50,.43 .82,.43
 1 1 Return : response=1 confidence=1
 2 2 Return : response=2 confidence=2
 1 3 Return : response=1 confidence=3
+roughness-intervals 1 .50,.55 .50,.55 .50,.55
+1 : response=1
+2 : response=2
 preference 0 .30,.40 .70,.40
 1 Return : response=1
 2 Return : response=2
@@ -74,7 +77,7 @@ begin() {
   [ -e "$text" ] || text=$root/src/experiment/analysis/tests/designs/$1.toml
   rm -rf "$study"
   mkdir -p "$study" "$XDG_CONFIG_HOME/selvedge"
-  sed -zE "s/textiles = \[([^]\"]*\"){9,}[^]]*\]/$four/; s/for_s = [0-9.]*/for_s = 0.5/g; s/reference = \"real-cloth\"//" "$text" > "$work/$1.toml"
+  sed -zE "s/textiles = \[([^]\"]*\"){9,}[^]]*\]/$four/; s/for_s = [0-9.]*/for_s = 0.5/g; s/reference = \"real-cloth\"//; s/interval_ms = 2000/interval_ms = 4000/" "$text" > "$work/$1.toml"
   cat > "$XDG_CONFIG_HOME/selvedge/settings.toml" << SETTINGS
 sessions_folder = "$study"
 experiment_design = "$work/$1.toml"

@@ -11,8 +11,8 @@ use super::input::{
 };
 use super::ready::Retired;
 use super::recording::{LinkTally, RecordedTick, Recorder};
+use super::sequence::Sequence;
 use super::track::Track;
-use super::vibration::Vibration;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
     RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
@@ -45,8 +45,8 @@ pub struct EngineCore {
     ignored: u64,
     /// Which contactors of the first display are felt; those beyond its end are.
     mask: Vec<bool>,
-    /// What is played in place of the scene.
-    vibration: Vibration,
+    /// What is felt in place of the whole scene.
+    sequence: Sequence,
     revision: u64,
 }
 
@@ -75,10 +75,10 @@ impl EngineCore {
             recorder: None,
             ignored: 0,
             mask: Vec::new(),
-            vibration: Vibration::default(),
+            sequence: Sequence::default(),
             revision: 0,
         };
-        core.scene.render(pose, &[]);
+        core.scene.render(pose, &[], None);
         (core, sender)
     }
 
@@ -150,10 +150,15 @@ impl EngineCore {
         } else {
             self.pose
         };
-        let vibration_um = self.vibration.next_tick();
-        self.scene
-            .render_or_vibrate(self.rendered, &self.mask, vibration_um);
+        let played = self.sequence.next_tick();
+        self.scene.render(self.rendered, &self.mask, played);
         self.tick += 1;
+    }
+
+    /// Renders the last tick anew, after something else than the pose changed.
+    fn render_again(&mut self) {
+        let played = self.sequence.played();
+        self.scene.render(self.rendered, &self.mask, played);
     }
 
     /// Adds the tick to the recording, with the frame that went to the device. The recording comes
@@ -172,7 +177,7 @@ impl EngineCore {
             // While everything is off the display is rendered at rest, but it goes on moving.
             pose: self.pose,
             sent,
-            vibration: self.vibration.step(),
+            sequence_step: self.sequence.step(),
             tally,
         };
         let Err(why) = recorder.push(tick, self.scene.amplitudes_um()) else {
@@ -237,10 +242,10 @@ impl EngineCore {
     /// Everything off: silent until [`resume`](Self::resume), a replay held, the recording over.
     pub(super) fn stop(&mut self) -> Option<Retired> {
         self.is_stopped = true;
-        self.vibration.end();
+        self.sequence.end();
         self.control(Control::Pause);
         self.rendered = self.pose.at_rest();
-        self.scene.render(self.rendered, &self.mask);
+        self.render_again();
         self.end_recording()
     }
 
@@ -252,7 +257,7 @@ impl EngineCore {
     /// Other limits and calibration from now on; what there was before comes back in `coder`.
     pub(super) fn exchange_coder(&mut self, coder: &mut Coder) {
         self.scene.exchange_coder(coder);
-        self.scene.render(self.rendered, &self.mask);
+        self.render_again();
         self.revision += 1;
     }
 
@@ -275,7 +280,7 @@ impl EngineCore {
         self.scene.fill(&mut snapshot.displays);
         snapshot.is_stopped = self.is_stopped;
         snapshot.is_silent = self.is_silent();
-        snapshot.vibration = self.vibration.step();
+        snapshot.sequence_step = self.sequence.step();
         snapshot.rendering = RenderingView::of(&self.scene.renderer);
         snapshot.pointer = self.track.view(self.losses(), until_felt);
         snapshot.source = self

@@ -6,7 +6,7 @@
 use super::{EngineCore, Say};
 use crate::input::PointerInput;
 use crate::ready::{CoreCommand, NextScene, Retired};
-use crate::vibration::Vibration;
+use crate::sequence::Sequence;
 use crate::{Notice, SoundFeed, stereo_levels};
 use selvedge_render::RenderError;
 use selvedge_render::scene::Pose;
@@ -48,10 +48,10 @@ impl EngineCore {
                 retired[0] = Some(Retired::Mask(std::mem::replace(&mut self.mask, mask)));
                 self.revision += 1;
             }
-            CoreCommand::Vibrate(next) => {
-                let next = self.playable_vibration(next, say);
-                let last = std::mem::replace(&mut self.vibration, next);
-                retired[0] = Some(Retired::Vibration(last));
+            CoreCommand::PlaySequence(next) => {
+                let next = self.playable_sequence(next, say);
+                let last = std::mem::replace(&mut self.sequence, next);
+                retired[0] = Some(Retired::Sequence(last));
             }
             CoreCommand::Source(source) => retired[0] = self.set_source(source),
             CoreCommand::Angle(angle_deg) => self.set_angle(angle_deg, say),
@@ -67,20 +67,20 @@ impl EngineCore {
     }
 
     /// A sequence that may begin now; one that may not is at its end.
-    fn playable_vibration(&mut self, mut vibration: Vibration, say: Say<'_>) -> Vibration {
-        let refusal = if !vibration.is_sound() {
+    fn playable_sequence(&mut self, mut sequence: Sequence, say: Say<'_>) -> Sequence {
+        let refusal = if !sequence.is_sound() {
             Some("a vibration's amplitude is none: nothing is played")
-        } else if self.is_stopped && !vibration.is_over() {
-            Some("everything is off: arm before vibrations are played")
+        } else if self.is_stopped && sequence.has_anything() {
+            Some("everything is off: arm before a sequence is played")
         } else {
             None
         };
         if let Some(reason) = refusal {
             self.ignored += 1;
-            vibration.end();
+            sequence.end();
             say(Notice::Refused(reason));
         }
-        vibration
+        sequence
     }
 
     /// The next scene is felt from the next tick on; its renderer already holds its tuning.
@@ -101,7 +101,7 @@ impl EngineCore {
             self.rendered = self.pose.at_rest();
         }
         let retired = std::mem::replace(&mut self.scene, scene);
-        self.scene.render(self.rendered, &self.mask);
+        self.render_again();
         [recording, Some(Retired::Scene(retired))]
     }
 

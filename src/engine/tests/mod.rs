@@ -8,11 +8,11 @@ mod headroom;
 mod lift;
 mod mask;
 mod seek;
+mod sequence;
 mod shown;
 mod sound;
 mod tick_samples;
 mod update;
-mod vibration;
 
 use std::io::Cursor;
 use std::sync::Arc;
@@ -47,6 +47,8 @@ fn render_scene(offsets: Vec<Displacement>) -> RenderScene {
         size_mm: [100.0, 100.0],
         manifest_gain_db: 0.0,
         scene_gain_db: 0.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Known(0.0),
         surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
     };

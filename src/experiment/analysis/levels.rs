@@ -32,11 +32,38 @@ impl Adaptation {
     /// The unit after a comma; nothing where there is none.
     fn unit(&self) -> String {
         let is_difference = self.reference.is_some() && self.seeks == Seeks::Difference;
-        match (is_difference, self.parameter.unit()) {
-            (_, "") => String::new(),
-            (true, _) => ", dB".to_owned(),
-            (false, unit) => format!(", {unit}"),
+        if is_difference {
+            after_comma(self.parameter.unit_of_differences())
+        } else {
+            after_comma(self.parameter.unit())
         }
+    }
+
+    /// What is adapted, in a word.
+    pub(super) fn noun(&self) -> &'static str {
+        if self.is_vibration() {
+            "level"
+        } else {
+            self.parameter.name()
+        }
+    }
+
+    /// What is adapted, with its unit.
+    pub(super) fn value_words(&self) -> String {
+        format!("{}{}", self.noun(), after_comma(self.parameter.unit()))
+    }
+
+    /// Some difference of what is adapted, or its threshold, with the unit.
+    pub(super) fn with_unit(&self, what: &str) -> String {
+        format!(
+            "{what}{}",
+            after_comma(self.parameter.unit_of_differences())
+        )
+    }
+
+    /// Columns of a table whose numbers are of the parameter, as they are named for dB.
+    pub(super) fn columns(&self, columns: &str) -> String {
+        columns.replace("_db", self.parameter.suffix())
     }
 
     fn quantity(&self) -> String {
@@ -73,6 +100,15 @@ impl Adaptation {
             Family::Gumbel | Family::Normal | Family::Logistic => spread,
             Family::Weibull => median_db * (0.5 * variance).exp() * variance.exp_m1().sqrt(),
         }
+    }
+}
+
+/// A unit behind what it is of; nothing where there is none.
+fn after_comma(unit: &str) -> String {
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(", {unit}")
     }
 }
 
@@ -263,7 +299,7 @@ impl<'a> Found<'a> {
 
     fn fits(&self, levels: &Adaptation) -> Table {
         let title = format!("{}, by subject", levels.quantity());
-        let mut table = Table::new("fits", &title, FITS);
+        let mut table = Table::new("fits", &title, &levels.columns(FITS));
         for (name, counts, found) in &self.rows {
             let cells = |at: &usize| fit_cells(&self.fits[*at].1, &self.goodness[*at]);
             let found = or_undefined(found.as_ref().map(cells), table.columns.len() - 3);
@@ -332,8 +368,8 @@ fn curves(experiment: &Experiment<'_>, levels: &Adaptation, fits: &[(&str, Fit)]
         ));
     }
     let x = match levels.reference {
-        Some(_) => "difference, dB",
-        None => "level, dB re 1 µm",
+        Some(_) => levels.with_unit("difference"),
+        None => levels.value_words(),
     };
     let axes = [
         Axis::linear(x),

@@ -67,10 +67,13 @@ pub(super) fn staircases_section(
         track.up, track.down, track.reversals_averaged,
     ));
     let what = match levels.reference {
-        None => format!("level of {percent} right, dB re 1 µm"),
-        Some(_) => format!("difference of {percent} right, dB"),
+        None => {
+            let of = format!("{} of {percent} right", levels.noun());
+            levels.value_words().replacen(levels.noun(), &of, 1)
+        }
+        Some(_) => levels.with_unit(&format!("difference of {percent} right")),
     };
-    let mut table = Table::new("reversals", &what, REVERSALS);
+    let mut table = Table::new("reversals", &what, &levels.columns(REVERSALS));
     let (mut means, mut series) = (Vec::new(), Vec::new());
     for subject in &experiment.subjects {
         let own = of_subject(subject, (levels, track), (&mut table, &mut series));
@@ -81,10 +84,10 @@ pub(super) fn staircases_section(
     let title = "Over subjects, series averaged";
     section.table(summaries("group", title, &[(what, means)]));
     if !series.is_empty() {
-        let title = experiment.titled("levels from trial to trial");
+        let title = experiment.titled(&format!("{}s from trial to trial", levels.noun()));
         let axes = [
             Axis::linear("trial of the series"),
-            Axis::linear("level, dB re 1 µm"),
+            Axis::linear(levels.value_words()),
         ];
         section.figure(scatter("tracks", &title, axes, series));
     }
@@ -141,9 +144,6 @@ fn reversal_cells(
     ]
 }
 
-const POSTERIOR: &str = "subject; session; trial; level_db: level, dB re 1 µm; is_right: right; \
-    mean_db: mean; sd_db: sd";
-
 /// The posterior of every session after every trial, from its answers.
 pub(super) fn quest_plus_section(
     experiment: &Experiment<'_>,
@@ -156,8 +156,12 @@ pub(super) fn quest_plus_section(
          threshold, width and lapse rate of the design's grid as likely as another before. What \
          the group is told by stands above.",
     );
-    let title = "Posterior of the threshold after every trial, dB";
-    let mut table = Table::new("posterior", title, POSTERIOR);
+    let title = levels.with_unit("Posterior of the threshold after every trial");
+    let columns = format!(
+        "subject; session; trial; level_db: {}; is_right: right; mean_db: mean; sd_db: sd",
+        levels.value_words()
+    );
+    let mut table = Table::new("posterior", &title, &levels.columns(&columns));
     let mut series = Vec::new();
     for subject in &experiment.subjects {
         for session in &subject.sessions {
@@ -185,7 +189,10 @@ pub(super) fn quest_plus_section(
     }
     section.table(table);
     let title = experiment.titled("mean of the posterior from trial to trial");
-    let axes = [Axis::linear("trial"), Axis::linear("threshold, dB")];
+    let axes = [
+        Axis::linear("trial"),
+        Axis::linear(levels.with_unit("threshold")),
+    ];
     section.figure(scatter("means", &title, axes, series));
     section
 }

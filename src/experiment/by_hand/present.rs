@@ -1,7 +1,9 @@
 //! What is to be laid where. The right answer is not marked; whoever lays the cloth can often
 //! tell it from what lies where.
 
-use crate::design::{Design, Form, Medium, Sets, Source, Standard, Stimulus};
+use crate::design::{
+    Composition, Design, Form, Medium, Sets, Shown, Source, Standard, Stimulus, Tunable,
+};
 use crate::trial::Task;
 use selvedge_foundation::quantity::with_unit;
 
@@ -53,7 +55,7 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
         let is_target = composition.order.sets == Sets::Targets;
         placed.push(Placed::new(
             if is_target { "target" } else { "standard" },
-            what,
+            format!("{what}{}", lasting(composition)),
         ));
     }
     if let [item] = task.items.as_slice() {
@@ -61,10 +63,28 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
         return placed;
     }
     let position = |(at, item): (usize, &usize)| {
-        Placed::new(format!("position {}", at + 1), named(design, *item))
+        let what = format!("{}{}", named(design, *item), lasting(composition));
+        Placed::new(format!("{} {}", place(composition), at + 1), what)
     };
     placed.extend(task.items.iter().enumerate().map(position));
     placed
+}
+
+/// Where or when a stimulus comes, but for its number.
+fn place(composition: &Composition) -> &'static str {
+    match composition.presentation.shown {
+        Shown::Intervals => "interval",
+        _ => "position",
+    }
+}
+
+/// How long it is felt where it comes in an interval.
+fn lasting(composition: &Composition) -> String {
+    let presentation = &composition.presentation;
+    match presentation.shown {
+        Shown::Intervals => format!(" for {} ms", presentation.interval_ms),
+        _ => String::new(),
+    }
 }
 
 fn adjusted(design: &Design, task: &Task) -> Vec<Placed> {
@@ -83,7 +103,7 @@ fn adjusted(design: &Design, task: &Task) -> Vec<Placed> {
 /// What is adapted, at its value where it is adapted and at the reference elsewhere.
 fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
     let composition = &design.composition;
-    let (Some(adaptation), Some(adapted)) = (&composition.adaptation, task.adapted) else {
+    let Some(adaptation) = &composition.adaptation else {
         return Vec::new();
     };
     let presentation = &composition.presentation;
@@ -94,27 +114,20 @@ fn adapted(design: &Design, task: &Task) -> Vec<Placed> {
                 adaptation.band.carrier_hz(),
                 with_unit(value, digits, parameter.unit()),
             );
-            return format!("{hz} Hz at {level} for {} ms", presentation.interval_ms);
+            return format!("{hz} Hz at {level}{}", lasting(composition));
         }
         let of = named(design, task.item().unwrap_or(0));
-        format!("{of} with {} = {value}", parameter.name())
-    };
-    let others = adaptation.reference.map_or_else(
-        || format!("nothing for {} ms", presentation.interval_ms),
-        at_value,
-    );
-    let place = if adaptation.is_vibration() {
-        "interval"
-    } else {
-        "position"
-    };
-    let placed = |at: usize| {
-        let is_adapted = presentation.n == 1 || Some(at) == task.right;
-        let what = if is_adapted {
-            at_value(adapted.value)
-        } else {
-            others.clone()
+        let lasting = match parameter {
+            Tunable::Duration => String::new(),
+            _ => lasting(composition),
         };
+        format!("{of} with {} = {value}{lasting}", parameter.name())
+    };
+    let nothing = || format!("nothing{}", lasting(composition));
+    let place = place(composition);
+    let placed = |at: usize| {
+        let value = task.adapted_at(adaptation, at);
+        let what = value.map_or_else(nothing, at_value);
         Placed::new(format!("{place} {}", at + 1), what)
     };
     (0..presentation.n).map(placed).collect()
@@ -132,8 +145,22 @@ fn named(design: &Design, item: usize) -> String {
     };
     match &stimulus.source {
         Source::RealCloth(cloth) => cloth.clone(),
-        Source::Textile { id, gain_db } if gain_db.abs() < f64::EPSILON => id.clone(),
-        Source::Textile { id, gain_db } => format!("{id} at {} more", with_unit(*gain_db, 1, "dB")),
+        Source::Textile { id, variant } => {
+            let differs = variant.numbers().into_iter();
+            let differs = differs.filter(|(_, value, _)| value.abs() > f64::EPSILON);
+            let words = |(key, value, unit): (&str, f64, &'static str)| {
+                let value = with_unit(value, 1, unit);
+                match key {
+                    "gain_db" => format!("at {value} more"),
+                    "rotation_deg" => format!("turned by {value}"),
+                    _ => format!("with {key} = {value}"),
+                }
+            };
+            let parts: Vec<String> = std::iter::once(id.clone())
+                .chain(differs.map(words))
+                .collect();
+            parts.join(" ")
+        }
         Source::Vibration { band, level_db } => {
             let level = with_unit(*level_db, 2, "dB re 1 µm");
             format!("{} Hz at {level}", band.carrier_hz())
@@ -192,6 +219,24 @@ mod tests {
             jnd[0].replace("interval 1", ""),
             jnd[1].replace("interval 2", "")
         );
+    }
+
+    #[test]
+    fn cloth_in_intervals_is_told_interval_by_interval() {
+        let text = include_str!("../analysis/tests/designs/roughness-intervals.toml");
+        let design = Design::from_toml(text, std::path::Path::new("a.toml")).unwrap();
+        let task = Task {
+            items: vec![3, 0],
+            right: Some(0),
+            ..Task::default()
+        };
+        let placed = to_present(&design, &task);
+        let expected = [
+            Placed::new("interval 1", "denim for 2000 ms"),
+            Placed::new("interval 2", "silk-crepe for 2000 ms"),
+        ];
+        assert_eq!(placed, expected);
+        assert_eq!(super::super::form(&design), "type the interval: 1 or 2");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::design::{
-    Adaptation, Composition, Confidence, Design, Form, Kind, Scale, Sets, TunedParameter,
+    Composition, Confidence, Design, Form, Kind, Scale, Sets, Shown, TunedParameter,
 };
 use crate::trial::{Answer, AnswerError, AnswerValue, Task};
 
@@ -46,18 +46,14 @@ pub fn form(design: &Design) -> String {
 
 fn choice_form(composition: &Composition) -> String {
     let n = composition.presentation.n;
+    let place = match composition.presentation.shown {
+        Shown::Intervals => "interval",
+        _ => "position",
+    };
     let what = match composition.order.sets {
-        Sets::Triads => "the odd position",
-        Sets::Opposed => "the position of the real one",
-        Sets::Adapted
-            if composition
-                .adaptation
-                .as_ref()
-                .is_some_and(Adaptation::is_vibration) =>
-        {
-            "the interval"
-        }
-        _ => "the position",
+        Sets::Triads => format!("the odd {place}"),
+        Sets::Opposed => format!("the {place} of the real one"),
+        _ => format!("the {place}"),
     };
     match &composition.response.confidence {
         Confidence::Unasked if n == 2 => format!("type {what}: 1 or 2"),

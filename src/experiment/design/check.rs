@@ -1,49 +1,14 @@
 //! What makes a design's values wrong, and how to mend them.
 
 use std::collections::BTreeSet;
-use std::fmt::Display;
-use std::ops::RangeInclusive;
 
 use super::check_adaptation::check_level;
 use super::check_composition::check_composition;
+use super::needs::{MOST_REPEATS, MOST_STIMULI, need, need_within};
 use super::{Design, Form, Medium, Source, is_name};
 use selvedge_foundation::files::{Flaw, Place};
 
-/// Most stimuli of a design: schedules are made at once.
-pub(super) const MOST_STIMULI: usize = 400;
-/// Most times that a stimulus may come.
-pub(super) const MOST_REPEATS: usize = 1000;
-
 type Checked = Result<(), Flaw>;
-
-/// A flaw, unless all is right.
-pub(super) fn need(
-    is_right: bool,
-    place: Place,
-    what: impl Into<String>,
-    mend: impl Into<String>,
-) -> Checked {
-    if is_right {
-        return Ok(());
-    }
-    Err(Flaw::new(place, what, mend))
-}
-
-/// A flaw, unless a number lies within bounds.
-pub(super) fn need_within<T: PartialOrd + Display>(
-    place: Place,
-    value: &T,
-    bounds: RangeInclusive<T>,
-    unit: &str,
-) -> Checked {
-    let mend = format!("give {} to {}{unit}", bounds.start(), bounds.end());
-    need(
-        bounds.contains(value),
-        place,
-        format!("{} is {value}", place.2),
-        mend,
-    )
-}
 
 /// The first thing that is wrong with a design, whose first `n_named` stimuli are those of
 /// `textiles`.
@@ -113,17 +78,20 @@ fn check_source(source: &Source, medium: Medium, place: impl Fn(&'static str) ->
             let mend = "name a textile of the library, or set medium = \"real-cloth\"";
             need(medium != Medium::Array, place("cloth"), what, mend)
         }
-        Source::Textile { id, gain_db } => {
+        Source::Textile { id, variant } => {
             let what = format!("{id:?} is virtual, and the medium is \"real-cloth\"");
             let is_virtual = medium != Medium::RealCloth;
             need(is_virtual, place("textile"), what, "give cloth = \"…\"")?;
-            let what = format!("gain_db is {gain_db}");
-            need(
-                gain_db.is_finite(),
-                place("gain_db"),
-                what,
-                "give a finite number of dB",
-            )
+            for (key, value, unit) in variant.numbers() {
+                let mend = format!("give a finite number of {unit}");
+                need(
+                    value.is_finite(),
+                    place(key),
+                    format!("{key} is {value}"),
+                    mend,
+                )?;
+            }
+            Ok(())
         }
         Source::Vibration { level_db, .. } => check_level(place("level_db"), *level_db),
     }

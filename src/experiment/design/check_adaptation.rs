@@ -1,17 +1,17 @@
 //! What makes levels and the way they are found wrong, and how to mend them.
 
-use std::ops::RangeInclusive;
-
-use super::check::{MOST_REPEATS, MOST_STIMULI, need, need_within};
+use super::needs::{MOST_REPEATS, MOST_STIMULI, need, need_within};
+use super::parameter::LEVELS_DB;
 use super::{
-    Adaptation, Design, Form, QuestPlusTrack, Seeks, Sets, StaircaseTrack, Stopping, Track, Tunable,
+    Adaptation, Design, Form, QuestPlusTrack, Seeks, Sets, Source, StaircaseTrack, Stopping, Track,
+    Tunable,
 };
 use selvedge_foundation::files::{Flaw, Place};
 
 /// Most trials that a series of levels may take: what never ends is stopped.
 const MOST_TRIALS: usize = 10_000;
-/// Levels that make sense, dB re 1 µm.
-const LEVELS_DB: RangeInclusive<f64> = -120.0..=60.0;
+/// From tick to tick, ms: what vibrations last is so many of these.
+const TICK_MS: f64 = 25.0;
 
 type Checked = Result<(), Flaw>;
 
@@ -20,10 +20,7 @@ pub(super) fn check_adaptation(design: &Design, adaptation: &Adaptation) -> Chec
     check_adapted(design, adaptation)?;
     let [low, high] = adaptation.range;
     let name = adaptation.parameter.name();
-    let bounds = match adaptation.parameter {
-        Tunable::Compression => 0.0..=1.0,
-        _ => LEVELS_DB,
-    };
+    let bounds = adaptation.parameter.bounds();
     let is_range = bounds.contains(&low) && bounds.contains(&high) && low < high;
     let mend = format!(
         "give a lower and a higher value of {} to {}",
@@ -44,6 +41,7 @@ pub(super) fn check_adaptation(design: &Design, adaptation: &Adaptation) -> Chec
         need(is_below, place("reference"), what, mend)?;
     }
     check_track(adaptation)?;
+    check_ticks(adaptation)?;
     check_stopping(&adaptation.stopping, &adaptation.track)
 }
 
@@ -60,23 +58,28 @@ fn check_adapted(design: &Design, adaptation: &Adaptation) -> Checked {
         "sets and an adaptation",
         mend,
     )?;
+    let parameter = adaptation.parameter;
     let expected = usize::from(!adaptation.is_vibration());
-    let what = format!(
-        "{n_stimuli} stimuli, and {} is adapted",
-        adaptation.parameter.name()
-    );
+    let what = format!("{n_stimuli} stimuli, and {} is adapted", parameter.name());
     let mend = match expected {
         0 => "name none: the vibration is all that is felt",
         _ => "name one, whose number is adapted",
     };
     need(n_stimuli == expected, place("parameter"), what, mend)?;
-    let is_whole = matches!(adaptation.parameter, Tunable::Gain40 | Tunable::Gain320);
-    let what = format!(
-        "{} is that of all that lies there",
-        adaptation.parameter.name()
-    );
-    let mend = "give [presentation] kind = \"single\", or adapt gain_db or compression";
-    need(n == 1 || !is_whole, place("parameter"), what, mend)?;
+    if let Some(stimulus) = design.stimuli.first() {
+        let (is_its, mend) = match (parameter, &stimulus.source) {
+            (Tunable::Duration, source) => (
+                matches!(source, Source::Vibration { .. }),
+                "give it band_hz and level_db",
+            ),
+            (_, source) => (
+                matches!(source, Source::Textile { .. }),
+                "name a textile of the library",
+            ),
+        };
+        let what = format!("{:?} has no {}", stimulus.id, parameter.name());
+        need(is_its, place("parameter"), what, mend)?;
+    }
     let needs_reference = n > 1 && !adaptation.is_vibration();
     let mend = "add reference, which the others are at";
     let is_told = !needs_reference || adaptation.reference.is_some();
@@ -133,6 +136,42 @@ fn check_track(adaptation: &Adaptation) -> Checked {
             need_within(place, repeats, 1..=MOST_REPEATS, "")
         }
     }
+}
+
+/// What vibrations last is whole ticks.
+fn check_ticks(adaptation: &Adaptation) -> Checked {
+    if adaptation.parameter != Tunable::Duration {
+        return Ok(());
+    }
+    let [low, high] = adaptation.range;
+    let mut stated = vec![("adaptation", "range", vec![low, high])];
+    stated.extend(
+        adaptation
+            .reference
+            .map(|ms| ("adaptation", "reference", vec![ms])),
+    );
+    match &adaptation.track {
+        Track::Staircase(track) => {
+            let up = track.steps.iter().map(|step| step * track.up_over_down);
+            stated.extend([
+                ("adaptation.staircase", "steps", track.steps.clone()),
+                ("adaptation.staircase", "up_over_down", up.collect()),
+                ("adaptation.staircase", "starts", track.starts.clone()),
+            ]);
+        }
+        Track::QuestPlus(track) => stated.push(("adaptation.quest_plus", "grid", vec![track.grid])),
+        Track::Constant { values, .. } => {
+            stated.push(("adaptation.constant", "values", values.clone()));
+        }
+    }
+    let is_off = |ms: &f64| (ms / TICK_MS - (ms / TICK_MS).round()).abs() > 1e-9;
+    for (table, key, all) in stated {
+        let odd = all.into_iter().find(is_off);
+        let what = format!("{key} makes {} ms", odd.unwrap_or_default());
+        let mend = "give multiples of 25 ms, the ticks of the array";
+        need(odd.is_none(), (table, 0, key), what, mend)?;
+    }
+    Ok(())
 }
 
 fn check_quest_plus(track: &QuestPlusTrack, span: f64) -> Checked {

@@ -2,21 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use super::check::{MOST_REPEATS, need, need_within};
-use super::check_adaptation::{check_adaptation, check_level};
+use super::check_adaptation::check_adaptation;
+use super::check_presentation::{MOST_PLACES, MOST_SET, check_presentation};
+use super::needs::{MOST_REPEATS, need, need_within};
 use super::{
-    Composition, Confidence, Design, Form, Medium, Response, Right, Scale, Sequence, Sets, Shown,
-    Standard, Tunable, TunedParameter, is_name,
+    Composition, Confidence, Design, Form, Response, Right, Scale, Sequence, Sets, Standard,
+    Tunable, TunedParameter, is_name,
 };
 use crate::schedule::is_ranked;
 use selvedge_foundation::files::Flaw;
 
-/// Most places of a trial.
-const MOST_PLACES: usize = 9;
 /// Most stimuli that are put in order at once.
 const MOST_RANKED: usize = 5;
-/// Most stimuli that are sorted at once.
-const MOST_SET: usize = 25;
 
 type Checked = Result<(), Flaw>;
 
@@ -32,46 +29,6 @@ pub(super) fn check_composition(design: &Design) -> Checked {
     let is_right = composition.order.sets != Sets::Adapted;
     let mend = "add [adaptation], or give other sets";
     need(is_right, ("order", 0, "sets"), "nothing is adapted", mend)
-}
-
-fn check_presentation(design: &Design) -> Checked {
-    let presentation = &design.composition.presentation;
-    let place = |key| ("presentation", 0, key);
-    let n = presentation.n;
-    let (bounds, of) = match presentation.shown {
-        Shown::Single => (1..=1, " of a single one"),
-        Shown::Pair => (2..=2, " of a pair"),
-        Shown::Places => (2..=MOST_PLACES, " places"),
-        Shown::Intervals => (2..=8, " intervals"),
-        Shown::Set => (2..=MOST_SET, " stimuli of a set"),
-    };
-    need_within(place("n"), &n, bounds, of)?;
-    need_within(
-        place("interval_ms"),
-        &presentation.interval_ms,
-        50..=5000,
-        "",
-    )?;
-    let is_nothing_virtual = design.medium == Medium::RealCloth;
-    let is_possible = presentation.reference != Standard::Virtual || !is_nothing_virtual;
-    let mend = "give \"real-cloth\": nothing is virtual here";
-    let what = "the reference is virtual";
-    need(is_possible, place("reference"), what, mend)?;
-    let are_played = design.plays_vibrations();
-    let is_in_time = presentation.shown == Shown::Intervals;
-    let mend = "give stimuli with band_hz and level_db, or kind = \"places\"";
-    let what = "cloth does not come in intervals";
-    need(!is_in_time || are_played, place("kind"), what, mend)?;
-    let is_felt_alone = is_in_time || presentation.shown == Shown::Single;
-    let what = "vibrations do not lie at places";
-    let mend = "give kind = \"intervals\" or \"single\"";
-    need(!are_played || is_felt_alone, place("kind"), what, mend)?;
-    let Some(masker_db) = presentation.masker_db else {
-        return Ok(());
-    };
-    let (what, mend) = ("a masker without intervals", "take masker_db away");
-    need(is_in_time, place("masker_db"), what, mend)?;
-    check_level(place("masker_db"), masker_db)
 }
 
 fn check_order(design: &Design) -> Checked {
@@ -283,9 +240,9 @@ fn check_adjusting(parameters: &[TunedParameter]) -> Checked {
         let is_new = !seen.contains(&parameter.what);
         need(is_new, place("key"), what, "give another parameter")?;
         seen.push(parameter.what);
-        let is_tuning = parameter.what != Tunable::Level;
-        let what = "the level of a vibration is not turned by hand";
-        need(is_tuning, place("key"), what, "give gain_db")?;
+        let what = format!("{name} is not turned by hand");
+        let mend = "give a gain or compression, or adapt it with [adaptation]";
+        need(parameter.what.is_of_tuning(), place("key"), what, mend)?;
         let [from, to, step] = [parameter.from, parameter.to, parameter.step];
         let is_range = from.is_finite() && to.is_finite() && from < to;
         let is_step = step > 0.0 && step <= to - from;

@@ -6,7 +6,7 @@ use super::adaptation::count;
 use super::adapting::AdaptationKeys;
 use super::{
     Composition, Confidence, Form, Order, Presentation, Question, Response, Right, Scale, Sequence,
-    Sets, Shown, Standard, Stimulus, TunedParameter,
+    Sets, Shown, Source, Standard, Stimulus, TunedParameter,
 };
 use crate::named::named;
 use selvedge_foundation::files::Flaw;
@@ -31,8 +31,7 @@ pub(super) struct PresentationKeys {
     #[serde(default = "nothing")]
     reference: Standard,
     standard: Option<String>,
-    #[serde(default = "interval_ms")]
-    interval_ms: u32,
+    interval_ms: Option<u32>,
     masker_db: Option<f64>,
 }
 
@@ -40,9 +39,13 @@ fn nothing() -> Standard {
     Standard::None
 }
 
+/// How long an interval of a vibration is where nothing is said, ms.
 pub(super) fn interval_ms() -> u32 {
     500
 }
+
+/// The same of a textile, which a finger has to move over, ms.
+const CLOTH_INTERVAL_MS: u32 = 3000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -174,12 +177,19 @@ impl PresentationKeys {
                 Flaw::new(place, what, "give the id of a stimulus of this design")
             })
         };
+        let is_textile = |one: &Stimulus| matches!(one.source, Source::Textile { .. });
+        let is_in_time = self.kind == Shown::Intervals;
+        let usual_ms = if is_in_time && stimuli.iter().any(is_textile) {
+            CLOTH_INTERVAL_MS
+        } else {
+            interval_ms()
+        };
         Ok(Presentation {
             shown: self.kind,
             n,
             reference: self.reference,
             standard: self.standard.map(numbered).transpose()?,
-            interval_ms: self.interval_ms,
+            interval_ms: self.interval_ms.unwrap_or(usual_ms),
             masker_db: self.masker_db,
         })
     }

@@ -10,7 +10,7 @@ use super::adapting::{AdaptationKeys, band};
 use super::check::check;
 use super::composing::{Keys, OrderKeys, PresentationKeys, ResponseKeys};
 use super::old::OldTables;
-use super::{CourseSettings, Design, Medium, Question, Rules, Source, Stimulus};
+use super::{CourseSettings, Design, Medium, Question, Rules, Source, Stimulus, Variant};
 use crate::ExperimentError;
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_textile::tactile::Tuning;
@@ -66,6 +66,12 @@ struct StimulusKeys {
     group: String,
     #[serde(default)]
     gain_db: f64,
+    #[serde(default)]
+    gain_40_db: f64,
+    #[serde(default)]
+    gain_320_db: f64,
+    #[serde(default)]
+    rotation_deg: f64,
     band_hz: Option<f64>,
     level_db: Option<f64>,
 }
@@ -109,7 +115,7 @@ impl Design {
             source: match medium {
                 Medium::Array => Source::Textile {
                     id: id.clone(),
-                    gain_db: 0.0,
+                    variant: Variant::default(),
                 },
                 Medium::RealCloth => Source::RealCloth(id.clone()),
             },
@@ -172,7 +178,12 @@ impl StimulusKeys {
             (None, None, None) if medium == Medium::RealCloth => Source::RealCloth(self.id.clone()),
             (None, textile, None) => Source::Textile {
                 id: textile.unwrap_or_else(|| self.id.clone()),
-                gain_db: self.gain_db,
+                variant: Variant {
+                    gain_db: self.gain_db,
+                    gain_40_db: self.gain_40_db,
+                    gain_320_db: self.gain_320_db,
+                    rotation_deg: self.rotation_deg,
+                },
             },
             _ => {
                 let what = format!("{:?} comes from several sources", self.id);

@@ -1,6 +1,6 @@
 //! What a composition amounts to: what it is called, asks in words and takes.
 
-use super::{Composition, Form, Seeks, Sets, Shown};
+use super::{Adaptation, Composition, Form, Seeks, Sets, Shown, Standard};
 use crate::named::named;
 use selvedge_statistics::detection::Relation;
 
@@ -84,7 +84,10 @@ impl Composition {
     pub fn trial_s(&self) -> [f64; 2] {
         let (n, sets) = (self.presentation.n as f64, self.order.sets);
         let is_played = self.presentation.shown == Shown::Intervals;
-        let shown_s = f64::from(self.presentation.interval_ms) * n / 1000.0;
+        let has_standard = self.presentation.standard.is_some();
+        let is_compared = has_standard || self.presentation.reference != Standard::None;
+        let n_shown = n + f64::from(u8::from(is_compared));
+        let shown_s = f64::from(self.presentation.interval_ms) * n_shown / 1000.0;
         let answer_s = match &self.response.form {
             Form::Choice | Form::Words(_) if is_played => 1.0,
             Form::Rank | Form::BestWorst(_) => 12.5 * n,
@@ -126,10 +129,9 @@ impl Composition {
     }
 
     fn choice_question(&self) -> &'static str {
-        let has_reference = self
-            .adaptation
-            .as_ref()
-            .is_some_and(|a| a.reference.is_some());
+        let adaptation = self.adaptation.as_ref();
+        let has_reference = adaptation.is_some_and(|one| one.reference.is_some());
+        let is_vibration = adaptation.is_some_and(Adaptation::is_vibration);
         match (self.order.sets, self.presentation.shown) {
             (Sets::Triads, _) if self.response.confidence.n_grades() > 0 => {
                 "choose the odd one, then say how hard that was"
@@ -137,10 +139,12 @@ impl Composition {
             (Sets::Triads, _) => "choose the odd one",
             (Sets::Opposed, _) => "choose the one that is real",
             (Sets::Targets, _) => "choose the one that is the same as the target",
-            (Sets::Adapted, Shown::Intervals) if has_reference => {
+            (Sets::Adapted, Shown::Intervals) if has_reference && is_vibration => {
                 "choose the interval with the stronger vibration"
             }
-            (Sets::Adapted, Shown::Intervals) => "choose the interval with the vibration",
+            (Sets::Adapted, Shown::Intervals) if is_vibration => {
+                "choose the interval with the vibration"
+            }
             (_, Shown::Intervals) => "choose the interval with more",
             _ => "choose the one with more",
         }

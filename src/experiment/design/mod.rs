@@ -8,10 +8,12 @@ mod adapting;
 mod check;
 mod check_adaptation;
 mod check_composition;
+mod check_presentation;
 mod composing;
 mod composition;
 mod file;
 mod kind;
+mod needs;
 mod old;
 mod parameter;
 mod vocabulary;
@@ -186,8 +188,8 @@ pub enum Source {
     Textile {
         /// Its id in the library.
         id: String,
-        /// Gain on top of the textile's own, dB.
-        gain_db: f64,
+        /// What of it is another than in the library.
+        variant: Variant,
     },
     /// A cloth on the table that goes by this name.
     RealCloth(String),
@@ -198,6 +200,48 @@ pub enum Source {
         /// Its level, dB re 1 µm.
         level_db: f64,
     },
+}
+
+/// How a textile that is felt differs from the library's.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Variant {
+    /// Gain on top of the textile's own, dB.
+    pub gain_db: f64,
+    /// On top of that at 40 Hz, dB.
+    pub gain_40_db: f64,
+    /// The same at 320 Hz.
+    pub gain_320_db: f64,
+    /// How it is turned, degrees counter-clockwise.
+    pub rotation_deg: f64,
+}
+
+impl Variant {
+    /// With so much more of a parameter; as it is where the parameter is none of these.
+    pub(crate) fn with(mut self, parameter: Tunable, value: f64) -> Self {
+        match parameter {
+            Tunable::Gain => self.gain_db += value,
+            Tunable::Gain40 => self.gain_40_db += value,
+            Tunable::Gain320 => self.gain_320_db += value,
+            Tunable::Rotation => self.rotation_deg += value,
+            Tunable::Level | Tunable::Compression | Tunable::Duration => {}
+        }
+        self
+    }
+
+    /// Its keys, values and units, in the order of files.
+    pub(crate) fn numbers(&self) -> [(&'static str, f64, &'static str); 4] {
+        [
+            ("gain_db", self.gain_db, "dB"),
+            ("gain_40_db", self.gain_40_db, "dB"),
+            ("gain_320_db", self.gain_320_db, "dB"),
+            ("rotation_deg", self.rotation_deg, "°"),
+        ]
+    }
+
+    /// What it adds to both bands, dB.
+    pub(crate) fn gains_db(&self) -> [f64; 2] {
+        [self.gain_40_db, self.gain_320_db].map(|own_db| self.gain_db + own_db)
+    }
 }
 
 /// What surrounds the trials.

@@ -134,7 +134,7 @@ const ADAPTED: &str = "[adaptation]\nparameter = \"compression\"\nrange = [0.1, 
     reference = 0.0\n[adaptation.constant]\nvalues = [0.5]\nrepeats = 2";
 
 /// Presentation, response and further tables, with what is said of them and how it is mended.
-const MISFITS: [([&str; 3], &str, &str); 18] = [
+const MISFITS: [([&str; 3], &str, &str); 22] = [
     (
         [SINGLE, "kind = \"choice\"", ""],
         "one alone to choose",
@@ -190,12 +190,30 @@ const MISFITS: [([&str; 3], &str, &str); 18] = [
     ),
     (
         [
-            "kind = \"intervals\"",
+            "kind = \"intervals\"\nreference = \"real-cloth\"",
+            "kind = \"choice\"",
+            "[order]\nsets = \"targets\"",
+        ],
+        "cloth on the table does not come in intervals",
+        "\"places\"",
+    ),
+    (
+        [
+            "kind = \"intervals\"\nmasker_db = 3",
             "kind = \"choice\"",
             "[order]\nsets = \"pairs\"",
         ],
-        "does not come in intervals",
-        "\"places\"",
+        "a masker under cloth",
+        "under vibrations alone",
+    ),
+    (
+        [
+            "kind = \"intervals\"\ninterval_ms = 1000",
+            "kind = \"choice\"",
+            "[order]\nsets = \"pairs\"",
+        ],
+        "interval_ms is 1000",
+        "1500 to 20000 for cloth",
     ),
     (
         [PAIR, "kind = \"number\"\nconfidence_grades = 3", ""],
@@ -220,6 +238,26 @@ const MISFITS: [([&str; 3], &str, &str); 18] = [
         [PAIR, "kind = \"choice\"", ADAPTED],
         "4 stimuli, and compression is adapted",
         "name one",
+    ),
+    (
+        [
+            SINGLE,
+            "kind = \"adjustment\"\n[[response.parameter]]\nkey = \"rotation_deg\"\n\
+             from = 0.0\nto = 6.0\nstep = 1.0",
+            "",
+        ],
+        "rotation_deg is not turned by hand",
+        "adapt it",
+    ),
+    (
+        [
+            SINGLE,
+            "kind = \"adjustment\"\n[[response.parameter]]\nkey = \"level_db\"\n\
+             from = 0.0\nto = 6.0\nstep = 1.0",
+            "",
+        ],
+        "level_db is not turned by hand",
+        "give a gain",
     ),
     (
         [PAIR, "kind = \"choice\"", "[order]\nsets = \"adapted\""],
@@ -270,6 +308,58 @@ fn parts_that_do_not_go_together_are_refused_in_one_line_that_says_what_to_do() 
     }
 }
 
+/// What is changed in a good design of an adapted length of time, by what, and what is said of it.
+const OFF_THE_TICKS: [(&str, &str, &str); 8] = [
+    (
+        "reference = 300",
+        "reference = 310",
+        "reference makes 310 ms; give multiples of 25 ms",
+    ),
+    (
+        "range = [325, 600]",
+        "range = [325, 610]",
+        "range makes 610 ms",
+    ),
+    (
+        "range = [325, 600]",
+        "range = [325, 9000]",
+        "the range of duration_ms is 325 to 9000",
+    ),
+    ("steps = [50, 25]", "steps = [50, 30]", "steps makes 30 ms"),
+    ("starts = [500]", "starts = [505]", "starts makes 505 ms"),
+    (
+        "steps = [50, 25]",
+        "steps = [50, 25]\nup_over_down = 1.5",
+        "up_over_down makes 37.5 ms",
+    ),
+    ("band_hz = 40\nlevel_db = 20.0\n", "", "has no duration_ms"),
+    (
+        "\"duration_ms\"",
+        "\"rotation_deg\"",
+        "has no rotation_deg; name a textile",
+    ),
+];
+
+#[test]
+fn an_adapted_length_is_whole_ticks_of_a_vibration() {
+    let good = format!(
+        "{HEAD}[[stimulus]]\nid = \"a\"\nband_hz = 40\nlevel_db = 20.0\n[presentation]\n\
+         kind = \"intervals\"\n[response]\nkind = \"choice\"\n[adaptation]\n\
+         parameter = \"duration_ms\"\nreference = 300\nrange = [325, 600]\n\
+         [adaptation.staircase]\nup = 1\ndown = 2\nsteps = [50, 25]\nstarts = [500]\n\
+         [adaptation.stop]\ntrials = 30\n"
+    );
+    Design::from_toml(&good, Path::new("a.toml")).unwrap();
+    for (from, to, expected) in OFF_THE_TICKS {
+        assert!(good.contains(from), "{from}");
+        let described = described(&good.replacen(from, to, 1));
+        assert!(
+            described.contains(expected) && !described.contains('\n'),
+            "{to}: {described}"
+        );
+    }
+}
+
 #[test]
 fn fifteen_textiles_cannot_be_ranked_in_fours() {
     let ids: Vec<String> = (0..15).map(|n| format!("\"t{n}\"")).collect();
@@ -311,6 +401,26 @@ fn two_stimuli_of_one_name_are_refused_at_the_second() {
         described.contains("a.toml:8: two stimuli are called \"a\""),
         "{described}"
     );
+}
+
+#[test]
+fn intervals_are_of_one_kind_and_cloth_has_longer_ones() {
+    let tables = "[presentation]\nkind = \"intervals\"\n[response]\nkind = \"choice\"\n\
+                  [order]\nsets = \"pairs\"\n";
+    let vibration = |id: &str| format!("[[stimulus]]\nid = \"{id}\"\nband_hz = 40\nlevel_db = 9\n");
+    let textiles = "textiles = [\"a\", \"b\"]\n";
+    let mixed = described(&format!("{HEAD}{textiles}{}{tables}", vibration("v")));
+    assert!(
+        mixed.contains("textiles and vibrations") && mixed.contains("of one kind"),
+        "{mixed}"
+    );
+    let ms = |stimuli: &str| {
+        let text = format!("{HEAD}{stimuli}{tables}");
+        let design = Design::from_toml(&text, Path::new("a.toml")).unwrap();
+        design.composition.presentation.interval_ms
+    };
+    assert_eq!(ms(textiles), 3000);
+    assert_eq!(ms(&(vibration("v") + &vibration("w"))), 500);
 }
 
 #[test]

@@ -100,12 +100,22 @@ impl Participant<'_> {
     }
 
     /// How far what is adapted lies above nothing at a value, in just noticeable differences: of a
-    /// vibration its level, else how far the stimulus moves from where the range begins. `None` is
-    /// nothing.
+    /// vibration its level, of a turn and a length of time the number itself, else how far the
+    /// stimulus moves from where the range begins. `None` is nothing.
     pub(super) fn adapted_jnd(&self, adaptation: &Adaptation, value: Option<f64>) -> f64 {
         let jnd: Jnd = self.observer.jnd;
-        if adaptation.is_vibration() {
-            return jnd.steps(adaptation.band, value.unwrap_or(f64::NEG_INFINITY));
+        let habits = &self.observer.habits;
+        match adaptation.parameter {
+            Tunable::Level => {
+                return jnd.steps(adaptation.band, value.unwrap_or(f64::NEG_INFINITY));
+            }
+            Tunable::Rotation => return value.unwrap_or(0.0) / habits.turn_jnd_deg,
+            Tunable::Duration => {
+                let tick_ms = *Tunable::Duration.bounds().start();
+                let ms = value.unwrap_or(tick_ms).max(tick_ms);
+                return ms.ln() / habits.duration_weber.ln_1p();
+            }
+            _ => {}
         }
         let place = |value: f64| self.place_at(0, [(adaptation.parameter, value)].into_iter());
         let least = adaptation.reference.unwrap_or(adaptation.range[0]);

@@ -59,12 +59,8 @@ impl Participant<'_> {
             let margin = felt(Some(adapted.value)) - criterion;
             return Answer::chosen(usize::from(margin <= 0.0), self.confidence(margin));
         }
-        let value = |at: usize| {
-            let is_adapted = Some(at) == task.right;
-            is_adapted.then_some(adapted.value).or(adaptation.reference)
-        };
         let felt: Vec<f64> = (0..composition.presentation.n)
-            .map(|at| felt(value(at)))
+            .map(|at| felt(task.adapted_at(adaptation, at)))
             .collect();
         let mut order: Vec<usize> = (0..felt.len()).collect();
         random.branch("ties").shuffle(&mut order);

@@ -33,8 +33,8 @@ struct Measure {
     /// The textile, or the stimulus where it is none.
     name: String,
     levels: Levels,
-    /// Gains of its own, dB.
-    gain_db: f64,
+    /// Gains of its own at 40 and 320 Hz, dB.
+    gains_db: [f64; 2],
 }
 
 /// A design's stimuli as they are measured, and the tunings that they are felt through.
@@ -137,8 +137,9 @@ impl Stimuli {
         }
         let reference_db = tuning.compression_reference_db.unwrap_or(self.reference_db);
         let level_db = measure.levels.level_db();
-        let own_db = measure.gain_db + tuning.compression_gain_db(level_db, reference_db);
-        Band::ALL.map(|band| own_db + tuning.band_gain_db(band))
+        let compression_db = tuning.compression_gain_db(level_db, reference_db);
+        let own_db = |band: Band| measure.gains_db[band.index()] + compression_db;
+        Band::ALL.map(|band| own_db(band) + tuning.band_gain_db(band))
     }
 
     /// What is added to both bands where a stimulus lies on the table, without the model's error,
@@ -176,13 +177,13 @@ fn measure(
         })
     };
     Ok(match &stimulus.source {
-        Source::Textile { id, gain_db } => {
+        Source::Textile { id, variant } => {
             let (levels, own_db) = textile(id)?;
             Measure {
                 presented: Presented::Textile,
                 name: id.clone(),
                 levels,
-                gain_db: own_db + gain_db,
+                gains_db: variant.gains_db().map(|db| own_db + db),
             }
         }
         Source::RealCloth(id) => {
@@ -191,7 +192,7 @@ fn measure(
                 presented: Presented::Cloth,
                 name: id.clone(),
                 levels,
-                gain_db: own_db,
+                gains_db: [own_db; 2],
             }
         }
         Source::Vibration { band, level_db } => {
@@ -206,7 +207,7 @@ fn measure(
                     anisotropy_db: [0.0; 2],
                     direction_mean_um: [mean_um; 4],
                 },
-                gain_db: 0.0,
+                gains_db: [0.0; 2],
             }
         }
     })

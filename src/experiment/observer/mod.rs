@@ -106,6 +106,10 @@ pub struct Habits {
     pub(crate) magnitude_noise: f64,
     /// Standard deviation of a rating that is given again, as a share of its scale.
     pub(crate) rating_noise: f64,
+    /// The difference of two turns that is just noticed, degrees, wherever it is.
+    pub(crate) turn_jnd_deg: f64,
+    /// The difference of two lengths of time that is just noticed, as a share of the shorter.
+    pub(crate) duration_weber: f64,
     /// Standard deviation of the logarithm of times of response.
     pub(crate) time_spread: f64,
 }
@@ -124,6 +128,8 @@ impl Default for Habits {
             exponent_spread: 0.1,
             magnitude_noise: 0.2,
             rating_noise: 0.05,
+            turn_jnd_deg: 10.0,
+            duration_weber: 0.2,
             time_spread: 0.35,
         }
     }

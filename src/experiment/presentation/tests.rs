@@ -12,7 +12,7 @@ const STILL: PresentedTick = PresentedTick {
         y_mm: 0.0,
     },
     speed_mm_per_s: 0.0,
-    vibration: None,
+    sequence_step: None,
 };
 
 fn watch(name: &str, task: &Task) -> Watch {
@@ -171,12 +171,12 @@ fn every_interval_is_played_to_its_end_and_its_onset_told() {
         adapted: Some(crate::Adapted { track, value }),
         ..Task::default()
     };
-    let steps = vibrations(&design, &task);
+    let steps = sequence(&design, &task);
     let mut watch = Watch::of(&design, &task, Proof::Array);
     shown(
         &mut watch,
         [PresentedTick {
-            vibration: Some(0),
+            sequence_step: Some(0),
             ..STILL
         }; 24],
     );
@@ -186,7 +186,7 @@ fn every_interval_is_played_to_its_end_and_its_onset_told() {
             "step {nth}"
         );
         let tick = PresentedTick {
-            vibration: Some(nth),
+            sequence_step: Some(nth),
             ..STILL
         };
         shown(&mut watch, (0..step.n_ticks).map(|_| tick));
@@ -194,4 +194,58 @@ fn every_interval_is_played_to_its_end_and_its_onset_told() {
     assert_eq!(watch.standing(), Standing::Valid);
     let onset_ns = watch.presentation(5).onset_ns;
     assert_eq!(onset_ns, Some(24 * TICK_NS + 5), "behind the silence");
+}
+
+/// A watch over two intervals of cloth of 2 s, and ticks of one of them.
+fn in_intervals() -> (Watch, impl Fn(u16, f64) -> PresentedTick) {
+    let text = include_str!("../analysis/tests/designs/roughness-intervals.toml");
+    let design = Design::from_toml(text, std::path::Path::new("a.toml")).unwrap();
+    let task = of_items(&[3, 0]);
+    let tick = |step: u16, speed_mm_per_s: f64| PresentedTick {
+        position: Point::new(50.0, 50.0),
+        speed_mm_per_s,
+        sequence_step: Some(step),
+        ..STILL
+    };
+    (Watch::of(&design, &task, Proof::Array), tick)
+}
+
+#[test]
+fn each_interval_of_cloth_is_felt_in_movement_for_a_second_while_it_is_uncovered() {
+    let (mut watch, tick) = in_intervals();
+    // The lead and the pause are silent: movement in them explores nothing.
+    let ticks = [(0, 24, 0), (1, 40, 40), (2, 12, 0), (3, 40, 40)];
+    for (step, n_moving, n_still) in ticks {
+        let still = std::iter::repeat_n(tick(step, 1.9), n_still);
+        let standing = shown(&mut watch, still);
+        assert!(matches!(standing, Standing::Incomplete(_)), "{standing:?}");
+        shown(&mut watch, std::iter::repeat_n(tick(step, 30.0), n_moving));
+    }
+    assert_eq!(watch.standing(), Standing::Valid);
+    // What comes behind them is silent too.
+    shown(&mut watch, [tick(4, 30.0); 40]);
+    assert_eq!(watch.standing(), Standing::Valid);
+    let row = watch.presentation(0);
+    assert_eq!(row.explored_s, [1.0; 2]);
+    assert_eq!(row.onset_ns, Some(24 * TICK_NS));
+}
+
+#[test]
+fn an_interval_in_which_the_display_rested_voids_once_it_is_over() {
+    let (mut watch, tick) = in_intervals();
+    shown(&mut watch, [tick(0, 30.0); 24]);
+    shown(&mut watch, [tick(1, 30.0); 39]);
+    let standing = shown(&mut watch, [tick(1, 0.0); 40]);
+    assert!(matches!(standing, Standing::Incomplete(_)), "{standing:?}");
+    let standing = shown(&mut watch, [tick(1, 0.0)]);
+    let why = "interval 1 was felt in movement for 0.97 s, not 1 s";
+    assert_eq!(void(&standing), why);
+    assert_eq!(watch.presentation(0).validity(), Validity::Void);
+    // Beside the cloth is not on it.
+    let (mut beside, tick) = in_intervals();
+    let away = PresentedTick {
+        position: Point::new(5.0, 50.0),
+        ..tick(1, 30.0)
+    };
+    assert!(void(&shown(&mut beside, [away; 80])).contains("0.00 s"));
 }

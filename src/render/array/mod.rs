@@ -203,6 +203,14 @@ impl ArrayRenderer {
         }
     }
 
+    /// Lets one display feel this textile alone (its place in the list) from the next tick on,
+    /// whatever lies upon it; with `None`, each contactor the topmost one beneath it.
+    pub fn uncover(&mut self, display: usize, textile: Option<usize>) {
+        if let Some(display) = self.displays.get_mut(display) {
+            display.uncover(textile);
+        }
+    }
+
     /// The frames of the last tick.
     pub fn frames(&self) -> &[DisplayFrame] {
         &self.frames

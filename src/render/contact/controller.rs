@@ -11,7 +11,7 @@ use super::stepper::Motion;
 use crate::RenderError;
 
 /// Most ticks that a force may be late.
-pub(super) const MAX_DELAY: usize = 1000;
+const MAX_DELAY: usize = 32;
 
 /// How a force is sampled and held.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -56,7 +56,7 @@ impl HapticLoop {
     /// device gives no force along z.
     ///
     /// # Errors
-    /// A rate outside 1 Hz–1 MHz, a delay of more than a thousand ticks.
+    /// A rate outside 1 Hz–1 MHz, a delay of more than 32 ticks.
     pub fn new(
         contact: Contact,
         (rate_hz, sampling): (f64, Sampling),

@@ -159,13 +159,13 @@ pub struct Hand {
 /// A simulated device in a hand: a mass with damping, Coulomb friction and encoders.
 #[derive(Debug, Clone)]
 pub struct SimulatedDevice {
-    spec: DeviceSpec,
-    hand: Hand,
+    pub(super) spec: DeviceSpec,
+    pub(super) hand: Hand,
     method: Stepper,
     /// How long a force is held, s.
-    period_s: f64,
+    pub(super) period_s: f64,
     /// Where the hand leads it next, mm.
-    target_mm: [f64; 2],
+    pub(super) target_mm: [f64; 2],
     pub(super) along: Along,
     pub(super) upright: Motion,
 }

@@ -2,8 +2,8 @@
 //!
 //! A mass m with damping b, sampled every T, is held by a wall `K, B` whose force is late by a
 //! delay `t_d` of whole ticks; velocity is the backward difference. The exact loop is
-//! `z^{N+1} P(z) + ((K + B/T) z − B/T) Q(z) = 0` with P and Q of the exactly held plant, N the ticks
-//! of delay. Known limits: passive while `b > K (T/2 + t_d) + |B|` (Colgate & Schenkel 1997),
+//! `z^{N+1} P(z) + ((K + B/T) z − B/T) Q(z) = 0`, P and Q of the exactly held plant, N the ticks of
+//! delay. Known limits: passive while `b > K (T/2 + t_d) + |B|` (Colgate & Schenkel 1997),
 //! stable about while `K < (b + B)/(T/2 + t_d)`, free of limit cycles while
 //! `K ≤ min(2b/T, 2f_c/Δ)` (Abbott & Okamura 2005).
 //!
@@ -22,6 +22,8 @@ const STIFFNESSES: [f64; 2] = [1e-6, 1e12];
 const RATIO: f64 = 1.25;
 /// Below this a limit is none: rounding feigns it, N/m.
 const NO_LIMIT: f64 = 1e-2;
+/// A part of 1/ω as long as which a step of a cloth is smooth.
+const SMOOTH: f64 = 0.3;
 /// Halvings after that.
 const HALVINGS: u32 = 60;
 
@@ -124,10 +126,8 @@ impl WallCase {
     fn is_bounded(&self) -> bool {
         match self.delay_ticks {
             Some(ticks) => {
-                let within = self
-                    .characteristic(ticks)
-                    .map(|all| is_within(all, 1.0 + ROUNDING));
-                within.unwrap_or(false)
+                let all = self.characteristic(ticks);
+                all.is_some_and(|all| is_left(&all))
             }
             None => self
                 .step_growth()
@@ -135,44 +135,24 @@ impl WallCase {
         }
     }
 
-    /// The factor by which what is left to itself grows in a period: the largest |eigenvalue|.
-    pub fn growth(&self) -> f64 {
-        let Some(ticks) = self.delay_ticks else {
-            return self.step_growth().unwrap_or(f64::INFINITY);
-        };
-        let Some(all) = self.characteristic(ticks) else {
-            return f64::INFINITY;
-        };
-        let mut high = 1.0;
-        while !is_within(all.clone(), high) && high < 1e12 {
-            high *= 2.0;
-        }
-        bisected([0.0, high], HALVINGS, |r| !is_within(all.clone(), r))
-    }
-
-    /// Coefficients of the characteristic polynomial of the sampled loop, the constant first.
+    /// Coefficients of the characteristic polynomial of the sampled loop in y, the constant first;
+    /// `z = (1 + y)/(1 − y)`. Roots near z = 1, of which there are three in a fast loop, are near
+    /// y = 0, where no digit of them is lost.
     fn characteristic(&self, ticks: usize) -> Option<Vec<f64>> {
         let t = self.period_s;
         let held = self.plant(0.0, self.damping_n_s_per_m, StepMethod::ExactHold)?;
-        let [[_, p], [_, q]] = held.state;
-        let [[near], [speed]] = held.input;
-        // Of (z − P)⁻¹ Q, first row: (near z + p speed − q near)/((z − 1)(z − q)).
-        let plant = [q, -(1.0 + q), 1.0];
-        let wall = [
-            -self.wall_damping_n_s_per_m / t,
-            self.stiffness_n_per_m + self.wall_damping_n_s_per_m / t,
-        ];
-        let moved = [p * speed - q * near, near];
-        let mut all = vec![0.0; ticks + 4];
-        for (power, coefficient) in plant.into_iter().enumerate() {
-            all[ticks + 1 + power] += coefficient;
+        let ([[_, p], _], [[near], [speed]]) = (held.state, held.input);
+        let lost = -(-self.damping_n_s_per_m * t / self.mass_kg).exp_m1();
+        let far = near * lost + p * speed;
+        // With x = z − 1 = 2y/(1 − y): x (x + lost) z^{N+1} + (K + (K + B/T) x) (near x + far).
+        let (k, wall) = (self.stiffness_n_per_m, self.wall_damping_n_s_per_m / t);
+        let mut free = vec![0.0, 2.0 * lost, 2.0 * (2.0 - lost)];
+        let mut held = times(&[k, k + 2.0 * wall], &[far, 2.0 * near - far]);
+        for _ in 0..=ticks {
+            free = times(&free, &[1.0, 1.0]);
+            held = times(&held, &[1.0, -1.0]);
         }
-        for (i, a) in wall.into_iter().enumerate() {
-            for (j, b) in moved.into_iter().enumerate() {
-                all[i + j] += a * b;
-            }
-        }
-        Some(all)
+        Some(free.iter().zip(&held).map(|(a, b)| a + b).collect())
     }
 
     /// A step of a mass on a spring by a method.
@@ -283,13 +263,13 @@ impl WallCase {
             (Standing::Stable, true) => format!("{k} N/m sampled at {hz} Hz is passive"),
             (Standing::Stable, false) => format!("{name} holds {k} N/m at {hz} Hz"),
             (Standing::Active, true) => format!(
-                "{k} N/m sampled at {hz} Hz is stable up to {limit} N/m but not passive (the device \
-                 would need {} N·s/m of damping): it may chatter in a hand",
+                "{k} N/m sampled at {hz} Hz is stable up to {limit} N/m but not passive (the \
+                 device would need {} N·s/m of damping): it may chatter in a hand",
                 rounded(self.needed_damping())
             ),
             (Standing::Active, false) => format!(
-                "{name} keeps {k} N/m at {hz} Hz bounded, up to {limit} N/m, but may give energy at \
-                 contact; exact and implicit-euler never do"
+                "{name} keeps {k} N/m at {hz} Hz bounded, up to {limit} N/m, but may give energy \
+                 at contact; exact and implicit-euler never do"
             ),
             (Standing::Unstable, true) => {
                 let rate = self.needed_rate_hz().map_or_else(
@@ -311,53 +291,51 @@ impl WallCase {
     /// Which stepper `auto` takes, and why, for a law that is piecewise linear or not.
     pub fn choose(&self, is_linear: bool) -> (Stepper, String) {
         let turned = self.period_s * (self.stiffness_n_per_m / self.mass_kg).sqrt();
-        let semi = Self {
-            method: Stepper::SemiImplicitEuler,
-            delay_ticks: None,
-            ..*self
-        };
         let phase = format!("h √(K/m) = {}", rounded(turned));
-        if self.delay_ticks.is_some() {
+        let (method, why) = if self.delay_ticks.is_some() {
             let why = "a held force leaves a linear plant, which is stepped exactly";
-            (Stepper::Exact, why.to_owned())
-        } else if turned <= 0.01 && semi.standing() == Standing::Stable {
-            let why =
-                format!("{phase} is small and the device's damping covers K h/2: the cheapest");
-            (Stepper::SemiImplicitEuler, why)
+            return (Stepper::Exact, why.to_owned());
         } else if is_linear {
-            let why = format!("{phase}; the wall is piecewise linear, so its solution is known");
+            let why = "the wall is piecewise linear, so its solution is known";
             (Stepper::Exact, why)
+        } else if turned <= SMOOTH {
+            let why = "the cloth is not linear, but smooth within such a step";
+            (Stepper::Trapezoid, why)
         } else {
-            let why = format!("{phase}; the cloth is not linear, and this never gives energy");
+            let why = "the cloth is not linear, and too stiff for such a step but by its end";
             (Stepper::ImplicitEuler, why)
-        }
+        };
+        (method, format!("{phase}; {why}"))
     }
 }
 
-/// Whether all roots of a polynomial, the constant first, lie within a circle (Schur & Cohn).
-fn is_within(mut all: Vec<f64>, radius: f64) -> bool {
-    let mut power = 1.0;
-    for coefficient in &mut all {
-        *coefficient *= power;
-        power *= radius;
+/// The product of two polynomials.
+fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            product[i + j] += x * y;
+        }
     }
-    while all.len() > 1 {
-        let n = all.len();
-        let (first, last) = (all[0], all[n - 1]);
-        let is_inside = first.abs() < last.abs();
-        if !is_inside {
+    product
+}
+
+/// Whether no root of a polynomial, the constant first, has a positive real part (Routh). A root
+/// at 0 is that of a mass that nothing holds in its place.
+fn is_left(all: &[f64]) -> bool {
+    let all = if all[0] == 0.0 { &all[1..] } else { all };
+    let of = |first: usize| all.iter().rev().skip(first).step_by(2).copied().collect();
+    let (mut above, mut row): (Vec<f64>, Vec<f64>) = (of(0), of(1));
+    while let Some(&first) = row.first() {
+        let ratio = above[0] / first;
+        if !(ratio > 0.0 && ratio.is_finite()) {
             return false;
         }
-        let ratio = first / last;
-        for i in 0..n / 2 {
-            let (low, high) = (all[i], all[n - 1 - i]);
-            all[i] = low - ratio * high;
-            all[n - 1 - i] = high - ratio * low;
-        }
-        if n % 2 == 1 {
-            all[n / 2] *= 1.0 - ratio;
-        }
-        all.remove(0);
+        let at = |of: &[f64], i: usize| of.get(i).copied().unwrap_or(0.0);
+        let next = (1..above.len())
+            .map(|i| above[i] - ratio * at(&row, i))
+            .collect();
+        above = std::mem::replace(&mut row, next);
     }
     true
 }

@@ -9,11 +9,11 @@
 //! [`StylusRun`] simulates a device in a hand; [`HapticLoop`] drives a [`StylusDevice`], simulated
 //! or real. Along z the tip is stepped by the method that is chosen; along the surface it is where
 //! the path is, or a mass that a hand leads by a spring, by velocities at the step's end, which is
-//! stable at any step. Both share one step: the surface under the tip is known at its start and end.
+//! stable at any step. Both share one step: where the surface is at its start and end is known.
 //!
 //! For a window: [`StylusSetup::case`] with [`WallCase::standing`] and [`WallCase::advice`] before
-//! a setting is applied, [`StylusSetup::stiffness_limits`] for lines in a chart, [`StylusRun::step`]
-//! for rows, [`Relief::height_mm`] for a cross-section.
+//! a setting is applied, [`StylusSetup::stiffness_limits`] for lines in a chart,
+//! [`StylusRun::step`] for rows, [`Relief::height_mm`] for a cross-section.
 //!
 //! Places are mm in the textile's frame, z up; forces N; within a step all is SI.
 

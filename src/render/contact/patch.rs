@@ -168,17 +168,24 @@ impl Contact {
         floors.map(|floor| self.spring.energy_j(floor, z_m)).sum()
     }
 
-    /// How far the surface rises under the tip from the start to the end of a step, by the force
-    /// of every contact at that instant: the work that moving along the surface does, J.
-    pub(super) fn lifting_j(&self, z_m: [f64; 2]) -> f64 {
-        let pairs = self.floors[0].iter().zip(&self.floors[2]);
-        let mean_n = |before: &Floor, after: &Floor| {
+    /// The work of moving along the surface over a step from and to these heights, J: how far it
+    /// rises under each contact by that contact's force. `mean_n` is the force that all had in the
+    /// mean over the step, where that is known; of one contact the work is then exact.
+    pub(super) fn lifting_j(&self, z_m: [f64; 2], mean_n: Option<f64>) -> f64 {
+        let (mut force_n, mut work_j, mut rise_m) = (0.0, 0.0, 0.0);
+        for (before, after) in self.floors[0].iter().zip(&self.floors[2]) {
             let first = self.spring.force_n(before, z_m[0], before.rise_m_per_s);
-            0.5 * (first + self.spring.force_n(after, z_m[1], after.rise_m_per_s))
-        };
-        pairs
-            .map(|(before, after)| mean_n(before, after) * (after.height_m - before.height_m))
-            .sum()
+            let last = self.spring.force_n(after, z_m[1], after.rise_m_per_s);
+            let rises_m = after.height_m - before.height_m;
+            force_n += 0.5 * (first + last);
+            work_j += 0.5 * (first + last) * rises_m;
+            rise_m += rises_m / self.floors[0].len() as f64;
+        }
+        match mean_n {
+            Some(mean_n) if force_n > 0.0 => work_j * mean_n / force_n,
+            Some(mean_n) => rise_m * mean_n,
+            None => work_j,
+        }
     }
 
     /// Where a tip rests that is pressed with a force, m: on the highest contact if nothing holds.

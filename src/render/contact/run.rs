@@ -67,12 +67,8 @@ pub struct StylusRun {
     device: SimulatedDevice,
     /// The loop, and the force that it is about to hold.
     sampled: Option<(HapticLoop, LoopTick)>,
-    spec: DeviceSpec,
-    hand: Hand,
     method: Stepper,
     rate_hz: f64,
-    period_s: f64,
-    target_mm: [f64; 2],
     crossover: Crossover,
     n_steps: u64,
     row: StylusRow,
@@ -178,18 +174,14 @@ impl StylusRun {
             sampled: sampled.transpose()?.map(|one| (one, LoopTick::default())),
             crossover: Crossover::new(spec.bandwidth_hz, rate_hz),
             advice: case.advice(),
-            target_mm: place_mm,
             n_steps: 0,
             row: StylusRow::default(),
             start_j: 0.0,
             driven_j: [0.0; 2],
             contact,
             device,
-            spec,
-            hand,
             method,
             rate_hz,
-            period_s,
         };
         run.sense()?;
         run.start_j = run.row.energy_j;
@@ -218,8 +210,13 @@ impl StylusRun {
         Some(sampled.passivity().energy_j())
     }
 
+    /// Energy at the start and all that leading it along the surface put in or took since, J.
+    pub fn put_in_j(&self) -> f64 {
+        self.start_j.abs() + self.driven_j[1]
+    }
+
     /// Energy that came from nowhere so far, J: what is there, less what was there at the start and
-    /// what moving along the surface put in.
+    /// what leading it along the surface put in.
     pub fn gained_j(&self) -> f64 {
         self.row.energy_j - self.start_j - self.driven_j[0]
     }
@@ -236,9 +233,8 @@ impl StylusRun {
             });
         }
         self.lead_to(target_mm);
-        let before_m = self.device.upright.z_m;
+        let before = self.device.upright;
         if let Some((_, tick)) = &self.sampled {
-            self.device.lead_to(target_mm);
             self.device.hold_n(tick.force_n)?;
             let Along {
                 place_mm,
@@ -249,9 +245,13 @@ impl StylusRun {
             self.step_free();
         }
         let after_m = self.device.upright.z_m;
+        let mean_n =
+            (self.sampled.is_none() && self.device.spec.axes[2]).then(|| self.mean_n(before));
         // A tip that the surface cannot push aside is lifted by whoever leads it.
-        if self.hand.leads.is_none() || !(self.spec.axes[0] || self.spec.axes[1]) {
-            self.drive(self.contact.lifting_j([before_m, after_m]));
+        if self.device.hand.leads.is_none()
+            || !(self.device.spec.axes[0] || self.device.spec.axes[1])
+        {
+            self.drive(self.contact.lifting_j([before.z_m, after_m], mean_n));
         }
         self.contact.go_on(after_m);
         self.n_steps += 1;
@@ -260,18 +260,30 @@ impl StylusRun {
         Ok(&self.row)
     }
 
+    /// The contact's mean force along z over a step that began so: what moved the mass, N.
+    fn mean_n(&self, before: Motion) -> f64 {
+        let after = self.device.upright;
+        let gained = self.device.spec.mass_kg * (after.v_m_per_s - before.v_m_per_s);
+        let damped = self.device.spec.damping_n_s_per_m * (after.z_m - before.z_m);
+        (gained + damped) / self.device.period_s + self.device.hand.press_n
+    }
+
     /// The hand moves on, and puts into its spring what that takes.
     fn lead_to(&mut self, target_mm: [f64; 2]) {
-        let stiffness = self.hand.leads.map_or(0.0, |[stiffness, _]| stiffness);
+        let stiffness = self
+            .device
+            .hand
+            .leads
+            .map_or(0.0, |[stiffness, _]| stiffness);
         let before_j = self.spring_j(stiffness);
-        self.target_mm = target_mm;
+        self.device.target_mm = target_mm;
         self.drive(self.spring_j(stiffness) - before_j);
     }
 
     /// Energy of the leading hand's spring, J.
     fn spring_j(&self, stiffness: f64) -> f64 {
         let place_mm = self.device.along.place_mm;
-        let away_m = [0, 1].map(|i| 1e-3 * (self.target_mm[i] - place_mm[i]));
+        let away_m = [0, 1].map(|i| 1e-3 * (self.device.target_mm[i] - place_mm[i]));
         0.5 * stiffness * (away_m[0] * away_m[0] + away_m[1] * away_m[1])
     }
 
@@ -282,7 +294,7 @@ impl StylusRun {
 
     /// A step with a force that acts at all times.
     fn step_free(&mut self) {
-        let step_s = self.period_s;
+        let step_s = self.device.period_s;
         let (from, along) = (self.device.upright, self.device.along);
         let load = self.contact.load(0, from);
         let hold = self.contact.hold(
@@ -290,15 +302,24 @@ impl StylusRun {
             along.velocity_m_per_s,
             step_s,
         );
-        let shown = |axis: usize| if self.spec.axes[axis] { 1.0 } else { 0.0 };
-        let damping = self.spec.damping_n_s_per_m;
+        let shown = |axis: usize| {
+            if self.device.spec.axes[axis] {
+                1.0
+            } else {
+                0.0
+            }
+        };
+        let damping = self.device.spec.damping_n_s_per_m;
         let pull = Pull {
             force_n: [0, 1].map(|axis| shown(axis) * (load.along_n[axis] - hold.held_n[axis])),
             drag: damping + shown(0).max(shown(1)) * hold.drag,
             stiffness: [0, 1].map(|axis| shown(axis) * load.stiffness[axis]),
         };
-        let mass = (self.spec.mass_kg, &pull);
-        let next = self.hand.led(along, mass, self.target_mm, step_s);
+        let mass = (self.device.spec.mass_kg, &pull);
+        let next = self
+            .device
+            .hand
+            .led(along, mass, self.device.target_mm, step_s);
         self.device.along = next;
         self.contact.rub(&hold, next.velocity_m_per_s, step_s);
         self.contact.set_off(next.velocity_m_per_s);
@@ -307,20 +328,20 @@ impl StylusRun {
             self.contact.look(1, middle_mm, next.velocity_m_per_s);
         }
         self.contact.look(2, next.place_mm, next.velocity_m_per_s);
-        if !self.spec.axes[2] {
-            let z_m = self.contact.rest_m(2, self.hand.press_n);
+        if !self.device.spec.axes[2] {
+            let z_m = self.contact.rest_m(2, self.device.hand.press_n);
             self.device.upright = Motion {
                 z_m,
                 v_m_per_s: 0.0,
             };
             return;
         }
-        if self.device.sticks(load.up_n - self.hand.press_n) {
+        if self.device.sticks(load.up_n - self.device.hand.press_n) {
             return;
         }
-        let column = self
-            .contact
-            .column(self.spec.mass_kg, damping, -self.hand.press_n);
+        let column =
+            self.contact
+                .column(self.device.spec.mass_kg, damping, -self.device.hand.press_n);
         self.device.upright = column.step(self.method, from, step_s);
         self.device.rub();
     }
@@ -340,7 +361,7 @@ impl StylusRun {
         };
         if let Some((sampled, tick)) = &mut self.sampled {
             *tick = sampled.sense(&mut self.device)?;
-            row.place_mm[2] = if self.spec.axes[2] {
+            row.place_mm[2] = if self.device.spec.axes[2] {
                 z_mm
             } else {
                 tick.place_mm[2]
@@ -356,20 +377,20 @@ impl StylusRun {
     fn energy_j(&self, at: Motion) -> f64 {
         let along = &self.device.along;
         let mut of_motion = at.v_m_per_s * at.v_m_per_s;
-        let mut of_hand_j = self.hand.press_n * at.z_m;
-        if let Some([stiffness, _]) = self.hand.leads {
+        let mut of_hand_j = self.device.hand.press_n * at.z_m;
+        if let Some([stiffness, _]) = self.device.hand.leads {
             let [vx, vy] = along.velocity_m_per_s;
             of_motion += vx * vx + vy * vy;
             of_hand_j += self.spring_j(stiffness);
         }
         let of_contact_j = self.contact.energy_j(0, at.z_m);
-        0.5 * self.spec.mass_kg * of_motion + of_contact_j + of_hand_j
+        0.5 * self.device.spec.mass_kg * of_motion + of_contact_j + of_hand_j
     }
 
     fn check_bounded(&self) -> Result<(), RenderError> {
         let gained_j = self.gained_j();
-        let put_in_j = self.start_j.abs() + self.driven_j[1] + NOTHING_J;
-        if gained_j.is_finite() && gained_j <= MAX_GAIN * put_in_j {
+        let most_j = MAX_GAIN * (self.put_in_j() + NOTHING_J);
+        if gained_j.is_finite() && gained_j <= most_j {
             return Ok(());
         }
         Err(RenderError::Stylus {

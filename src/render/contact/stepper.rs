@@ -6,9 +6,9 @@
 //! | method | how | never gives energy |
 //! |---|---|---|
 //! | explicit Euler | all at the start | never certain |
-//! | semi-implicit Euler | place after velocity, device's damping at the end | b ≥ K h/2 + B |
+//! | semi-implicit Euler | place after velocity, device's damping last | b ≥ K h/2, B ≤ 2m/h |
 //! | Runge–Kutta 4 | four looks | never certain: the surface is no smooth force |
-//! | trapezoid | spring by its mean over the way of the step, `ΔU/Δd` | always, for linear springs |
+//! | trapezoid | spring by its mean over the step, `ΔU/Δd` | always, for linear springs |
 //! | implicit Euler | all at the end | always; takes what it should not |
 //! | exact | pieces in closed form, ends of contact located by halving | always: it is the truth |
 //!

@@ -4,7 +4,7 @@ use super::counters::Counters;
 use super::motion::{Axis, Component};
 use super::point::PointGrid;
 use crate::PlacedSurface;
-use selvedge_foundation::geometry::{Point, Rotation, Velocity};
+use selvedge_foundation::geometry::{Displacement, Point, Rotation, Velocity};
 
 /// No textile: the contactor lies outside.
 pub(crate) const OUTSIDE: u16 = u16::MAX;
@@ -18,6 +18,7 @@ pub(crate) struct TextilePlan {
     origin: Point,
     pub(crate) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
+    within_mm: Option<[Point; 2]>,
     /// The spectra of each direction in the pool.
     pub spectra: [usize; 4],
     /// How places become points, for each direction.
@@ -172,6 +173,7 @@ impl TextilePlan {
             origin: placed.workspace_from_textile.origin,
             textile_from_workspace: placed.workspace_from_textile.rotation.inverse(),
             size_mm: placed.size_mm,
+            within_mm: placed.within_mm,
             spectra,
             points,
         }
@@ -196,11 +198,19 @@ impl TextilePlan {
             place - radius_mm >= 0.0 && place + radius_mm < extent - 2.0 * EDGE_MM
         };
         let [width, height] = self.size_mm;
-        covers(place.x_mm, width) && covers(place.y_mm, height)
+        self.within_mm.is_none() && covers(place.x_mm, width) && covers(place.y_mm, height)
     }
 
     pub(super) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
         let within = |place: f64, extent: f64| -EDGE_MM <= place && place < extent - EDGE_MM;
-        within(u_mm, self.size_mm[0]) && within(w_mm, self.size_mm[1])
+        let is_felt_at = |[from, to]: [Point; 2]| {
+            let turned = self.textile_from_workspace.inverse();
+            let at = self.origin + turned.turn(Displacement::new(u_mm, w_mm));
+            within(at.x_mm - from.x_mm, to.x_mm - from.x_mm)
+                && within(at.y_mm - from.y_mm, to.y_mm - from.y_mm)
+        };
+        within(u_mm, self.size_mm[0])
+            && within(w_mm, self.size_mm[1])
+            && self.within_mm.is_none_or(is_felt_at)
     }
 }

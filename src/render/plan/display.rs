@@ -1,5 +1,7 @@
 //! A display's contactors in a tick: where they lie on the textile at hand, and who owns each.
 
+use std::ops::Range;
+
 use super::contact::{Contacts, Motion, OUTSIDE, TextilePlan};
 use super::counters::Counters;
 use crate::ContactorArray;
@@ -23,6 +25,8 @@ pub(crate) struct DisplayPlan {
     pub n_owned: usize,
     /// Where and how turned it rested in the last tick; `None` if it moved.
     rested: Option<(Point, f64)>,
+    /// The one textile that it feels, whatever lies upon it; `None`: all of them.
+    uncovered: Option<usize>,
 }
 
 /// Where a display's centre is in a textile's frame, and how it lies there.
@@ -56,6 +60,7 @@ impl DisplayPlan {
             owners: vec![OUTSIDE; array.offsets.len()],
             n_owned: 0,
             rested: None,
+            uncovered: None,
         }
     }
 
@@ -94,6 +99,19 @@ impl DisplayPlan {
     /// Forgets where it rested: its frame is no longer that of the last tick.
     pub(crate) fn forget(&mut self) {
         self.rested = None;
+    }
+
+    /// Feels one textile alone, or all.
+    pub(crate) fn uncover(&mut self, textile: Option<usize>) {
+        if std::mem::replace(&mut self.uncovered, textile) != textile {
+            self.forget();
+        }
+    }
+
+    /// Which of so many textiles it may feel: their places in the list.
+    pub(crate) fn felt(&self, n_textiles: usize) -> Range<usize> {
+        self.uncovered
+            .map_or(0..n_textiles, |one| one..n_textiles.min(one + 1))
     }
 
     /// Begins a tick: nobody owns a contactor yet. Returns how the display is turned.

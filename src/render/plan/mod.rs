@@ -60,7 +60,10 @@ impl ScenePlan {
         counters: &mut Counters,
         mut act: impl FnMut(&Contacts<'_>, &mut Counters),
     ) {
-        for (number, textile) in self.textiles.iter().enumerate().rev() {
+        let felt = display.felt(self.textiles.len());
+        let lowest = felt.start;
+        for number in felt.rev() {
+            let textile = &self.textiles[number];
             let Some(placing) = display.placing(textile, pose.position) else {
                 counters.textiles_out_of_reach += 1;
                 continue;
@@ -69,7 +72,7 @@ impl ScenePlan {
                 act(&contacts, counters);
             }
             if display.is_taken() {
-                counters.touches_beneath += (number * display.n_contactors()) as u64;
+                counters.touches_beneath += ((number - lowest) * display.n_contactors()) as u64;
                 break;
             }
         }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::geometry::MAX_CONTACTORS;
 use super::{Display, Geometry, PlacedTextile, Scene};
 use selvedge_foundation::files::{Flaw, Place};
-use selvedge_foundation::geometry::Displacement;
+use selvedge_foundation::geometry::{Displacement, Point};
 use selvedge_textile::elsewhere;
 use selvedge_textile::tactile::{Filters, Tuning, check_gain};
 
@@ -79,6 +79,9 @@ fn textile_flaw(index: usize, textile: &PlacedTextile) -> Option<Flaw> {
         .or_else(|| sizes_flaw(at("size_mm"), textile.size_mm))
         .or_else(|| finite_flaw(at("rotation_deg"), &[textile.rotation_deg]))
         .or_else(|| gain_flaw(at("gain_db"), textile.gain_db))
+        .or_else(|| gain_flaw(at("gain_40_db"), textile.gain_40_db))
+        .or_else(|| gain_flaw(at("gain_320_db"), textile.gain_320_db))
+        .or_else(|| within_flaw(at("within_mm"), textile.within_mm?))
         .or_else(|| {
             let mut gains = textile.slot_gains_db.values();
             gains.find_map(|gain_db| gain_flaw(at("slot_gains_db"), *gain_db))
@@ -173,6 +176,16 @@ fn sizes_flaw(place: Place, size_mm: [f64; 2]) -> Option<Flaw> {
     (!is_size).then(|| {
         let what = format!("{} is {}", place.2, listed(&size_mm));
         Flaw::new(place, what, "give two finite numbers of mm above 0")
+    })
+}
+
+fn within_flaw(place: Place, [from, to]: [Point; 2]) -> Option<Flaw> {
+    let is_area = from.is_finite() && to.is_finite() && from.x_mm < to.x_mm && from.y_mm < to.y_mm;
+    (!is_area).then(|| {
+        let corners = [from, to].map(|corner| listed(&<[f64; 2]>::from(corner)));
+        let what = format!("{} is [{}]", place.2, corners.join(", "));
+        let mend = "give the lower left and the upper right corner, mm";
+        Flaw::new(place, what, mend)
     })
 }
 

@@ -9,17 +9,14 @@ use serde::{Deserialize, Serialize};
 
 use super::arrangement::Arrangement;
 use super::check::scene_flaw;
+use super::placed::PlacedTextile;
 use super::reference::RecordingReference;
-use super::slots::{SlotLetter, TuningSlot};
+use super::slots::TuningSlot;
 use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
-use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
+use selvedge_foundation::geometry::{Displacement, Point};
 use selvedge_textile::tactile::{Filters, Tuning};
 use selvedge_textile::{elsewhere, id_in, is_of_the_program};
-
-/// How far outside its left and lower edge a textile is still felt, and how far inside its right
-/// and upper edge no longer, mm.
-const EDGE_MM: f64 = 1e-6;
 
 /// A scene: a workspace of textiles, the displays that explore it, filters and tuning.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -49,37 +46,6 @@ pub struct Scene {
     pub contents: BTreeMap<String, String>,
     /// How the window stands that it is shown in; `None` leaves that to the window.
     pub arrangement: Option<Arrangement>,
-}
-
-/// A textile of the library and where it lies.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlacedTextile {
-    /// The textile's id in the library, or `LIBRARY:ID` of another one
-    /// ([`selvedge_textile::elsewhere`]), whose folder is absolute here.
-    pub id: String,
-    /// Its lower-left corner before turning, in the workspace.
-    pub origin_mm: Point,
-    /// Its extent along warp and weft, mm.
-    pub size_mm: [f64; 2],
-    /// Counter-clockwise turn about its origin, degrees.
-    #[serde(default)]
-    pub rotation_deg: f64,
-    /// Gain on top of the textile's own, dB; −∞ silences it.
-    #[serde(default)]
-    pub gain_db: f64,
-    /// What the screen calls it.
-    #[serde(default)]
-    pub label: String,
-    /// The level above the threshold of detection that 40 Hz is to have, dB.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub target_40_db_sl: Option<f64>,
-    /// The same of 320 Hz.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub target_320_db_sl: Option<f64>,
-    /// Its gain in the scene's slots, dB; in others it is [`Self::gain_db`].
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub slot_gains_db: BTreeMap<SlotLetter, f64>,
 }
 
 /// A tactile display.
@@ -140,29 +106,9 @@ struct FilterKeys {
     octaves: Option<f64>,
 }
 
-impl PlacedTextile {
-    /// The textile's own axes, seen from the workspace: x along its warp, y along its weft.
-    pub fn workspace_from_textile(&self) -> Frame {
-        Frame {
-            origin: self.origin_mm,
-            rotation: Rotation::from_degrees(self.rotation_deg),
-        }
-    }
-
-    /// Whether a point of the textile's own axes (u along the warp, w along the weft) is on it.
-    pub fn contains(&self, textile_point: Point) -> bool {
-        let [width_mm, height_mm] = self.size_mm;
-        is_within(textile_point.x_mm, width_mm) && is_within(textile_point.y_mm, height_mm)
-    }
-}
-
 /// Whether a library is named by where it lies, and not one of the program.
 fn is_path(library: &Path) -> bool {
     library.to_string_lossy().contains(['/', '\\'])
-}
-
-fn is_within(place_mm: f64, extent_mm: f64) -> bool {
-    -EDGE_MM <= place_mm && place_mm < extent_mm - EDGE_MM
 }
 
 impl Scene {

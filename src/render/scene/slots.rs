@@ -6,8 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::PlacedTextile;
-use selvedge_textile::tactile::{Band, Tuning};
+use selvedge_textile::tactile::Tuning;
 
 selvedge_foundation::named! {
     /// The name of a slot.
@@ -50,26 +49,4 @@ pub struct TuningSlot {
     pub note: String,
     /// Gains and compression; the gains of single textiles stand with these.
     pub tuning: Tuning,
-}
-
-impl PlacedTextile {
-    /// The level above the threshold of detection that a band is to have, dB.
-    pub fn target_db_sl(&self, band: Band) -> Option<f64> {
-        match band {
-            Band::Low => self.target_40_db_sl,
-            Band::High => self.target_320_db_sl,
-        }
-    }
-
-    /// What it is and where it lies, without gains, targets and label.
-    #[must_use]
-    pub fn untuned(&self) -> Self {
-        Self {
-            id: self.id.clone(),
-            origin_mm: self.origin_mm,
-            size_mm: self.size_mm,
-            rotation_deg: self.rotation_deg,
-            ..Self::default()
-        }
-    }
 }

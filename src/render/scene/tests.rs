@@ -68,13 +68,16 @@ fn a_short_scene_has_the_exeter_array_and_the_default_filters() {
 
 /// What is replaced in the good scene, by what, the line of the error and how it begins.
 #[rustfmt::skip]
-const WRONG: [(&str, &str, usize, &str); 15] = [
+const WRONG: [(&str, &str, usize, &str); 18] = [
     ("size_mm = [260, 130.5]", "size_mm = [260, 0]", 3, "size_mm is [260, 0]"),
     ("size_mm = [260, 130.5]", "sise_mm = [260, 0]", 3, "unknown field `sise_mm`"),
     ("id = \"jute-plain\"", "id = \"../jute\"", 12, "\"../jute\" is no textile's id"),
     ("[60.1, 20.0]", "[nan, 20.0]", 13, "origin_mm is [NaN, 20]"),
     ("gain_db = -inf", "gain_db = inf", 9, "gain_db is inf"),
     ("rotation_deg = 90.0", "rotation_deg = inf", 15, "rotation_deg is inf"),
+    ("rotation_deg = 90.0", "gain_40_db = nan", 15, "gain_40_db is NaN"),
+    ("rotation_deg = 90.0", "gain_320_db = inf", 15, "gain_320_db is inf"),
+    ("rotation_deg = 90.0", "within_mm = [[0, 9], [5, 9]]", 15, "within_mm is [[0, 9], [5, 9]]"),
     ("exeter-24", "exeter-25", 19, "unknown geometry \"exeter-25\""),
     ("geometry = \"exeter-24\"", "", 18, "the display has no geometry"),
     ("[1.5, -2.0]", "[0, -0.0]", 23, "contactors 0 and 1 are at the same place"),
@@ -151,6 +154,9 @@ proptest! {
             size_mm,
             rotation_deg,
             gain_db,
+            gain_40_db: dy_mm,
+            gain_320_db: 0.0,
+            within_mm: (dx_mm > 0.0).then(|| [Point::new(x_mm, y_mm), Point::new(1e10, 2e10)]),
             label: text.clone(),
             target_40_db_sl: Some(dx_mm),
             target_320_db_sl: None,

@@ -1,4 +1,4 @@
-//! What the stylus is led over: a wall it falls on, a sine, and a random relief of every wavelength.
+//! What the stylus is led over: a wall it falls on, a sine, a random relief of every wavelength.
 
 use crate::ReportError;
 use selvedge_foundation::named;

@@ -99,7 +99,13 @@ fn change_cloth(edit: &Edit, cloth: &mut PlacedTextile) {
         Edit::TextileGain(_, db) => cloth.gain_db = *db,
         Edit::TargetLevel(_, Band::Low, db_sl) => cloth.target_40_db_sl = *db_sl,
         Edit::TargetLevel(_, Band::High, db_sl) => cloth.target_320_db_sl = *db_sl,
-        Edit::MoveCloth(_, origin) => cloth.origin_mm = *origin,
+        Edit::MoveCloth(_, origin) => {
+            let by = *origin - cloth.origin_mm;
+            cloth.origin_mm = *origin;
+            cloth.within_mm = cloth
+                .within_mm
+                .map(|corners| corners.map(|corner| corner + by));
+        }
         Edit::TurnCloth(_, angle_deg) => turn(cloth, *angle_deg),
         Edit::ResizeCloth(_, size_mm) => {
             cloth.size_mm = size_mm.map(|side_mm| side_mm.max(LEAST_SIDE_MM));

@@ -128,7 +128,8 @@ pub(crate) fn mean_um(
     let cloth = scene.cloths.get(index)?;
     let dot = scene.library.iter().find(|dot| dot.id == cloth.id)?;
     let factors = tuned_factors(scene, dot, (tuning, gain_db));
-    Some([0, 1].map(|band| dot.mean_um[band] * factors[band]))
+    let own = cloth.band_gains_db.map(factor_of_gain);
+    Some([0, 1].map(|band| dot.mean_um[band] * factors[band] * own[band]))
 }
 
 /// What a tuning and a gain of the scene make of amplitudes of a textile of the library, by band.

@@ -40,6 +40,8 @@ pub(crate) fn scene_view(
         rotation_deg: placed.rotation_deg,
         is_muted: !mute_solo.is_felt(Part::Cloth(index)),
         gain_db: placed.gain_db,
+        band_gains_db: Band::ALL.map(|band| placed.band_gain_db(band)),
+        within_mm: placed.within_mm,
         picture: library_view.picture(&placed.id),
     });
     let display = scene.displays.first();
@@ -109,7 +111,7 @@ pub(crate) fn live_view(
         },
         reference_db: snapshot.rendering.compression_reference_db,
         input: input_view(&snapshot.pointer),
-        vibration: snapshot.vibration,
+        sequence_step: snapshot.sequence_step,
         bridge: snapshot
             .link
             .as_ref()

@@ -132,6 +132,10 @@ pub(crate) struct Cloth {
     pub(crate) is_muted: bool,
     /// The scene's gain, dB.
     pub gain_db: f64,
+    /// What the scene adds to that by band, dB.
+    pub(crate) band_gains_db: [f64; 2],
+    /// Lower left and upper right corner of what it is felt within; `None` is all of it.
+    pub(crate) within_mm: Option<[Point; 2]>,
     /// How it looks; `None` while it has no picture.
     pub picture: Option<ClothPicture>,
 }
@@ -174,8 +178,8 @@ pub(crate) struct EngineView {
     pub reference_db: Option<f64>,
     /// How steadily positions come.
     pub input: InputView,
-    /// The step of a sequence of vibrations that is played.
-    pub(crate) vibration: Option<u16>,
+    /// The step of a sequence that is played.
+    pub(crate) sequence_step: Option<u16>,
     /// The device.
     pub bridge: Option<BridgeView>,
 }

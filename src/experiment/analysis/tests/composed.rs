@@ -2,7 +2,7 @@
 //! and analysed.
 
 use super::*;
-use crate::observer::{Observer, tests::stimuli};
+use crate::observer::{Jnd, Observer, tests::stimuli};
 use crate::session::find_sessions;
 use crate::simulate::Simulation;
 use selvedge_scratch::ScratchFolder as Scratch;
@@ -30,7 +30,7 @@ macro_rules! composed {
 const N_OBSERVERS: usize = 6;
 
 /// Rows of subjects: all of them.
-const COMPOSED: [Composed; 15] = composed! {
+const COMPOSED: [Composed; 21] = composed! {
     "roughness-2afc": 42 => "choices", "subjects", 6;
     "abx": 84 => "choices", "subjects", 6;
     "triangle": 42 => "choices", "subjects", 6;
@@ -45,7 +45,13 @@ const COMPOSED: [Composed; 15] = composed! {
     "gain-yes-no": 60 => "thresholds", "fits", 6;
     "preference": 42 => "scales", "stimuli-scales", 7;
     "ranked-threes": 14 => "scores", "scores", 7;
+    "roughness-intervals": 42 => "choices", "subjects", 6;
+    "triangle-intervals": 42 => "choices", "subjects", 6;
+    "gain-intervals": 0 => "thresholds", "fits", 6;
     "masked-threshold": 40 => "thresholds", "fits", 6;
+    "gain-320-quest-plus": 60 => "thresholds", "fits", 6;
+    "rotation-staircase": 120 => "thresholds", "fits", 6;
+    "duration-constant": 90 => "thresholds", "fits", 6;
 };
 
 fn design(one: &Composed) -> Design {
@@ -89,13 +95,17 @@ fn every_composition_is_held_read_back_and_analysed() {
 
 /// What observers answer in a design of these, analysed.
 fn analysed_of(name: &str) -> (Design, Analysis) {
+    answered_by(&Observer::default(), N_OBSERVERS, name)
+}
+
+fn answered_by(observer: &Observer, n_observers: usize, name: &str) -> (Design, Analysis) {
     let one = COMPOSED.iter().find(|one| one.name == name).unwrap();
     let design = design(one);
-    let (observer, stimuli) = (Observer::default(), stimuli(&design));
+    let stimuli = stimuli(&design);
     let simulation = Simulation {
         design: &design,
         stimuli: &stimuli,
-        observer: &observer,
+        observer,
         seed: 3,
     };
     let held = |nth| {
@@ -104,7 +114,7 @@ fn analysed_of(name: &str) -> (Design, Analysis) {
         let log = PathBuf::from(format!("nowhere/{nth}.csv"));
         Found::of_records(log, (&design, subject), records)
     };
-    let found: Vec<Found> = (0..N_OBSERVERS).map(held).collect();
+    let found: Vec<Found> = (0..n_observers).map(held).collect();
     let analysis = analysed(&found);
     (design, analysis)
 }
@@ -122,6 +132,12 @@ fn answers_say_what_observers_feel() {
         ("triangle", "triangle-choices", 100.0 / 3.0),
         ("same-different", "same-different-choices", 50.0),
         ("roughness-2afc", "roughness-2afc-choices", 50.0),
+        ("roughness-intervals", "roughness-intervals-choices", 50.0),
+        (
+            "triangle-intervals",
+            "triangle-intervals-choices",
+            100.0 / 3.0,
+        ),
     ] {
         let (_, analysis) = analysed_of(name);
         let group = table(&analysis, section, "group");
@@ -139,6 +155,53 @@ fn answers_say_what_observers_feel() {
         value(scores, last, "mean") > value(scores, 0, "mean"),
         "{scores:?}"
     );
+}
+
+#[test]
+fn what_observers_just_notice_of_any_parameter_is_found_in_its_unit() {
+    let observer = Observer {
+        jnd: Jnd::Fixed([2.0; 2]),
+        ..Observer::default()
+    };
+    // One of two coordinates is moved; two turns 10° apart are told apart three times in four, and
+    // so are 300 ms and a fifth more.
+    for (name, jnd, key, what) in [
+        (
+            "gain-320-quest-plus",
+            8.0_f64.sqrt(),
+            "threshold_db",
+            "just noticeable difference (75 % right), dB",
+        ),
+        (
+            "rotation-staircase",
+            10.0,
+            "threshold_deg",
+            "just noticeable difference (75 % right), °",
+        ),
+        (
+            "duration-constant",
+            60.0,
+            "threshold_ms",
+            "just noticeable difference (75 % right), ms",
+        ),
+    ] {
+        let (design, analysis) = answered_by(&observer, 40, name);
+        let section = format!("{name}-thresholds");
+        let found = value(table(&analysis, &section, "group"), 0, "mean");
+        assert!(
+            (found / jnd - 1.0).abs() < 0.1,
+            "{name}: {found}, not {jnd}"
+        );
+        let fits = table(&analysis, &section, "fits");
+        assert!(
+            value(fits, 0, key) > 0.0 && fits.title.starts_with(what),
+            "{}",
+            fits.title
+        );
+        let unit = design.composition.adaptation.unwrap().parameter.unit();
+        let page = analysis.page();
+        assert!(page.contains(unit), "{page}");
+    }
 }
 
 #[test]

@@ -377,6 +377,8 @@ mod tests {
             size_mm: [50.0; 2],
             manifest_gain_db: 0.0,
             scene_gain_db: 0.0,
+            scene_band_gains_db: [0.0; 2],
+            within_mm: None,
             level: PlacedLevel::Pending,
             surface: Arc::new(Surface::areal(&map, 0.0).unwrap()),
         };

@@ -63,6 +63,7 @@ proptest! {
     fn gains_scale_linearly(
         master in -60.0..40.0_f64, low in -60.0..40.0_f64, high in -60.0..40.0_f64,
         manifest in -20.0..20.0_f64, of_scene in -20.0..20.0_f64,
+        of_bands in prop::array::uniform2(-20.0..20.0_f64),
         method in prop_oneof![Just(Method::Reference), Just(Method::Banded)],
     ) {
         let cloth = cloth::uniform(cloth::weave(&mut Random::new(8), 1200));
@@ -71,6 +72,7 @@ proptest! {
         let before = amplitudes(&mut renderer(&scene, method), &at)[0];
         scene.textiles[0].manifest_gain_db = manifest;
         scene.textiles[0].scene_gain_db = of_scene;
+        scene.textiles[0].scene_band_gains_db = of_bands;
         let mut live = renderer(&scene, method);
         let tuning = Tuning {
             gain_db: master, gain_40_db: low, gain_320_db: high, ..Tuning::default()
@@ -78,7 +80,8 @@ proptest! {
         live.set_tuning(&tuning).unwrap();
         let after = amplitudes(&mut live, &at)[0];
         for (b, band) in [low, high].into_iter().enumerate() {
-            let factor = 10.0_f64.powf((master + band + manifest + of_scene) / 20.0);
+            let own = manifest + of_scene + of_bands[b];
+            let factor = 10.0_f64.powf((master + band + own) / 20.0);
             prop_assert!((after[b] / (before[b] * factor) - 1.0).abs() < 1e-12, "{after:?}");
         }
     }

@@ -29,6 +29,8 @@ fn placed(surface: &Arc<Surface>, origin: [f64; 2], rotation_deg: f64) -> Placed
         size_mm: [120.0, 120.0],
         manifest_gain_db: 0.0,
         scene_gain_db: 0.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Silent,
         surface: Arc::clone(surface),
     }

@@ -292,3 +292,38 @@ fn where_nothing_is_felt_no_vibration_arrives() {
     );
     assert!(bins.is_empty(), "an empty scene");
 }
+
+#[test]
+fn a_turned_cloth_is_felt_within_its_corners_as_without_them_and_nowhere_else() {
+    let cloth = cloth::of_kind(4, 7);
+    let whole = placed(&cloth, [40.0, -40.0], 30.0);
+    let cut = PlacedSurface {
+        within_mm: Some([[20.0, 0.0], [40.0, 20.0]].map(Point::from)),
+        ..whole.clone()
+    };
+    for method in METHODS {
+        let felt = |textile: &PlacedSurface, at| {
+            let scene = scene_of(vec![textile.clone()], exeter());
+            let mut renderer = renderer(&scene, method);
+            let frame = &renderer.tick(&[pose(at, [60.0, 25.0])])[0];
+            let each = |contactor| {
+                let is_on_it = frame.textile(contactor).is_some();
+                (is_on_it, frame.amplitude_um(contactor).map(f64::to_bits))
+            };
+            (0..24).map(each).collect::<Vec<_>>()
+        };
+        let inside = [30.0, 10.0];
+        assert_eq!(felt(&cut, inside), felt(&whole, inside), "{method:?}");
+        // Columns at 37, 39, 41, 43 mm: the border runs between them.
+        let at_border = [40.0, 10.0];
+        let both = felt(&cut, at_border).into_iter();
+        for (contactor, (cut, whole)) in both.zip(felt(&whole, at_border)).enumerate() {
+            let expected = if contactor % 4 < 2 {
+                whole
+            } else {
+                (false, [0.0_f64.to_bits(); 2])
+            };
+            assert_eq!(cut, expected, "{method:?}: {contactor}");
+        }
+    }
+}

@@ -19,8 +19,11 @@ fn random_scene(random: &mut Random) -> RenderScene {
         let origin = [random.uniform_in(-5.0, 35.0), random.uniform_in(-5.0, 35.0)];
         let turn = if random.index(2) == 0 { 0.0 } else { 35.0 };
         let size_mm = [random.uniform_in(2.0, 40.0), random.uniform_in(2.0, 40.0)];
+        let corners = [[10.0, 5.0], [25.0, 30.0]].map(Point::from);
         PlacedSurface {
             size_mm,
+            within_mm: (random.index(4) == 0).then_some(corners),
+            scene_band_gains_db: [random.uniform_in(-6.0, 6.0), 0.0],
             ..placed(&cloths[random.index(3)], origin, turn)
         }
     };

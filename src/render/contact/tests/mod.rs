@@ -160,6 +160,31 @@ fn the_limits_of_sampled_walls_are_the_known_ones() {
     );
 }
 
+#[test]
+fn limits_of_fast_and_late_loops_are_near_the_rule() {
+    for (period_s, ticks) in [(1e-6, 0), (1e-6, 2), (2.5e-5, 0), (1e-4, 10), (1e-4, 32)] {
+        let case = WallCase {
+            period_s,
+            ..sampled(0.075, 0.1, 0.05, ticks)
+        };
+        let limits = case.stiffness_limits(0.0, 0.0);
+        let off = limits.exact / limits.rule - 1.0;
+        assert!(off.abs() < 0.03, "{period_s} {ticks}: {limits:?}");
+        assert_eq!(
+            case.with_stiffness(0.9 * limits.passive).standing(),
+            Standing::Stable
+        );
+        assert_eq!(
+            case.with_stiffness(0.99 * limits.exact).standing(),
+            Standing::Active
+        );
+        assert_eq!(
+            case.with_stiffness(1.01 * limits.exact).standing(),
+            Standing::Unstable
+        );
+    }
+}
+
 fn sampled(mass_kg: f64, b: f64, wall: f64, ticks: usize) -> WallCase {
     WallCase {
         mass_kg,
@@ -285,6 +310,26 @@ fn a_sampled_wall_calms_down_below_its_limit_and_is_refused_above() {
         "{error}"
     );
     assert!(run.observed_j().unwrap() < -1e-3, "the wall made energy");
+}
+
+#[test]
+fn a_passive_sampled_wall_never_throws_a_tip_higher_than_it_fell() {
+    let law = ContactLaw {
+        stiffness_n_per_m: 35.0,
+        damping_n_s_per_m: 0.002,
+        ..LAW
+    };
+    let mut setup = setup(law, Stepper::Exact, 1000.0);
+    setup.device.damping_n_s_per_m = 0.02;
+    setup.sampling = Some(Sampling::default());
+    assert_eq!(setup.case().standing(), Standing::Stable);
+    let mut run = dropped(setup, 40.0);
+    let mut high_mm = 0.0_f64;
+    for nth in 0..200_000 {
+        let z_mm = run.step([0.0; 2]).unwrap().place_mm[2];
+        high_mm = if nth < 100 { 0.0 } else { high_mm.max(z_mm) };
+    }
+    assert!(high_mm > 10.0 && high_mm < 40.0, "{high_mm}");
 }
 
 #[test]

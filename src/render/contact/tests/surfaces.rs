@@ -217,6 +217,39 @@ fn a_cloths_compression_takes_the_work_of_its_figures() {
 }
 
 #[test]
+fn auto_chooses_by_stiffness_and_step_and_says_why() {
+    let cloth = Compression {
+        yield_mm: 0.5,
+        linearity: 0.4,
+        resilience: 0.6,
+        area_mm2: 100.0,
+    };
+    for (k, cloth, method, why) in [
+        (1e9, None, Stepper::Exact, "piecewise linear"),
+        (1e3, Some(cloth), Stepper::Trapezoid, "h √(K/m) = 0.1155"),
+        (1e9, Some(cloth), Stepper::ImplicitEuler, "too stiff"),
+    ] {
+        let law = ContactLaw {
+            stiffness_n_per_m: k,
+            cloth,
+            ..LAW
+        };
+        let setup = setup(law, Stepper::Auto, 1000.0);
+        let (chosen, said) = setup.chosen();
+        assert!(chosen == method && said.contains(why), "{k}: {said}");
+        let mut run = StylusRun::new(setup, [0.0; 2], StylusStart::Resting).unwrap();
+        for _ in 0..1000 {
+            run.step([0.0; 2]).unwrap();
+        }
+        assert!(
+            (run.row().force_n - 1.0).abs() < 1e-3,
+            "{k}: {:?}",
+            run.row()
+        );
+    }
+}
+
+#[test]
 fn tips_of_many_contacts_share_the_load() {
     let offset = |i: u8| Displacement::new(2.0 * f64::from(i % 4), 2.0 * f64::from(i / 4));
     let array: Vec<_> = (0..24).map(offset).collect();

@@ -132,6 +132,8 @@ pub(crate) mod tests {
             size_mm: [50.0, 50.0],
             manifest_gain_db: 0.0,
             scene_gain_db: 0.0,
+            scene_band_gains_db: [0.0; 2],
+            within_mm: None,
             level: PlacedLevel::Silent,
             surface: Arc::new(surface),
         };

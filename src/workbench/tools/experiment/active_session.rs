@@ -9,7 +9,7 @@ use crate::tools::experiment::draft::{Draft, Mark};
 use crate::tools::experiment::materials::Materials;
 use crate::tools::experiment::now::{Began, Now, Pause};
 use crate::tools::experiment::presenting::Presented;
-use selvedge_engine::{RecordedSample, VibrationStep};
+use selvedge_engine::RecordedSample;
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::layout::{self, Layout};
 use selvedge_experiment::session::{Circumstances, Session};
@@ -17,9 +17,6 @@ use selvedge_experiment::{Answer, Apparatus, Outcome, Presentation, Timing, Tria
 use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_textile::tactile::Tuning;
-
-/// Silence before the first vibration of a trial, ticks.
-const LEAD_TICKS: u32 = 24;
 
 /// A row that is not on disk yet.
 #[derive(Debug, Clone)]
@@ -71,8 +68,8 @@ pub(crate) struct ActiveSession {
     pub pause: Pause,
     /// Why the last row could not be written, and how to mend it.
     pub failure: Option<String>,
-    /// The step of a sequence of vibrations that is played.
-    pub vibration: Option<u16>,
+    /// The step of a sequence that is played.
+    pub sequence_step: Option<u16>,
     /// When the session was opened.
     opened: Instant,
     /// When the present step began; of a trial, its presentation.
@@ -108,7 +105,7 @@ impl ActiveSession {
             note: String::new(),
             pause: Pause::default(),
             failure: None,
-            vibration: None,
+            sequence_step: None,
             opened: began.at,
             began,
             presented: Presented::default(),
@@ -130,7 +127,7 @@ impl ActiveSession {
         self.progress = session.progress();
         self.now = Now::of(&session.step());
         self.began = began;
-        self.vibration = None;
+        self.sequence_step = None;
         self.await_presentation();
         (self.layout, self.draft) = match &self.now {
             _ if self.pause == Pause::On => (Layout::empty(), Draft::Nothing),
@@ -264,35 +261,6 @@ impl ActiveSession {
         session.map_or(Ok(()), |session| {
             session.undo().map_err(|error| error.to_string())
         })
-    }
-
-    /// What is played at the beginning of this trial: silence first.
-    pub(crate) fn vibrations(&self) -> Vec<VibrationStep> {
-        let Some(trial) = self.trial() else {
-            return Vec::new();
-        };
-        let steps = layout::vibrations(&self.design, &trial.task);
-        if steps.is_empty() {
-            return steps;
-        }
-        let lead = VibrationStep {
-            amplitude_um: [0.0; 2],
-            n_ticks: LEAD_TICKS,
-        };
-        std::iter::once(lead).chain(steps).collect()
-    }
-
-    /// The interval that is played now, from 0.
-    pub(crate) fn interval(&self) -> Option<usize> {
-        let step = usize::from(self.vibration?);
-        (step % 2 == 1).then_some(step / 2)
-    }
-
-    /// Whether a vibration may be played again: where its strength is asked, once it is over.
-    pub(crate) fn may_play_again(&self) -> bool {
-        let has_any = !self.vibrations().is_empty();
-        let is_adapted = self.design.composition.adaptation.is_some();
-        has_any && self.vibration.is_none() && !is_adapted
     }
 
     /// Ends the trial that waits: its row is on its way. Whether anything was ended.

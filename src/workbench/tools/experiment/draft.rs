@@ -1,6 +1,6 @@
 //! What has been answered so far of a trial, before it is handed in.
 
-use selvedge_experiment::design::{Composition, Design, Form, Scale, Sets, TunedParameter};
+use selvedge_experiment::design::{Composition, Design, Form, Scale, Sets, Shown, TunedParameter};
 use selvedge_experiment::{Adjustment, Answer, AnswerValue, Trial};
 use selvedge_foundation::quantity;
 
@@ -36,7 +36,7 @@ pub(crate) enum Act {
     Mark(Mark),
     /// Hand the answer in.
     Answer,
-    /// Play the vibration of this trial again, where that is allowed.
+    /// Play what this trial plays again, where that is allowed.
     Play,
 }
 
@@ -310,7 +310,9 @@ impl Draft {
     /// chosen, and nothing else is asked.
     pub(crate) fn is_handed_in_at_once(&self, design: &Design) -> bool {
         let is_choice = matches!(self, Self::Choose { sure, .. } if sure.n_grades == 0);
-        design.plays_vibrations() && is_choice && self.answer().is_ok()
+        let is_in_time = design.composition.presentation.shown == Shown::Intervals;
+        let is_played = is_in_time || design.plays_vibrations();
+        is_played && is_choice && self.answer().is_ok()
     }
 
     /// What was said so far, for the experimenter.

@@ -20,6 +20,7 @@ pub(crate) mod experimenter;
 pub(crate) mod form;
 pub(crate) mod guide;
 pub(crate) mod held;
+mod in_turn;
 pub(crate) mod materials;
 pub(crate) mod noise;
 pub(crate) mod now;

@@ -6,14 +6,13 @@
 use crate::bench::Bench;
 use crate::bench::view::BridgePhase;
 use crate::tools::experiment::active_session::ActiveSession;
+use crate::tools::experiment::in_turn::LEAD_STEPS;
 use crate::tools::experiment::now::{Began, Now};
 use crate::tools::experiment::played_noise::HeardNoise;
 use selvedge_engine::{RecordedTick, Recording};
 use selvedge_experiment::layout::on_the_table;
 use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};
 
-/// Steps of vibration before those of the task: the silence it begins with.
-const LEAD_STEPS: u16 = 1;
 /// Presentations of one trial that may be voided before the experimenter is asked.
 const MOST_VOID: u32 = 3;
 
@@ -342,6 +341,6 @@ fn presented(tick: &RecordedTick, (is_felt, n_values): (bool, u64)) -> Presented
         n_values,
         position: tick.pose.position,
         speed_mm_per_s: tick.pose.velocity.speed_mm_per_s(),
-        vibration: tick.vibration,
+        sequence_step: tick.sequence_step,
     }
 }

@@ -91,7 +91,8 @@ impl Experiment {
         if session.is_recording() {
             bench.send(Command::StopRecording);
         }
-        bench.send(Command::Vibrate(Vec::new()));
+        let after = session.after_sequence().into_iter().collect();
+        bench.send(Command::PlaySequence(after));
         self.write_row(bench);
     }
 
@@ -99,7 +100,7 @@ impl Experiment {
     pub(crate) fn play_again(&self, bench: &mut Bench) {
         let session = self.session.as_ref();
         if let Some(session) = session.filter(|one| one.may_play_again() && one.is_open()) {
-            bench.send(Command::Vibrate(session.vibrations()));
+            bench.send(Command::PlaySequence(session.sequence()));
         }
     }
 
@@ -204,10 +205,23 @@ impl Experiment {
         let prepared = session.materials.prepare(&session.design, layout, tuning);
         match prepared {
             Ok(prepared) => {
-                bench.send(Command::UpdateScene(Box::new(prepared)));
-                let is_played = session.trial().is_some() && !session.is_waiting();
-                let steps = is_played.then(|| session.vibrations());
-                bench.send(Command::Vibrate(steps.unwrap_or_default()));
+                let steps = if session.is_waiting() {
+                    Vec::new()
+                } else {
+                    session.sequence()
+                };
+                // Whichever is silent comes first: no textile is felt before its turn.
+                let is_sequence_first = !steps.is_empty();
+                let sequence = Command::PlaySequence(steps);
+                let scene = Command::UpdateScene(Box::new(prepared));
+                let in_order = if is_sequence_first {
+                    [sequence, scene]
+                } else {
+                    [scene, sequence]
+                };
+                for command in in_order {
+                    bench.send(command);
+                }
             }
             Err(error) => bench.notices.give(error.to_string()),
         }
@@ -239,7 +253,7 @@ impl Experiment {
     fn leave_session(&mut self, bench: &mut Bench) {
         self.asked = None;
         bench.session.active = None;
-        bench.send(Command::Vibrate(Vec::new()));
+        bench.send(Command::PlaySequence(Vec::new()));
         let n_contactors = bench.n_contactors();
         let mask = bench.selection.mute_solo.contactor_mask(n_contactors);
         bench.send(Command::SetContactorMask(mask));
@@ -261,7 +275,7 @@ impl Experiment {
     /// Takes what threads and the engine have for a session. Once a frame.
     pub(crate) fn poll(&mut self, bench: &mut Bench) {
         if let Some(session) = &mut self.session {
-            session.vibration = bench.live.vibration;
+            session.sequence_step = bench.live.sequence_step;
             session.collect_recording();
         }
         match finished(&mut self.form.listing) {
@@ -309,7 +323,7 @@ impl Experiment {
             return;
         };
         let is_moving =
-            session.vibration.is_some() || matches!(session.now, Now::Familiarisation(_));
+            session.sequence_step.is_some() || matches!(session.now, Now::Familiarisation(_));
         match (&session.now, session.is_writing()) {
             (Now::Finished, _) => {}
             (_, true) => bench.ctx.request_repaint_after(FRAME),

@@ -9,6 +9,7 @@ use crate::bench::view::{BridgePhase, ClothPicture, EngineView};
 use crate::tools::experiment::active_session::ActiveSession;
 use crate::tools::experiment::draft::Draft;
 use crate::tools::experiment::guide;
+use crate::tools::experiment::in_turn::Intervals;
 use crate::tools::experiment::now::{Now, Pause};
 use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::state::Experiment;
@@ -90,9 +91,9 @@ pub(crate) struct TrialView<'a> {
     pub is_open: bool,
     /// What has to be presented before an answer is taken; `None` where nothing is missing.
     pub(crate) missing: Option<String>,
-    /// The intervals, and which of them is played.
-    pub intervals: Option<(usize, Option<usize>)>,
-    /// Whether the vibration may be played again.
+    /// The intervals, where what is felt comes one after the other.
+    pub(crate) intervals: Option<Intervals>,
+    /// Whether what was played may be played again.
     pub(crate) may_play: bool,
 }
 
@@ -107,6 +108,11 @@ impl TrialView<'_> {
     pub(crate) fn ends_at_once(&self) -> bool {
         let is_choice = matches!(self.draft, Draft::Choose { sure, .. } if sure.n_grades == 0);
         is_choice && self.intervals.is_some()
+    }
+
+    /// Whether cloth is felt, one after the other at the same place.
+    pub(crate) fn is_felt_in_turn(&self) -> bool {
+        self.intervals.is_some() && !self.ground.slots.is_empty()
     }
 }
 
@@ -269,8 +275,8 @@ impl ActiveSession {
 
     fn ground(&self, trial: Option<&Trial>, finger: Option<Point>) -> Ground {
         let target = trial.and_then(|trial| target_of(&self.design, trial));
-        // What is played is felt wherever the finger is, and nothing lies there.
-        let is_played = !self.vibrations().is_empty();
+        // A vibration is felt wherever the finger is, and nothing lies there.
+        let is_played = !self.sequence().is_empty() && !self.layout.is_stacked();
         Ground {
             size_mm: self.layout.size_mm,
             slots: if is_played {
@@ -282,13 +288,6 @@ impl ActiveSession {
             finger: finger.filter(|_| !is_played),
             feels: self.is_felt(),
         }
-    }
-
-    fn intervals(&self) -> Option<(usize, Option<usize>)> {
-        let n_steps = self.vibrations().len();
-        let is_trial = matches!(self.now, Now::Trial(_));
-        // Silence comes first, and a pause between each two.
-        (is_trial && n_steps > 0).then(|| (n_steps / 2, self.interval()))
     }
 
     /// The session as the experimenter sees it.
@@ -369,6 +368,15 @@ pub(super) fn slots(layout: &Layout, trial: Option<&Trial>) -> Vec<Slot> {
         number: place.number,
         is_target: is_compared && place.number.is_none(),
     };
+    if let ([first, ..], true) = (layout.places.as_slice(), layout.is_stacked()) {
+        // One cloth is seen, whose numbers are those of the intervals.
+        let origin_mm = first.origin_mm;
+        return vec![Slot {
+            origin_mm,
+            number: None,
+            is_target: false,
+        }];
+    }
     layout.places.iter().map(slot).collect()
 }
 

@@ -19,13 +19,13 @@ use crate::bench::gain_set::{GainSet, band_gain_mut};
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::{SOURCE, mean_um, noticed_db, tuned_factors};
 use crate::bench::tool::{PaneContext, Tool};
-use crate::bench::view::SceneView;
+use crate::bench::view::{Cloth, SceneView};
 use crate::kit::pane::framed;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::text::{button, line, paragraph, quiet, toggle};
 use crate::tools::levels::proposal::{Change, Peaks, Row, propose};
-use selvedge_foundation::quantity::with_unit;
+use selvedge_foundation::quantity::{factor_of_gain, with_unit};
 use selvedge_textile::tactile::{Band, Perception};
 
 /// Height of a line, points.
@@ -198,7 +198,7 @@ fn placed(bench: &Bench, scene: &SceneView) -> Vec<Placed> {
                     level_db: felt.perceptual_level_db,
                     target_db: Band::ALL.map(|band| placed.target_db_sl(band)),
                     noticed_db: noticed_db(&felt, None).unwrap_or(0.0),
-                    peaks: peaks(bench, scene, &cloth.id, cloth.gain_db),
+                    peaks: peaks(bench, scene, &cloth.id, own_gains_db(cloth)),
                 },
             }
         })
@@ -209,9 +209,14 @@ fn placed(bench: &Bench, scene: &SceneView) -> Vec<Placed> {
     if has_level { placed } else { Vec::new() }
 }
 
-/// The loudest amplitudes of a textile of the library with the tuning in force and a gain of the
-/// scene.
-fn peaks(bench: &Bench, scene: &SceneView, id: &str, gain_db: f64) -> Peaks {
+/// What the scene gives a textile, by band, dB.
+fn own_gains_db(cloth: &Cloth) -> [f64; 2] {
+    cloth.band_gains_db.map(|band_db| cloth.gain_db + band_db)
+}
+
+/// The loudest amplitudes of a textile of the library with the tuning in force and gains of the
+/// scene, by band.
+fn peaks(bench: &Bench, scene: &SceneView, id: &str, gains_db: [f64; 2]) -> Peaks {
     let profile = bench.engine.profile();
     let [full, limit] = [profile.full_scale_um, profile.limit_um];
     let limits = [0, 1].map(|band| (limit[band] / full[band]).min(1.0));
@@ -220,8 +225,10 @@ fn peaks(bench: &Bench, scene: &SceneView, id: &str, gain_db: f64) -> Peaks {
     let (Some(loudest), Some(dot)) = (levels.loudest_um(id, &scene.filters), dot) else {
         return Peaks::default();
     };
-    let factors = tuned_factors(scene, dot, (&scene.tuning, gain_db));
-    let share = |pair: &[f64; 2]| [0, 1].map(|band| factors[band] * pair[band] / full[band]);
+    let factors = tuned_factors(scene, dot, (&scene.tuning, 0.0));
+    let own = gains_db.map(factor_of_gain);
+    let share =
+        |pair: &[f64; 2]| [0, 1].map(|band| factors[band] * own[band] * pair[band] / full[band]);
     Peaks {
         shares: loudest.iter().map(share).collect(),
         limits,
@@ -233,14 +240,15 @@ fn show_headroom(ui: &mut Ui, context: &PaneContext<'_>) {
     let scene = context.scene;
     let gain_of = |id: &str| {
         let placed = scene.cloths.iter().filter(|cloth| cloth.id == id);
-        placed
-            .map(|cloth| cloth.gain_db)
-            .fold(f64::NEG_INFINITY, f64::max)
+        let gains_db: Vec<[f64; 2]> = placed.map(own_gains_db).collect();
+        [0, 1].map(|band| {
+            let of_band = gains_db.iter().map(|own| own[band]);
+            let most_db = of_band.fold(f64::NEG_INFINITY, f64::max);
+            if most_db.is_finite() { most_db } else { 0.0 }
+        })
     };
     let of_library = scene.library.iter().filter_map(|dot| {
-        let gain_db = gain_of(&dot.id);
-        let gain_db = if gain_db.is_finite() { gain_db } else { 0.0 };
-        let peaks = peaks(context.bench, scene, &dot.id, gain_db);
+        let peaks = peaks(context.bench, scene, &dot.id, gain_of(&dot.id));
         Some((peaks.headroom_db([0.0; 2])?, &dot.name))
     });
     let least = of_library.min_by(|one, other| one.0.total_cmp(&other.0));

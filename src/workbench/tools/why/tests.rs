@@ -25,6 +25,8 @@ fn scene() -> RenderScene {
         size_mm: [50.0, 50.0],
         manifest_gain_db: 1.0,
         scene_gain_db: -3.0,
+        scene_band_gains_db: [0.0; 2],
+        within_mm: None,
         level: PlacedLevel::Known(4.0),
         surface: std::sync::Arc::new(surface),
     };

@@ -49,8 +49,13 @@ pub(crate) fn topmost(cloths: &[Cloth], place: Point) -> Option<usize> {
 }
 
 fn covers(cloth: &Cloth, place: Point) -> bool {
+    let is_felt_at = |[from, to]: [Point; 2]| {
+        (from.x_mm..=to.x_mm).contains(&place.x_mm) && (from.y_mm..=to.y_mm).contains(&place.y_mm)
+    };
     let local = cloth.workspace_from_textile.into_point(place);
-    (0.0..=cloth.size_mm[0]).contains(&local.x_mm) && (0.0..=cloth.size_mm[1]).contains(&local.y_mm)
+    cloth.within_mm.is_none_or(is_felt_at)
+        && (0.0..=cloth.size_mm[0]).contains(&local.x_mm)
+        && (0.0..=cloth.size_mm[1]).contains(&local.y_mm)
 }
 
 /// What can be pulled at on the selected textile.
@@ -280,6 +285,8 @@ mod tests {
             size_mm,
             rotation_deg,
             is_muted: false,
+            band_gains_db: [0.0; 2],
+            within_mm: None,
             gain_db: 0.0,
             picture: None,
         }

@@ -26,7 +26,16 @@ pub(crate) fn paint(painter: &Painter, view: &ViewTransform, cloth: &Cloth, is_l
         is_muted: cloth.is_muted,
         is_lifted,
     };
-    textile.paint(painter);
+    textile.paint(&within(painter, view, cloth));
+}
+
+/// A painter of where a textile is felt alone.
+fn within(painter: &Painter, view: &ViewTransform, cloth: &Cloth) -> Painter {
+    let felt = cloth.within_mm.map_or(Rect::EVERYTHING, |corners| {
+        let [from, to] = corners.map(|corner| view.screen(corner));
+        Rect::from_two_pos(from, to)
+    });
+    painter.with_clip_rect(painter.clip_rect().intersect(felt))
 }
 
 /// Draws the line around the textile that is felt, over whatever lies on it.
@@ -34,6 +43,7 @@ pub(crate) fn paint_lifted(painter: &Painter, view: &ViewTransform, cloth: &Clot
     if is_in_sight(painter, screen_bounds(view, cloth).expand(SHADOW)) {
         let palette = Palette::of(painter.ctx().theme());
         let edge = Stroke::new(1.5, palette.selection);
+        let painter = &within(painter, view, cloth);
         paint_outline(painter, screen_corners(view, cloth), edge);
     }
 }
@@ -132,6 +142,8 @@ mod tests {
             size_mm: [side_mm; 2],
             rotation_deg: 0.0,
             is_muted: false,
+            band_gains_db: [0.0; 2],
+            within_mm: None,
             gain_db: 0.0,
             picture: None,
         }

@@ -61,7 +61,7 @@ pub(crate) const BLOCKS: [Block; 9] = [
                 ("compared with", ""),
                 Holds::Name(true),
             )
-            .when(|keys| !shows(keys, &["intervals", "set"])),
+            .when(|keys| !shows(keys, &["set"])),
             Field::new(
                 ("presentation", "standard"),
                 ("standard", "none"),
@@ -70,13 +70,13 @@ pub(crate) const BLOCKS: [Block; 9] = [
             .when(|keys| !adapts(keys)),
             Field::new(
                 ("presentation", "interval_ms"),
-                ("interval", "500 ms"),
+                ("interval", "500 ms, cloth 3000 ms"),
                 Holds::Count,
             )
             .when(|keys| shows(keys, &["intervals"])),
             Field::new(
                 ("presentation", "masker_db"),
-                ("masker", "none, dB re 1 µm"),
+                ("masker", "of vibrations, dB re 1 µm"),
                 Holds::Number,
             )
             .when(|keys| shows(keys, &["intervals"])),

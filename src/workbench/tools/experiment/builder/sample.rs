@@ -7,13 +7,14 @@ use crate::kit::widgets::text::toggle;
 use crate::tools::experiment::builder::state::Step;
 use crate::tools::experiment::draft::Draft;
 use crate::tools::experiment::guide;
+use crate::tools::experiment::in_turn::Intervals;
 use crate::tools::experiment::participant;
 use crate::tools::experiment::view::{
     Ground, ParticipantView, TrialView, question, slots, words_of_break,
 };
 use selvedge_experiment::Trial;
 use selvedge_experiment::design::{Design, Movement};
-use selvedge_experiment::layout::{Layout, vibrations};
+use selvedge_experiment::layout::Layout;
 use selvedge_foundation::geometry::Point;
 
 /// The participant's window that is shown small, points.
@@ -80,16 +81,17 @@ fn view<'a>(
         }
         Step::Trial => {
             let trial = trial?;
-            let n_steps = vibrations(design, &trial.task).len();
+            let intervals = Intervals::of(design, &trial.task);
             let layout = Layout::of(design, &trial.task);
-            let layout = if n_steps > 0 { Layout::empty() } else { layout };
+            let is_played = intervals.is_some() && !layout.is_stacked();
+            let layout = if is_played { Layout::empty() } else { layout };
             ParticipantView::Trial(TrialView {
                 ground: ground(&layout, Some(trial)),
                 question: question(design),
                 draft,
                 is_open: true,
                 missing: None,
-                intervals: (n_steps > 0).then_some((n_steps.div_ceil(2), None)),
+                intervals,
                 may_play: false,
             })
         }

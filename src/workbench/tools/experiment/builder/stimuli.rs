@@ -47,6 +47,21 @@ pub(crate) const STIMULUS: Rows = Rows {
         ),
         Field::new(("stimulus", "gain_db"), ("gain", "0 dB"), Holds::Number),
         Field::new(
+            ("stimulus", "gain_40_db"),
+            ("40 Hz more", "0 dB"),
+            Holds::Number,
+        ),
+        Field::new(
+            ("stimulus", "gain_320_db"),
+            ("320 Hz more", "0 dB"),
+            Holds::Number,
+        ),
+        Field::new(
+            ("stimulus", "rotation_deg"),
+            ("turned by", "0°"),
+            Holds::Number,
+        ),
+        Field::new(
             ("stimulus", "band_hz"),
             ("vibration", "40 or 320 Hz"),
             Holds::Number,
@@ -153,6 +168,9 @@ fn show_stimulus(ui: &mut Ui, editing: &mut Editing, (nth, open): (usize, &mut O
         "cloth",
         "condition",
         "gain_db",
+        "gain_40_db",
+        "gain_320_db",
+        "rotation_deg",
         "band_hz",
         "level_db",
     ]

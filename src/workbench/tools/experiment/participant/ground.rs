@@ -10,6 +10,7 @@ use crate::kit::theme;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::view_transform::{Pointed, PointerGround, ViewTransform};
 use crate::tools::experiment::guide::{HALF_MM, RADIUS_MM};
+use crate::tools::experiment::in_turn::Intervals;
 use crate::tools::experiment::view::Ground;
 use selvedge_experiment::layout::Place;
 use selvedge_foundation::geometry::Point;
@@ -114,8 +115,9 @@ pub(crate) fn paint_guide(
     painter.circle_filled(at, 15.0, palette.selection);
 }
 
-/// The intervals of a trial of vibrations; the one that is played is lit.
-pub(crate) fn paint_intervals(ui: &Ui, rect: Rect, (n, played): (usize, Option<usize>)) {
+/// The intervals of a trial; the one that is felt now is lit.
+pub(crate) fn paint_intervals(ui: &Ui, rect: Rect, intervals: Intervals) {
+    let n = intervals.n;
     let palette = Palette::in_ui(ui);
     let painter = ui.painter_at(rect);
     let step = (rect.width() / count(n)).min(180.0);
@@ -123,15 +125,15 @@ pub(crate) fn paint_intervals(ui: &Ui, rect: Rect, (n, played): (usize, Option<u
     let left = rect.center().x - 0.5 * step * count(n - n.min(1));
     for interval in 0..n {
         let at = pos2(left + step * count(interval), rect.center().y);
-        let is_on = played == Some(interval);
+        let is_on = intervals.played == Some(interval);
         let (fill, ink) = if is_on {
             (palette.selection, palette.panel)
         } else {
             (palette.raised, palette.text)
         };
         painter.circle(at, radius, fill, Stroke::new(1.0, palette.line));
-        if n > 1 {
-            let number = (interval + 1).to_string();
+        if let Some(number) = intervals.number(interval) {
+            let number = number.to_string();
             painter.text(at, Align2::CENTER_CENTER, number, theme::huge(), ink);
         }
     }

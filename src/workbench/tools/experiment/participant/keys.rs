@@ -108,7 +108,12 @@ pub(crate) fn hint(trial: &TrialView<'_>) -> String {
     } else {
         ""
     };
-    format!("Keys: {keys}{again}{end}")
+    let moving = if trial.is_felt_in_turn() {
+        ". Each is felt once: keep moving while it is lit"
+    } else {
+        ""
+    };
+    format!("Keys: {keys}{again}{end}{moving}")
 }
 
 /// The keys of positions or words, and those of grades. Where both are digits, they choose first.

@@ -29,6 +29,8 @@ const QUESTION: f32 = 56.0;
 const ANSWER: f32 = 132.0;
 /// Height of the line that names the keys, points.
 const HINT: f32 = 24.0;
+/// Height of the numbers of intervals above the cloth, points.
+const STRIP: f32 = 110.0;
 /// Controls that an experimenter types in are this wide at least, points.
 const TYPED: f32 = 460.0;
 /// No line of words is longer, points.
@@ -147,9 +149,16 @@ fn show_trial(ui: &mut Ui, trial: &TrialView<'_>, acts: &mut Vec<Act>) -> Pointe
         &sentence(&trial.question),
         controls::height(trial.draft, ui.max_rect().width()) + HINT,
     );
+    // Cloth lies below the numbers of its intervals; a vibration is nowhere.
+    let [strip, rect] = if trial.is_felt_in_turn() {
+        let edge = rect.top() + STRIP.min(0.3 * rect.height());
+        rect.split_top_bottom_at_y(edge).into()
+    } else {
+        [rect; 2]
+    };
     let shown = ground::show(ui, rect, &trial.ground);
     if let Some(intervals) = trial.intervals {
-        ground::paint_intervals(ui, rect, intervals);
+        ground::paint_intervals(ui, strip, intervals);
     }
     let mut ui = ui.new_child(UiBuilder::new().max_rect(foot));
     if !trial.is_open {

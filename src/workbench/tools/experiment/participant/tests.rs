@@ -6,6 +6,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::*;
 use crate::tools::experiment::draft::{Draft, Mark, Order, Sure};
+use crate::tools::experiment::in_turn::Intervals;
 use crate::tools::experiment::view::Ground;
 
 fn trial(draft: &Draft) -> TrialView<'_> {
@@ -278,7 +279,11 @@ fn where_choosing_is_all_there_is_nothing_to_hand_in() {
         sure: Sure::default(),
     };
     let view = TrialView {
-        intervals: Some((2, None)),
+        intervals: Some(Intervals {
+            n: 2,
+            is_compared: false,
+            played: None,
+        }),
         ..trial(&draft)
     };
     let mut harness = window(ParticipantView::Trial(view));

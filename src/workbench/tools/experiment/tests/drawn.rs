@@ -258,6 +258,37 @@ fn judgements_are_drawn_of_one_fabric_and_of_pairs() {
 }
 
 #[test]
+fn cloth_in_turn_is_drawn_once_below_the_numbers_of_its_intervals() {
+    let text = presented::composed("roughness-intervals");
+    for (theme, size) in [(Theme::Dark, SIZE), (Theme::Light, [980, 700])] {
+        let folder = Folder::new("drawn-in-turn");
+        let chosen = written(&folder, &text);
+        let mut drawn = Drawn::begun(&folder, chosen, "p01", (theme, size));
+        drawn.go_to_trial();
+        // Into the second interval.
+        let corner = session(&drawn.window).layout.places[0].origin_mm;
+        let is_second = |drawn: &Drawn| {
+            let intervals = session(&drawn.window).intervals();
+            intervals.and_then(|one| one.played) == Some(1)
+        };
+        for n in 0..200 {
+            if is_second(&drawn) {
+                break;
+            }
+            stroke(&mut drawn, corner, n..n + 1);
+        }
+        assert!(is_second(&drawn));
+        let view = experiment(&drawn.window).participant(&EngineView::default(), 0.0);
+        let ParticipantView::Trial(trial) = view else {
+            panic!("{view:?}")
+        };
+        let slots: Vec<_> = trial.ground.slots.iter().map(|slot| slot.number).collect();
+        assert_eq!(slots, [None], "one cloth, without a number");
+        drawn.keep_picture(&format!("in-turn-{theme:?}-{}", size[0]));
+    }
+}
+
+#[test]
 fn every_step_around_the_trials_is_drawn_from_the_form_to_the_end() {
     let folder = Folder::new("steps");
     let chosen = written(&folder, TRIADS);

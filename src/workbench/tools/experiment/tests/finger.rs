@@ -28,18 +28,26 @@ impl Frames for Headless {
 /// played.
 pub(super) fn feel(on: &mut impl Frames) {
     feel_all(on);
-    for _ in 0..240 {
-        if session(on.window()).missing().is_none() {
+    for n in 0..240 {
+        let session = session(on.window());
+        if session.missing().is_none() {
             return;
         }
-        on.frames(1);
+        let is_stacked = session.layout.is_stacked();
+        let first = session.layout.places.first();
+        match first.map(|place| place.origin_mm).filter(|_| is_stacked) {
+            // What comes in turn is moved over all the while.
+            Some(corner) => stroke(on, corner, n..n + 1),
+            None => on.frames(1),
+        }
     }
     panic!("{:?}", session(on.window()).missing());
 }
 
 /// Moves the finger over all that lies there.
 fn feel_all(on: &mut impl Frames) {
-    for place in session(on.window()).layout.places.clone() {
+    let layout = session(on.window()).layout.clone();
+    for place in layout.places.iter().filter(|_| !layout.is_stacked()) {
         stroke(on, place.origin_mm, 0..44);
     }
 }

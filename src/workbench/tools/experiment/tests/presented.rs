@@ -4,6 +4,7 @@ use super::*;
 use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
 use selvedge_device::FaultWords;
+use selvedge_engine::SequenceStep;
 use selvedge_experiment::analysis::{Cell, Options, analyse_folder};
 use selvedge_experiment::{Proof, Record, Validity};
 use selvedge_foundation::progress::unheard;
@@ -21,7 +22,7 @@ fn wait(window: &mut Headless, what: &str, is_so: impl Fn(&Headless) -> bool) {
 }
 
 /// Connects the emulator and arms it, until it is at full strength.
-fn arm(window: &mut Headless) {
+pub(super) fn arm(window: &mut Headless) {
     if window.workbench.bench.live.bridge.is_none() {
         window.dispatch(DeviceCommand::ConnectEmulator);
     }
@@ -36,7 +37,7 @@ fn arm(window: &mut Headless) {
 }
 
 /// A window with a session on the emulator that counts, before its first trial, without practice.
-fn begun_on_array(folder: &Folder, design: &str) -> Headless {
+pub(super) fn begun_on_array(folder: &Folder, design: &str) -> Headless {
     let text = Design::shipped_text(design).map_or_else(|| composed(design), str::to_owned);
     let is_practice =
         |line: &&str| line.starts_with("practice_trials") || line.starts_with("least_practised");
@@ -60,7 +61,7 @@ fn begun_on_array(folder: &Folder, design: &str) -> Headless {
 }
 
 /// A design of those that the analysis is tried with.
-fn composed(name: &str) -> String {
+pub(super) fn composed(name: &str) -> String {
     let designs = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../experiment/analysis/tests/designs"
@@ -100,10 +101,15 @@ fn an_answer_waits_until_everything_was_felt() {
     assert_eq!(found[0].breaks, []);
 }
 
-/// The middle of a presentation, ticks after the start of the emulator: 1300 ms.
-const MIDDLE: u64 = 52;
+/// From the start of the emulator until it is armed and a presentation has begun, ticks at most.
+const ARMING_TICKS: u64 = 52;
+/// Ticks after which a fault has struck: three frames in a row are missing, or a hundredth of all
+/// values is limited.
+const STRUCK_TICKS: u64 = 6;
+/// Ticks that every place is felt, a second and some more.
+const PLACE_TICKS: u64 = 44;
 
-/// What goes wrong in the middle of a presentation.
+/// What goes wrong in a presentation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fault {
     /// The frames of four ticks in a row are late.
@@ -119,11 +125,14 @@ enum Fault {
 impl Fault {
     const ALL: [Self; 4] = [Self::Late, Self::Disarmed, Self::Limited, Self::Unplugged];
 
-    /// An emulator that is armed; what befalls it by itself does so in the middle of a trial.
-    fn prepare(self, window: &mut Headless) {
+    /// An emulator that is armed; what befalls it by itself does so that many ticks after its
+    /// start.
+    fn prepare(self, window: &mut Headless, at: u64) {
+        let at_ms = 25 * at;
+        let [stall, unplug] = [format!("{at_ms}ms+90ms"), format!("{at_ms}ms")];
         let befalls: &[(&'static str, &str)] = match self {
-            Self::Late => &[("stall-reading-at", "1300ms+90ms")],
-            Self::Unplugged => &[("unplug-at", "1300ms")],
+            Self::Late => &[("stall-reading-at", &stall)],
+            Self::Unplugged => &[("unplug-at", &unplug)],
             Self::Disarmed | Self::Limited => &[],
         };
         window.dispatch(DeviceCommand::StartFaults(FaultWords::of(befalls)));
@@ -157,11 +166,8 @@ fn limit(window: &mut Headless, limit_um: f64) {
     window.pass(2);
 }
 
-/// A kind of trial, and a whole answer to it.
-type Asked = (&'static str, Vec<Mark>);
-
-/// Every kind that a participant's screen knows.
-fn every_kind() -> Vec<Asked> {
+/// Every kind of trial that a participant's screen knows, and a whole answer to it.
+fn every_kind() -> Vec<(&'static str, Vec<Mark>)> {
     let place = Mark::Place;
     vec![
         ("ranking-virtual-target", (0..4).map(place).collect()),
@@ -172,8 +178,11 @@ fn every_kind() -> Vec<Asked> {
         ("same-different", vec![place(0), Mark::Confidence(4)]),
         ("gain-yes-no", vec![place(0)]),
         ("compression-staircase", vec![place(1)]),
+        ("rotation-staircase", vec![place(1)]),
+        ("duration-constant", vec![place(1)]),
         ("equality-constant", vec![place(0)]),
         ("masked-threshold", vec![place(2)]),
+        ("roughness-intervals", vec![place(0)]),
         ("free-sorting", (0..4).map(Mark::NextPile).collect()),
         ("dissimilarity", vec![Mark::Rate(0, 30.0)]),
         (
@@ -192,7 +201,7 @@ fn is_presented(window: &Headless) -> bool {
 }
 
 /// Ends a pause and lets the next presentation begin.
-fn present(window: &mut Headless) {
+pub(super) fn present(window: &mut Headless) {
     if session(window).pause == Pause::On {
         act(window, |one, bench| one.pause(false, bench));
     }
@@ -200,14 +209,23 @@ fn present(window: &mut Headless) {
     wait(window, "a presentation", is_presented);
 }
 
-/// Moves on over the first that lies there, for so many ticks.
-fn stroke_first(window: &mut Headless, n_ticks: u64) {
-    let places = &session(window).layout.places;
-    let corner = places
-        .first()
-        .map_or_else(Point::default, |place| place.origin_mm);
-    let now = tick(window);
-    stroke(window, corner, now..now + n_ticks);
+/// Moves on for a tick, from place to place: the finger was moved for `nth` ticks before.
+fn stroke_all(window: &mut Headless, nth: u64) {
+    let places = session(window).layout.places.clone();
+    let n_places = places.len().max(1) as u64;
+    let place = places.get((nth / PLACE_TICKS % n_places) as usize);
+    let corner = place.map_or_else(Point::default, |place| place.origin_mm);
+    stroke(window, corner, nth..nth + 1);
+}
+
+/// Ticks from the start of the emulator after which everything of the trial that waits was felt.
+fn felt_by(window: &Headless) -> u64 {
+    let session = session(window);
+    let sequence = session.sequence();
+    let lengths = sequence.iter().map(|step| step.n_ticks);
+    let played: u32 = lengths.filter(|n| *n != SequenceStep::UNTIL_NEXT).sum();
+    let places = session.layout.places.len() as u64;
+    ARMING_TICKS + u64::from(played) + PLACE_TICKS * (places + 1)
 }
 
 /// The engine's tick.
@@ -216,7 +234,7 @@ fn tick(window: &Headless) -> u64 {
 }
 
 /// The strongest of what the array is told now, µm.
-fn strongest_um(window: &Headless) -> f64 {
+pub(super) fn strongest_um(window: &Headless) -> f64 {
     let all = window.workbench.amplitudes_um();
     all.iter().flatten().copied().fold(0.0, f64::max)
 }
@@ -236,21 +254,18 @@ fn say(window: &mut Headless, marks: &[Mark]) {
 /// written.
 fn go_on(window: &mut Headless, marks: &[Mark]) {
     let (attempt, n_answered) = (session(window).attempt(), session(window).progress.0);
-    let places = session(window).layout.places.clone();
-    for n in 0..300 {
+    for nth in 0..300 {
         let now = session(window);
         if now.attempt() > attempt || now.progress.0 > n_answered {
             break;
         }
         say(window, marks);
-        let place = places.get(n / 44 % places.len().max(1));
-        let corner = place.map_or_else(Point::default, |place| place.origin_mm);
-        stroke(window, corner, n as u64..n as u64 + 1);
+        stroke_all(window, nth);
     }
 }
 
 /// The rows of the only session, which are as they were written.
-fn rows(folder: &Folder) -> Vec<Record> {
+pub(super) fn rows(folder: &Folder) -> Vec<Record> {
     let [found] = &find_sessions(&folder.0.join("logs")).unwrap().0[..] else {
         panic!("one session")
     };
@@ -258,21 +273,40 @@ fn rows(folder: &Folder) -> Vec<Record> {
     found.records.clone()
 }
 
-/// Lets a fault happen in the middle of a presentation, whose row says so whatever is answered.
-fn void_by(fault: Fault, window: &mut Headless, (marks, folder): (&[Mark], &Folder)) {
+/// Whether it strikes while something is played: limits change nothing of what is over.
+fn strikes_early(fault: Fault, window: &Headless) -> bool {
+    fault == Fault::Limited && !session(window).sequence().is_empty()
+}
+
+/// Lets a fault happen once everything was felt and an answer would be taken: the row says so
+/// whatever is answered then.
+fn void_by(fault: Fault, window: &mut Headless, (marks, at, folder): (&[Mark], u64, &Folder)) {
     let start = tick(window);
     let what = format!("{fault:?} in {}", folder.0.display());
-    fault.prepare(window);
+    fault.prepare(window, at);
     present(window);
     let attempt = session(window).attempt();
-    // What is limited has to be there.
-    while tick(window) < start + MIDDLE || fault == Fault::Limited && strongest_um(window) < 0.1 {
+    let is_early = strikes_early(fault, window);
+    let is_due = |window: &Headless| match fault {
+        _ if is_early => strongest_um(window) > 0.1,
+        // What is limited has to be there.
+        Fault::Limited => tick(window) >= start + at && strongest_um(window) > 0.1,
+        _ => tick(window) >= start + at,
+    };
+    let mut nth = 0;
+    while !is_due(window) {
         assert!(is_presented(window), "{what} is not yet");
-        assert!(tick(window) < start + 4 * MIDDLE, "{what}: nothing is felt");
-        stroke_first(window, 1);
+        assert!(tick(window) < start + 2 * at, "{what}: nothing is felt");
+        stroke_all(window, nth);
+        nth += 1;
+    }
+    if !is_early {
+        assert_eq!(session(window).missing(), None, "{what}: not all was felt");
     }
     fault.happen(window);
-    stroke_first(window, 3);
+    for after in 0..STRUCK_TICKS {
+        stroke_all(window, nth + after);
+    }
     go_on(window, marks);
     let is_stopped = session(window).pause == Pause::On;
     let rows = rows(folder);
@@ -300,6 +334,65 @@ fn answer_validly(window: &mut Headless, marks: &[Mark]) {
     assert_eq!(one.progress.0, 1, "{:?}: {:?}", one.missing(), one.draft);
 }
 
+/// The row of an answer that is handed in so many ticks after a fault by itself was to strike.
+fn answered_after(
+    (fault, after): (Fault, u64),
+    window: &mut Headless,
+    (marks, at, folder): (&[Mark], u64, &Folder),
+) -> Record {
+    let start = tick(window);
+    fault.prepare(window, at);
+    present(window);
+    act(window, |one, bench| one.pause(true, bench));
+    let n_before = rows(folder).len();
+    for nth in 0.. {
+        if tick(window) >= start + at + after {
+            break;
+        }
+        assert_eq!(
+            rows(folder).len(),
+            n_before,
+            "{fault:?} {after}: void before it is answered"
+        );
+        stroke_all(window, nth);
+    }
+    assert_eq!(session(window).missing(), None, "{fault:?} {after}");
+    say(window, marks);
+    wait(window, "a row", |_| rows(folder).len() > n_before);
+    rows(folder)[n_before].clone()
+}
+
+#[test]
+fn what_counts_is_every_tick_to_the_answer() {
+    let marks: Vec<Mark> = (0..4).map(|scale| Mark::Rate(scale, 30.0)).collect();
+    let folder = Folder::new("late");
+    let mut window = begun_on_array(&folder, "rating");
+    let at = felt_by(&window);
+    // A frame is sent a tick before it is felt: that of the tick in which the stall begins is
+    // there. One that is missing may be, more may not, and none after the answer counts.
+    for (after, n_late) in [0, 0, 1, 2, 3].into_iter().enumerate() {
+        let case = (Fault::Late, after as u64);
+        let row = answered_after(case, &mut window, (&marks, at, &folder));
+        let presentation = &row.presentation;
+        assert_eq!(presentation.frames_late, Some(n_late), "{after}");
+        assert_eq!(
+            row.answer().is_some(),
+            n_late <= 1,
+            "{after}: {presentation:?}"
+        );
+    }
+    let folder = Folder::new("unplugged");
+    let mut window = begun_on_array(&folder, "rating");
+    let case = (Fault::Unplugged, 0);
+    let row = answered_after(case, &mut window, (&marks, at, &folder));
+    assert_eq!(row.answer(), None, "{:?}", row.presentation);
+    assert!(
+        row.presentation.void.contains("not armed"),
+        "{:?}",
+        row.presentation
+    );
+}
+
 /// What the table of sessions says of the only one: trials that count, and those that are void.
 fn counted(folder: &Folder) -> [Cell; 2] {
     let logs = folder.0.join("logs");
@@ -314,17 +407,18 @@ fn counted(folder: &Folder) -> [Cell; 2] {
 }
 
 #[test]
-fn no_fault_of_the_array_in_the_middle_of_any_kind_of_trial_lets_an_answer_count() {
+fn no_fault_of_the_array_lets_an_answer_to_any_kind_of_trial_count_though_all_was_felt() {
     for (design, marks) in every_kind() {
         let folder = Folder::new(design);
         let mut window = begun_on_array(&folder, design);
+        let at = felt_by(&window);
         for fault in Fault::ALL {
             let draft = &session(&window).draft;
             if fault == Fault::Limited && matches!(draft, Draft::Adjust { .. }) {
                 // What is adjusted may meet its limits.
                 continue;
             }
-            void_by(fault, &mut window, (&marks, &folder));
+            void_by(fault, &mut window, (&marks, at, &folder));
         }
         answer_validly(&mut window, &marks);
         let rows = rows(&folder);

@@ -121,6 +121,8 @@ mod tests {
             size_mm: [300.0; 2],
             rotation_deg: 0.0,
             is_muted: false,
+            band_gains_db: [0.0; 2],
+            within_mm: None,
             gain_db: 0.0,
             picture: None,
         };
