@@ -24,7 +24,7 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
             "Experimenter" => Some("Bridge"),
             "Recordings" => Some("Library"),
             "Levels" => Some("Tuning"),
-            "Why" | "Response" | "Accuracy" | "Compare" => Some("Spatial spectra"),
+            "Why" | "Response" | "Accuracy" | "Compare" | "Stylus" => Some("Spatial spectra"),
             _ => None,
         };
         if front.is_some() {
