@@ -1,49 +1,4 @@
 //! The device that holds the stylus: what it must tell and take, and one that is simulated.
-//!
-//! A real device is an implementation of [`StylusDevice`] of two functions; [`super::HapticLoop`]
-//! does the rest at the device's own rate. With the calls of a vendor's library in place of the
-//! two `vendor_…` functions:
-//!
-//! ```
-//! use selvedge_render::RenderError;
-//! use selvedge_render::contact::{DeviceSpec, StylusDevice};
-//!
-//! # fn vendor_position_mm() -> Option<[f64; 3]> { Some([0.0, 0.0, 12.5]) }
-//! # fn vendor_set_force_n(_force_n: [f64; 3]) -> bool { true }
-//! struct OurArm {
-//!     spec: DeviceSpec,
-//! }
-//!
-//! impl StylusDevice for OurArm {
-//!     fn spec(&self) -> &DeviceSpec {
-//!         &self.spec
-//!     }
-//!
-//!     /// The tip's lowest point: x and y along the textile, z up from its mean height.
-//!     fn read_mm(&mut self) -> Result<[f64; 3], RenderError> {
-//!         vendor_position_mm().ok_or_else(|| RenderError::Stylus {
-//!             what: "the arm does not answer".to_owned(),
-//!             mend: "check its cable and power".to_owned(),
-//!         })
-//!     }
-//!
-//!     fn hold_n(&mut self, force_n: [f64; 3]) -> Result<(), RenderError> {
-//!         vendor_set_force_n(force_n).then_some(()).ok_or_else(|| RenderError::Stylus {
-//!             what: "the arm took no force".to_owned(),
-//!             mend: "release its dead-man's switch and calibrate it".to_owned(),
-//!         })
-//!     }
-//! }
-//!
-//! // Mass, damping and friction from a free swing; resolution and force from the data sheet.
-//! let spec = DeviceSpec { mass_kg: 0.075, friction_n: 0.04, ..DeviceSpec::default() };
-//! let mut arm = OurArm { spec };
-//! assert_eq!(arm.read_mm().unwrap()[2], 12.5);
-//! arm.hold_n([0.0, 0.0, 0.5]).unwrap();
-//! ```
-//!
-//! The thread that calls it at its rate belongs to the lab's program, and so does the switch that
-//! takes the force away.
 
 use super::stepper::{Column, Motion, Stepper};
 use crate::RenderError;
@@ -135,6 +90,50 @@ impl DeviceSpec {
 }
 
 /// A force-feedback device as the loop needs it.
+///
+/// A real device implements two functions; [`HapticLoop`](super::HapticLoop) does the rest at the
+/// device's own rate. With a vendor's calls in place of the two `vendor_…` functions:
+///
+/// ```
+/// use selvedge_render::RenderError;
+/// use selvedge_render::contact::{DeviceSpec, StylusDevice};
+///
+/// # fn vendor_position_mm() -> Option<[f64; 3]> { Some([0.0, 0.0, 12.5]) }
+/// # fn vendor_set_force_n(_force_n: [f64; 3]) -> bool { true }
+/// struct OurArm {
+///     spec: DeviceSpec,
+/// }
+///
+/// impl StylusDevice for OurArm {
+///     fn spec(&self) -> &DeviceSpec {
+///         &self.spec
+///     }
+///
+///     /// The tip's lowest point: x and y along the textile, z up from its mean height.
+///     fn read_mm(&mut self) -> Result<[f64; 3], RenderError> {
+///         vendor_position_mm().ok_or_else(|| RenderError::Stylus {
+///             what: "the arm does not answer".to_owned(),
+///             mend: "check its cable and power".to_owned(),
+///         })
+///     }
+///
+///     fn hold_n(&mut self, force_n: [f64; 3]) -> Result<(), RenderError> {
+///         vendor_set_force_n(force_n).then_some(()).ok_or_else(|| RenderError::Stylus {
+///             what: "the arm took no force".to_owned(),
+///             mend: "release its dead-man's switch and calibrate it".to_owned(),
+///         })
+///     }
+/// }
+///
+/// // Mass, damping and friction from a free swing; resolution and force from the data sheet.
+/// let spec = DeviceSpec { mass_kg: 0.075, friction_n: 0.04, ..DeviceSpec::default() };
+/// let mut arm = OurArm { spec };
+/// assert_eq!(arm.read_mm().unwrap()[2], 12.5);
+/// arm.hold_n([0.0, 0.0, 0.5]).unwrap();
+/// ```
+///
+/// The thread that calls it at its rate belongs to the lab's program, and so does the switch that
+/// takes the force away.
 pub trait StylusDevice {
     /// What it is.
     fn spec(&self) -> &DeviceSpec;

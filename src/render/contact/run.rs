@@ -72,9 +72,8 @@ pub struct StylusRun {
     crossover: Crossover,
     n_steps: u64,
     row: StylusRow,
-    /// Energy at the start, and what leading it along the surface put in since: its sum, and the
-    /// sum of its sizes.
     start_j: f64,
+    /// What leading it along the surface put in since the start: its sum, and that of its sizes.
     driven_j: [f64; 2],
     advice: String,
 }

@@ -221,11 +221,9 @@ fn stroke_all(window: &mut Headless, nth: u64) {
 /// Ticks from the start of the emulator after which everything of the trial that waits was felt.
 fn felt_by(window: &Headless) -> u64 {
     let session = session(window);
-    let sequence = session.sequence();
-    let lengths = sequence.iter().map(|step| step.n_ticks);
+    let lengths = session.sequence().into_iter().map(|step| step.n_ticks);
     let played: u32 = lengths.filter(|n| *n != SequenceStep::UNTIL_NEXT).sum();
-    let places = session.layout.places.len() as u64;
-    ARMING_TICKS + u64::from(played) + PLACE_TICKS * (places + 1)
+    ARMING_TICKS + u64::from(played) + PLACE_TICKS * (session.layout.places.len() as u64 + 1)
 }
 
 /// The engine's tick.
