@@ -22,17 +22,6 @@ use selvedge_render::scene::{ExplorationPath, Stroke};
 const MAX_ROWS: f64 = 2e7;
 /// What can be lost from the last row by rounding, in rows.
 const LAST_ROW_SLACK: f64 = 1e-6;
-const HEADER: [&str; 9] = [
-    "t_s",
-    "x_mm",
-    "y_mm",
-    "z_mm",
-    "depth_um",
-    "force_n",
-    "tangential_n",
-    "vibration_n",
-    "energy_j",
-];
 
 /// What is felt, by what, and how.
 #[derive(Debug, Args)]
@@ -196,7 +185,10 @@ pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
         .map_or(StylusStart::Resting, StylusStart::Above);
     let mut from_row = 0;
     let mut run = StylusRun::new(setup, way.place_mm(0.0, &mut from_row), start)?;
-    let mut table = TableOut::new(args.out.as_deref(), &HEADER)?;
+    let mut table = TableOut::new(
+        args.out.as_deref(),
+        &StylusRow::COLUMNS.map(|(name, _)| name),
+    )?;
     let (stop, mut meter) = (signals::stop_flag()?, Meter::new("feeling"));
     write(&mut table, run.row())?;
     for nth in 1..=to_whole::<u64>(n_steps) {
@@ -211,21 +203,9 @@ pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
 }
 
 fn write(table: &mut TableOut, row: &StylusRow) -> Result<(), CliError> {
-    let [x_mm, y_mm, z_mm] = row.place_mm;
-    let cells = [
-        row.t_s,
-        x_mm,
-        y_mm,
-        z_mm,
-        row.depth_um,
-        row.force_n,
-        row.tangential_n,
-        row.vibration_n,
-        row.energy_j,
-    ];
     let rows = table.rows();
-    for cell in cells {
-        rows.number(cell);
+    for (_, figure) in StylusRow::COLUMNS {
+        rows.number(figure(row));
     }
     Ok(rows.end_row()?)
 }

@@ -81,16 +81,6 @@ impl HapticLoop {
         })
     }
 
-    /// The surface, to change its law.
-    pub fn contact_mut(&mut self) -> &mut Contact {
-        &mut self.contact
-    }
-
-    /// The surface.
-    pub fn contact(&self) -> &Contact {
-        &self.contact
-    }
-
     /// The energy that was observed.
     pub fn passivity(&self) -> &Passivity {
         &self.passivity

@@ -8,6 +8,7 @@ use super::relief::Relief;
 use super::stepper::{Column, Motion};
 use super::tip::Tip;
 use crate::RenderError;
+use selvedge_foundation::numerics::bisected;
 
 /// Halvings that find where a tip comes to rest.
 const HALVINGS: u32 = 60;
@@ -192,7 +193,7 @@ impl Contact {
     pub(super) fn rest_m(&self, instant: usize, press_n: f64) -> f64 {
         let floors = &self.floors[instant];
         let high = floors.iter().map(|floor| floor.height_m);
-        let mut top_m = high.fold(f64::NEG_INFINITY, f64::max);
+        let top_m = high.fold(f64::NEG_INFINITY, f64::max);
         let force_n = |z_m: f64| -> f64 {
             let one = |floor: &Floor| self.spring.force_n(floor, z_m, floor.rise_m_per_s);
             floors.iter().map(one).sum()
@@ -204,16 +205,9 @@ impl Contact {
         if down_m >= 1.0 || press_n <= 0.0 {
             return top_m;
         }
-        let mut bottom_m = top_m - down_m;
-        for _ in 0..HALVINGS {
-            let middle_m = 0.5 * (top_m + bottom_m);
-            if force_n(middle_m) < press_n {
-                top_m = middle_m;
-            } else {
-                bottom_m = middle_m;
-            }
-        }
-        bottom_m
+        bisected([top_m - down_m, top_m], HALVINGS, |z_m| {
+            force_n(z_m) >= press_n
+        })
     }
 
     /// What friction holds a tip with over a step, under a load at a place.

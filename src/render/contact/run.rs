@@ -60,6 +60,24 @@ pub struct StylusRow {
     pub energy_j: f64,
 }
 
+/// A column's name and its number.
+type Figure = (&'static str, fn(&StylusRow) -> f64);
+
+impl StylusRow {
+    /// What a table says of it: the columns and their numbers, in order.
+    pub const COLUMNS: [Figure; 9] = [
+        ("t_s", |row| row.t_s),
+        ("x_mm", |row| row.place_mm[0]),
+        ("y_mm", |row| row.place_mm[1]),
+        ("z_mm", |row| row.place_mm[2]),
+        ("depth_um", |row| row.depth_um),
+        ("force_n", |row| row.force_n),
+        ("tangential_n", |row| row.tangential_n),
+        ("vibration_n", |row| row.vibration_n),
+        ("energy_j", |row| row.energy_j),
+    ];
+}
+
 /// A stylus on its way over a surface. Making one allocates; a step does not.
 #[derive(Debug, Clone)]
 pub struct StylusRun {

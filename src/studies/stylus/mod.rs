@@ -16,7 +16,7 @@ use super::readable::{largest, whole};
 use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart};
 use selvedge_render::RenderError;
-use selvedge_render::contact::{Stepper, StylusRow, StylusRun, StylusStart};
+use selvedge_render::contact::{Standing, Stepper, StylusRow, StylusRun, StylusSetup, StylusStart};
 use surfaces::Surface;
 
 /// What exact steps keep within on a plane, as a share of the drop.
@@ -50,16 +50,22 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let contact = surface.relief(bench.seed)?;
         for stiffness in stiffnesses {
             bench.step(nth as f64 / 3.0, surface.name())?;
-            let truth =
-                heights(&surface.run(&contact, *stiffness, Stepper::Exact, REFERENCE_HZ)?)?;
+            let truth = {
+                let how = (*stiffness, Stepper::Exact, REFERENCE_HZ);
+                led(&surface.begin(surfaces::setup(&contact, how)?)?)?.0
+            };
             for rate_hz in rates {
                 for method in Stepper::ALL {
                     if method == Stepper::Auto {
                         continue;
                     }
-                    let made = surface.run(&contact, *stiffness, method, *rate_hz)?;
-                    let named = (surface, method, *stiffness, *rate_hz);
-                    findings.rows.push(row(named, &made, &truth, bench));
+                    let how = (*stiffness, method, *rate_hz);
+                    let setup = surfaces::setup(&contact, how)?;
+                    let standing = setup.case().standing();
+                    let made = (surface.begin(setup)?, standing);
+                    findings
+                        .rows
+                        .push(row((surface, how), &made, &truth, bench));
                 }
             }
         }
@@ -69,82 +75,63 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     Ok(findings)
 }
 
-/// The run, led along its way.
-struct Led {
-    run: StylusRun,
-    rate_hz: f64,
-}
-
-impl Led {
-    fn step(&mut self, nth: usize) -> Result<StylusRow, RenderError> {
-        let t_s = nth as f64 / self.rate_hz;
-        self.run.step(surfaces::place_mm(t_s)).copied()
-    }
-}
-
 impl Surface {
-    fn run(
-        self,
-        contact: &selvedge_render::contact::Contact,
-        stiffness: f64,
-        method: Stepper,
-        rate_hz: f64,
-    ) -> Result<Led, ReportError> {
-        let setup = surfaces::setup(contact, (stiffness, method, rate_hz))?;
+    /// A run on it, before its first step.
+    fn begin(self, setup: StylusSetup) -> Result<StylusRun, ReportError> {
         let start = match self {
             Self::Flat => StylusStart::Above(surfaces::DROP_MM),
             Self::Sine | Self::Broadband => StylusStart::Resting,
         };
-        let run = StylusRun::new(setup, surfaces::place_mm(0.0), start)?;
-        Ok(Led { run, rate_hz })
+        Ok(StylusRun::new(setup, surfaces::place_mm(0.0), start)?)
     }
 }
 
-/// Heights at the rate that all are compared at, mm.
-fn heights(led: &Led) -> Result<Vec<f64>, RenderError> {
-    let mut led = Led {
-        run: led.run.clone(),
-        ..*led
-    };
-    let every = whole(led.rate_hz / COMPARED_HZ);
-    let n = whole((SECONDS * led.rate_hz).round());
+/// The `nth` step of a run along its way.
+fn step(run: &mut StylusRun, nth: usize) -> Result<StylusRow, RenderError> {
+    let t_s = nth as f64 / run.rate_hz();
+    run.step(surfaces::place_mm(t_s)).copied()
+}
+
+/// A run along its whole way: heights at the rate that all are compared at, mm, and the energy that
+/// came from nowhere, as a share of all that was there or put in.
+fn led(run: &StylusRun) -> Result<(Vec<f64>, f64), RenderError> {
+    let mut run = run.clone();
+    let every = whole(run.rate_hz() / COMPARED_HZ);
+    let n = whole((SECONDS * run.rate_hz()).round());
     let mut heights = Vec::new();
     for nth in 1..=n {
-        let row = led.step(nth)?;
+        let row = step(&mut run, nth)?;
         if nth % every == 0 {
             heights.push(row.place_mm[2]);
         }
     }
-    Ok(heights)
+    Ok((heights, run.gained_j() / run.put_in_j()))
 }
 
 fn row(
-    (surface, method, stiffness, rate_hz): (Surface, Stepper, f64, f64),
-    led: &Led,
+    (surface, (stiffness, method, rate_hz)): (Surface, (f64, Stepper, f64)),
+    (run, standing): &(StylusRun, Standing),
     truth: &[f64],
     bench: &Bench<'_>,
 ) -> Row {
-    let found = heights(led);
-    let error = found.as_ref().ok().map(|found| {
+    let found = led(run).ok();
+    let error = found.as_ref().map(|(found, _)| {
         let off = found.iter().zip(truth).map(|(a, b)| (a - b).abs());
         largest(off) / surfaces::DROP_MM
     });
+    let gained = found.map_or_else(|| "grew".to_owned(), |(_, share)| format!("{share:.1e}"));
     let is_exact = method == Stepper::Exact && surface == Surface::Flat;
     let cost = error.is_some().then(|| {
         let n_repeats = bench.effort.pick(3, 9);
         let timing = bench.time_repeated(n_repeats, TIMED_STEPS, || {
-            let mut led = Led {
-                run: led.run.clone(),
-                ..*led
-            };
+            let mut run = run.clone();
             (1..=TIMED_STEPS)
-                .filter_map(|nth| led.step(nth).ok())
+                .filter_map(|nth| step(&mut run, nth).ok())
                 .last()
         });
         timing.times(rate_hz)
     });
     let setting = format!("{rate_hz} Hz");
-    let standing = surfaces::standing(stiffness, method, rate_hz);
     Row::of(
         method.name(),
         setting,
@@ -156,21 +143,7 @@ fn row(
     .with("rate_hz", rate_hz)
     .with("stiffness_n_per_m", format!("{stiffness:e}"))
     .with("standing", standing.word())
-    .with(
-        "gained_of_put_in",
-        drift(led).map_or_else(|| "grew".to_owned(), |x| format!("{x:.1e}")),
-    )
-}
-
-/// Energy that came from nowhere in a run, as a share of all that was there or put in.
-fn drift(led: &Led) -> Option<f64> {
-    let mut run = led.run.clone();
-    let n = whole(SECONDS * led.rate_hz);
-    for nth in 1..=n {
-        run.step(surfaces::place_mm(nth as f64 / led.rate_hz))
-            .ok()?;
-    }
-    Some(run.gained_j() / run.put_in_j())
+    .with("gained_of_put_in", gained)
 }
 
 /// Error against rate on each surface, at the stiffness that hands meet.

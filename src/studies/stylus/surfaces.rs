@@ -4,8 +4,7 @@ use crate::ReportError;
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Standing, Stepper, StylusSetup, Tip,
-    WallCase,
+    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Stepper, StylusSetup, Tip,
 };
 use selvedge_textile::surface::HeightMap;
 use std::f64::consts::TAU;
@@ -123,18 +122,4 @@ pub(super) fn setup(
         rate_hz,
         sampling: None,
     })
-}
-
-/// How a setting is marked.
-pub(super) fn standing(stiffness: f64, method: Stepper, rate_hz: f64) -> Standing {
-    let case = WallCase {
-        mass_kg: MASS_KG,
-        damping_n_s_per_m: 0.0,
-        stiffness_n_per_m: stiffness,
-        wall_damping_n_s_per_m: damping(stiffness),
-        period_s: 1.0 / rate_hz,
-        delay_ticks: None,
-        method,
-    };
-    case.standing()
 }

@@ -15,17 +15,6 @@ use super::follow::{FeltRow, WINDOW};
 /// What a row says.
 type Figure = fn(&StylusRow) -> f64;
 
-/// The columns of a table of rows, as `selvedge probe` writes them.
-const COLUMNS: [(&str, Figure); 8] = [
-    ("x_mm", |row| row.place_mm[0]),
-    ("y_mm", |row| row.place_mm[1]),
-    ("z_mm", |row| row.place_mm[2]),
-    ("depth_um", |row| row.depth_um),
-    ("force_n", |row| row.force_n),
-    ("tangential_n", |row| row.tangential_n),
-    ("vibration_n", |row| row.vibration_n),
-    ("energy_j", |row| row.energy_j),
-];
 /// Lines are drawn by the least and the largest of so many parts.
 const N_PARTS: usize = 400;
 /// The lowest level that is shown of the array, dB re 1 µm.
@@ -89,7 +78,8 @@ impl Second<'_> {
     pub(crate) fn columns(&self) -> Columns {
         let t_s: Vec<f64> = self.rows.iter().map(|row| self.t_s(row.column)).collect();
         let start = Columns::default().with("t_s", t_s);
-        COLUMNS.iter().fold(start, |columns, (name, of)| {
+        let [_, others @ ..] = StylusRow::COLUMNS;
+        others.iter().fold(start, |columns, (name, of)| {
             let values: Vec<f64> = self.rows.iter().map(|row| of(&row.felt)).collect();
             columns.with(*name, values)
         })

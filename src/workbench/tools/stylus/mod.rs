@@ -26,7 +26,8 @@ use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use selvedge_chart::Chart;
-use selvedge_render::scene::{LoadedScene, PlacedTextile};
+use selvedge_foundation::geometry::Point;
+use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};
 
 use crate::tools::stylus::chart::Second;
 use crate::tools::stylus::follow::{Follower, Progress, Spot, WINDOW, Way};
@@ -40,7 +41,7 @@ const PREPARING: &str =
 const CHART_PX: f64 = 240.0;
 
 /// What the rows were made from, apart from the path.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 struct Circumstances {
     settings: StylusSettings,
     placed: Vec<PlacedTextile>,
@@ -68,17 +69,13 @@ pub(crate) struct Stylus {
 }
 
 /// Where a place of the workspace is on the topmost textile there.
-fn spot_at(
-    placed: &[PlacedTextile],
-    position: selvedge_foundation::geometry::Point,
-) -> Option<Spot> {
-    let mut from_top = placed.iter().enumerate().rev();
-    from_top.find_map(|(textile, placed)| {
-        let place = placed.workspace_from_textile().into_point(position);
-        placed.contains(place).then_some(Spot {
-            textile,
-            place_mm: [place.x_mm, place.y_mm],
-        })
+fn spot_at(scene: &Scene, position: Point) -> Option<Spot> {
+    let textile = scene.textile_at(position)?;
+    let from_textile = scene.textiles[textile].workspace_from_textile();
+    let place = from_textile.into_point(position);
+    Some(Spot {
+        textile,
+        place_mm: [place.x_mm, place.y_mm],
     })
 }
 
@@ -109,14 +106,20 @@ impl Stylus {
         let looked_at = bench.past.look_back.as_ref().map(|back| back.column);
         let newest = history.newest().map(|entry| entry.column);
         let loaded = &bench.engine_scene.loaded;
-        let now = Circumstances {
-            settings: self.chosen.applied,
-            placed: loaded.scene().textiles.clone(),
-            n_clears: history.n_clears,
-        };
-        if self.made_for.as_ref() != Some(&now) {
+        let scene = loaded.scene();
+        let settings = self.chosen.applied;
+        let is_as_made = self.made_for.as_ref().is_some_and(|made_for| {
+            made_for.settings == settings
+                && made_for.n_clears == history.n_clears
+                && made_for.placed == scene.textiles
+        });
+        if !is_as_made {
             self.follower.clear();
-            self.made_for = Some(now.clone());
+            self.made_for = Some(Circumstances {
+                settings,
+                placed: scene.textiles.clone(),
+                n_clears: history.n_clears,
+            });
         }
         self.end = looked_at.or(newest);
         self.note = None;
@@ -125,10 +128,10 @@ impl Stylus {
         };
         let spot = |column: u64| {
             let entry = history.at_column(column)?;
-            spot_at(&now.placed, entry.tick_sample.pose.position)
+            spot_at(scene, entry.tick_sample.pose.position)
         };
         self.under = spot(end).map(|spot| spot.textile);
-        let (grounds, settings) = (&mut self.grounds, now.settings);
+        let grounds = &mut self.grounds;
         let key = |textile: usize| key_of(loaded, textile, settings.radius_mm);
         // One after the other: each takes a while.
         let mut keys = textiles_of(&spot, end).into_iter().filter_map(key);
