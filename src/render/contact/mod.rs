@@ -28,6 +28,7 @@ mod limits;
 mod passivity;
 mod patch;
 mod relief;
+mod row;
 mod run;
 mod stepper;
 mod tip;
@@ -42,7 +43,8 @@ pub use limits::{Standing, StiffnessLimits, WallCase};
 pub use passivity::Passivity;
 pub use patch::Contact;
 pub use relief::Relief;
-pub use run::{StylusRow, StylusRun, StylusSetup, StylusStart};
+pub use row::StylusRow;
+pub use run::{StylusRun, StylusSetup, StylusStart};
 pub use stepper::Stepper;
 pub use tip::Tip;
 
