@@ -53,8 +53,8 @@ fn the_stylus_is_where_the_displays_centre_is() {
     let mut desk = explored(200);
     let bench = &desk.workbench.bench;
     let entry = *bench.past.history.newest().unwrap();
-    let placed = &bench.engine_scene.loaded.scene().textiles;
-    let spot = spot_at(placed, entry.tick_sample.pose.position);
+    let scene = bench.engine_scene.loaded.scene();
+    let spot = spot_at(scene, entry.tick_sample.pose.position);
     let spot = spot.expect("the stroke goes round over textiles");
     let rows = stylus(&mut desk).follower.rows();
     let last = rows.back().unwrap();
