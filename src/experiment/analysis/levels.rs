@@ -50,7 +50,12 @@ impl Adaptation {
 
     /// What is adapted, with its unit.
     pub(super) fn value_words(&self) -> String {
-        format!("{}{}", self.noun(), after_comma(self.parameter.unit()))
+        self.with_own_unit(self.noun())
+    }
+
+    /// Some value of what is adapted, with its unit.
+    pub(super) fn with_own_unit(&self, what: &str) -> String {
+        format!("{what}{}", after_comma(self.parameter.unit()))
     }
 
     /// Some difference of what is adapted, or its threshold, with the unit.

@@ -67,10 +67,7 @@ pub(super) fn staircases_section(
         track.up, track.down, track.reversals_averaged,
     ));
     let what = match levels.reference {
-        None => {
-            let of = format!("{} of {percent} right", levels.noun());
-            levels.value_words().replacen(levels.noun(), &of, 1)
-        }
+        None => levels.with_own_unit(&format!("{} of {percent} right", levels.noun())),
         Some(_) => levels.with_unit(&format!("difference of {percent} right")),
     };
     let mut table = Table::new("reversals", &what, &levels.columns(REVERSALS));

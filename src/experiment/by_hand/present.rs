@@ -71,7 +71,7 @@ pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
 }
 
 /// Where or when a stimulus comes, but for its number.
-fn place(composition: &Composition) -> &'static str {
+pub(super) fn place(composition: &Composition) -> &'static str {
     match composition.presentation.shown {
         Shown::Intervals => "interval",
         _ => "position",

@@ -2,9 +2,8 @@
 
 use std::str::FromStr;
 
-use crate::design::{
-    Composition, Confidence, Design, Form, Kind, Scale, Sets, Shown, TunedParameter,
-};
+use super::present::place;
+use crate::design::{Composition, Confidence, Design, Form, Kind, Scale, Sets, TunedParameter};
 use crate::trial::{Answer, AnswerError, AnswerValue, Task};
 
 /// How an answer is typed, as an imperative with an example.
@@ -46,10 +45,7 @@ pub fn form(design: &Design) -> String {
 
 fn choice_form(composition: &Composition) -> String {
     let n = composition.presentation.n;
-    let place = match composition.presentation.shown {
-        Shown::Intervals => "interval",
-        _ => "position",
-    };
+    let place = place(composition);
     let what = match composition.order.sets {
         Sets::Triads => format!("the odd {place}"),
         Sets::Opposed => format!("the {place} of the real one"),

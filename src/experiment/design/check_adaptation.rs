@@ -6,12 +6,13 @@ use super::{
     Adaptation, Design, Form, QuestPlusTrack, Seeks, Sets, Source, StaircaseTrack, Stopping, Track,
     Tunable,
 };
+use selvedge_engine::TICKS_PER_S;
 use selvedge_foundation::files::{Flaw, Place};
 
 /// Most trials that a series of levels may take: what never ends is stopped.
 const MOST_TRIALS: usize = 10_000;
 /// From tick to tick, ms: what vibrations last is so many of these.
-const TICK_MS: f64 = 25.0;
+const TICK_MS: f64 = 1e3 / TICKS_PER_S;
 
 type Checked = Result<(), Flaw>;
 

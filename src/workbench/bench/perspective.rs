@@ -35,12 +35,6 @@ impl Perspective {
         }
     }
 
-    /// The one of this name, however it is capitalised.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        let mut all = Self::ALL.into_iter();
-        all.find(|one| one.title().eq_ignore_ascii_case(name))
-    }
-
     /// What it is for.
     pub(crate) fn what(self) -> &'static str {
         match self {

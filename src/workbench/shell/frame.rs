@@ -2,6 +2,7 @@
 
 use std::sync::PoisonError;
 
+use clap::ValueEnum as _;
 use eframe::egui::{self, CentralPanel, Frame, Id, Margin, Panel, Ui, UiBuilder};
 use egui_tiles::Tree;
 
@@ -240,7 +241,7 @@ impl Workbench {
             self.shell.tree = self.arrangement_of(perspective);
             return;
         };
-        let perspective = Perspective::named(perspective);
+        let perspective = Perspective::from_str(perspective, true).ok();
         let tree = perspective.and_then(|of| arrangement::from_text(panes, of));
         let (Some(perspective), Some(tree)) = (perspective, tree) else {
             let words = "The arrangement of the scene could not be used: arrange the panes and \

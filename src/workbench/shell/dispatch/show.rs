@@ -1,5 +1,6 @@
 //! What is shown how: kept per user where that makes sense, never undone.
 
+use clap::ValueEnum as _;
 use eframe::egui::ViewportCommand;
 
 use crate::bench::Bench;
@@ -101,45 +102,45 @@ impl Workbench {
 
     /// Keeps the arrangement as it is now, of all panes: with the scene if that has one.
     pub(crate) fn keep_arrangement(&mut self) {
-        let tree = self.shell.whole.as_ref().unwrap_or(&self.shell.tree);
-        let panes = arrangement::to_text(tree);
-        let perspective = self.bench.settings.preferences.perspective;
-        if !self.scene_keeps_arrangement() {
+        if self.scene_keeps_arrangement() {
+            self.keep_with_scene(self.arrangement());
+        } else {
+            let perspective = self.bench.settings.preferences.perspective;
+            let panes = self.arrangement().map(|now| now.panes);
             self.bench.settings.preferences.arrangements[perspective.index()] = panes;
-        } else if let Some(panes) = panes {
-            let perspective = perspective.title().to_lowercase();
-            self.shell.resting.of_scene = Some(Arrangement { perspective, panes });
-            self.bench
-                .document
-                .arrange(self.shell.resting.of_scene.clone());
         }
     }
 
     fn scene_keeps_arrangement(&self) -> bool {
         let perspective = self.bench.settings.preferences.perspective;
-        let of_scene = self.bench.document.arrangement();
-        of_scene.is_some_and(|own| Perspective::named(&own.perspective) == Some(perspective))
+        let own = self.bench.document.arrangement();
+        own.is_some_and(|own| Perspective::from_str(&own.perspective, true) == Ok(perspective))
+    }
+
+    /// The arrangement as it is now, of all panes.
+    fn arrangement(&self) -> Option<Arrangement> {
+        let tree = self.shell.whole.as_ref().unwrap_or(&self.shell.tree);
+        let perspective = self.bench.settings.preferences.perspective;
+        Some(Arrangement {
+            perspective: perspective.title().to_lowercase(),
+            panes: arrangement::to_text(tree)?,
+        })
+    }
+
+    fn keep_with_scene(&mut self, arrangement: Option<Arrangement>) {
+        self.shell.resting.of_scene.clone_from(&arrangement);
+        self.bench.document.arrange(arrangement);
     }
 
     fn toggle_scene_arrangement(&mut self) {
         let is_kept = self.bench.document.arrangement().is_some();
-        let perspective = self.bench.settings.preferences.perspective;
-        self.shell.resting.of_scene = (!is_kept).then(|| Arrangement {
-            perspective: perspective.title().to_lowercase(),
-            panes: String::new(),
-        });
-        self.bench
-            .document
-            .arrange(self.shell.resting.of_scene.clone());
+        self.keep_with_scene(self.arrangement().filter(|_| !is_kept));
         let words = if is_kept {
             "The scene no longer keeps how its window stands"
         } else {
             "The scene keeps how its window stands, from now on and once it is saved"
         };
         self.bench.notices.give(words);
-        if !is_kept {
-            self.keep_arrangement();
-        }
     }
 }
 
