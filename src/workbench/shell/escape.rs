@@ -42,12 +42,6 @@ mod tests {
     use crate::shell::headless::Headless;
     use selvedge_scratch::ScratchFolder;
 
-    fn window() -> Headless {
-        let mut window = Headless::shipped();
-        window.pass(2);
-        window
-    }
-
     fn loudest_um(window: &Headless) -> f64 {
         let levels = window.workbench.amplitudes_um();
         levels.into_iter().flatten().fold(0.0, f64::max)
@@ -56,7 +50,7 @@ mod tests {
     #[test]
     fn with_nothing_armed_escape_pauses_the_screen_shows_on_and_recording_begins() {
         let root = ScratchFolder::made("escape");
-        let mut window = window();
+        let mut window = Headless::drawn();
         let recordings = &mut window.workbench.bench.exploration.recordings;
         *recordings = Recordings::in_folder(root.to_owned());
         window.press(Modifiers::NONE, Key::Space);
@@ -89,7 +83,7 @@ mod tests {
 
     #[test]
     fn escape_closes_what_lies_on_top_before_it_pauses() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         window.press(Modifiers::NONE, Key::Space);
         window.dispatch(ShowCommand::Help);
         window.dispatch(ShowCommand::Calibrate);
@@ -103,7 +97,7 @@ mod tests {
 
     #[test]
     fn after_all_off_one_act_goes_on() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         window.dispatch(PlayCommand::Toggle);
         window.pass_ticks(10);
         window.dispatch(Command::AllOff);

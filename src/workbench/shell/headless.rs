@@ -53,6 +53,14 @@ impl Headless {
         Self::new(None, Vec2::new(1400.0, 900.0), 1.0).unwrap()
     }
 
+    /// The same once it was drawn.
+    #[cfg(test)]
+    pub(crate) fn drawn() -> Self {
+        let mut window = Self::shipped();
+        window.pass(2);
+        window
+    }
+
     /// The same with a stage.
     pub(crate) fn on_stage(
         options: StageOptions,

@@ -110,12 +110,6 @@ mod tests {
     use crate::bench::perspective::Perspective;
     use crate::shell::headless::Headless;
 
-    fn window() -> Headless {
-        let mut window = Headless::shipped();
-        window.pass(2);
-        window
-    }
-
     fn focused(window: &Headless) -> Option<Pane> {
         let id = window.ctx.memory(Memory::focused)?;
         Pane::ALL.into_iter().find(|pane| pane_focus(*pane) == id)
@@ -123,7 +117,7 @@ mod tests {
 
     #[test]
     fn f6_walks_all_panes_in_sight_and_back() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         let n_shown = window.workbench.bench.in_sight.len();
         let mut walked = Vec::new();
         for _ in 0..n_shown {
@@ -150,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_pane_alone_fills_the_window_and_all_come_back_as_they_were() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         let before = window.workbench.shell.tree.clone();
         window.dispatch(ShowCommand::Maximise(Some(Pane::Tuning)));
         window.pass(2);

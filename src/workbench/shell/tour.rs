@@ -158,19 +158,13 @@ mod tests {
     use crate::bench::command::{Command, DeviceCommand};
     use crate::shell::headless::Headless;
 
-    fn window() -> Headless {
-        let mut window = Headless::shipped();
-        window.pass(2);
-        window
-    }
-
     fn step(window: &Headless) -> Option<usize> {
         window.workbench.shell.tour.map(|tour| tour.step)
     }
 
     #[test]
     fn each_step_is_over_when_it_was_done_and_no_sooner() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         assert_eq!(step(&window), None, "nobody asked for it");
         window.dispatch(ShowCommand::Tour);
         window.pass(20);
@@ -206,7 +200,7 @@ mod tests {
 
     #[test]
     fn every_step_shows_its_pane_and_names_keys_that_there_are() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         window.dispatch(ShowCommand::Tour);
         for (n, step) in STEPS.iter().enumerate() {
             let workbench = &mut window.workbench;

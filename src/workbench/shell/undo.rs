@@ -89,12 +89,6 @@ mod tests {
     use crate::tools::lab::Lab;
     use selvedge_textile::Place;
 
-    fn window() -> Headless {
-        let mut window = Headless::shipped();
-        window.pass(2);
-        window
-    }
-
     fn set_hurst(window: &mut Headless) {
         let place = Place {
             table: "source",
@@ -110,7 +104,7 @@ mod tests {
 
     #[test]
     fn undo_in_the_lab_leaves_the_scene_alone_and_the_other_way_round() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         let begun_db = window.workbench.bench.document.tuning().gain_db;
         window.dispatch(Edit::MasterGain(-6.0));
         window.dispatch(ShowCommand::Perspective(Perspective::Cloth));
@@ -138,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_step_that_would_not_be_seen_is_brought_in_sight_before_it_is_taken_back() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         window.dispatch(Edit::RemoveCloth(0));
         window.dispatch(ShowCommand::Perspective(Perspective::Cloth));
         window.pass(2);
@@ -162,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_history_goes_to_any_step_at_once() {
-        let mut window = window();
+        let mut window = Headless::drawn();
         for gain_db in [-1.0, -2.0, -3.0] {
             window.dispatch(Edit::MasterGain(gain_db));
             window.dispatch(Edit::RemoveCloth(0));

@@ -120,13 +120,9 @@ mod tests {
     use selvedge_device::{ArrayProfile, Calibration};
     use selvedge_textile::tactile::Band;
 
-    fn window() -> Headless {
-        Headless::shipped()
-    }
-
     #[test]
     fn what_is_changed_of_a_profile_reaches_the_engine_and_stays_with_the_user() {
-        let mut window = window();
+        let mut window = Headless::shipped();
         window.pass(2);
         window.dispatch(ArrayCommand::Limit(Band::High, 12.5));
         window.pass(2);
@@ -170,7 +166,7 @@ mod tests {
     /// Writes a picture where `SELVEDGE_PICTURES` says, for people to look at.
     #[test]
     fn limits_that_bite_are_marked_in_every_view_of_the_contactor() {
-        let mut window = window();
+        let mut window = Headless::shipped();
         window.ctx.set_theme(egui::Theme::Dark);
         let mut rasteriser = Rasteriser::default();
         rasteriser.apply(&mut window.run().textures_delta);

@@ -16,13 +16,9 @@ use crate::tools::collection::state::{Choice, Entry};
 use selvedge_foundation::quantity::level_db;
 use selvedge_textile::tactile::{Band, Filters, Levels};
 
-fn window() -> Headless {
-    Headless::shipped()
-}
-
 /// A window with the pane in front.
 fn in_front() -> Headless {
-    let mut window = window();
+    let mut window = Headless::shipped();
     window.pass(1);
     window.dispatch(ShowCommand::Pane(Pane::Collection));
     window
@@ -117,7 +113,7 @@ fn tuned_levels_are_what_gains_and_compression_make_of_them() {
 
 #[test]
 fn nothing_is_measured_behind_other_panes_and_work_ends_when_nobody_looks() {
-    let mut window = window();
+    let mut window = Headless::shipped();
     window.pass(40);
     assert_eq!(window.workbench.n_textiles_measured(), 0, "hidden");
     window.dispatch(ShowCommand::Pane(Pane::Collection));
