@@ -96,9 +96,11 @@ pub enum Command {
     /// Whether somebody takes [samples of ticks](super::Engine::next_tick_sample); nobody does at
     /// first.
     SampleTicks(bool),
-    /// The contactor of the first display whose amplitudes samples of ticks hold, the first one at
-    /// first.
+    /// The contactor whose amplitudes samples of ticks hold, of the display that is watched; the
+    /// first one at first.
     Watch(usize),
+    /// The display of the scene that samples of ticks are of, the first one at first.
+    WatchDisplay(usize),
     /// Tell other programs what is felt at every tick, or no longer.
     SetTap(Option<Box<Tap>>),
     /// Make sound of what is felt at every tick, or no longer.

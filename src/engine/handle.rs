@@ -223,6 +223,7 @@ impl Engine {
             Command::ClearFaults => ReadyCommand::ClearFaults,
             Command::SampleTicks(is_heard) => ReadyCommand::SampleTicks(is_heard),
             Command::Watch(contactor) => ReadyCommand::Watch(contactor),
+            Command::WatchDisplay(display) => ReadyCommand::WatchDisplay(display),
             Command::SetTap(tap) => ReadyCommand::Tap(tap),
             Command::SetSound(feed) => ReadyCommand::Sound(feed),
             Command::Shutdown => ReadyCommand::Shutdown,
@@ -259,8 +260,8 @@ impl Engine {
         self.next_felt_tick().map(|(sample, _)| sample)
     }
 
-    /// The same with the amplitudes [A40, A320] of every contactor of the first display, after
-    /// gains and before output limits, µm.
+    /// The same with the amplitudes [A40, A320] of every contactor of the display that is watched,
+    /// after gains and before output limits, µm.
     pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
         self.samples.next()
     }

@@ -41,6 +41,8 @@ pub(super) enum ReadyCommand {
     SampleTicks(bool),
     /// The contactor that samples watch.
     Watch(usize),
+    /// The display that samples are of.
+    WatchDisplay(usize),
     /// Tell other programs what is felt, or no longer.
     Tap(Option<Box<Tap>>),
     /// Make sound of what is felt, or no longer.

@@ -88,6 +88,9 @@ impl EngineCore {
         let mut scene = next.scene;
         let goes_on = next.is_edited && scene.has_arrays_of(&self.scene);
         let recording = if goes_on { None } else { self.end_recording() };
+        if !next.is_edited || scene.n_displays() != self.scene.n_displays() {
+            self.fingers.forget();
+        }
         if next.is_edited {
             // A device that asks before the next tick feels the last pose on the new scene.
             scene.renderer.go_on_from(&self.scene.renderer);
@@ -118,6 +121,7 @@ impl EngineCore {
 
     pub(super) fn set_source(&mut self, source: Option<Box<dyn PointerInput>>) -> Option<Retired> {
         self.track.forget();
+        self.fingers.forget();
         self.last_angle_deg = None;
         self.has_ended = false;
         self.pose = self.pose.at_rest();
