@@ -20,12 +20,13 @@ pub enum Command {
     /// Gains and compression from the next tick on. One that makes no sense is ignored with a
     /// notice.
     SetTuning(Tuning),
-    /// Scene gain of one placed textile (its place in the scene's list), dB.
-    SetTextileGain {
-        /// The textile's place in the scene's list.
-        textile: usize,
-        /// Its gain on top of the manifest's, dB.
-        gain_db: f64,
+    /// The same with gains that the scene gives some textiles, in the same tick: all of it, or
+    /// nothing when any of it makes no sense.
+    SetGains {
+        /// Gains and compression.
+        tuning: Tuning,
+        /// Places in the scene's list, and gains on top of the manifests', dB.
+        textiles_db: Vec<(usize, f64)>,
     },
     /// Which contactors of the first display are felt, by index: the others do nothing anywhere.
     /// Contactors beyond its end are felt, so an empty one feels all. It outlives scenes.

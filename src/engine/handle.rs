@@ -201,10 +201,11 @@ impl Engine {
                 self.switch.press();
                 return Ok(());
             }
-            Command::SetTuning(tuning) => ReadyCommand::Core(CoreCommand::Tuning(tuning)),
-            Command::SetTextileGain { textile, gain_db } => {
-                ReadyCommand::Core(CoreCommand::TextileGain { textile, gain_db })
-            }
+            Command::SetTuning(tuning) => CoreCommand::gains(tuning, Vec::new()).into(),
+            Command::SetGains {
+                tuning,
+                textiles_db,
+            } => CoreCommand::gains(tuning, textiles_db).into(),
             Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
             Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
             Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),

@@ -31,13 +31,13 @@ impl EngineCore {
         let mut retired = [None, None];
         match command {
             CoreCommand::Scene(next) => retired = self.next_scene(next),
-            CoreCommand::Tuning(tuning) => {
-                let tuned = self.scene.renderer.set_tuning(&tuning);
-                self.revise(tuned, say);
-            }
-            CoreCommand::TextileGain { textile, gain_db } => {
-                let set = self.scene.renderer.set_scene_gain(textile, gain_db);
+            CoreCommand::Gains {
+                tuning,
+                textiles_db,
+            } => {
+                let set = self.scene.renderer.set_gains(&tuning, &textiles_db);
                 self.revise(set, say);
+                retired[0] = Some(Retired::Gains(textiles_db));
             }
             CoreCommand::Levels(levels) => {
                 let set = self.scene.renderer.set_levels(&levels);

@@ -90,7 +90,8 @@ impl Bench {
             .device
             .interval
             .take(status.map(|s| (s.tick, s.dev_us)));
-        let mut live = query::live_view(snapshot, interval_s, &self.selection.mute_solo);
+        let looked_at = (self.selection.display, &self.selection.mute_solo);
+        let mut live = query::live_view(snapshot, interval_s, looked_at);
         if let Some(bridge) = &mut live.bridge
             && let Some(log) = self.engine.session_log()
         {

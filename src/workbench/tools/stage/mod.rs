@@ -190,7 +190,7 @@ impl Stage {
             is_resting: self.told.is_resting,
             input: self.senses.input(),
             has_keyboard: self.senses.has_keyboard,
-            others: self.senses.others(now_s),
+            rings: &self.senses.rings,
         };
         let mut brush = Brush {
             painter: ui.painter().clone(),
@@ -307,7 +307,9 @@ impl PublicFace for Stage {
 
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let now_s = self.machine.now_s();
-        let heard = self.senses.take(ui, now_s);
+        let n_displays = context.bench.document.scene().displays.len();
+        let felt = (self.ground_of(ui).unwrap_or(Rect::NOTHING), n_displays);
+        let heard = self.senses.take(ui, felt, now_s);
         if heard.asks_operator {
             self.open_lock(context.bench);
         } else if heard.escapes && self.lock.access() == Access::Closed && self.machine.is_armed() {

@@ -225,7 +225,8 @@ fn exported(
 fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
     let mut levels_db = [0.0; N_ROWS];
     let mut columns = ContactColumns::default();
-    columns.levels_db(inspector, moment.contactor, &moment.pose, &mut levels_db);
+    let contactor = [0, moment.contactor];
+    columns.levels_db(inspector, contactor, &moment.pose, &mut levels_db);
     let points = levels_db.iter().enumerate();
     let points = points.map(|(row, db)| [row_centre_hz(row), f64::from(*db)]);
     let carrier = |band: Band| Rule {
@@ -322,7 +323,7 @@ fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: 
     let levels = LevelRange::default();
     let (mut columns, mut levels_db) = (ContactColumns::default(), [0.0; N_ROWS]);
     let raster = raster(recording, N_ROWS, |_, pose, shares| {
-        columns.levels_db(inspector, moment.contactor, pose, &mut levels_db);
+        columns.levels_db(inspector, [0, moment.contactor], pose, &mut levels_db);
         for (share, db) in shares.iter_mut().zip(levels_db.iter().rev()) {
             let db = f64::from(*db);
             *share = if db.is_finite() {
