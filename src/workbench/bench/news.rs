@@ -104,7 +104,8 @@ impl Bench {
         if live.centre.is_some() && live.speed_mm_per_s > 0.0 {
             self.selection.probe = self.selection.probe.after(live.pose.velocity);
         }
-        if self.past.trail.take(live.tick, live.centre) {
+        let trails = self.past.trail.take(live.tick, live.centre);
+        if trails && !self.past.is_paced {
             ctx.request_repaint_after(FRAME);
         }
         self.show_past(&mut live);
