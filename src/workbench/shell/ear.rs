@@ -241,6 +241,7 @@ impl Ear {
 mod tests {
     use std::cell::RefCell;
 
+    use eframe::egui::TouchPhase as Heard;
     use eframe::egui::{Event, TouchDeviceId, TouchId, vec2};
     use winit::dpi::PhysicalPosition;
     use winit::event::DeviceId;
@@ -305,7 +306,6 @@ mod tests {
             };
             (self.ear).listen(now, WindowId::dummy(), &WindowEvent::Touch(touch));
             self.ear.pass_on(now);
-            use eframe::egui::TouchPhase as Heard;
             self.window.events.push(Event::Touch {
                 device_id: TouchDeviceId(1),
                 id: TouchId::from(id),
@@ -372,7 +372,7 @@ mod tests {
                 desk.touch(first, phase, place(first, 16));
                 desk.stroke(&[stays], 17..24);
                 let felt = desk.displays();
-                let at = |finger: u64| felt[if finger == 1 { 0 } else { 1 }];
+                let at = |finger: u64| felt[usize::from(finger != 1)];
                 assert!(!at(first).0 && at(stays).0, "{phase:?} {first}: {felt:?}");
                 assert!(is_near(at(first).1, 40.0 * first as f64), "it stays");
                 desk.touch(stays, phase, place(stays, 24));
