@@ -10,7 +10,7 @@ const STEPS: [f64; 4] = [1.0, 0.75, 0.5, 0.3];
 const N_INTERVALS: usize = 30;
 /// A median that is longer than planned by this is too slow: 60 ms for 20 frames a second.
 const SLOW: f64 = 1.2;
-/// One step up is tried after this long without being slow, s; twice as long after each that failed.
+/// One step up is tried after so long without being slow, s; twice as long after one that failed.
 const TRY_S: f64 = 20.0;
 const LONGEST_TRY_S: f64 = 600.0;
 /// A longer interval is a pause of the program, not a slow frame, s.

