@@ -46,7 +46,7 @@ pub(crate) fn scene_view(
         picture: library_view.picture(&placed.id),
     });
     let display = scene.displays.get(selection.display);
-    let display = display.or(scene.displays.first());
+    let display = display.or_else(|| scene.displays.first());
     SceneView {
         name: scene.name.clone(),
         path: document.path().cloned(),

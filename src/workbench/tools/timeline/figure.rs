@@ -87,7 +87,7 @@ fn scene_of(of: &FigureOf, cache: Option<&BuildCache>) -> Result<LoadedScene, Ap
     if let Some(scene) = &of.scene {
         return Ok(LoadedScene::read(scene, cache)?);
     }
-    let folder = of.exploration.as_deref().unwrap_or(Path::new(""));
+    let folder = of.exploration.as_deref().unwrap_or_else(|| Path::new(""));
     let about =
         file::About::read(folder).map_err(|error| AppError::Exploration(error.to_string()))?;
     if let Some(scene) = about.scene_file {
@@ -110,7 +110,7 @@ fn read(of: &FigureOf, loaded: &LoadedScene) -> Result<Recording, AppError> {
     let first = loaded.scene().recordings.first();
     let first = first.map(|recording| recording.place(of.scene.as_deref()));
     let Some(place) = of.exploration.clone().or(first) else {
-        let scene = of.scene.as_deref().unwrap_or(Path::new(""));
+        let scene = of.scene.as_deref().unwrap_or_else(|| Path::new(""));
         let what = format!("{} names no recording", scene.display());
         let mend = "give a recording or a path with --path";
         return Err(AppError::Exploration(format!("{what}; {mend}")));

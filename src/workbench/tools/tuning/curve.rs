@@ -143,7 +143,7 @@ pub(crate) fn exported(scene: &SceneView, reference_db: f64, origin: Origin) -> 
 
 /// Shows the curve in `rect`, or what it waits for; a click on a dot chooses its textile, if it is
 /// placed.
-pub(crate) fn show(ui: &mut Ui, rect: Rect, scene: &SceneView, commands: &mut Commands) {
+pub(crate) fn show(ui: &Ui, rect: Rect, scene: &SceneView, commands: &mut Commands) {
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
         paint_sentence(
             ui.painter(),
