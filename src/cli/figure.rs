@@ -43,7 +43,7 @@ pub(super) fn run(args: &FigureArgs) -> Result<(), CliError> {
             scene: (!is_recording).then(|| args.what.clone()),
             exploration: is_recording
                 .then(|| args.what.clone())
-                .or(args.path.clone()),
+                .or_else(|| args.path.clone()),
             contactor: args.contactor,
         };
         exploration_figure(&of, build_cache().as_ref())?
