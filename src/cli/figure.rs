@@ -1,19 +1,24 @@
-//! `selvedge figure`: a whole exploration on one page, with a caption.
+//! `selvedge figure`: an exploration of a scene, a recording or sessions of an experiment on one
+//! page, with a caption.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::terminal::with_meter;
 use super::{CliError, output};
-use selvedge_workbench::{FigureOf, build_cache, exploration_figure};
+use selvedge_experiment::ExperimentError;
+use selvedge_experiment::analysis::{self, Options};
+use selvedge_workbench::{FigureFiles, FigureOf, build_cache, exploration_figure};
 
 /// What is drawn, and where it goes.
 #[derive(Debug, Args)]
 pub(super) struct FigureArgs {
-    /// Scene file
-    scene: PathBuf,
-    /// The exploration: a recording's folder or a path file (the scene's first recording if none is
-    /// given)
+    /// Scene file, a recording's folder, or the log of a session (or a folder of such logs)
+    #[arg(value_name = "SCENE|RECORDING|LOG")]
+    what: PathBuf,
+    /// The exploration of a scene: a recording's folder or a path file (the scene's first recording
+    /// if none is given)
     #[arg(long, value_name = "PATH")]
     path: Option<PathBuf>,
     /// The page without its ending: NAME.svg, NAME.png and the caption NAME.txt are written
@@ -27,14 +32,22 @@ pub(super) struct FigureArgs {
 /// Draws it.
 ///
 /// # Errors
-/// Scene or exploration cannot be read, the files cannot be written.
+/// Scene, exploration or log cannot be read, there is nothing to draw, the files cannot be written.
 pub(super) fn run(args: &FigureArgs) -> Result<(), CliError> {
-    let of = FigureOf {
-        scene: args.scene.clone(),
-        exploration: args.path.clone(),
-        contactor: args.contactor,
+    let is_recording = args.what.join("recording.toml").exists();
+    let is_log = args.what.extension().is_some_and(|ending| ending == "csv");
+    let files = if !is_recording && (is_log || args.what.is_dir()) {
+        of_sessions(args)?
+    } else {
+        let of = FigureOf {
+            scene: (!is_recording).then(|| args.what.clone()),
+            exploration: is_recording
+                .then(|| args.what.clone())
+                .or_else(|| args.path.clone()),
+            contactor: args.contactor,
+        };
+        exploration_figure(&of, build_cache().as_ref())?
     };
-    let files = exploration_figure(&of, build_cache().as_ref())?;
     let parts = [
         ("svg", files.svg.as_slice()),
         ("png", files.png.as_slice()),
@@ -47,4 +60,54 @@ pub(super) fn run(args: &FigureArgs) -> Result<(), CliError> {
         output::write_bytes(&PathBuf::from(name), bytes)?;
     }
     Ok(())
+}
+
+/// What a session's answers come to, or those of a folder of sessions.
+fn of_sessions(args: &FigureArgs) -> Result<FigureFiles, CliError> {
+    let (what, none) = (args.what.display(), (args.path.is_none(), args.contactor));
+    if none != (true, None) {
+        let mend = "leave --path and --contactor out";
+        return Err(CliError::Input(format!("{what} is no scene; {mend}")));
+    }
+    if !args.what.exists() {
+        return Err(CliError::Input(format!(
+            "{what} is not there; check the path"
+        )));
+    }
+    let is_folder = args.what.is_dir();
+    let parent = args.what.parent().filter(|at| !at.as_os_str().is_empty());
+    let beside = parent.unwrap_or_else(|| Path::new("."));
+    let folder = if is_folder { &args.what } else { beside };
+    let options = Options {
+        cache: build_cache(),
+        ..Options::default()
+    };
+    let analysed = with_meter("analysing", |progress| {
+        let (mut found, unread) = analysis::sessions(folder, progress)?;
+        if !is_folder {
+            found.retain(|session| session.log.file_name() == args.what.file_name());
+        }
+        let why = unread
+            .into_iter()
+            .find(|one| one.log.file_name() == args.what.file_name());
+        if found.is_empty()
+            && let Some(why) = why
+        {
+            return Err(why.error);
+        }
+        analysis::analyse(&found, &options, progress)
+    })?;
+    let analysed = analysed.map_err(|error: ExperimentError| match error {
+        ExperimentError::Cancelled(stopped) => CliError::from(stopped),
+        other => other.into(),
+    })?;
+    let page = analysed.one_page(&args.out)?.ok_or_else(|| {
+        let mend = "name the log of a session with answers, beside its .json";
+        CliError::Input(format!("{what} gives no figure; {mend}"))
+    })?;
+    Ok(FigureFiles {
+        svg: page.svg.into_bytes(),
+        png: page.png,
+        caption: page.caption,
+    })
 }

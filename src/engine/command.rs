@@ -20,12 +20,13 @@ pub enum Command {
     /// Gains and compression from the next tick on. One that makes no sense is ignored with a
     /// notice.
     SetTuning(Tuning),
-    /// Scene gain of one placed textile (its place in the scene's list), dB.
-    SetTextileGain {
-        /// The textile's place in the scene's list.
-        textile: usize,
-        /// Its gain on top of the manifest's, dB.
-        gain_db: f64,
+    /// The same with gains that the scene gives some textiles, in the same tick: all of it, or
+    /// nothing when any of it makes no sense.
+    SetGains {
+        /// Gains and compression.
+        tuning: Tuning,
+        /// Places in the scene's list, and gains on top of the manifests', dB.
+        textiles_db: Vec<(usize, f64)>,
     },
     /// Which contactors of the first display are felt, by index: the others do nothing anywhere.
     /// Contactors beyond its end are felt, so an empty one feels all. It outlives scenes.
@@ -96,9 +97,11 @@ pub enum Command {
     /// Whether somebody takes [samples of ticks](super::Engine::next_tick_sample); nobody does at
     /// first.
     SampleTicks(bool),
-    /// The contactor of the first display whose amplitudes samples of ticks hold, the first one at
-    /// first.
+    /// The contactor whose amplitudes samples of ticks hold, of the display that is watched; the
+    /// first one at first.
     Watch(usize),
+    /// The display of the scene that samples of ticks are of, the first one at first.
+    WatchDisplay(usize),
     /// Tell other programs what is felt at every tick, or no longer.
     SetTap(Option<Box<Tap>>),
     /// Make sound of what is felt at every tick, or no longer.

@@ -201,10 +201,11 @@ impl Engine {
                 self.switch.press();
                 return Ok(());
             }
-            Command::SetTuning(tuning) => ReadyCommand::Core(CoreCommand::Tuning(tuning)),
-            Command::SetTextileGain { textile, gain_db } => {
-                ReadyCommand::Core(CoreCommand::TextileGain { textile, gain_db })
-            }
+            Command::SetTuning(tuning) => CoreCommand::gains(tuning, Vec::new()).into(),
+            Command::SetGains {
+                tuning,
+                textiles_db,
+            } => CoreCommand::gains(tuning, textiles_db).into(),
             Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
             Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
             Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),
@@ -223,6 +224,7 @@ impl Engine {
             Command::ClearFaults => ReadyCommand::ClearFaults,
             Command::SampleTicks(is_heard) => ReadyCommand::SampleTicks(is_heard),
             Command::Watch(contactor) => ReadyCommand::Watch(contactor),
+            Command::WatchDisplay(display) => ReadyCommand::WatchDisplay(display),
             Command::SetTap(tap) => ReadyCommand::Tap(tap),
             Command::SetSound(feed) => ReadyCommand::Sound(feed),
             Command::Shutdown => ReadyCommand::Shutdown,
@@ -259,8 +261,8 @@ impl Engine {
         self.next_felt_tick().map(|(sample, _)| sample)
     }
 
-    /// The same with the amplitudes [A40, A320] of every contactor of the first display, after
-    /// gains and before output limits, µm.
+    /// The same with the amplitudes [A40, A320] of every contactor of the display that is watched,
+    /// after gains and before output limits, µm.
     pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
         self.samples.next()
     }

@@ -27,6 +27,7 @@ mod clip;
 mod command;
 mod engine_core;
 mod error;
+mod fingers;
 mod handle;
 mod input;
 mod link;
@@ -83,6 +84,9 @@ use std::time::Duration;
 
 /// The time between two ticks: 25 ms.
 pub const TICK: Duration = Duration::from_millis(25);
+
+/// Displays of a scene that fingers can hold; in a larger scene the others go with the first.
+pub const MAX_FINGERS: usize = 10;
 
 /// Ticks per second.
 pub const TICKS_PER_S: f64 = selvedge_render::scene::TICKS_PER_S;

@@ -130,11 +130,25 @@ impl PreparedScene {
         self.start
     }
 
-    /// Renders every display at this pose and looks which output limits its amplitudes meet.
+    /// Displays of the scene.
+    pub(super) fn n_displays(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Renders every display at this pose, or those beside the first at poses of their own as far
+    /// as `apart` has them, and looks which output limits their amplitudes meet.
     /// Contactors of the first display that the mask says are not felt do nothing. Where something
     /// is played, the first display feels that in place of the whole scene.
-    pub(super) fn render(&mut self, pose: Pose, mask: &[bool], played: Option<Played>) {
+    pub(super) fn render(
+        &mut self,
+        (pose, apart): (Pose, &[Pose]),
+        mask: &[bool],
+        played: Option<Played>,
+    ) {
         self.poses.fill(pose);
+        for (place, own) in self.poses.iter_mut().skip(1).zip(apart) {
+            *place = *own;
+        }
         let textile = match played {
             Some(Played::Textile(textile)) => Some(textile),
             Some(Played::Vibration(_)) | None => None,
@@ -188,10 +202,10 @@ impl PreparedScene {
             .map(DisplayFrame::amplitudes_um)
     }
 
-    /// What the device plays: the first display's amplitudes, or silence, µm.
-    pub(super) fn felt_um(&self, is_silent: bool) -> &[[f32; 2]] {
-        let silence = || self.outputs.first().map(|output| &output.silence[..]);
-        let amplitudes = || self.amplitudes_um().next();
+    /// What is felt of a display, or silence, µm; a device plays the first.
+    pub(super) fn felt_um(&self, display: usize, is_silent: bool) -> &[[f32; 2]] {
+        let silence = || (self.outputs.get(display)).map(|output| &output.silence[..]);
+        let amplitudes = || self.amplitudes_um().nth(display);
         if is_silent { silence() } else { amplitudes() }.unwrap_or_default()
     }
 
@@ -216,6 +230,7 @@ impl PreparedScene {
             t_s: 0.0,
             pose,
             rendered: pose,
+            others_moved: 0,
             turn_deg: 0.0,
             displays: self.empty_views(),
             is_stopped: false,
@@ -237,16 +252,25 @@ impl PreparedScene {
 
     /// Views with room for every contactor.
     fn empty_views(&self) -> Vec<DisplayView> {
+        let pose = Pose {
+            position: self.start,
+            ..Pose::default()
+        };
         let view = |output: &Output| DisplayView {
+            pose,
+            rendered: pose,
             contactors: vec![ContactorView::default(); output.codes.len()],
         };
         self.outputs.iter().map(view).collect()
     }
 
-    /// Writes what every contactor does into views that were made for this scene.
-    pub(super) fn fill(&self, views: &mut [DisplayView]) {
+    /// Writes what every contactor does into views that were made for this scene; `pose` says where
+    /// a display is.
+    pub(super) fn fill(&self, views: &mut [DisplayView], pose: impl Fn(usize) -> Pose) {
         let frames = self.renderer.frames().iter().zip(&self.outputs);
-        for (view, (frame, output)) in views.iter_mut().zip(frames) {
+        let rendered = self.poses.iter().zip(frames).enumerate();
+        for (view, (index, (rendered, (frame, output)))) in views.iter_mut().zip(rendered) {
+            (view.pose, view.rendered) = (pose(index), *rendered);
             let limiters = output.coder.limited();
             for (index, contactor) in view.contactors.iter_mut().enumerate() {
                 contactor.position = frame.contactor_position(index);

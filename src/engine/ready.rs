@@ -41,6 +41,8 @@ pub(super) enum ReadyCommand {
     SampleTicks(bool),
     /// The contactor that samples watch.
     Watch(usize),
+    /// The display that samples are of.
+    WatchDisplay(usize),
     /// Tell other programs what is felt, or no longer.
     Tap(Option<Box<Tap>>),
     /// Make sound of what is felt, or no longer.
@@ -79,10 +81,9 @@ impl From<CoreCommand> for ReadyCommand {
 /// What the core obeys.
 pub(super) enum CoreCommand {
     Scene(NextScene),
-    Tuning(Tuning),
-    TextileGain {
-        textile: usize,
-        gain_db: f64,
+    Gains {
+        tuning: Tuning,
+        textiles_db: Vec<(usize, f64)>,
     },
     Levels(Vec<PlacedLevel>),
     /// Which contactors of the first display are felt.
@@ -98,6 +99,16 @@ pub(super) enum CoreCommand {
     EndRecording,
 }
 
+impl CoreCommand {
+    /// Tuning and gains of some textiles, in one tick.
+    pub(super) fn gains(tuning: Tuning, textiles_db: Vec<(usize, f64)>) -> Self {
+        Self::Gains {
+            tuning,
+            textiles_db,
+        }
+    }
+}
+
 /// What a command replaced. Whoever owns the engine drops it.
 #[expect(dead_code, reason = "most are only carried away to be dropped")]
 pub(super) enum Retired {
@@ -105,6 +116,7 @@ pub(super) enum Retired {
     Snapshots(Input<Snapshot>),
     Source(Box<dyn PointerInput>),
     Levels(Vec<PlacedLevel>),
+    Gains(Vec<(usize, f64)>),
     Mask(Vec<bool>),
     Sequence(Sequence),
     Bridge(Box<Bridge>),

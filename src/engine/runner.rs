@@ -244,6 +244,7 @@ impl Runner {
                 ReadyCommand::ClearFaults => self.link.clear_faults(),
                 ReadyCommand::SampleTicks(is_heard) => self.channels.sampler.listen(is_heard),
                 ReadyCommand::Watch(contactor) => self.channels.sampler.watch(contactor),
+                ReadyCommand::WatchDisplay(nth) => self.channels.sampler.watch_display(nth),
                 ReadyCommand::Tap(tap) => {
                     let last = std::mem::replace(&mut self.channels.tap, tap);
                     self.retire(last.map(Retired::Tap));

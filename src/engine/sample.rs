@@ -36,6 +36,18 @@ pub struct SampleCounters {
     pub lost_in_system: u64,
 }
 
+impl SampleCounters {
+    /// Adds what became of the samples of another finger; what is lost before anybody looks is of
+    /// all fingers already.
+    pub(super) fn add(&mut self, other: Self) {
+        self.accepted += other.accepted;
+        self.replaced += other.replaced;
+        self.went_back += other.went_back;
+        self.clock_jumps += other.clock_jumps;
+        self.not_finite += other.not_finite;
+    }
+}
+
 /// How far a clock may go back, or run ahead, before it counts as having jumped.
 const JUMP: Duration = Duration::from_secs(1);
 

@@ -29,11 +29,14 @@ pub struct Snapshot {
     pub tick: u64,
     /// `tick / 40`, s.
     pub t_s: f64,
-    /// Where the display is, how it is turned and how it moves. Its time is that of the source.
+    /// Where the first display is, how it is turned and how it moves. Its time is that of the
+    /// source.
     pub pose: Pose,
-    /// The pose that the amplitudes below were rendered at: at rest while everything is off, and in
+    /// The pose that its amplitudes below were rendered at: at rest while everything is off, and in
     /// a scene that was just opened.
     pub rendered: Pose,
+    /// Times that another display moved by itself.
+    pub(super) others_moved: u64,
     /// The angle that the display was turned to by hand, degrees counter-clockwise, added to the
     /// scene's; a replay has angles of its own instead.
     pub turn_deg: f64,
@@ -98,6 +101,10 @@ impl RenderingView {
 /// One display in a snapshot.
 #[derive(Debug, Clone, Default)]
 pub struct DisplayView {
+    /// Where it is and how it moves.
+    pub pose: Pose,
+    /// The pose that its amplitudes were rendered at.
+    pub rendered: Pose,
     /// Its contactors in index order.
     pub contactors: Vec<ContactorView>,
 }

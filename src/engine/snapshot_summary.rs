@@ -18,6 +18,7 @@ pub(super) struct SnapshotSummary {
     scene_serial: u64,
     revision: u64,
     pose: Pose,
+    others_moved: u64,
     turn_deg: f64,
     is_silent: bool,
     is_stopped: bool,
@@ -50,6 +51,7 @@ impl SnapshotSummary {
                 t_s: 0.0,
                 ..snapshot.pose
             },
+            others_moved: snapshot.others_moved,
             turn_deg: snapshot.turn_deg,
             is_silent: snapshot.is_silent,
             is_stopped: snapshot.is_stopped,

@@ -22,28 +22,29 @@ const MAX_AMPLITUDES: usize = 64 * MAX_TICK_SAMPLES;
 pub struct TickSample {
     /// Ticks since the engine started.
     pub tick: u64,
-    /// Where the display was, how it was turned and how it moved.
+    /// Where the display that is watched was, how it was turned and how it moved.
     pub pose: Pose,
     /// Whether the device played silence (stopped, or held).
     pub is_silent: bool,
-    /// The device's tick at which its frame is played; `None` when no armed device got it.
+    /// The device's tick at which its frame is played; `None` when no armed device got it, as of
+    /// every display but the first.
     pub apply_tick: Option<u32>,
-    /// Mean amplitudes [A40, A320] over the contactors of the first display that lie on a textile,
+    /// Mean amplitudes [A40, A320] over the contactors of that display that lie on a textile,
     /// after gains and before output limits, µm; 0 when none does.
     pub mean_um: [f32; 2],
     /// The contactor that is watched.
     pub watched: u32,
     /// Its amplitudes [A40, A320] after gains and before output limits, µm.
     pub watched_um: [f32; 2],
-    /// Contactors of the first display.
+    /// Contactors of the display.
     pub n_contactors: u32,
 }
 
 impl TickSample {
     /// The tick that a core did last.
-    fn of(core: &EngineCore, watched: usize, apply_tick: Option<u32>) -> Self {
-        let amplitudes_um = core.felt_um();
-        let frame = core.scene().renderer().frames().first();
+    fn of(core: &EngineCore, [display, watched]: [usize; 2], apply_tick: Option<u32>) -> Self {
+        let amplitudes_um = core.felt_um_of(display);
+        let frame = core.scene().renderer().frames().get(display);
         let is_placed = |&(index, _): &(usize, &[f32; 2])| {
             frame.is_some_and(|frame| frame.textile(index).is_some())
         };
@@ -54,9 +55,9 @@ impl TickSample {
         }
         Self {
             tick: core.tick_count(),
-            pose: core.shown_pose(),
+            pose: core.shown_pose(display),
             is_silent: core.is_silent(),
-            apply_tick,
+            apply_tick: apply_tick.filter(|_| display == 0),
             mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
             watched: u32::try_from(watched).unwrap_or(u32::MAX),
             watched_um: amplitudes_um.get(watched).copied().unwrap_or_default(),
@@ -71,7 +72,8 @@ pub(super) struct TickSampler {
     ring: Producer<TickSample>,
     amplitudes: Producer<[f32; 2]>,
     is_heard: bool,
-    watched: usize,
+    /// The display that is watched, and its contactor.
+    watched: [usize; 2],
     /// The pose of the last tick that was looked at, and whether that was still and silent.
     last: Option<Pose>,
     was_quiet: bool,
@@ -92,7 +94,7 @@ impl TickSampler {
             ring,
             amplitudes,
             is_heard: false,
-            watched: 0,
+            watched: [0; 2],
             last: None,
             was_quiet: false,
             n_lost: 0,
@@ -107,9 +109,15 @@ impl TickSampler {
         self.was_quiet = false;
     }
 
-    /// Watches this contactor of the first display; one that is not there is silent.
+    /// Watches this contactor of the display; one that is not there is silent.
     pub(super) fn watch(&mut self, contactor: usize) {
-        self.watched = contactor;
+        self.watched[1] = contactor;
+    }
+
+    /// Watches this display of the scene; its first tick leaves a sample.
+    pub(super) fn watch_display(&mut self, display: usize) {
+        self.watched[0] = display;
+        self.listen(self.is_heard);
     }
 
     /// Samples that found the ring full.
@@ -128,7 +136,7 @@ impl TickSampler {
             self.was_quiet = false;
             return;
         }
-        let pose = core.shown_pose();
+        let pose = core.shown_pose(self.watched[0]);
         let is_there = |last: &Pose| {
             last.position == pose.position && last.angle_deg.to_bits() == pose.angle_deg.to_bits()
         };
@@ -136,7 +144,7 @@ impl TickSampler {
             && pose.velocity == Velocity::ZERO
             && pose.angular_rad_per_s == 0.0;
         let is_zero = |[low, high]: &[f32; 2]| *low == 0.0 && *high == 0.0;
-        let is_quiet = is_still && core.felt_um().iter().all(is_zero);
+        let is_quiet = is_still && core.felt_um_of(self.watched[0]).iter().all(is_zero);
         self.last = Some(pose);
         let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
         let is_left = !(is_quiet && was_quiet);
@@ -147,7 +155,7 @@ impl TickSampler {
 
     /// Leaves a sample if there is room for all of it.
     fn leave(&mut self, core: &EngineCore, apply_tick: Option<u32>) -> bool {
-        let amplitudes_um = core.felt_um();
+        let amplitudes_um = core.felt_um_of(self.watched[0]);
         if self.ring.slots() == 0 || self.amplitudes.slots() < amplitudes_um.len() {
             return false;
         }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::input::{InputLosses, RateMeter};
-use super::sample::{SampleGate, Verdict};
+use super::sample::{SampleCounters, SampleGate, Verdict};
 use super::velocity::{Estimate, REST, VelocityEstimator};
 use super::{InputRate, PointerSample, PointerView, TICK, VelocityMethod};
 use selvedge_foundation::geometry::Point;
@@ -88,10 +88,19 @@ impl Track {
         } else {
             self.estimator.estimate(now)
         };
-        let age = self
-            .newest
+        let age = (self.newest.filter(|_| !self.is_lifted))
             .map(|newest| now.saturating_duration_since(newest.stamp));
         self.age = age.filter(|age| *age <= REST);
+    }
+
+    /// Whether the finger is off the surface.
+    pub(super) fn is_lifted(&self) -> bool {
+        self.is_lifted
+    }
+
+    /// What became of the samples.
+    pub(super) fn samples(&self) -> SampleCounters {
+        self.gate.counters()
     }
 
     /// Where the newest sample is.
@@ -117,7 +126,7 @@ impl Track {
     /// What a snapshot shows. `until_felt` is how long after a tick the middle of that comes in
     /// which a device plays it; without a device that is half a tick.
     pub(super) fn view(&self, losses: InputLosses, until_felt: Option<Duration>) -> PointerView {
-        let mut samples = self.gate.counters();
+        let mut samples = self.samples();
         samples.overflowed = losses.overflowed;
         samples.bad_lines = losses.bad_lines;
         samples.lost_in_system = losses.lost_in_system;

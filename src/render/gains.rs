@@ -75,29 +75,25 @@ impl Gains {
         gains
     }
 
-    /// Takes a new tuning, or keeps the last one when it makes no sense.
-    pub(super) fn set_tuning(&mut self, tuning: &Tuning) -> Result<(), RenderError> {
-        tuning.check()?;
-        self.tuning = *tuning;
-        self.apply();
-        Ok(())
-    }
-
-    /// Takes the gain that the scene gives a textile, or keeps the last one when it makes no sense.
-    pub(super) fn set_scene_gain(
+    /// Takes a new tuning with the gains that the scene gives some textiles (place in the list,
+    /// dB), or keeps all as it was when any of it makes no sense.
+    pub(super) fn set(
         &mut self,
-        textile: usize,
-        gain_db: f64,
+        tuning: &Tuning,
+        textiles_db: &[(usize, f64)],
     ) -> Result<(), RenderError> {
-        check_gain("gain_db", gain_db)?;
+        tuning.check()?;
         let n_textiles = self.textiles.len();
-        let placed = self.textiles.get_mut(textile);
-        placed
-            .ok_or(RenderError::NoTextile {
-                index: textile,
-                n_textiles,
-            })?
-            .scene_db = gain_db;
+        for &(index, gain_db) in textiles_db {
+            check_gain("gain_db", gain_db)?;
+            if index >= n_textiles {
+                return Err(RenderError::NoTextile { index, n_textiles });
+            }
+        }
+        self.tuning = *tuning;
+        for &(index, gain_db) in textiles_db {
+            self.textiles[index].scene_db = gain_db;
+        }
         self.apply();
         Ok(())
     }
@@ -251,20 +247,20 @@ mod tests {
                 gain_db,
                 ..Tuning::default()
             };
-            assert!(gains.set_tuning(&tuning).is_err(), "{gain_db}");
+            assert!(gains.set(&tuning, &[(0, 3.0)]).is_err(), "{gain_db}");
         }
         assert_eq!(gains.factors(0), before);
         let silence = Tuning {
             gain_db: f64::NEG_INFINITY,
             ..Tuning::default()
         };
-        gains.set_tuning(&silence).unwrap();
+        gains.set(&silence, &[]).unwrap();
         assert_eq!(gains.factors(0), [0.0; 2]);
         let loud = Tuning {
             gain_db: 1e9,
             ..Tuning::default()
         };
-        gains.set_tuning(&loud).unwrap();
+        gains.set(&loud, &[]).unwrap();
         assert_eq!(gains.factors(0), [1e15; 2]);
     }
 }

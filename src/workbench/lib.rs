@@ -32,7 +32,7 @@ pub use crate::bench::Drive;
 pub use crate::bench::error::AppError;
 pub use crate::bench::perspective::Perspective;
 pub use crate::bench::settings::build_cache;
-pub use crate::bench::settings::{OwnFiles, own_arrays, own_certificates, own_files};
+pub use crate::bench::settings::{OwnFiles, own_arrays, own_certificates, own_files, stage_file};
 pub use crate::bench::stage::{StageOptions, StagePicture};
 pub use crate::shell::display_check::check_display;
 pub use crate::shell::guide::{GuidePage, guide_pages};

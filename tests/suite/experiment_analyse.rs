@@ -179,3 +179,36 @@ fn tables_are_never_written_among_the_logs() {
     );
     assert!(!lab.path("logs/index.md").exists());
 }
+
+#[test]
+fn a_session_is_one_page_of_figures_by_one_command() {
+    let lab = Lab::named("figure-of-session");
+    let log = on_disk(&lab, 0, 10, |number| number % 3 != 1);
+    let name = log.file_name().unwrap().to_string_lossy().into_owned();
+    let of = format!("logs/{name}");
+    lab.print(&["figure", &of, "--out", "page"]);
+    lab.print(&["figure", "logs", "--out", "all"]);
+    for page in ["page", "all"] {
+        let svg = fs::read_to_string(lab.path(&format!("{page}.svg"))).unwrap();
+        assert!(svg.contains("Odd cloth"), "{page}");
+        let png = fs::read(lab.path(&format!("{page}.png"))).unwrap();
+        assert!(png.starts_with(b"\x89PNG"), "{page}");
+        let caption = fs::read_to_string(lab.path(&format!("{page}.txt"))).unwrap();
+        assert!(
+            caption.starts_with("Odd cloth") && caption.contains("\n(1) "),
+            "{caption}"
+        );
+        assert!(!caption.contains("**"), "{caption}");
+    }
+    let read = |name: &str| fs::read(lab.path(name)).unwrap();
+    assert_eq!(read("page.svg"), read("all.svg"), "it is the only one");
+    let refused = |words: &[&str], expected: &str| {
+        let Outcome { code, err, .. } = lab.run(words);
+        assert!(code == 2 && err.contains(expected), "{code}: {err}");
+    };
+    refused(
+        &["figure", &of, "--path", "a.csv", "--out", "f"],
+        "leave --path",
+    );
+    refused(&["figure", "none.csv", "--out", "f"], "none.csv");
+}

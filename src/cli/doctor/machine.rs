@@ -6,11 +6,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{Finding, State};
-use selvedge_device::{BridgeError, PortEntry, check_permission, list_ports};
+use selvedge_device::{BridgeError, PortEntry, ProfileFolder, check_permission, list_ports};
 use selvedge_engine::TICK;
 use selvedge_foundation::files::free_bytes;
-use selvedge_foundation::quantity::fixed;
-use selvedge_workbench::own_files;
+use selvedge_foundation::quantity::{fixed, with_unit};
+use selvedge_workbench::{StageOptions, own_arrays, own_files, stage_file};
 
 /// Ticks that are waited for: a second.
 const N_TICKS: u32 = 40;
@@ -100,6 +100,51 @@ pub(super) fn own_places() -> Vec<Finding> {
     findings.push(place("sessions", &own.sessions));
     findings.push(place("recordings", &own.recordings));
     findings
+}
+
+/// Whether every array profile of the user can be read.
+pub(super) fn arrays() -> Vec<Finding> {
+    own_arrays().map_or_else(Vec::new, |folder| arrays_in(&folder))
+}
+
+pub(super) fn arrays_in(folder: &Path) -> Vec<Finding> {
+    let (mut good, mut findings) = (Vec::new(), Vec::new());
+    for read in ProfileFolder::new(folder).read() {
+        match read {
+            Ok((_, profile)) => good.push(profile.name),
+            Err(error) => findings.push(Finding::new("arrays", State::Wrong, error.to_string())),
+        }
+    }
+    let folder = folder.display();
+    let what = match good.as_slice() {
+        [] if findings.is_empty() => format!("{folder}: no profile of your own"),
+        [] => return findings,
+        names => format!("{folder}: {}", names.join(", ")),
+    };
+    findings.insert(0, Finding::new("arrays", State::Ok, what));
+    findings
+}
+
+/// Whether the stage would begin as its operator wrote down.
+pub(super) fn stage() -> Vec<Finding> {
+    stage_file().map_or_else(Vec::new, |file| vec![stage_by(&file)])
+}
+
+pub(super) fn stage_by(file: &Path) -> Finding {
+    if !file.exists() {
+        let what = format!("{}: not there; the stage never arms", file.display());
+        return Finding::new("stage", State::Ok, what);
+    }
+    let outcome = StageOptions::read(Some(file)).map(|options| {
+        let pin = if options.has_pin() {
+            "a PIN"
+        } else {
+            "no PIN, so it never arms"
+        };
+        let percent = with_unit(100.0 * options.ceiling(), 0, "%");
+        format!("{}: {pin}, at most {percent} of full scale", file.display())
+    });
+    Finding::of("stage", outcome)
 }
 
 /// Whether files can be written at a place, or where it will be made, and whether there is room.

@@ -92,10 +92,12 @@ struct Told<'a> {
 }
 
 /// Every check, in the order in which it is told. The display is last: a process can try it once.
-const CHECKS: [fn() -> Vec<Finding>; 10] = [
+const CHECKS: [fn() -> Vec<Finding>; 12] = [
     machine::cores,
     machine::clock,
     machine::own_places,
+    machine::arrays,
+    machine::stage,
     machine::ports,
     machine::access_rule,
     program::library,

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use super::machine::{place, ports_of, punctuality, rule_among};
+use super::machine::{arrays_in, place, ports_of, punctuality, rule_among, stage_by};
 use super::program::{CODES_HASH, codes_hash, display_as, sound_as};
 use super::{Finding, State, n_wrong};
-use selvedge_device::{BridgeError, PortEntry};
+use selvedge_device::{ArrayProfile, BridgeError, PortEntry, ProfileFolder};
 use selvedge_engine::SoundState;
 use selvedge_scratch::ScratchFolder;
 use selvedge_workbench::AppError;
@@ -101,4 +101,42 @@ fn late_ticks_and_missing_sound_are_noted_with_a_mend() {
         State::Note,
         "nothing answers",
     );
+}
+
+#[test]
+fn profiles_and_the_operators_file_are_read_as_they_will_be() {
+    let folder = ScratchFolder::made("doctor-own");
+    let none = arrays_in(&folder.join("arrays"));
+    assert_is(&none[0], State::Ok, "no profile of your own");
+    let own = ArrayProfile {
+        name: "bench-7".to_owned(),
+        ..ArrayProfile::default()
+    };
+    ProfileFolder::new(&folder.join("arrays"))
+        .write(&own)
+        .unwrap();
+    assert_is(&arrays_in(&folder.join("arrays"))[0], State::Ok, "bench-7");
+    fs::write(folder.join("arrays/broken.toml"), "rows = \"six\"\n").unwrap();
+    let found = arrays_in(&folder.join("arrays"));
+    assert_is(&found[0], State::Ok, "bench-7");
+    assert_is(&found[1], State::Wrong, "broken.toml");
+    let stage = folder.join("stage.toml");
+    assert_is(
+        &stage_by(&stage),
+        State::Ok,
+        "not there; the stage never arms",
+    );
+    for (text, state, words) in [
+        (
+            "ceiling_percent = 20\n",
+            State::Ok,
+            "no PIN, so it never arms, at most 20 %",
+        ),
+        ("pin = \"271828\"\n", State::Ok, "a PIN, at most 50 %"),
+        ("ceiling_percent = 80\n", State::Wrong, "give 1 to 50"),
+        ("pin = \"12\"\n", State::Wrong, "6 digits or more"),
+    ] {
+        fs::write(&stage, text).unwrap();
+        assert_is(&stage_by(&stage), state, words);
+    }
 }

@@ -2,10 +2,12 @@
 //!
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
+mod motion;
 mod obey;
 
 use std::time::{Duration, Instant};
 
+use super::fingers::Fingers;
 use super::input::{
     Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring, playable,
 };
@@ -14,7 +16,7 @@ use super::recording::{LinkTally, RecordedTick, Recorder};
 use super::sequence::Sequence;
 use super::track::Track;
 use super::{
-    EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
+    EngineError, InputRate, InputSource, Notice, Playback, Played, PreparedScene, RecordingView,
     RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
@@ -34,6 +36,7 @@ pub struct EngineCore {
     live: LiveInput,
     playable: Option<Box<dyn PointerInput>>,
     track: Track,
+    fingers: Fingers,
     angle_deg: f64,
     last_angle_deg: Option<f64>,
     is_stopped: bool,
@@ -66,6 +69,7 @@ impl EngineCore {
             live,
             playable: None,
             track: Track::new(VelocityMethod::default()),
+            fingers: Fingers::new(VelocityMethod::default()),
             angle_deg: 0.0,
             last_angle_deg: None,
             is_stopped: false,
@@ -78,7 +82,7 @@ impl EngineCore {
             sequence: Sequence::default(),
             revision: 0,
         };
-        core.scene.render(pose, &[], None);
+        core.scene.render((pose, &[]), &[], None);
         (core, sender)
     }
 
@@ -150,15 +154,21 @@ impl EngineCore {
         } else {
             self.pose
         };
+        self.fingers.follow(&self.pose, now);
         let played = self.sequence.next_tick();
-        self.scene.render(self.rendered, &self.mask, played);
+        self.render(played);
         self.tick += 1;
+    }
+
+    fn render(&mut self, played: Option<Played>) {
+        let poses = (self.rendered, self.fingers.rendered(self.is_stopped));
+        self.scene.render(poses, &self.mask, played);
     }
 
     /// Renders the last tick anew, after something else than the pose changed.
     fn render_again(&mut self) {
         let played = self.sequence.played();
-        self.scene.render(self.rendered, &self.mask, played);
+        self.render(played);
     }
 
     /// Adds the tick to the recording, with the frame that went to the device. The recording comes
@@ -190,7 +200,12 @@ impl EngineCore {
     /// What the device plays now: amplitudes [A40, A320] of the first display after gains and
     /// before output limits, µm; zeros while stopped or held.
     pub fn felt_um(&self) -> &[[f32; 2]] {
-        self.scene.felt_um(self.is_silent())
+        self.felt_um_of(0)
+    }
+
+    /// The same of any display: what a device that drove it would play, µm.
+    pub(super) fn felt_um_of(&self, display: usize) -> &[[f32; 2]] {
+        self.scene.felt_um(display, self.is_silent())
     }
 
     /// Writes the last tick to whoever listens at a tap: what the device plays, before its limits.
@@ -219,9 +234,9 @@ impl EngineCore {
         self.is_sought[1]
     }
 
-    /// Where the display is and how it moves, felt or not.
-    pub(super) fn shown_pose(&self) -> Pose {
-        self.pose
+    /// Where a display is and how it moves, felt or not.
+    pub(super) fn shown_pose(&self, display: usize) -> Pose {
+        self.fingers.pose(display).unwrap_or(self.pose)
     }
 
     /// The stamp of the newest live sample, if it came for the last tick.
@@ -277,87 +292,21 @@ impl EngineCore {
         snapshot.pose = self.pose;
         snapshot.rendered = self.rendered;
         snapshot.turn_deg = self.angle_deg;
-        self.scene.fill(&mut snapshot.displays);
+        snapshot.others_moved = self.fingers.n_moves();
+        let pose = |display| self.shown_pose(display);
+        self.scene.fill(&mut snapshot.displays, pose);
         snapshot.is_stopped = self.is_stopped;
         snapshot.is_silent = self.is_silent();
         snapshot.sequence_step = self.sequence.step();
         snapshot.rendering = RenderingView::of(&self.scene.renderer);
         snapshot.pointer = self.track.view(self.losses(), until_felt);
+        self.fingers.count_into(&mut snapshot.pointer.samples);
         snapshot.source = self
             .source()
             .map_or(SourceKind::Pointer, PointerInput::kind);
         snapshot.playback = self.playback();
         snapshot.recording = self.recording_view();
         snapshot.counters.ignored = self.ignored;
-    }
-
-    fn read(&mut self, now: Instant) -> Reading {
-        let (track, recorder) = (&mut self.track, &mut self.recorder);
-        track.begin_tick();
-        if let Some(recorder) = recorder {
-            recorder.begin_tick(now);
-        }
-        let mut restarted = false;
-        let mut take = |sample| {
-            restarted |= track.take(sample, now);
-            if let Some(recorder) = recorder {
-                recorder.hear(sample, now);
-            }
-        };
-        let Some(playable) = &mut self.playable else {
-            let reading = self.live.poll(now, &mut take);
-            track.look(now, restarted);
-            return reading;
-        };
-        // What the mouse did meanwhile is nobody's business.
-        self.live.poll(now, &mut |_| {});
-        let reading = playable.poll(now, &mut take);
-        track.look(now, restarted);
-        if reading == Reading::Lifted {
-            track.lift();
-        }
-        if let Some(angle_deg) = playable.angle_deg() {
-            self.angle_deg = angle_deg;
-        }
-        reading
-    }
-
-    /// The pose that follows from samples: where the newest was, as fast as estimated, turned as
-    /// told.
-    fn follow(&mut self) {
-        let position = self.track.position().unwrap_or(self.pose.position);
-        self.pose = Pose {
-            t_s: self.tick as f64 / TICKS_PER_S,
-            position,
-            angle_deg: self.angle_deg,
-            velocity: self.track.estimate().velocity,
-            angular_rad_per_s: self.turning_rad_per_s(),
-        };
-    }
-
-    /// The pose that a source states, turned as told if it has no angle of its own.
-    fn as_told(&mut self, pose: Pose) -> Pose {
-        if !self.is_turnable() {
-            return pose;
-        }
-        Pose {
-            angle_deg: self.angle_deg,
-            angular_rad_per_s: self.turning_rad_per_s(),
-            ..pose
-        }
-    }
-
-    /// Whether the source says nothing of angles: all but replays, which have their own.
-    fn is_turnable(&self) -> bool {
-        self.source()
-            .is_none_or(|source| source.kind() != SourceKind::Replay)
-    }
-
-    /// How fast the display was turned since the last tick, which this one follows.
-    fn turning_rad_per_s(&mut self) -> f64 {
-        let before_deg = self.last_angle_deg.unwrap_or(self.angle_deg);
-        self.last_angle_deg = Some(self.angle_deg);
-        Pose::turning_rad_per_s(before_deg, self.angle_deg)
     }
 
     fn control(&mut self, control: Control) {
@@ -379,8 +328,11 @@ impl EngineCore {
     }
 
     fn playback(&self) -> Playback {
-        self.source()
-            .map_or_else(|| self.live.playback(), PointerInput::playback)
+        let live = Playback {
+            is_playing: true,
+            ..Playback::default()
+        };
+        self.source().map_or(live, PointerInput::playback)
     }
 
     fn recording_view(&self) -> RecordingView {

@@ -31,13 +31,13 @@ impl EngineCore {
         let mut retired = [None, None];
         match command {
             CoreCommand::Scene(next) => retired = self.next_scene(next),
-            CoreCommand::Tuning(tuning) => {
-                let tuned = self.scene.renderer.set_tuning(&tuning);
-                self.revise(tuned, say);
-            }
-            CoreCommand::TextileGain { textile, gain_db } => {
-                let set = self.scene.renderer.set_scene_gain(textile, gain_db);
+            CoreCommand::Gains {
+                tuning,
+                textiles_db,
+            } => {
+                let set = self.scene.renderer.set_gains(&tuning, &textiles_db);
                 self.revise(set, say);
+                retired[0] = Some(Retired::Gains(textiles_db));
             }
             CoreCommand::Levels(levels) => {
                 let set = self.scene.renderer.set_levels(&levels);
@@ -88,6 +88,9 @@ impl EngineCore {
         let mut scene = next.scene;
         let goes_on = next.is_edited && scene.has_arrays_of(&self.scene);
         let recording = if goes_on { None } else { self.end_recording() };
+        if !next.is_edited || scene.n_displays() != self.scene.n_displays() {
+            self.fingers.forget();
+        }
         if next.is_edited {
             // A device that asks before the next tick feels the last pose on the new scene.
             scene.renderer.go_on_from(&self.scene.renderer);
@@ -118,6 +121,7 @@ impl EngineCore {
 
     pub(super) fn set_source(&mut self, source: Option<Box<dyn PointerInput>>) -> Option<Retired> {
         self.track.forget();
+        self.fingers.forget();
         self.last_angle_deg = None;
         self.has_ended = false;
         self.pose = self.pose.at_rest();

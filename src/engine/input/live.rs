@@ -1,30 +1,65 @@
-//! Live samples: a bounded ring from whoever sees the pointer to the engine.
+//! Live samples: a bounded ring from whoever sees pointer and fingers to the engine.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Instant;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use super::pointer::{InputLosses, PointerInput, Reading, SourceKind};
+use super::pointer::InputLosses;
 use crate::PointerSample;
 
 /// Room for samples between two ticks: a mouse with 8 kHz and then some.
 const CAPACITY: usize = 1024;
+
+/// What the pointer or a finger did, and which display of the scene it holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touched {
+    /// The display's place in the scene's list.
+    pub(crate) display: usize,
+    /// Where it is; `None`: it left the surface.
+    pub(crate) sample: Option<PointerSample>,
+}
+
+impl Touched {
+    /// The first display is here.
+    pub(crate) fn first(sample: PointerSample) -> Self {
+        Self {
+            display: 0,
+            sample: Some(sample),
+        }
+    }
+}
 
 /// The end of the ring that takes samples, for the thread that sees the pointer move.
 ///
 /// It neither locks nor waits. A full ring drops the sample and counts it.
 #[derive(Debug)]
 pub struct PointerSender {
-    ring: Producer<PointerSample>,
+    ring: Producer<Touched>,
     overflowed: Arc<AtomicU64>,
 }
 
 impl PointerSender {
-    /// Hands over a sample; false if there was no room and it was dropped.
+    /// Hands over a sample of what moves the first display; false if there was no room and it was
+    /// dropped.
     pub fn push(&mut self, sample: PointerSample) -> bool {
-        let has_room = self.ring.push(sample).is_ok();
+        self.offer(Touched::first(sample))
+    }
+
+    /// The same for the display at this place of the scene's list.
+    pub fn push_to(&mut self, display: usize, sample: PointerSample) -> bool {
+        let sample = Some(sample);
+        self.offer(Touched { display, sample })
+    }
+
+    /// The finger that holds this display left the surface.
+    pub fn lift(&mut self, display: usize) -> bool {
+        let sample = None;
+        self.offer(Touched { display, sample })
+    }
+
+    fn offer(&mut self, touched: Touched) -> bool {
+        let has_room = self.ring.push(touched).is_ok();
         if !has_room {
             self.overflowed.fetch_add(1, Ordering::Relaxed);
         }
@@ -35,7 +70,7 @@ impl PointerSender {
 /// The end of the ring that the engine reads.
 #[derive(Debug)]
 pub(crate) struct LiveInput {
-    ring: Consumer<PointerSample>,
+    ring: Consumer<Touched>,
     overflowed: Arc<AtomicU64>,
 }
 
@@ -52,20 +87,17 @@ pub(crate) fn live_ring() -> (PointerSender, LiveInput) {
     )
 }
 
-impl PointerInput for LiveInput {
-    fn kind(&self) -> SourceKind {
-        SourceKind::Pointer
-    }
-
-    fn poll(&mut self, _now: Instant, take: &mut dyn FnMut(PointerSample)) -> Reading {
+impl LiveInput {
+    /// Hands over what arrived since the last call, oldest first.
+    pub(crate) fn poll(&mut self, mut take: impl FnMut(Touched)) {
         for _ in 0..CAPACITY {
-            let Ok(sample) = self.ring.pop() else { break };
-            take(sample);
+            let Ok(touched) = self.ring.pop() else { break };
+            take(touched);
         }
-        Reading::Samples
     }
 
-    fn losses(&self) -> InputLosses {
+    /// What was lost on the way.
+    pub(crate) fn losses(&self) -> InputLosses {
         let overflowed = self.overflowed.load(Ordering::Relaxed);
         InputLosses {
             overflowed,
@@ -76,6 +108,8 @@ impl PointerInput for LiveInput {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use super::*;
     use selvedge_foundation::geometry::Point;
 
@@ -92,7 +126,7 @@ mod tests {
         }
         assert!(!sender.push(sample(CAPACITY)));
         let mut taken = Vec::new();
-        live.poll(now, &mut |sample| taken.push(sample.position.x_mm));
+        live.poll(|touched| taken.extend(touched.sample.map(|sample| sample.position.x_mm)));
         assert_eq!(
             (taken.len(), taken[0], taken[CAPACITY - 1]),
             (CAPACITY, 0.0, 1023.0)

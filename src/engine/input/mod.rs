@@ -18,7 +18,7 @@ pub use evdev::{Area, AxisRange, InputDevice, list_input_devices, open_input_dev
 pub(super) use feed::{FeedItem, FeedSender, feed};
 pub(super) use lines::{Lines, Said};
 pub use live::PointerSender;
-pub(super) use live::{LiveInput, live_ring};
+pub(super) use live::{LiveInput, Touched, live_ring};
 pub use pointer::{Control, InputLosses, Playback, PointerInput, Reading, SourceKind};
 pub use rate::InputRate;
 pub(super) use rate::RateMeter;

@@ -98,15 +98,18 @@ fn senseless_gains_angles_and_methods_are_ignored_with_a_notice() {
     };
     engine.send(Command::SetTuning(tuning)).unwrap();
     engine
-        .send(Command::SetTextileGain {
-            textile: 0,
-            gain_db: f64::INFINITY,
+        .send(Command::SetGains {
+            tuning: Tuning::default(),
+            textiles_db: vec![(0, f64::INFINITY)],
         })
         .unwrap();
     engine
-        .send(Command::SetTextileGain {
-            textile: 9,
-            gain_db: 0.0,
+        .send(Command::SetGains {
+            tuning: Tuning {
+                gain_db: -6.0,
+                ..Tuning::default()
+            },
+            textiles_db: vec![(9, 0.0)],
         })
         .unwrap();
     engine.send(Command::SetLevels(vec![])).unwrap();
@@ -146,15 +149,12 @@ fn gains_change_at_a_tick_and_scale_what_is_felt() {
     let before = amplitudes(engine.snapshot());
     // While the replay is held its moment is shown with the gains of now.
     engine
-        .send(Command::SetTuning(Tuning {
-            gain_db: -20.0,
-            ..Tuning::default()
-        }))
-        .unwrap();
-    engine
-        .send(Command::SetTextileGain {
-            textile: 0,
-            gain_db: 14.0,
+        .send(Command::SetGains {
+            tuning: Tuning {
+                gain_db: -20.0,
+                ..Tuning::default()
+            },
+            textiles_db: vec![(0, 14.0)],
         })
         .unwrap();
     engine.advance_ticks(1);
@@ -316,5 +316,45 @@ fn dropping_a_running_engine_ends_its_threads() {
         Arc::strong_count(&news),
         1,
         "the listener is gone, and its thread with it"
+    );
+}
+
+#[test]
+fn tuning_and_gains_of_textiles_change_in_one_tick_or_not_at_all() {
+    let (mut engine, _) = engine(Method::Auto);
+    let source = InputSource::Replay(path());
+    engine.send(Command::SetSource(source)).unwrap();
+    engine.send(Command::Seek(30)).unwrap();
+    engine.advance_ticks(2);
+    let before = amplitudes(engine.snapshot());
+    assert!(before.iter().any(|um| um[0] > 0.0), "it is shown");
+    let tuned = |gain_db| Tuning {
+        gain_db,
+        ..Tuning::default()
+    };
+    // They take each other back: a tick between the two would show one alone.
+    let n_sent = engine.commands_sent();
+    for (tuning, gain_db) in [(tuned(-20.0), 20.0), (tuned(20.0), -20.0)] {
+        let textiles_db = vec![(0, gain_db)];
+        let set = Command::SetGains {
+            tuning,
+            textiles_db,
+        };
+        engine.send(set).unwrap();
+        engine.advance_ticks(1);
+        assert_eq!(amplitudes(engine.snapshot()), before);
+    }
+    assert_eq!(engine.commands_sent(), n_sent + 2);
+    let refused = Command::SetGains {
+        tuning: tuned(-6.0),
+        textiles_db: vec![(0, 6.0), (1, 0.0)],
+    };
+    engine.send(refused).unwrap();
+    engine.advance_ticks(1);
+    let snapshot = engine.snapshot();
+    assert_eq!(amplitudes(snapshot), before, "no half of it");
+    assert_eq!(
+        (snapshot.rendering.tuning, snapshot.counters.ignored),
+        (tuned(20.0), 1)
     );
 }

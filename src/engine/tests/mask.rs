@@ -78,9 +78,9 @@ fn a_mask_and_a_gain_are_news_even_while_nothing_moves() {
     engine.send(Command::Seek(30)).unwrap();
     engine.advance_ticks(3);
     let settle = || std::thread::sleep(Duration::from_millis(50));
-    let gain = Command::SetTextileGain {
-        textile: 0,
-        gain_db: -3.0,
+    let gain = Command::SetGains {
+        tuning: Tuning::default(),
+        textiles_db: vec![(0, -3.0)],
     };
     for command in [without(&[5]), gain] {
         settle();

@@ -4,6 +4,7 @@ mod array;
 mod commands;
 mod device;
 mod exact;
+mod fingers;
 mod headroom;
 mod lift;
 mod mask;

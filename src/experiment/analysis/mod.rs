@@ -34,6 +34,7 @@ mod model;
 mod odd_one_out;
 mod odd_one_out_craven;
 mod odd_one_out_variants;
+mod one_page;
 mod options;
 mod orders;
 mod own_speeds;
@@ -58,6 +59,7 @@ pub(super) use judgement_cells::called_real;
 pub use model::{Analysis, Cell, Column, Drawn, Section, Table};
 pub(crate) use model::{Cells, cells, known, or_undefined, percent_of};
 pub(super) use odd_one_out::grade_weights;
+pub use one_page::OnePage;
 pub use options::Options;
 pub use random_data::RandomData;
 

@@ -9,6 +9,7 @@ use serde::{Serialize, Serializer};
 use super::model::{Analysis, Cell, Column, Drawn, LEAST_PROBABILITY, Table};
 use crate::ExperimentError;
 use crate::session::make_folder;
+use selvedge_chart::Figure;
 use selvedge_foundation::files::{TableWriter, encode_png_rgba, to_json_string, write_atomic};
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::quantity::fixed;
@@ -238,17 +239,23 @@ impl Serialize for Row<'_> {
 }
 
 fn write_figure(drawn: &Drawn, out: &Path, stem: &str) -> Result<(), ExperimentError> {
-    let path = out.join(format!("{stem}.svg"));
+    let path = |ending: &str| out.join(format!("{stem}.{ending}"));
+    let (svg, png) = pictures(&drawn.figure, &path("png"))?;
+    write_atomic(&path("svg"), svg.as_bytes())?;
+    write_atomic(&path("png"), &png)?;
+    write_table(&drawn.points, out, stem, false)
+}
+
+/// A figure as SVG and as PNG.
+pub(super) fn pictures(figure: &Figure, path: &Path) -> Result<(String, Vec<u8>), ExperimentError> {
     let failed = |error: selvedge_chart::FigureError| {
         ExperimentError::value(
             format!("{}: {error}", path.display()),
-            "the tables beside it hold the same numbers",
+            "the tables of the analysis hold the same numbers",
         )
     };
-    write_atomic(&path, drawn.figure.to_svg().map_err(failed)?.as_bytes())?;
-    let pixels = drawn.figure.to_pixels(PNG_WIDTH).map_err(failed)?;
-    let path = out.join(format!("{stem}.png"));
-    let png = encode_png_rgba(&pixels.rgba, pixels.width, pixels.height, &path)?;
-    write_atomic(&path, &png)?;
-    write_table(&drawn.points, out, stem, false)
+    let svg = figure.to_svg().map_err(failed)?;
+    let pixels = figure.to_pixels(PNG_WIDTH).map_err(failed)?;
+    let png = encode_png_rgba(&pixels.rgba, pixels.width, pixels.height, path)?;
+    Ok((svg, png))
 }

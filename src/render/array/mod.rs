@@ -221,16 +221,20 @@ impl ArrayRenderer {
     /// # Errors
     /// A tuning that makes no sense (NaN, +∞, compression outside 0…1): the last one stays.
     pub fn set_tuning(&mut self, tuning: &Tuning) -> Result<(), RenderError> {
-        self.gains.set_tuning(tuning)
+        self.set_gains(tuning, &[])
     }
 
-    /// Takes the gain that the scene gives one textile (its place in the list) from the next tick
-    /// on, dB. Recomputes and allocates nothing.
+    /// Takes a tuning and the gains that the scene gives some textiles (place in the list, dB)
+    /// together from the next tick on. Recomputes and allocates nothing.
     ///
     /// # Errors
-    /// A gain that is NaN or +∞, or no such textile: the last gain stays.
-    pub fn set_scene_gain(&mut self, textile: usize, gain_db: f64) -> Result<(), RenderError> {
-        self.gains.set_scene_gain(textile, gain_db)
+    /// A tuning or gain that makes no sense, or no such textile: all stays as it was.
+    pub fn set_gains(
+        &mut self,
+        tuning: &Tuning,
+        textiles_db: &[(usize, f64)],
+    ) -> Result<(), RenderError> {
+        self.gains.set(tuning, textiles_db)
     }
 
     /// Takes levels that were pending, one for every placed textile.

@@ -265,6 +265,7 @@ fn workspace_acts() -> Vec<Act> {
         show("Closer", closer(ZOOM)).on(NONE, Key::Plus),
         show("Farther", closer(1.0 / ZOOM)).on(NONE, Key::Minus),
         show("Calibrate to true size…", ShowCommand::Calibrate),
+        show("Look at the next display", ShowCommand::NextDisplay).on(NONE, Key::D),
     ];
     acts.extend(Overlays::ALL.map(|(overlay, what)| {
         let over = show(what, ShowCommand::Overlay(overlay));

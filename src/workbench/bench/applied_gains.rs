@@ -67,14 +67,19 @@ impl AppliedGains {
     /// same textiles.
     pub(crate) fn changes(&self, new: &Self) -> Vec<Command> {
         let mut commands = Vec::new();
-        if self.tuning != new.tuning {
-            commands.push(Command::SetTuning(new.tuning));
-        }
         let gains = self.cloth_gains_db.iter().zip(&new.cloth_gains_db);
-        for (textile, (old, &gain_db)) in gains.enumerate() {
-            if old.total_cmp(&gain_db).is_ne() {
-                commands.push(Command::SetTextileGain { textile, gain_db });
-            }
+        let changed = gains.enumerate().filter_map(|(textile, (old, &gain_db))| {
+            old.total_cmp(&gain_db)
+                .is_ne()
+                .then_some((textile, gain_db))
+        });
+        let textiles_db: Vec<_> = changed.collect();
+        if self.tuning != new.tuning || !textiles_db.is_empty() {
+            // One command, so that no tick comes between the two.
+            commands.push(Command::SetGains {
+                tuning: new.tuning,
+                textiles_db,
+            });
         }
         if self.contactor_mask != new.contactor_mask {
             commands.push(Command::SetContactorMask(new.contactor_mask.clone()));
@@ -124,7 +129,7 @@ mod tests {
                     .to_owned()
             })
             .collect();
-        assert_eq!(words, ["SetTuning", "SetTextileGain", "SetContactorMask"]);
+        assert_eq!(words, ["SetGains", "SetContactorMask"]);
         let prepared = after.in_scene(&scene);
         assert_eq!(prepared.textiles[1].gain_db, f64::NEG_INFINITY);
         assert_eq!(prepared.textiles[0].gain_db, 0.0);

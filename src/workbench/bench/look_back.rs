@@ -63,7 +63,8 @@ impl Bench {
         pose: &Pose,
         (um, limiter): ([f32; 2], LimiterState),
     ) -> Dot {
-        let trace = self.inspection.inspector.trace(0, contactor, pose);
+        let display = self.display();
+        let trace = self.inspection.inspector.trace(display, contactor, pose);
         Dot {
             position: trace.as_ref().map_or(pose.position, |trace| trace.position),
             cloth: trace.and_then(|trace| Some(trace.touch?.textile)),

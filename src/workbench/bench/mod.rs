@@ -7,6 +7,7 @@ pub(crate) mod acts;
 pub(crate) mod applied_gains;
 pub(crate) mod arrays;
 pub(crate) mod background;
+pub(crate) mod chosen_display;
 pub(crate) mod chosen_keys;
 pub(crate) mod clips;
 pub(crate) mod command;
@@ -287,6 +288,7 @@ impl Bench {
         self.engine_scene.preparing = Preparing::new(opened.cache, opened.rendering);
         self.engine_scene.loaded = opened.loaded;
         self.selection.mute_solo = MuteSolo::default();
+        self.choose_display(0);
         self.past.trail = Trail::default();
         self.past.history.clear();
         self.library.selection = LibrarySelection::default();

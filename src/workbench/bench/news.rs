@@ -90,7 +90,8 @@ impl Bench {
             .device
             .interval
             .take(status.map(|s| (s.tick, s.dev_us)));
-        let mut live = query::live_view(snapshot, interval_s, &self.selection.mute_solo);
+        let looked_at = (self.selection.display, &self.selection.mute_solo);
+        let mut live = query::live_view(snapshot, interval_s, looked_at);
         if let Some(bridge) = &mut live.bridge
             && let Some(log) = self.engine.session_log()
         {
@@ -103,7 +104,8 @@ impl Bench {
         if live.centre.is_some() && live.speed_mm_per_s > 0.0 {
             self.selection.probe = self.selection.probe.after(live.pose.velocity);
         }
-        if self.past.trail.take(live.tick, live.centre) {
+        let trails = self.past.trail.take(live.tick, live.centre);
+        if trails && !self.past.is_paced {
             ctx.request_repaint_after(FRAME);
         }
         self.show_past(&mut live);

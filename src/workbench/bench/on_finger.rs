@@ -34,15 +34,17 @@ pub(crate) enum OnFinger {
 }
 
 impl OnFinger {
-    /// Of a display as a whole, before it is asked which contactor and band.
-    pub(crate) fn of_display(snapshot: &Snapshot) -> Self {
+    /// Of a display as a whole, before it is asked which contactor and band. A device drives the
+    /// first display of a scene.
+    pub(crate) fn of_display(snapshot: &Snapshot, display: usize) -> Self {
         let is_driven = |link: &selvedge_engine::LinkView| link.state.takes_frames();
         if snapshot.is_stopped {
             Self::AllOff
         } else if snapshot.is_silent {
             Self::Held
         } else {
-            Self::sent(snapshot.link.as_ref().is_some_and(is_driven))
+            let is_armed = snapshot.link.as_ref().is_some_and(is_driven);
+            Self::sent(is_armed && display == 0)
         }
     }
 
@@ -51,17 +53,18 @@ impl OnFinger {
         if is_sent { Self::Felt } else { Self::ShownOnly }
     }
 
-    /// Of one band of one contactor on a display that is `self` as a whole.
+    /// Of one band of one contactor on a display that is `self` as a whole; contactors of the first
+    /// display alone, which have a number here, can be left out.
     pub(crate) fn of_band(
         self,
-        (index, contactor): (usize, &ContactorView),
+        (index, contactor): (Option<usize>, &ContactorView),
         band: Band,
         mute_solo: &MuteSolo,
     ) -> Self {
-        let parts = [Part::Contactor(index), Part::Band(band)];
+        let parts = index.map(Part::Contactor).into_iter();
         let cloth = contactor.textile.map(|cloth| Part::Cloth(cloth.into()));
         if parts
-            .into_iter()
+            .chain([Part::Band(band)])
             .chain(cloth)
             .any(|part| !mute_solo.is_felt(part))
         {
@@ -183,11 +186,11 @@ mod tests {
     #[test]
     fn a_display_that_is_held_or_off_is_not_on_the_finger() {
         let mut snapshot = snapshot();
-        assert_eq!(OnFinger::of_display(&snapshot), OnFinger::ShownOnly);
+        assert_eq!(OnFinger::of_display(&snapshot, 0), OnFinger::ShownOnly);
         snapshot.is_silent = true;
-        assert_eq!(OnFinger::of_display(&snapshot), OnFinger::Held);
+        assert_eq!(OnFinger::of_display(&snapshot, 0), OnFinger::Held);
         snapshot.is_stopped = true;
-        assert_eq!(OnFinger::of_display(&snapshot), OnFinger::AllOff);
+        assert_eq!(OnFinger::of_display(&snapshot, 0), OnFinger::AllOff);
     }
 
     #[test]
@@ -202,7 +205,7 @@ mod tests {
             ..ContactorView::default()
         };
         let of = |display: OnFinger, mute_solo: &MuteSolo| {
-            Band::ALL.map(|band| display.of_band((3, &contactor), band, mute_solo))
+            Band::ALL.map(|band| display.of_band((Some(3), &contactor), band, mute_solo))
         };
         let mut mute_solo = MuteSolo::default();
         assert_eq!(

@@ -30,6 +30,9 @@ const HALF_PITCH_MM: f64 = 1.0;
 /// Dots are drawn as if a millimetre were at least this long, points.
 const LEAST_SCALE: f32 = 2.4;
 
+/// How much of its ink a display has that the panes do not look at.
+const BESIDE: f32 = 0.6;
+
 /// Draws every contactor that is in sight, with rings around the chosen one and the one that is
 /// pointed at in some view.
 pub(crate) fn paint(
@@ -48,6 +51,12 @@ pub(crate) fn paint(
         perceptual_level: selection.greys_below.then_some(live.perceptual_level),
     };
     let sight = painter.clip_rect().expand(2.5 * brush.points_per_mm);
+    let beside = brush.fainter(BESIDE);
+    for dot in live.others.iter().flat_map(|other| &other.dots) {
+        if sight.contains(view.screen(dot.position)) {
+            beside.faded(dot).dot(view.screen(dot.position), dot);
+        }
+    }
     let in_sight = |dot: &&Dot| sight.contains(view.screen(dot.position));
     if brush.style == DotStyle::SizeAndGlow {
         for dot in dots.iter().filter(in_sight) {
@@ -120,8 +129,13 @@ impl Brush {
     /// The same for one dot: fainter the less of it is on the finger.
     fn faded(&self, dot: &Dot) -> Self {
         let [low, high] = dot.on_finger.map(OnFinger::presence);
+        self.fainter(low.max(high))
+    }
+
+    /// The same with so much of its ink, 0…1.
+    fn fainter(&self, share: f32) -> Self {
         let mut painter = self.painter.clone();
-        painter.multiply_opacity(low.max(high));
+        painter.multiply_opacity(share);
         Self { painter, ..*self }
     }
 

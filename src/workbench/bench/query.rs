@@ -11,9 +11,10 @@ use crate::bench::notices::Until;
 use crate::bench::on_finger::OnFinger;
 use crate::bench::part::Part;
 use crate::bench::perceptual_level::PerceptualLevel;
+use crate::bench::selection::Selection;
 use crate::bench::view::{
-    BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LinkTiming, Marks, PlayView,
-    SceneView, Source, Status, Telemetry,
+    BridgePhase, BridgeView, Cloth, Dot, EngineView, InputView, LinkTiming, Marks, OtherDisplay,
+    PlayView, SceneView, Source, Status, Telemetry,
 };
 use selvedge_device::{BridgeEvent, BridgeState, Caps, DeviceUid, DisarmedBy, Target};
 use selvedge_engine::{LinkView, Notice, PointerView, Snapshot, SourceKind};
@@ -24,7 +25,7 @@ pub(crate) fn scene_view(
     document: &Document,
     library_view: &LibraryView,
     levels: &LibraryLevels,
-    mute_solo: &MuteSolo,
+    selection: &Selection,
     reference_db: Option<f64>,
 ) -> SceneView {
     let scene = document.scene();
@@ -38,13 +39,14 @@ pub(crate) fn scene_view(
         workspace_from_textile: placed.workspace_from_textile(),
         size_mm: placed.size_mm,
         rotation_deg: placed.rotation_deg,
-        is_muted: !mute_solo.is_felt(Part::Cloth(index)),
+        is_muted: !selection.mute_solo.is_felt(Part::Cloth(index)),
         gain_db: placed.gain_db,
         band_gains_db: Band::ALL.map(|band| placed.band_gain_db(band)),
         within_mm: placed.within_mm,
         picture: library_view.picture(&placed.id),
     });
-    let display = scene.displays.first();
+    let display = scene.displays.get(selection.display);
+    let display = display.or_else(|| scene.displays.first());
     SceneView {
         name: scene.name.clone(),
         path: document.path().cloned(),
@@ -63,38 +65,52 @@ pub(crate) fn scene_view(
     }
 }
 
-/// The engine as panes draw it.
+/// The contactors of a display as panes draw them, and what a finger on it gets as a whole.
+fn dots(snapshot: &Snapshot, display: usize, mute_solo: &MuteSolo) -> (Vec<Dot>, OnFinger) {
+    let on_finger = OnFinger::of_display(snapshot, display);
+    let view = snapshot.displays.get(display);
+    let contactors = view.iter().flat_map(|view| &view.contactors).enumerate();
+    let dots = contactors.map(|(index, contactor)| {
+        let parts = (display == 0).then_some(index);
+        let of = |band| on_finger.of_band((parts, contactor), band, mute_solo);
+        dot(contactor, Band::ALL.map(of))
+    });
+    (dots.collect(), on_finger)
+}
+
+/// The engine as panes draw it that look at this display.
 pub(crate) fn live_view(
     snapshot: &Snapshot,
     frame_interval_s: Option<f64>,
-    mute_solo: &MuteSolo,
+    (display, mute_solo): (usize, &MuteSolo),
 ) -> EngineView {
-    let contactors = snapshot
-        .displays
-        .first()
-        .map_or(&[][..], |display| &display.contactors);
+    let n_displays = snapshot.displays.len();
+    let display = display.min(n_displays.saturating_sub(1));
+    let pose = (snapshot.displays.get(display)).map_or(snapshot.pose, |view| view.pose);
     let is_placed = snapshot.source != SourceKind::Pointer || snapshot.pointer.is_known;
     let play = play_view(snapshot);
     // All off silences a display that goes on moving; one that is held stands still.
     let goes_on = snapshot.source == SourceKind::Pointer || play.is_playing;
-    let on_finger = OnFinger::of_display(snapshot);
-    let dots = contactors.iter().enumerate().map(|(index, contactor)| {
-        let of = |band| on_finger.of_band((index, contactor), band, mute_solo);
-        dot(contactor, Band::ALL.map(of))
-    });
-    let dots: Vec<Dot> = dots.collect();
+    let (felt, on_finger) = dots(snapshot, display, mute_solo);
+    let others = (0..n_displays).filter(|other| *other != display && is_placed);
     let is_held = snapshot.is_silent && !(snapshot.is_stopped && goes_on);
     EngineView {
         tick: snapshot.tick,
-        centre: is_placed.then_some(snapshot.pose.position),
-        pose: snapshot.pose,
+        centre: is_placed.then_some(pose.position),
+        pose,
         speed_mm_per_s: if is_held {
             0.0
         } else {
-            snapshot.pose.velocity.speed_mm_per_s()
+            pose.velocity.speed_mm_per_s()
         },
-        perceptual_level: PerceptualLevel::of(dots.iter().map(|dot| dot.amplitude_um)),
-        dots,
+        perceptual_level: PerceptualLevel::of(felt.iter().map(|dot| dot.amplitude_um)),
+        dots: felt,
+        others: others
+            .map(|display| OtherDisplay {
+                display,
+                dots: dots(snapshot, display, mute_solo).0,
+            })
+            .collect(),
         on_finger,
         is_stopped: snapshot.is_stopped,
         is_silent: snapshot.is_silent,

@@ -36,7 +36,7 @@ impl Bench {
             &self.document,
             &self.library.view,
             &self.library.levels,
-            &self.selection.mute_solo,
+            &self.selection,
             self.live.reference_db,
         )
     }

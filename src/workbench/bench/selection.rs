@@ -14,7 +14,9 @@ use crate::kit::spectrum_scale::SpectrumScale;
 pub(crate) struct Selection {
     /// The chosen textile: its place in the scene's list.
     pub cloth: Option<usize>,
-    /// The contactor that is looked at closer.
+    /// The display that the panes look at: its place in the scene's list.
+    pub(crate) display: usize,
+    /// The contactor of it that is looked at closer.
     pub contactor: Option<usize>,
     /// The scale on which amplitudes are drawn.
     pub scale: AmplitudeScale,

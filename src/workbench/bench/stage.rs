@@ -122,7 +122,7 @@ impl StageOptions {
     }
 
     /// Whether there is a PIN.
-    pub(crate) fn has_pin(&self) -> bool {
+    pub fn has_pin(&self) -> bool {
         self.keys.pin.is_some()
     }
 
@@ -132,7 +132,7 @@ impl StageOptions {
     }
 
     /// Largest amplitude as a share of full scale.
-    pub(crate) fn ceiling(&self) -> f64 {
+    pub fn ceiling(&self) -> f64 {
         self.keys.ceiling_percent / 100.0
     }
 

@@ -146,6 +146,8 @@ pub(crate) struct DeviceState {
 pub(crate) struct Past {
     /// Where the display was.
     pub(crate) trail: Trail,
+    /// Whether a face has a pace of its own at which the trail is drawn.
+    pub(crate) is_paced: bool,
     /// The last minutes.
     pub(crate) history: History,
     /// The tick of them that every view shows in place of what is felt now.

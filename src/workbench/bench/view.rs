@@ -160,6 +160,8 @@ pub(crate) struct EngineView {
     pub speed_mm_per_s: f64,
     /// Contactors in index order.
     pub dots: Vec<Dot>,
+    /// Displays of the scene that the panes do not look at, in order.
+    pub(crate) others: Vec<OtherDisplay>,
     /// What they feel like, by a model.
     pub(crate) perceptual_level: PerceptualLevel,
     /// What the finger gets of the display as a whole.
@@ -182,6 +184,15 @@ pub(crate) struct EngineView {
     pub(crate) sequence_step: Option<u16>,
     /// The device.
     pub bridge: Option<BridgeView>,
+}
+
+/// A display that the panes do not look at: drawn over the cloth alone.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct OtherDisplay {
+    /// Its place in the scene's list.
+    pub(crate) display: usize,
+    /// Its contactors in index order.
+    pub(crate) dots: Vec<Dot>,
 }
 
 /// Positions as they come.

@@ -4,6 +4,7 @@
 
 pub(crate) mod amplitude;
 pub(crate) mod drop;
+pub(crate) mod fingers;
 pub(crate) mod foot;
 pub(crate) mod own_window;
 pub(crate) mod pane;

@@ -290,7 +290,7 @@ pub(crate) fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<Point
         ground.feels && (ground.window == Pointed::Participant || !window.shell.is_covered())
     });
     let mut tap = (window.shell.tap.lock()).unwrap_or_else(PoisonError::into_inner);
-    tap.set_ground(ground);
+    tap.set_ground(ground, window.bench.document.scene().displays.len());
     if window.bench.is_stepped() && is_felt(window, ctx) {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));

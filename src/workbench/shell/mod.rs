@@ -10,6 +10,7 @@ pub(crate) mod dialogs;
 pub(crate) mod dispatch;
 pub(crate) mod display_check;
 pub(crate) mod dropped;
+pub(crate) mod ear;
 pub(crate) mod escape;
 pub(crate) mod export;
 pub(crate) mod frame;

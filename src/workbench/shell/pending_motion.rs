@@ -3,7 +3,8 @@
 //! The thread that hears of movements also draws. While it draws, movements queue up, and all that
 //! waited is heard at once afterwards: stamped then, it would seem that the pointer had jumped. A
 //! pointer reports at an even pace, so what waited is spread evenly over the time during which it
-//! must have happened: from when the queue was last seen empty to now.
+//! must have happened: from when the queue was last seen empty to now. Every finger has a pace of
+//! its own.
 //!
 //! Pure: it is told what time it is.
 
@@ -12,10 +13,13 @@ use std::time::{Duration, Instant};
 /// Whoever sleeps longer than this slept because the queue was empty.
 const ASLEEP: Duration = Duration::from_millis(1);
 
+/// What moved, and to which pixel: the place in the scene's list of the display that it holds.
+type Moved = (usize, [f64; 2]);
+
 /// Movements to pixels that were not passed on yet.
 #[derive(Debug)]
 pub(crate) struct PendingMotion {
-    waiting: Vec<[f64; 2]>,
+    waiting: Vec<Moved>,
     /// When the queue was last seen empty.
     clear_since: Instant,
     asleep_since: Instant,
@@ -43,9 +47,9 @@ impl PendingMotion {
         }
     }
 
-    /// The pointer is said to have moved.
-    pub(crate) fn moved(&mut self, pixel: [f64; 2]) {
-        self.waiting.push(pixel);
+    /// The pointer, or the finger that holds this display, is said to have moved.
+    pub(crate) fn moved(&mut self, display: usize, pixel: [f64; 2]) {
+        self.waiting.push((display, pixel));
     }
 
     /// Whether something was heard that was not passed on.
@@ -55,13 +59,16 @@ impl PendingMotion {
 
     /// The queue is empty, everything that waited in it has been heard: passes it on with the times
     /// at which it must have happened.
-    pub(crate) fn pass_on(&mut self, now: Instant, mut take: impl FnMut(Instant, [f64; 2])) {
+    pub(crate) fn pass_on(&mut self, now: Instant, mut take: impl FnMut(Instant, Moved)) {
         let span = now.saturating_duration_since(self.clear_since);
-        let n = u32::try_from(self.waiting.len()).unwrap_or(u32::MAX);
-        for (pixel, later) in self.waiting.drain(..).zip((0..n).rev()) {
-            let before_now = span.mul_f64(f64::from(later) / f64::from(n));
-            take(now.checked_sub(before_now).unwrap_or(now), pixel);
+        for (nth, &(display, pixel)) in self.waiting.iter().enumerate() {
+            let is_of_it = |(other, _): &&Moved| *other == display;
+            let count = |moved: &[Moved]| moved.iter().filter(is_of_it).count();
+            let [n, later] = [0, nth + 1].map(|from| count(&self.waiting[from..]) as f64);
+            let before_now = span.mul_f64(later / n);
+            take(now.checked_sub(before_now).unwrap_or(now), (display, pixel));
         }
+        self.waiting.clear();
         self.clear_since = now;
     }
 }
@@ -78,7 +85,7 @@ mod tests {
         start: Instant,
     ) -> Vec<(u128, f64)> {
         let mut seen = Vec::new();
-        pending_motion.pass_on(now, |stamp, pixel| {
+        pending_motion.pass_on(now, |stamp, (_, pixel)| {
             seen.push(((stamp - start).as_micros(), pixel[0]));
         });
         seen
@@ -90,7 +97,7 @@ mod tests {
         let mut pending_motion = PendingMotion::new(start);
         pending_motion.falls_asleep(start);
         pending_motion.wakes(start + 500 * MS);
-        pending_motion.moved([3.0, 0.0]);
+        pending_motion.moved(0, [3.0, 0.0]);
         let seen = passed_on(&mut pending_motion, start + 500 * MS, start);
         assert_eq!(seen, [(500_000, 3.0)]);
     }
@@ -107,7 +114,7 @@ mod tests {
         pending_motion.falls_asleep(start + 140 * MS);
         pending_motion.wakes(start + 140 * MS);
         for x in 1..=5_u8 {
-            pending_motion.moved([f64::from(x), 0.0]);
+            pending_motion.moved(0, [f64::from(x), 0.0]);
         }
         let seen = passed_on(&mut pending_motion, start + 140 * MS, start);
         let expected = [
@@ -121,6 +128,21 @@ mod tests {
     }
 
     #[test]
+    fn every_finger_has_a_pace_of_its_own() {
+        let start = Instant::now();
+        let mut pending_motion = PendingMotion::new(start);
+        for (display, x) in [(0, 1.0), (1, 7.0), (0, 2.0), (0, 3.0), (1, 8.0), (0, 4.0)] {
+            pending_motion.moved(display, [x, 0.0]);
+        }
+        let mut seen = [Vec::new(), Vec::new()];
+        pending_motion.pass_on(start + 40 * MS, |stamp, (display, pixel)| {
+            seen[display].push(((stamp - start).as_millis(), pixel[0]));
+        });
+        let first = [(10, 1.0), (20, 2.0), (30, 3.0), (40, 4.0)];
+        assert_eq!(seen, [first.to_vec(), vec![(20, 7.0), (40, 8.0)]]);
+    }
+
+    #[test]
     fn stamps_never_go_back() {
         let start = Instant::now();
         let mut pending_motion = PendingMotion::new(start);
@@ -129,7 +151,7 @@ mod tests {
             let now = start + MS * step / 3;
             pending_motion.wakes(now);
             for _ in 0..step % 4 {
-                pending_motion.moved([0.0, 0.0]);
+                pending_motion.moved(0, [0.0, 0.0]);
             }
             pending_motion.pass_on(now, |stamp, _| {
                 assert!(stamp >= last, "step {step}");

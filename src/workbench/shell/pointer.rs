@@ -17,6 +17,8 @@ use selvedge_foundation::numerics::to_single;
 pub(crate) struct PointerTap {
     sender: Option<PointerSender>,
     ground: Option<PointerGround>,
+    /// Displays of the scene.
+    n_displays: usize,
     /// Where a press switches everything off, pixels.
     stop: Option<Rect>,
 }
@@ -27,13 +29,36 @@ impl PointerTap {
         Self {
             sender,
             ground: None,
+            n_displays: 1,
             stop: None,
         }
     }
 
-    /// Says where the workspace is now; `None` while something covers it.
-    pub(crate) fn set_ground(&mut self, ground: Option<PointerGround>) {
-        self.ground = ground;
+    /// Says where the workspace is now, in a scene of so many displays; `None` while something
+    /// covers it.
+    pub(crate) fn set_ground(&mut self, ground: Option<PointerGround>, n_displays: usize) {
+        (self.ground, self.n_displays) = (ground, n_displays);
+    }
+
+    /// Displays that a finger may hold that comes down at this pixel of a window: none where
+    /// nothing is felt.
+    pub(crate) fn n_displays_at(&self, window: Pointed, [x, y]: [f64; 2]) -> usize {
+        let ground = self.ground.filter(|ground| ground.window == window);
+        let at = pos2(to_single(x), to_single(y));
+        let is_on_it = |ground: PointerGround| ground.rect.contains(at / ground.pixels_per_point);
+        if ground.is_some_and(is_on_it) {
+            self.n_displays
+        } else {
+            0
+        }
+    }
+
+    /// The finger that held a display left the surface.
+    pub(crate) fn lift(&mut self, display: usize) {
+        if let Some(sender) = &mut self.sender {
+            // A full ring drops it and counts it; the display rests all the same.
+            sender.lift(display);
+        }
     }
 
     /// Says where a press switches everything off, pixels; `None`: nowhere.
@@ -47,14 +72,19 @@ impl PointerTap {
         self.stop.is_some_and(|stop| stop.contains(at))
     }
 
-    /// Takes in a movement to a pixel of a window, stamped on arrival. Only the window that shows
-    /// what is felt counts.
-    pub(crate) fn moved_to_pixel(&mut self, stamp: Instant, window: Pointed, [x, y]: [f64; 2]) {
+    /// Takes in a movement of what holds a display to a pixel of a window, stamped on arrival. Only
+    /// the window that shows what is felt counts.
+    pub(crate) fn moved_to_pixel(
+        &mut self,
+        stamp: Instant,
+        window: Pointed,
+        (display, [x, y]): (usize, [f64; 2]),
+    ) {
         let Some(ground) = self.ground.filter(|ground| ground.window == window) else {
             return;
         };
         let point = pos2(to_single(x), to_single(y)) / ground.pixels_per_point;
-        self.moved_to(stamp, point);
+        self.display_moved_to(stamp, display, point);
     }
 
     /// Where a place of the workspace is on the screen, points.
@@ -63,15 +93,19 @@ impl PointerTap {
         self.ground.map(|ground| ground.view.screen(place))
     }
 
-    /// Takes in a movement to a place on the screen, points.
+    /// Takes in a movement of the pointer to a place on the screen, points.
     pub(crate) fn moved_to(&mut self, stamp: Instant, at: Pos2) {
+        self.display_moved_to(stamp, 0, at);
+    }
+
+    fn display_moved_to(&mut self, stamp: Instant, display: usize, at: Pos2) {
         let (Some(ground), Some(sender)) = (self.ground, self.sender.as_mut()) else {
             return;
         };
         let position = ground.view.workspace(at);
         if ground.rect.contains(at) && is_near(position, ground.size_mm) {
             // A full ring drops the sample and counts it.
-            sender.push(PointerSample { stamp, position });
+            sender.push_to(display, PointerSample { stamp, position });
         }
     }
 }

@@ -289,6 +289,10 @@ pub(crate) enum ShowCommand {
     DefaultArrangement,
     /// The scene keeps how its window stands, or no longer.
     ToggleSceneArrangement,
+    /// Look at this display of the scene.
+    SelectDisplay(usize),
+    /// Look at the one after it.
+    NextDisplay,
     /// Look closer at this contactor.
     SelectContactor(usize),
     /// Choose the textile at this place in the scene's list, or none.

@@ -83,7 +83,7 @@ pub(crate) fn own_stage() -> Option<PathBuf> {
 }
 
 /// The file of whoever operates a public stage. `None` on a system without such a place.
-pub(crate) fn stage_file() -> Option<PathBuf> {
+pub fn stage_file() -> Option<PathBuf> {
     Some(own_folders()?.config_dir().join("stage.toml"))
 }
 

@@ -20,11 +20,11 @@ impl ContactColumns {
     pub(crate) fn levels_db(
         &mut self,
         inspector: &mut ContactInspector,
-        contactor: usize,
+        [display, contactor]: [usize; 2],
         pose: &Pose,
         levels_db: &mut Rows,
     ) {
-        inspector.vibration_into(0, contactor, pose, &mut self.bins);
+        inspector.vibration_into(display, contactor, pose, &mut self.bins);
         let mut powers_um2 = [0.0; N_ROWS];
         self.edges.add(&self.bins, &mut powers_um2);
         for (level, power) in levels_db.iter_mut().zip(powers_um2) {
@@ -51,7 +51,7 @@ mod tests {
             ..Pose::default()
         };
         let mut levels_db = [0.0; N_ROWS];
-        ContactColumns::default().levels_db(&mut inspector, 0, &pose, &mut levels_db);
+        ContactColumns::default().levels_db(&mut inspector, [0, 0], &pose, &mut levels_db);
         let squares = levels_db.map(|db| 10_f64.powf(f64::from(db) / 10.0));
         let amplitude_um = squares.iter().sum::<f64>().sqrt();
         // 1 µm, but for what the window leaves of a sine that does not fit into it.
@@ -67,7 +67,7 @@ mod tests {
         let mut inspector = ContactInspector::new(&RenderScene::default());
         let mut levels = [0.0; N_ROWS];
         let mut columns = ContactColumns::default();
-        columns.levels_db(&mut inspector, 3, &Pose::default(), &mut levels);
+        columns.levels_db(&mut inspector, [0, 3], &Pose::default(), &mut levels);
         assert_eq!(levels, [f32::NEG_INFINITY; N_ROWS]);
     }
 }

@@ -162,6 +162,8 @@ impl Bench {
             ShowCommand::SelectContactor(contactor) => {
                 self.send(selvedge_engine::Command::Watch(contactor));
             }
+            ShowCommand::SelectDisplay(display) => self.choose_display(display),
+            ShowCommand::NextDisplay => self.choose_next_display(),
             ShowCommand::Mute(part) => self.selection.mute_solo.toggle_mute(part),
             ShowCommand::Solo(part) => self.selection.mute_solo.toggle_solo(part),
             ShowCommand::ToggleSound => {

@@ -46,8 +46,8 @@ pub(crate) struct TickSample {
     pub run: u64,
     /// What it was rendered with.
     pub setting: Arc<Setting>,
-    /// The pose that was rendered.
-    pub pose: Pose,
+    /// The pose of every display that was rendered.
+    pub(crate) poses: Vec<Pose>,
     /// Which contactors of the first display are felt; those beyond its end are.
     pub is_felt: Vec<bool>,
     /// Amplitudes [A40, A320] of every contactor, display by display, after gains and before output
@@ -86,7 +86,6 @@ pub(crate) struct Checker {
     error: ErrorMeter,
     now_db: [Option<f64>; 2],
     n_ticks: u64,
-    poses: Vec<Pose>,
 }
 
 impl Checker {
@@ -103,9 +102,7 @@ impl Checker {
         let Some((_, reference)) = &mut self.reference else {
             return;
         };
-        self.poses.resize(sample.displays_um.len(), sample.pose);
-        self.poses.fill(sample.pose);
-        let frames = reference.tick(&self.poses);
+        let frames = reference.tick(&sample.poses);
         let felt = frames.iter().zip(&sample.displays_um).enumerate();
         let pairs: Vec<[[f64; 2]; 2]> = felt
             .flat_map(|(display, (frame, found_um))| {
@@ -190,7 +187,7 @@ mod tests {
         TickSample {
             run: 0,
             setting: Arc::clone(setting),
-            pose: pose(n),
+            poses: vec![pose(n)],
             is_felt: Vec::new(),
             displays_um: frames.iter().map(|f| f.amplitudes_um().to_vec()).collect(),
         }

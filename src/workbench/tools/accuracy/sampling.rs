@@ -47,7 +47,7 @@ pub(crate) struct Accuracy {
     setting: Option<Arc<Setting>>,
     run: (u64, Option<Run>),
     /// The last tick that was looked at: scene, gains, pose.
-    last: Option<(u64, u64, Pose)>,
+    last: Option<(u64, u64, Vec<Pose>)>,
     /// Ticks that were seen.
     pub(crate) tally: Tally,
     found: ErrorView,
@@ -115,10 +115,13 @@ impl Accuracy {
 
     /// Whether a tick is new, and shows anything: at rest everything is silent.
     fn is_worth_it(&mut self, snapshot: &Snapshot) -> bool {
-        let pose = snapshot.rendered;
-        let seen = (snapshot.scene_serial, snapshot.revision, pose);
-        let is_new = self.last.replace(seen) != Some(seen);
-        is_new && (pose.velocity != Velocity::ZERO || pose.angular_rad_per_s != 0.0)
+        let poses = poses(snapshot);
+        let moves = |pose: &Pose| pose.velocity != Velocity::ZERO || pose.angular_rad_per_s != 0.0;
+        let is_moving = poses.iter().any(moves);
+        let seen = (snapshot.scene_serial, snapshot.revision, poses);
+        let is_new = self.last.as_ref() != Some(&seen);
+        self.last = Some(seen);
+        is_new && is_moving
     }
 
     /// Looks at the tick that the engine did last, and lets it be checked. To be called while the
@@ -154,7 +157,7 @@ impl Accuracy {
         let sample = TickSample {
             run: self.run.0,
             setting,
-            pose: snapshot.rendered,
+            poses: poses(snapshot),
             is_felt,
             displays_um: snapshot.displays.iter().map(amplitudes).collect(),
         };
@@ -211,6 +214,12 @@ impl Accuracy {
             None => {}
         }
     }
+}
+
+/// The pose of every display that was rendered.
+fn poses(snapshot: &Snapshot) -> Vec<Pose> {
+    let displays = snapshot.displays.iter();
+    displays.map(|display| display.rendered).collect()
 }
 
 #[cfg(test)]

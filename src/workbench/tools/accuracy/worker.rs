@@ -86,14 +86,13 @@ mod tests {
     use super::*;
     use crate::tools::accuracy::checker::Setting;
     use selvedge_render::RenderScene;
-    use selvedge_render::scene::Pose;
 
     fn sample(run: u64) -> TickSample {
         let scene = RenderScene::default();
         TickSample {
             run,
             setting: Arc::new(Setting { scene, n_edits: 0 }),
-            pose: Pose::default(),
+            poses: Vec::new(),
             is_felt: Vec::new(),
             displays_um: Vec::new(),
         }

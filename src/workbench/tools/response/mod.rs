@@ -49,10 +49,11 @@ impl Response {
     /// Has the curves of the textile that is chosen, or else of the one under the chosen contactor,
     /// or which was there last; `None` without any.
     fn view(&mut self, bench: &mut Bench, scene: &SceneView) -> Option<ResponseView<'_>> {
+        let display = bench.display();
         let (live, inspector) = (&bench.live, &mut bench.inspection.inspector);
         self.readings.clear();
         if live.centre.is_some() {
-            inspector.readings_into(0, &live.pose, &mut self.readings);
+            inspector.readings_into(display, &live.pose, &mut self.readings);
         }
         let contactor = bench.selection.contactor;
         let read = contactor.and_then(|index| self.readings.get(index));

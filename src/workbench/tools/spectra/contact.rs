@@ -62,12 +62,18 @@ impl ContactSpectrum {
     /// Computes what is new, as much as one frame may; says whether more is due.
     fn catch_up(&mut self, bench: &mut Bench) -> bool {
         let (contactor, colours) = (contactor(bench), Colours::in_force(bench));
+        let display = bench.display();
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
         let key = (history.n_clears, inspection.n_scenes, contactor);
         let (columns, inspector) = (&mut self.columns, &mut inspection.inspector);
         let name = (&bench.ctx, "contact spectrogram");
         let fill = |entry: &Entry, levels_db: &mut Rows| {
-            columns.levels_db(inspector, contactor, &entry.tick_sample.pose, levels_db);
+            columns.levels_db(
+                inspector,
+                [display, contactor],
+                &entry.tick_sample.pose,
+                levels_db,
+            );
             // Where nothing arrives is a gap, not a very low level.
             let nothing = levels_db.iter_mut().filter(|level| level.is_infinite());
             nothing.for_each(|level| *level = f32::NAN);

@@ -23,7 +23,7 @@ use selvedge_foundation::quantity;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
 
 /// What a view is made for: scene, contactor, place, turn, motion.
-type Key = (u64, usize, [f64; 6]);
+type Key = (u64, [usize; 2], [f64; 6]);
 
 /// Nothing is computed for a pane without room for anything, points.
 const SMALLEST: f32 = 48.0;
@@ -44,7 +44,8 @@ impl SpatialSpectra {
     }
 
     fn catch_up(&mut self, bench: &mut Bench) {
-        let (contactor, pose) = (contactor(bench), &bench.live.pose);
+        let [display, contactor] = [bench.display(), contactor(bench)];
+        let pose = &bench.live.pose;
         let motion = [
             pose.position.x_mm,
             pose.position.y_mm,
@@ -54,13 +55,13 @@ impl SpatialSpectra {
             pose.angular_rad_per_s,
         ];
         let inspection = &mut bench.inspection;
-        let key = (inspection.n_edits, contactor, motion);
+        let key = (inspection.n_edits, [display, contactor], motion);
         if self.key == Some(key) {
             return;
         }
         self.key = Some(key);
         self.n_views_computed += 1;
-        let trace = inspection.inspector.trace(0, contactor, pose);
+        let trace = inspection.inspector.trace(display, contactor, pose);
         self.view = trace.and_then(|trace| {
             let textile = trace.touch.as_ref()?.textile;
             let placed = inspection.scene.textiles.get(textile)?;

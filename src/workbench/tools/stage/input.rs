@@ -1,11 +1,10 @@
 //! What the public may do with pointer, fingers and keys: everything else never reaches the stage.
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, TouchId, TouchPhase, Ui};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, TouchPhase, Ui};
 
+use crate::kit::fingers::FingerRings;
 use crate::tools::stage::pin::Access;
 
-/// A finger beside the first is marked for so long, s.
-const MARKED_S: f64 = 0.8;
 /// The cursor is seen for so long after the mouse moved, s.
 const CURSOR_S: f64 = 3.0;
 
@@ -69,10 +68,8 @@ fn may_press(key: Key, modifiers: Modifiers, access: Access, types: bool) -> boo
 /// Fingers and keys as they were seen last.
 #[derive(Debug, Default)]
 pub(crate) struct Senses {
-    /// The finger that owns the display.
-    first: Option<TouchId>,
-    /// Fingers beside it: where, and when they were seen.
-    others: Vec<(Pos2, f64)>,
+    /// Fingers, and rings at those that hold no display.
+    pub(crate) rings: FingerRings,
     /// What was used last.
     input: Option<&'static str>,
     pub(crate) has_keyboard: bool,
@@ -92,14 +89,20 @@ pub(crate) struct Heard {
 }
 
 impl Senses {
-    /// Takes in the events of a frame.
-    pub(crate) fn take(&mut self, ui: &Ui, now_s: f64) -> Heard {
+    /// Takes in the events of a frame, where a scene of so many displays is felt.
+    pub(crate) fn take(&mut self, ui: &Ui, ground: (Rect, usize), now_s: f64) -> Heard {
         let mut heard = Heard::default();
+        self.rings.take(ui, ground, now_s);
         ui.input(|input| {
             for event in &input.events {
                 match event {
-                    Event::Touch { id, phase, pos, .. } => {
-                        self.touch((*id, *phase), *pos, now_s, &mut heard);
+                    Event::Touch {
+                        phase: TouchPhase::Start,
+                        pos,
+                        ..
+                    } => {
+                        self.input = Some("touch");
+                        heard.touched.push(*pos);
                     }
                     Event::Key {
                         key,
@@ -116,25 +119,16 @@ impl Senses {
                         heard.number = heard.number.or(number);
                     }
                     Event::PointerMoved(_) => self.moved_s = now_s,
-                    Event::PointerButton { pressed: true, .. } if self.first.is_none() => {
+                    Event::PointerButton { pressed: true, .. }
+                        if heard.touched.is_empty() && !input.any_touches() =>
+                    {
                         self.input = Some("mouse");
                     }
                     _ => {}
                 }
             }
         });
-        self.others.retain(|(_, at_s)| now_s - at_s < MARKED_S);
         heard
-    }
-
-    /// Fingers beside the first, and how fresh they are, 0…1.
-    pub(crate) fn others(&self, now_s: f64) -> Vec<(Pos2, f32)> {
-        let fresh =
-            |at_s: f64| selvedge_foundation::numerics::to_single(1.0 - (now_s - at_s) / MARKED_S);
-        self.others
-            .iter()
-            .map(|(at, at_s)| (*at, fresh(*at_s)))
-            .collect()
     }
 
     /// What was used last.
@@ -145,29 +139,6 @@ impl Senses {
     /// Whether a cursor is in the way.
     pub(crate) fn hides_cursor(&self, now_s: f64) -> bool {
         self.input == Some("touch") || now_s - self.moved_s > CURSOR_S
-    }
-
-    fn touch(
-        &mut self,
-        (id, phase): (TouchId, TouchPhase),
-        at: Pos2,
-        now_s: f64,
-        heard: &mut Heard,
-    ) {
-        match phase {
-            TouchPhase::Start => {
-                self.input = Some("touch");
-                self.first.get_or_insert(id);
-                heard.touched.push(at);
-            }
-            TouchPhase::End | TouchPhase::Cancel if self.first == Some(id) => self.first = None,
-            _ => {}
-        }
-        if self.first.is_some_and(|first| first != id) {
-            self.others.push((at, now_s));
-            let n_old = self.others.len().saturating_sub(8);
-            self.others.drain(..n_old);
-        }
     }
 }
 

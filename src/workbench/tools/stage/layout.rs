@@ -16,6 +16,8 @@ const CLOTHS: f32 = 0.76;
 const STRIP: f32 = 120.0;
 const WORDS: f32 = 38.0;
 const LABEL: f32 = 26.0;
+/// Between bars and the edge of the screen, points.
+const EDGE: f32 = 40.0;
 /// Room for bars beside cloths, and below them.
 const BARS_ACROSS: f32 = 330.0;
 const BARS_DOWN: f32 = 190.0;
@@ -76,8 +78,7 @@ impl Layout {
                 pos2(square.right() + 2.0 * gap, square.top()),
                 pos2(area.right(), square.bottom()),
             );
-            let bars = Rect::from_center_size(beside.center(), vec2(beside.width(), down));
-            (square, bars)
+            (square, beside.shrink2(vec2(0.0, 0.5 * (side - down))))
         } else {
             let top = area.top() + 0.5 * (free.y - down).max(0.0);
             let at = pos2(area.center().x - 0.5 * side, top);
@@ -85,6 +86,7 @@ impl Layout {
             let bars = square.translate(vec2(0.0, side + gap));
             (square, bars.with_max_y(bars.top() + down - gap))
         };
+        let bars = bars.intersect(whole.shrink(EDGE * unit));
         Self {
             whole,
             area,
@@ -173,6 +175,10 @@ mod tests {
                         assert!(!part.shrink(0.5).intersects(*other), "{why}");
                     }
                 }
+                let within = whole.shrink(0.99 * EDGE * layout.unit);
+                assert!(within.contains_rect(layout.bars), "{layout:?}");
+                let words = 9.0 * layout.label;
+                assert!(layout.bars.width() >= words, "room for words: {layout:?}");
                 let (middle, pictures) = layout.round();
                 for picture in pictures {
                     assert!(whole.contains_rect(picture) && !picture.intersects(middle));

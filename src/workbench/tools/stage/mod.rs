@@ -21,6 +21,7 @@ mod layout;
 mod machine;
 mod open_visit;
 mod operator;
+mod pace;
 mod pictures;
 mod pin;
 mod records;
@@ -30,6 +31,8 @@ mod shown;
 mod tests;
 mod view;
 mod voltage;
+
+use std::time::Duration;
 
 use eframe::egui::{CursorIcon, RawInput, Rect, Theme, Ui};
 
@@ -49,15 +52,12 @@ use input::{Heard, Senses};
 use layout::Layout;
 use machine::{Machine, Phase};
 use operator::Wish;
+use pace::Pace;
 use pin::{Access, Lock};
 use records::Records;
 use selvedge_engine::SoundState;
 use selvedge_experiment::visits::{N_CLOTHS, VisitEnd};
 use voltage::Switch;
-
-/// Frames a second while nobody is there, and while somebody is.
-const WATCHING_FPS: f64 = 10.0;
-const TOUCHING_FPS: f64 = 20.0;
 
 /// The stage in its window.
 pub(crate) struct Stage {
@@ -65,6 +65,7 @@ pub(crate) struct Stage {
     machine: Machine,
     records: Records,
     heartbeat: Heartbeat,
+    pace: Pace,
     lock: Lock,
     senses: Senses,
     hand: Hand,
@@ -89,6 +90,7 @@ impl Stage {
         let cloths = cloths.iter().take(N_CLOTHS).map(ground).collect();
         bench.device.ceiling = Some(options.ceiling());
         bench.selection.contactor = None;
+        bench.past.is_paced = true;
         bench.settings.preferences.sound.is_on = true;
         bench.settings.preferences.stops_on_focus_loss = false;
         bench.ctx.set_theme(Theme::Dark);
@@ -99,6 +101,7 @@ impl Stage {
             records: Records::in_folder(options.log.as_deref()),
             options,
             heartbeat: Heartbeat::of_process(),
+            pace: Pace::default(),
             lock: Lock::default(),
             senses: Senses::default(),
             hand: Hand::default(),
@@ -139,8 +142,8 @@ impl Stage {
             layout: self.layout(ui.max_rect()),
             drawn: &mut drawn,
         };
-        let log = self.records.describe();
-        let lines = operator::lines(bench, self.lock.access(), log, self.options.has_pin());
+        let told = [self.records.describe(), self.pace.describe()];
+        let lines = operator::lines(bench, self.lock.access(), told, self.options.has_pin());
         let wishes = operator::show(ui, &mut brush, &self.lock, &lines, &self.machine);
         self.drawn = drawn;
         let now_s = self.machine.now_s();
@@ -190,7 +193,7 @@ impl Stage {
             is_resting: self.told.is_resting,
             input: self.senses.input(),
             has_keyboard: self.senses.has_keyboard,
-            others: self.senses.others(now_s),
+            rings: &self.senses.rings,
         };
         let mut brush = Brush {
             painter: ui.painter().clone(),
@@ -307,7 +310,9 @@ impl PublicFace for Stage {
 
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let now_s = self.machine.now_s();
-        let heard = self.senses.take(ui, now_s);
+        let n_displays = context.bench.document.scene().displays.len();
+        let felt = (self.ground_of(ui).unwrap_or(Rect::NOTHING), n_displays);
+        let heard = self.senses.take(ui, felt, now_s);
         if heard.asks_operator {
             self.open_lock(context.bench);
         } else if heard.escapes && self.lock.access() == Access::Closed && self.machine.is_armed() {
@@ -330,9 +335,8 @@ impl PublicFace for Stage {
         }
         let is_quiet =
             matches!(self.machine.phase(), Phase::Watching) && self.machine.fade() <= 0.0;
-        let fps = if is_quiet { WATCHING_FPS } else { TOUCHING_FPS };
-        let pause = std::time::Duration::from_secs_f64(1.0 / fps);
-        ui.ctx().request_repaint_after(pause);
+        let pause_s = self.pace.frame(now_s, is_quiet);
+        (ui.ctx()).request_repaint_after(Duration::from_secs_f64(pause_s));
     }
 
     fn stop_area(&self) -> Option<Rect> {

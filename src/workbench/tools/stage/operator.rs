@@ -72,7 +72,12 @@ pub(crate) fn show(
 }
 
 /// What the page tells. `has_pin`: whether there is a way into it.
-pub(crate) fn lines(bench: &Bench, access: Access, log: String, has_pin: bool) -> Vec<String> {
+pub(crate) fn lines(
+    bench: &Bench,
+    access: Access,
+    [log, pace]: [String; 2],
+    has_pin: bool,
+) -> Vec<String> {
     if !has_pin {
         let words = [
             "No PIN is set: nobody can permit arming.",
@@ -100,6 +105,7 @@ pub(crate) fn lines(bench: &Bench, access: Access, log: String, has_pin: bool) -
         "Ticks missed {}, late {}",
         status.missed, status.late
     ));
+    lines.push(pace);
     let notices = bench.notices.shown().iter().rev().take(MOST_NOTICES);
     lines.extend(notices.map(|notice| notice.text.clone()));
     lines

@@ -1,11 +1,10 @@
 //! What a frame of the stage is drawn from, and its few words.
 
-use eframe::egui::Pos2;
-
 use crate::bench::selection::Selection;
 use crate::bench::settings::preferences::Loudness;
 use crate::bench::trail::Trail;
 use crate::bench::view::{Cloth, EngineView, SceneView};
+use crate::kit::fingers::FingerRings;
 use crate::tools::stage::game::Answered;
 use crate::tools::stage::machine::{Machine, Phase};
 use selvedge_experiment::visits::Tally;
@@ -30,8 +29,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) input: &'static str,
     /// Whether anybody can type.
     pub(crate) has_keyboard: bool,
-    /// Fingers beside the first, and how fresh they are, 0…1.
-    pub(crate) others: Vec<(Pos2, f32)>,
+    /// Rings at fingers that hold no display.
+    pub(crate) rings: &'a FingerRings,
 }
 
 /// The sign of how loud it is, and how it is read out.

@@ -53,13 +53,8 @@ pub(crate) fn show(ui: &mut Ui, brush: &mut Brush<'_>, shown: &Shown<'_>) -> Wis
         Phase::Watching | Phase::Touching => show_cloths(ui, brush, shown, &mut wishes),
     }
     show_strip(ui, brush, shown, &mut wishes.acts);
-    for (at, freshness) in &shown.others {
-        let ink = brush.palette.faint.gamma_multiply(*freshness);
-        let stroke = Stroke::new(3.0 * brush.layout.unit, ink);
-        brush
-            .painter
-            .circle_stroke(*at, 8.0 * brush.layout.mm, stroke);
-    }
+    let ring = (brush.palette.faint, 8.0 * brush.layout.mm);
+    (shown.rings).paint(&brush.painter, shown.machine.now_s(), ring);
     let fade = to_single(shown.machine.fade());
     if fade > 0.0 {
         let veil = brush.palette.floor.gamma_multiply(fade);

@@ -167,7 +167,7 @@ impl TickColumns for SpectrumColumns {
 
     fn write(&mut self, _tick: u64, pose: &Pose, rows: &mut [u8]) {
         let mut levels_db: Rows = [0.0; N_ROWS];
-        let at = (&mut self.inspector, self.contactor);
+        let at = (&mut self.inspector, [0, self.contactor]);
         self.columns.levels_db(at.0, at.1, pose, &mut levels_db);
         write_levels(&levels_db, rows);
     }

@@ -36,8 +36,8 @@ const MAP_PX: [f64; 3] = [300.0, 690.0, 450.0];
 /// What is drawn.
 #[derive(Debug, Clone)]
 pub struct FigureOf {
-    /// The scene's file.
-    pub scene: PathBuf,
+    /// The scene's file; `None`: the one that the recording was made in.
+    pub scene: Option<PathBuf>,
     /// A recording's folder or a path file; `None`: the first recording that the scene names.
     pub exploration: Option<PathBuf>,
     /// The contactor whose spectrum is drawn; `None`: the one that vibrated most.
@@ -63,7 +63,7 @@ pub fn exploration_figure(
     of: &FigureOf,
     cache: Option<&BuildCache>,
 ) -> Result<FigureFiles, AppError> {
-    let loaded = LoadedScene::read(&of.scene, cache)?;
+    let loaded = scene_of(of, cache)?;
     let scene = RenderScene::of(&loaded);
     let found = read(of, &loaded)?;
     let was_felt = found.n_contactors() > 0;
@@ -82,11 +82,36 @@ pub fn exploration_figure(
     })
 }
 
+/// The scene that is given, or the one that the recording says that it was made in.
+fn scene_of(of: &FigureOf, cache: Option<&BuildCache>) -> Result<LoadedScene, AppError> {
+    if let Some(scene) = &of.scene {
+        return Ok(LoadedScene::read(scene, cache)?);
+    }
+    let folder = of.exploration.as_deref().unwrap_or_else(|| Path::new(""));
+    let about =
+        file::About::read(folder).map_err(|error| AppError::Exploration(error.to_string()))?;
+    if let Some(scene) = about.scene_file {
+        return Ok(LoadedScene::read(&scene, cache)?);
+    }
+    let shipped = LoadedScene::shipped()?;
+    if shipped.scene().name == about.scene {
+        return Ok(shipped);
+    }
+    let what = format!(
+        "{}: no file holds its scene “{}”",
+        folder.display(),
+        about.scene
+    );
+    let mend = "give a scene first and the recording with --path";
+    Err(AppError::Exploration(format!("{what}; {mend}")))
+}
+
 fn read(of: &FigureOf, loaded: &LoadedScene) -> Result<Recording, AppError> {
     let first = loaded.scene().recordings.first();
-    let first = first.map(|recording| recording.place(Some(&of.scene)));
+    let first = first.map(|recording| recording.place(of.scene.as_deref()));
     let Some(place) = of.exploration.clone().or(first) else {
-        let what = format!("{} names no recording", of.scene.display());
+        let scene = of.scene.as_deref().unwrap_or_else(|| Path::new(""));
+        let what = format!("{} names no recording", scene.display());
         let mend = "give a recording or a path with --path";
         return Err(AppError::Exploration(format!("{what}; {mend}")));
     };
@@ -225,7 +250,8 @@ fn exported(
 fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
     let mut levels_db = [0.0; N_ROWS];
     let mut columns = ContactColumns::default();
-    columns.levels_db(inspector, moment.contactor, &moment.pose, &mut levels_db);
+    let contactor = [0, moment.contactor];
+    columns.levels_db(inspector, contactor, &moment.pose, &mut levels_db);
     let points = levels_db.iter().enumerate();
     let points = points.map(|(row, db)| [row_centre_hz(row), f64::from(*db)]);
     let carrier = |band: Band| Rule {
@@ -322,7 +348,7 @@ fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: 
     let levels = LevelRange::default();
     let (mut columns, mut levels_db) = (ContactColumns::default(), [0.0; N_ROWS]);
     let raster = raster(recording, N_ROWS, |_, pose, shares| {
-        columns.levels_db(inspector, moment.contactor, pose, &mut levels_db);
+        columns.levels_db(inspector, [0, moment.contactor], pose, &mut levels_db);
         for (share, db) in shares.iter_mut().zip(levels_db.iter().rev()) {
             let db = f64::from(*db);
             *share = if db.is_finite() {
@@ -382,7 +408,7 @@ mod tests {
         let rows: String = (0..=40).map(row).collect();
         let path = scratch.write("stroke.csv", format!("t_s,x_mm,y_mm\n{rows}"));
         let of = FigureOf {
-            scene: Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE),
+            scene: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE)),
             exploration: Some(path),
             contactor,
         };
@@ -412,5 +438,38 @@ mod tests {
         );
         let error = figure(Some(24)).unwrap_err().to_string();
         assert!(error.ends_with("give 0 to 23"), "{error}");
+    }
+
+    #[test]
+    fn a_recording_alone_is_drawn_in_the_scene_that_it_was_made_in() {
+        let root = selvedge_scratch::ScratchFolder::made("figure-recording");
+        let recorded = |scene: &str, scene_file: Option<PathBuf>| {
+            let made = crate::bench::recording::tests::explored(40);
+            let about = file::About {
+                scene: scene.to_owned(),
+                scene_file,
+                ..crate::bench::recording::tests::page("One")
+            };
+            let mut on_disk =
+                file::RecordingFile::create(&root, about, made.n_contactors()).unwrap();
+            on_disk.append(&made, 0).unwrap();
+            let of = FigureOf {
+                scene: None,
+                exploration: Some(on_disk.finish().unwrap().0),
+                contactor: None,
+            };
+            exploration_figure(&of, None)
+        };
+        let shipped = LoadedScene::shipped().unwrap().scene().name.clone();
+        let page = recorded(&shipped, None).unwrap();
+        assert!(page.caption.contains("One"), "{}", page.caption);
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE);
+        let same = recorded("any name", Some(file)).unwrap();
+        assert!(!same.png.is_empty());
+        let unknown = recorded("never saved", None).unwrap_err().to_string();
+        assert!(
+            unknown.contains("“never saved”; give a scene first"),
+            "{unknown}"
+        );
     }
 }

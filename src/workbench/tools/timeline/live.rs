@@ -92,6 +92,7 @@ impl LiveTiles {
 
     /// The newest columns in sight come first.
     fn take_spectra(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
+        let display = bench.display();
         let (history, inspection) = (&bench.past.history, &mut bench.inspection);
         let of = (history.n_clears, inspection.n_scenes, contactor);
         if self.spectrum_of != of || self.spectrum.n_rows == 0 {
@@ -116,7 +117,7 @@ impl LiveTiles {
             if let Some(entry) = history.at_column(*column) {
                 let (inspector, pose) = (&mut inspection.inspector, &entry.tick_sample.pose);
                 self.columns
-                    .levels_db(inspector, contactor, pose, &mut levels_db);
+                    .levels_db(inspector, [display, contactor], pose, &mut levels_db);
                 write_levels(&levels_db, &mut rows);
                 self.spectrum.put(*column, &rows);
             }

@@ -1,6 +1,6 @@
 //! What compression does: level in, level out, and the library's textiles as dots on the curve.
 
-use eframe::egui::{Id, Margin, Pos2, Sense, Ui, vec2};
+use eframe::egui::{Id, Margin, Pos2, Rect, Ui};
 
 use crate::bench::command::edit::Edit;
 use crate::bench::command::{Commands, Part, ShowCommand};
@@ -17,8 +17,8 @@ use selvedge_textile::tactile::{Band, Tuning};
 
 /// The line is not turned by a place as near to the level that it leaves alone, dB.
 const NEAREST_DB: f64 = 2.0;
-/// Height of the plot, points.
-const HEIGHT: f32 = 90.0;
+/// Least height of the plot, points.
+pub(crate) const HEIGHT: f32 = 90.0;
 
 /// The spread of a library's mean amplitudes, by band, dB.
 pub(crate) fn ranges_db(library: &[LibraryDot], tuning: &Tuning, reference_db: f64) -> [f64; 2] {
@@ -141,10 +141,9 @@ pub(crate) fn exported(scene: &SceneView, reference_db: f64, origin: Origin) -> 
     Exported::of_chart("Compression of the library", chart, 420.0, note, origin)
 }
 
-/// Shows the curve, or what it waits for; a click on a dot chooses its textile, if it is placed.
-pub(crate) fn show(ui: &mut Ui, scene: &SceneView, commands: &mut Commands) {
-    let size = vec2(ui.available_width(), HEIGHT);
-    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+/// Shows the curve in `rect`, or what it waits for; a click on a dot chooses its textile, if it is
+/// placed.
+pub(crate) fn show(ui: &Ui, rect: Rect, scene: &SceneView, commands: &mut Commands) {
     let Some(reference_db) = scene.reference_db.filter(|_| !scene.library.is_empty()) else {
         paint_sentence(
             ui.painter(),

@@ -3,7 +3,7 @@
 pub(crate) mod curve;
 pub(crate) mod slots;
 
-use eframe::egui::{self, ComboBox, Rect, RichText, Ui, UiBuilder, vec2};
+use eframe::egui::{self, ComboBox, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
 
 use crate::bench::Bench;
 use crate::bench::command::edit::Edit;
@@ -14,7 +14,7 @@ use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::{SOURCE, above_words, felt_words, noticed_db, of_textile};
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::SceneView;
-use crate::kit::pane::scrolled;
+use crate::kit::pane::{inside, scrolled};
 use crate::kit::theme;
 use crate::kit::theme::Palette;
 use crate::kit::widgets::scale::{Curve, Scale};
@@ -29,6 +29,10 @@ const SLIDER_TIP: &str = "Double click goes back, Shift moves finely, Ctrl+wheel
                           noticed, a click on the number types";
 /// How opaque figures of the library are that are of the filters before.
 const STALE: f32 = 0.45;
+/// A pane of this height shows list and curve below each other, points.
+const HIGH: f32 = 292.0;
+/// A lower one of this width shows them beside each other, points.
+const WIDE: f32 = 480.0;
 /// Bounds of the filters' width, octaves.
 const OCTAVES: [f64; 2] = [0.5, 6.0];
 
@@ -55,7 +59,16 @@ impl Tool for Tuning {
     }
 
     fn ui(&mut self, pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        scrolled(ui, pane.title(), |ui| self.show(ui, context));
+        let whole = ui.available_rect_before_wrap();
+        let Some([list, beside]) = parts(whole) else {
+            scrolled(ui, pane.title(), |ui| self.show(ui, context, true));
+            return;
+        };
+        inside(ui, list, |ui| {
+            scrolled(ui, pane.title(), |ui| self.show(ui, context, false));
+        });
+        show_curve(ui, beside, (context.scene, &mut *context.commands));
+        ui.allocate_rect(whole, Sense::hover());
     }
 
     fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
@@ -72,7 +85,7 @@ impl Tool for Tuning {
 }
 
 impl Tuning {
-    fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+    fn show(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>, has_curve: bool) {
         self.slots.show(ui, context);
         let (scene, commands) = (context.scene, &mut *context.commands);
         let (live, mute_solo) = (&context.bench.live, &context.bench.selection.mute_solo);
@@ -99,16 +112,41 @@ impl Tuning {
         let tip = "0 % leaves textiles as different as they are, 100 % makes all equal";
         tell(&response, tip);
         commands.extend(new.map(|share| Edit::Compression(share).into()));
-        ui.scope(|ui| {
-            if scene.library_is_stale {
-                ui.multiply_opacity(STALE);
-            }
-            curve::show(ui, scene, commands);
-            show_ranges(ui, scene);
-        });
+        if has_curve {
+            let size = vec2(ui.available_width(), curve::HEIGHT);
+            let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+            show_curve(ui, rect, (scene, &mut *commands));
+        }
+        show_ranges(ui, scene);
         ui.add_space(theme::STEP);
         show_filters(ui, scene.filters, commands);
     }
+}
+
+/// Where the list and the curve stand in a pane that is too low for both below each other: beside
+/// each other, or the curve below a list that scrolls.
+fn parts(whole: Rect) -> Option<[Rect; 2]> {
+    if whole.height() >= HIGH {
+        return None;
+    }
+    let room = whole.shrink2(vec2(12.0, 8.0));
+    if whole.width() >= WIDE {
+        let left = whole.left() + (0.62 * whole.width()).round();
+        let curve = Rect::from_min_max(pos2(left, room.top()), room.max);
+        return Some([whole.with_max_x(left), curve]);
+    }
+    let top = (room.bottom() - curve::HEIGHT).max(room.center().y).round();
+    Some([whole.with_max_y(top), room.with_min_y(top)])
+}
+
+/// Shows the curve; fainter while levels are being measured anew.
+fn show_curve(ui: &mut Ui, rect: Rect, (scene, commands): (&SceneView, &mut Commands)) {
+    inside(ui, rect, |ui| {
+        if scene.library_is_stale {
+            ui.multiply_opacity(STALE);
+        }
+        curve::show(ui, rect, scene, commands);
+    });
 }
 
 /// A band's own gain, without the master's, dB.
@@ -257,6 +295,10 @@ fn show_ranges(ui: &mut Ui, scene: &SceneView) {
     let Some(reference_db) = scene.reference_db else {
         return;
     };
+    let opacity = ui.opacity();
+    if scene.library_is_stale {
+        ui.multiply_opacity(STALE);
+    }
     let plain = tactile::Tuning {
         compression: 0.0,
         ..scene.tuning
@@ -273,6 +315,7 @@ fn show_ranges(ui: &mut Ui, scene: &SceneView) {
             ui.label(words.font(theme::number()).color(palette.band(band)));
         }
     });
+    ui.set_opacity(opacity);
     let pending = if scene.library_is_stale {
         "\nBeing measured under the filters that were just chosen"
     } else {
@@ -340,5 +383,36 @@ fn kind(filters: Filters) -> &'static str {
     match filters {
         Filters::LogGaussian { .. } => "log-Gaussian",
         Filters::Receptor => "receptor thresholds",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_low_pane_has_all_of_the_curve_beside_or_below_a_list_that_scrolls() {
+        for (width, height) in [
+            (512.0, 228.0),
+            (480.0, 120.0),
+            (316.0, 200.0),
+            (316.0, 291.0),
+        ] {
+            let whole = Rect::from_min_size(pos2(10.0, 20.0), vec2(width, height));
+            let [list, beside] = parts(whole).unwrap();
+            let why = format!("{width} × {height}: {list} {beside}");
+            assert!(
+                whole.contains_rect(list) && whole.contains_rect(beside),
+                "{why}"
+            );
+            assert!(
+                beside.height() >= curve::HEIGHT && beside.width() >= 169.0,
+                "{why}"
+            );
+            assert!(!list.shrink(0.5).intersects(beside), "{why}");
+            assert!(list.width() >= 250.0 && list.height() >= 80.0, "{why}");
+        }
+        let high = Rect::from_min_size(pos2(0.0, 0.0), vec2(316.0, 306.0));
+        assert_eq!(parts(high), None, "as they stand in a window of 1400 × 900");
     }
 }

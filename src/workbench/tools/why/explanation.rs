@@ -88,7 +88,9 @@ impl Explanation {
     pub(crate) fn of_chosen(bench: &mut Bench) -> Option<Self> {
         let contactor = bench.selection.contactor?;
         let live = &bench.live;
-        let trace = bench.inspection.inspector.trace(0, contactor, &live.pose)?;
+        let display = bench.display();
+        let inspector = &mut bench.inspection.inspector;
+        let trace = inspector.trace(display, contactor, &live.pose)?;
         let cloths = &bench.document.scene().textiles;
         let cloth = trace
             .touch
@@ -99,7 +101,7 @@ impl Explanation {
             let name = item.map_or(&cloth.id, |item| &item.name);
             format!("{} {name}", cloth.label)
         });
-        let display = bench.document.scene().displays.first()?;
+        let display = bench.document.scene().displays.get(display)?;
         let cell = display.geometry.grid().map(|(_, n_columns)| {
             let n_columns = n_columns.max(1);
             (contactor / n_columns, contactor % n_columns)

@@ -67,9 +67,8 @@ pub(crate) fn arrange(ui: &mut Ui, stage: &Stage<'_>, commands: &mut Commands) {
     }
     if stage.response.clicked()
         && let Some(at) = pointer
-        && let Some(index) = dot_at(stage, at)
     {
-        commands.push(ShowCommand::SelectContactor(index).into());
+        choose_contactor(stage, at, commands);
     }
     nudge(ui, stage, commands);
     let painter = ui.painter_at(stage.ground);
@@ -89,6 +88,21 @@ fn held(ui: &Ui, id: Id) -> Option<Grab> {
 pub(crate) fn dot_at(stage: &Stage<'_>, at: Pos2) -> Option<usize> {
     stage.sight.live.centre?;
     paint_display::hit(&stage.view, &stage.sight.live.dots, at)
+}
+
+/// Chooses the contactor that was clicked, with its display.
+fn choose_contactor(stage: &Stage<'_>, at: Pos2, commands: &mut Commands) {
+    if let Some(index) = dot_at(stage, at) {
+        commands.push(ShowCommand::SelectContactor(index).into());
+        return;
+    }
+    for other in &stage.sight.live.others {
+        if let Some(index) = paint_display::hit(&stage.view, &other.dots, at) {
+            commands.push(ShowCommand::SelectDisplay(other.display).into());
+            commands.push(ShowCommand::SelectContactor(index).into());
+            return;
+        }
+    }
 }
 
 /// What a press gets hold of; a textile is chosen by it, empty ground chooses none.

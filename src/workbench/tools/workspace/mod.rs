@@ -30,13 +30,14 @@ use std::cell::Cell;
 
 use eframe::egui::{self, CursorIcon, DragAndDrop, Popup, Rect, Sense, Ui, WidgetInfo, vec2};
 
-use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, Part, ShowCommand, Tool};
 use crate::bench::export::Exported;
 use crate::bench::overlays::Overlay;
 use crate::bench::pane::Pane;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{self, PaneContext};
+use crate::bench::{Bench, FRAME};
+use crate::kit::fingers::FingerRings;
 use crate::kit::theme::Palette;
 use crate::kit::view_transform::{Pointed, PointerGround};
 use crate::tools::workspace::camera::Camera;
@@ -46,6 +47,9 @@ use crate::tools::workspace::stage::{Layers, Sight, Stage};
 use crate::tools::workspace::state::{Place, WorkspaceView};
 use selvedge_render::array::ContactorReading;
 
+/// Radius of a ring at a finger without a display, points.
+const RING: f32 = 30.0;
+
 /// The workspace: how it is looked at, and what was computed to be drawn over it.
 #[derive(Default)]
 pub(crate) struct Workspace {
@@ -54,6 +58,8 @@ pub(crate) struct Workspace {
     pub(crate) maps: Maps,
     /// Pictures of the points 1 mm apart.
     lattice: Lattice,
+    /// Rings at fingers that hold no display.
+    rings: FingerRings,
     /// What the contactors read and how they move, while that is drawn.
     readings: Vec<ContactorReading>,
 }
@@ -86,14 +92,24 @@ impl tool::Tool for Workspace {
             },
             next: &next,
         };
-        *context.ground = Some(show(ui, sight, context.commands));
+        let ground = show(ui, sight, context.commands);
+        self.show_rings(ui, &ground, bench.document.scene().displays.len());
+        *context.ground = Some(ground);
         self.take_up(ui, next.get());
     }
 
     fn corner(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
         if let Some(pane) = context.bench.pointer.ground {
             let mut next = self.view;
-            tools::show(ui, &mut next, pane, context.scene.size_mm);
+            let n_displays = context.bench.document.scene().displays.len();
+            let shown = (context.bench.display(), n_displays);
+            tools::show(
+                ui,
+                &mut next,
+                (pane, context.scene.size_mm),
+                shown,
+                context.commands,
+            );
             if next != self.view {
                 self.take_up(ui, next);
             }
@@ -161,6 +177,22 @@ impl Workspace {
         }
     }
 
+    /// Shows which fingers feel nothing, because others hold the displays of the scene.
+    fn show_rings(&mut self, ui: &Ui, ground: &PointerGround, n_displays: usize) {
+        let now_s = ui.input(|input| input.time);
+        let felt = if ground.feels {
+            ground.rect
+        } else {
+            Rect::NOTHING
+        };
+        self.rings.take(ui, (felt, n_displays), now_s);
+        if self.rings.is_any() {
+            let ring = (Palette::in_ui(ui).dim, RING);
+            self.rings.paint(&ui.painter_at(ground.rect), now_s, ring);
+            ui.ctx().request_repaint_after(FRAME);
+        }
+    }
+
     /// Has what the overlays show that are switched on.
     fn prepare_overlays(&mut self, ctx: &egui::Context, bench: &mut Bench) {
         let overlays = self.view.overlays;
@@ -168,10 +200,11 @@ impl Workspace {
             self.lattice.prepare(ctx);
         }
         self.readings.clear();
+        let display = bench.display();
         let inspector = &mut bench.inspection.inspector;
         let live = &bench.live;
         if overlays.need_readings() && live.centre.is_some() {
-            inspector.readings_into(0, &live.pose, &mut self.readings);
+            inspector.readings_into(display, &live.pose, &mut self.readings);
         }
         let Some(band) = overlays.map else {
             self.maps.clear();

@@ -32,7 +32,13 @@ type Asked = Vec<Command>;
 
 /// Shows tools and magnification in one row, from right to left. `pane` is where the workspace was
 /// drawn last.
-pub(crate) fn show(ui: &mut Ui, state: &mut WorkspaceView, pane: Rect, size_mm: [f64; 2]) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    state: &mut WorkspaceView,
+    (pane, size_mm): (Rect, [f64; 2]),
+    displays: (usize, usize),
+    commands: &mut Commands,
+) {
     ui.spacing_mut().item_spacing.x = STEP;
     ui.spacing_mut().button_padding = vec2(2.0 * STEP, 0.0);
     let place = Place {
@@ -59,6 +65,21 @@ pub(crate) fn show(ui: &mut Ui, state: &mut WorkspaceView, pane: Rect, size_mm: 
     }
     ui.add_space(2.0 * STEP);
     overlay::show_menu(ui, &mut state.overlays, view.points_per_mm);
+    show_displays(ui, displays, commands);
+}
+
+/// Shows which of the scene's displays the panes look at, if it has more than one.
+fn show_displays(ui: &mut Ui, (display, n_displays): (usize, usize), commands: &mut Commands) {
+    if n_displays < 2 {
+        return;
+    }
+    ui.add_space(2.0 * STEP);
+    let name = format!("Display {} of {n_displays}", display + 1);
+    let what = "The display that all panes look at; a second finger holds the second display";
+    let command: Command = ShowCommand::NextDisplay.into();
+    if offered(ui, vec2(104.0, BUTTON), (&name, false), what, &command) {
+        commands.push(command);
+    }
 }
 
 /// Shows the magnification, from right to left.

@@ -44,7 +44,7 @@ fn spectrograms_hold_what_was_computed_even_behind_other_panes() {
             let mut expected = [0.0; N_ROWS];
             crate::bench::signals::contact::ContactColumns::default().levels_db(
                 &mut desk.workbench.bench.inspection.inspector,
-                contactor,
+                [0, contactor],
                 &newest.pose,
                 &mut expected,
             );

@@ -92,7 +92,7 @@ fn a_movement_over_the_other_window_is_not_felt() {
     let mut moved_to = |over, pixel| {
         let stamp = window.workbench.bench.stamp();
         let mut tap = window.workbench.shell.tap.lock().unwrap();
-        tap.moved_to_pixel(stamp, over, pixel);
+        tap.moved_to_pixel(stamp, over, (0, pixel));
         drop(tap);
         window.pass(2);
         window.workbench.bench.live.centre

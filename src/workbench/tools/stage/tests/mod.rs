@@ -1,5 +1,6 @@
 //! The stage by acts and by a clock of its own; visitors; the window.
 
+mod ceiling;
 mod visitors;
 mod window;
 

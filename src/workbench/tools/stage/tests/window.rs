@@ -31,18 +31,18 @@ const STATES: [StagePicture; 10] = [
     StagePicture::Operator,
 ];
 
-fn with_pin() -> StageOptions {
+pub(super) fn with_pin() -> StageOptions {
     let path = std::path::Path::new("stage.toml");
     StageOptions::from_text("pin = \"271828\"\nceiling_percent = 30\n", path).unwrap()
 }
 
-fn opened(options: StageOptions, size: Vec2, scale: f32) -> Headless {
+pub(super) fn opened(options: StageOptions, size: Vec2, scale: f32) -> Headless {
     let mut window = Headless::on_stage(options, size / scale, scale).unwrap();
     window.pass(2);
     window
 }
 
-fn stage(window: &mut Headless) -> &mut Stage {
+pub(super) fn stage(window: &mut Headless) -> &mut Stage {
     let face: &mut dyn Any = &mut **window.workbench.face.as_mut().unwrap();
     face.downcast_mut().unwrap()
 }
@@ -90,7 +90,7 @@ fn find(window: &mut Headless, words: &str) -> Pos2 {
         .center()
 }
 
-fn square(window: &mut Headless) -> eframe::egui::Rect {
+pub(super) fn square(window: &mut Headless) -> eframe::egui::Rect {
     let whole = window.ctx.content_rect();
     stage(window).layout(whole).square
 }
@@ -271,7 +271,11 @@ fn nothing_exceeds_the_ceiling_whatever_the_profile_allows() {
 }
 
 /// Runs frames, as fast as the emulator lives, until something is so.
-fn wait(window: &mut Headless, mut is_so: impl FnMut(&mut Headless) -> bool, what: &str) {
+pub(super) fn wait(
+    window: &mut Headless,
+    mut is_so: impl FnMut(&mut Headless) -> bool,
+    what: &str,
+) {
     let patience = Instant::now() + Duration::from_secs(90);
     while !is_so(window) {
         assert!(Instant::now() < patience, "never {what}");

@@ -51,9 +51,17 @@ fn a_slot_is_felt_as_long_as_its_key_is_held_without_another_scene() {
     let now = window.workbench.bench.gain_set();
     let serial = window.workbench.bench.engine_scene.serial;
     assert!(is_felt(&window, &now) && kept.gains_db[1] == 3.0);
+    let n_sent = |window: &Headless| window.workbench.bench.engine.commands_sent();
+    let before = n_sent(&window);
     hold(&mut window, Key::B, true);
     assert!(is_felt(&window, &kept), "held");
+    assert_eq!(
+        n_sent(&window),
+        before + 1,
+        "tuning and textile in one tick"
+    );
     hold(&mut window, Key::B, false);
+    assert_eq!(n_sent(&window), before + 2);
     assert!(is_felt(&window, &now), "let go");
     hold(&mut window, Key::C, true);
     assert!(is_felt(&window, &now), "nothing is kept in C");

@@ -1,0 +1,232 @@
+//! Fingers that hold displays of their own, and displays that follow the first.
+
+use super::*;
+use selvedge_render::Counters;
+
+/// The same cloth under so many displays of the same shape.
+fn with_displays(n_displays: usize) -> (Engine, PointerSender, Instant) {
+    let mut scene = render_scene(exeter());
+    scene.displays = vec![scene.displays[0].clone(); n_displays];
+    let how = (Method::Auto, &Accuracy::default());
+    let start_at = Point::new(30.0, 60.0);
+    let profile = ArrayProfile::default();
+    let scene = PreparedScene::from_parts(&scene, profile, start_at, how).unwrap();
+    let start = Instant::now();
+    let config = EngineConfig {
+        scene,
+        on_news: None,
+    };
+    let mut engine = Engine::without_thread(config, start).unwrap();
+    let pointer = engine.take_pointer().unwrap();
+    (engine, pointer, start)
+}
+
+/// Where a finger is that strokes along a line of its own.
+fn at(finger: usize, t_s: f64) -> Point {
+    let (phase, y_mm) = [(0.0, 50.0), (1.0, 70.0), (2.0, 80.0)][finger];
+    Point::new(45.0 + 12.0 * (4.0 * t_s + phase).sin(), y_mm + 8.0 * t_s)
+}
+
+/// Hands over what a finger does from one tick to the next, every 8 ms.
+fn stroke(pointer: &mut PointerSender, (display, finger): (usize, usize), start: Instant, n: u32) {
+    for k in 0..3 {
+        let since = TICK * n + Duration::from_millis(8) * k;
+        let (stamp, position) = (start + since, at(finger, since.as_secs_f64()));
+        pointer.push_to(display, PointerSample { stamp, position });
+    }
+}
+
+fn of_display(snapshot: &Snapshot, display: usize) -> Vec<[f32; 2]> {
+    let contactors = &snapshot.displays[display].contactors;
+    contactors.iter().map(|c| c.amplitude_um).collect()
+}
+
+fn sounds(amplitudes_um: &[[f32; 2]]) -> bool {
+    amplitudes_um.iter().any(|um| *um != [0.0; 2])
+}
+
+/// What one finger alone feels tick for tick, and what was evaluated for it.
+fn alone(finger: usize, n_ticks: u32) -> (Vec<Vec<[f32; 2]>>, Counters) {
+    let (mut engine, mut pointer, start) = with_displays(1);
+    let felt = (0..n_ticks).map(|n| {
+        stroke(&mut pointer, (0, finger), start, n);
+        engine.advance(start + TICK * (n + 1));
+        amplitudes(engine.snapshot())
+    });
+    (felt.collect(), engine.snapshot().rendering.counters)
+}
+
+#[test]
+fn displays_that_no_finger_holds_follow_the_first() {
+    let (expected, counters) = alone(0, 40);
+    let (mut engine, mut pointer, start) = with_displays(2);
+    for (n, expected) in (0..).zip(&expected) {
+        stroke(&mut pointer, (0, 0), start, n);
+        engine.advance(start + TICK * (n + 1));
+        let snapshot = engine.snapshot();
+        assert_eq!(&of_display(snapshot, 0), expected, "tick {n}");
+        assert_eq!(&of_display(snapshot, 1), expected, "tick {n}");
+        assert_eq!(snapshot.displays[1].pose, snapshot.pose);
+    }
+    let both = engine.snapshot().rendering.counters;
+    assert_eq!(both.ticks, counters.ticks);
+    assert_eq!(both.contactors_inside, 2 * counters.contactors_inside);
+    assert!(expected.iter().filter(|um| sounds(um)).count() > 30);
+}
+
+#[test]
+fn every_finger_feels_as_if_it_were_alone() {
+    let expected = [alone(0, 40).0, alone(1, 40).0, alone(2, 40).0];
+    let (mut engine, mut pointer, start) = with_displays(3);
+    for n in 0..40 {
+        for finger in 0..3 {
+            stroke(&mut pointer, (finger, finger), start, n);
+        }
+        engine.advance(start + TICK * (n + 1));
+        for (finger, expected) in expected.iter().enumerate() {
+            let felt = of_display(engine.snapshot(), finger);
+            let tick = usize::try_from(n).unwrap();
+            assert_eq!(felt, expected[tick], "finger {finger}, tick {n}");
+        }
+    }
+    let samples = engine.snapshot().pointer.samples;
+    assert_eq!(samples.accepted, 3 * 3 * 40, "all are counted");
+}
+
+#[test]
+fn a_finger_without_a_display_changes_nothing() {
+    let (expected, counters) = alone(0, 30);
+    let (mut engine, mut pointer, start) = with_displays(1);
+    for (n, expected) in (0..).zip(&expected) {
+        stroke(&mut pointer, (0, 0), start, n);
+        stroke(&mut pointer, (1, 1), start, n);
+        stroke(&mut pointer, (usize::MAX, 2), start, n);
+        engine.advance(start + TICK * (n + 1));
+        assert_eq!(&amplitudes(engine.snapshot()), expected, "tick {n}");
+    }
+    let snapshot = engine.snapshot();
+    assert_eq!(
+        format!("{counters:?}"),
+        format!("{:?}", snapshot.rendering.counters)
+    );
+    assert_eq!(snapshot.pointer.samples.accepted, 90);
+}
+
+#[test]
+fn a_display_whose_finger_is_lifted_is_silent_where_it_was_and_the_other_goes_on() {
+    for lifted in [0, 1] {
+        let other = 1 - lifted;
+        let (mut engine, mut pointer, start) = with_displays(2);
+        for n in 0..12 {
+            (0..2).for_each(|finger| stroke(&mut pointer, (finger, finger), start, n));
+            engine.advance(start + TICK * (n + 1));
+        }
+        let before = engine.snapshot().displays[lifted].pose;
+        pointer.lift(lifted);
+        for n in 12..24 {
+            stroke(&mut pointer, (other, other), start, n);
+            engine.advance(start + TICK * (n + 1));
+            let snapshot = engine.snapshot();
+            assert!(!sounds(&of_display(snapshot, lifted)), "{lifted} at {n}");
+            assert!(sounds(&of_display(snapshot, other)), "{other} at {n}");
+            assert_eq!(snapshot.displays[lifted].pose.position, before.position);
+        }
+        // It touches far from there: no velocity spans the air.
+        for n in 24..28 {
+            stroke(&mut pointer, (lifted, 2), start, n);
+            stroke(&mut pointer, (other, other), start, n);
+            engine.advance(start + TICK * (n + 1));
+            let speed = engine.snapshot().displays[lifted].pose.velocity;
+            assert!(speed.speed_mm_per_s() < 100.0, "{speed:?} at {n}");
+        }
+        assert!(sounds(&of_display(engine.snapshot(), lifted)), "felt again");
+    }
+}
+
+#[test]
+fn a_display_that_was_never_touched_is_silent_once_fingers_are_apart() {
+    let (mut engine, mut pointer, start) = with_displays(3);
+    for n in 0..10 {
+        stroke(&mut pointer, (0, 0), start, n);
+        engine.advance(start + TICK * (n + 1));
+    }
+    let parted = engine.snapshot().pose.position;
+    for n in 10..20 {
+        stroke(&mut pointer, (0, 0), start, n);
+        stroke(&mut pointer, (1, 1), start, n);
+        engine.advance(start + TICK * (n + 1));
+        let snapshot = engine.snapshot();
+        assert!(!sounds(&of_display(snapshot, 2)), "tick {n}");
+        assert_eq!(snapshot.displays[2].pose.position, parted);
+    }
+}
+
+#[test]
+fn another_source_or_scene_brings_them_together() {
+    let (mut engine, mut pointer, start) = with_displays(2);
+    let mut n = 0;
+    let mut go_on = |engine: &mut Engine, pointer: &mut PointerSender, fingers: usize| {
+        for _ in 0..6 {
+            (0..fingers).for_each(|finger| stroke(pointer, (finger, finger), start, n));
+            n += 1;
+            engine.advance(start + TICK * n);
+        }
+        let [first, second] = [0, 1].map(|nth| engine.snapshot().displays[nth].pose);
+        first.position == second.position
+    };
+    assert!(go_on(&mut engine, &mut pointer, 1));
+    assert!(!go_on(&mut engine, &mut pointer, 2), "apart");
+    assert!(!go_on(&mut engine, &mut pointer, 1), "they stay so");
+    let pointed = Command::SetSource(InputSource::Pointer);
+    engine.send(pointed).unwrap();
+    assert!(go_on(&mut engine, &mut pointer, 1), "another source");
+    assert!(!go_on(&mut engine, &mut pointer, 2));
+    let source = InputSource::Replay(path());
+    engine.send(Command::SetSource(source)).unwrap();
+    assert!(go_on(&mut engine, &mut pointer, 2), "a replay moves both");
+}
+
+#[test]
+fn all_off_silences_every_finger_and_a_clock_that_jumps_one_of_them() {
+    let (mut engine, mut pointer, start) = with_displays(2);
+    let jump = Duration::from_hours(1);
+    for n in 0..12 {
+        stroke(&mut pointer, (0, 0), start, n);
+        let ahead = if n < 8 { Duration::ZERO } else { jump };
+        for k in 0..3 {
+            let since = TICK * n + Duration::from_millis(8) * k;
+            let (stamp, position) = (start + ahead + since, at(1, since.as_secs_f64()));
+            pointer.push_to(1, PointerSample { stamp, position });
+        }
+        engine.advance(start + TICK * (n + 1));
+        let snapshot = engine.snapshot();
+        let heard = [0, 1].map(|nth| sounds(&of_display(snapshot, nth)));
+        assert_eq!(heard, [n > 0, n > 0 && n != 8], "tick {n}");
+    }
+    engine.send(Command::StopAll).unwrap();
+    stroke(&mut pointer, (0, 0), start, 12);
+    stroke(&mut pointer, (1, 1), start, 12);
+    engine.advance(start + TICK * 13);
+    let snapshot = engine.snapshot();
+    assert!((0..2).all(|nth| !sounds(&of_display(snapshot, nth))));
+}
+
+#[test]
+fn samples_of_ticks_and_news_are_of_the_display_that_is_watched() {
+    let (mut engine, mut pointer, start) = with_displays(2);
+    engine.send(Command::SampleTicks(true)).unwrap();
+    engine.send(Command::WatchDisplay(1)).unwrap();
+    engine.send(Command::Watch(5)).unwrap();
+    for n in 0..10 {
+        // The first rests; a finger moves the second alone.
+        stroke(&mut pointer, (1, 1), start, n);
+        engine.advance(start + TICK * (n + 1));
+        let (pose, felt_um) = {
+            let snapshot = engine.snapshot();
+            (snapshot.displays[1].pose, of_display(snapshot, 1))
+        };
+        let (sample, of_tick_um) = engine.next_felt_tick().unwrap();
+        assert_eq!((sample.pose, of_tick_um), (pose, &felt_um[..]), "tick {n}");
+        assert_eq!(sample.watched_um, felt_um[5]);
+    }
+}
