@@ -10,7 +10,7 @@ pub struct DeviceSpec {
     pub mass_kg: f64,
     /// Its own damping b, N·s/m.
     pub damping_n_s_per_m: f64,
-    /// Its own Coulomb friction `f_c` along z, N.
+    /// Its own Coulomb friction `f_c`, N: along z, and together along x and y.
     pub friction_n: f64,
     /// Resolution Δ of its encoders, mm; 0 is without steps.
     pub resolution_mm: f64,
@@ -183,6 +183,8 @@ pub(super) struct Pull {
     /// N·s/m.
     pub(super) drag: f64,
     pub(super) stiffness: [f64; 2],
+    /// What the device's own Coulomb friction takes at most, N.
+    pub(super) friction_n: f64,
 }
 
 impl Hand {
@@ -215,14 +217,20 @@ impl Hand {
                 velocity_m_per_s: target_m_per_s,
             };
         };
-        let velocity_m_per_s = [0, 1].map(|axis| {
+        let momentum = [0, 1].map(|axis| {
             // The hand's spring is taken at the step's end, its damper against the device's frame.
             let away_m = 1e-3 * (target_mm[axis] - from.place_mm[axis]);
             let drive_n = pull.force_n[axis] + stiffness * away_m;
+            mass_kg * from.velocity_m_per_s[axis] + step_s * drive_n
+        });
+        // Dry friction at the step's end: all of the momentum, or as much as it can take.
+        let size = momentum[0].hypot(momentum[1]);
+        let kept = (1.0 - step_s * pull.friction_n / size).max(0.0);
+        let velocity_m_per_s = [0, 1].map(|axis| {
             let inertia = mass_kg
                 + step_s * (pull.drag + damping)
                 + step_s * step_s * (stiffness + pull.stiffness[axis]);
-            (mass_kg * from.velocity_m_per_s[axis] + step_s * drive_n) / inertia
+            kept * momentum[axis] / inertia
         });
         Along {
             place_mm: [0, 1]
@@ -322,6 +330,7 @@ impl StylusDevice for SimulatedDevice {
         let pull = Pull {
             force_n: [x_n, y_n],
             drag: self.spec.damping_n_s_per_m,
+            friction_n: self.spec.friction_n,
             ..Pull::default()
         };
         self.along = self

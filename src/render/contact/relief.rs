@@ -3,7 +3,7 @@
 //! Heights lie on lattices: one of an area, or one along the warp and one along the weft, whose
 //! heights add up. Between points they are cubic (Catmull & Rom 1974) along both axes, so that
 //! height and gradient are continuous everywhere, also at the ends: what repeats goes on at its
-//! other side, a profile by its mirror image, a map by the height of its edge.
+//! other side, all else by its mirror image.
 //!
 //! A sphere of radius r whose lowest point is at (u, w, z) touches where z reaches the dilation
 //! `d(u, w) = max_{s² + q² ≤ r²} h(u + s, w + q) + √(r² − s² − q²) − r`. It is taken at the points
@@ -35,19 +35,12 @@ pub(super) struct Spot {
     pub(super) slope: [f64; 2],
 }
 
-/// How heights go on beyond their ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Ends {
-    Repeat,
-    Mirror,
-    Hold,
-}
-
 #[derive(Debug, Clone)]
 struct Lattice {
     heights_mm: Grid<f64>,
     step_mm: [f64; 2],
-    ends: Ends,
+    /// Whether it goes on at its other side; else by its mirror image.
+    is_periodic: bool,
 }
 
 impl Relief {
@@ -58,16 +51,11 @@ impl Relief {
 
     /// The heights of a map, missing ones filled.
     pub fn of_map(map: &HeightMap) -> Self {
-        let ends = if map.is_periodic() {
-            Ends::Repeat
-        } else {
-            Ends::Hold
-        };
         Self {
             lattices: vec![Lattice {
                 heights_mm: map.filled().heights_um().map(|um| 1e-3 * um),
                 step_mm: map.step_mm(),
-                ends,
+                is_periodic: map.is_periodic(),
             }],
         }
     }
@@ -86,6 +74,15 @@ impl Relief {
         ];
         Self {
             lattices: axes.into_iter().filter_map(of).collect(),
+        }
+    }
+
+    /// Which reading of a surface it is, for people.
+    pub fn reading(&self) -> &'static str {
+        match self.lattices.as_slice() {
+            [] => "a plane",
+            [one] if one.n().into_iter().all(|n| n > 1) => "heights over an area",
+            _ => "profiles along warp and weft, added up",
         }
     }
 
@@ -129,7 +126,7 @@ impl Lattice {
         Some(Self {
             heights_mm: Grid::from_rows(width, about_mean)?,
             step_mm: [profile.step_mm(); 2],
-            ends: Ends::Mirror,
+            is_periodic: false,
         })
     }
 
@@ -139,8 +136,8 @@ impl Lattice {
 
     fn add_at(&self, place_mm: [f64; 2], spot: &mut Spot) {
         let [n_u, n_w] = self.n();
-        let along = Taps::of(place_mm[0] / self.step_mm[0], n_u, self.ends);
-        let across = Taps::of(place_mm[1] / self.step_mm[1], n_w, self.ends);
+        let along = Taps::of(place_mm[0] / self.step_mm[0], n_u, self.is_periodic);
+        let across = Taps::of(place_mm[1] / self.step_mm[1], n_w, self.is_periodic);
         let (mut height, mut du, mut dw) = (0.0, 0.0, 0.0);
         for tap in 0..across.n {
             let row = self.heights_mm.row(across.index[tap]);
@@ -162,7 +159,7 @@ impl Lattice {
     /// What the lowest point of a sphere rests on at every point.
     fn dilated(&self, radius_mm: f64) -> Result<Self, RenderError> {
         let at = |index: [isize; 2]| {
-            let [u, w] = [0, 1].map(|axis| placed(index[axis], self.n()[axis], self.ends));
+            let [u, w] = [0, 1].map(|axis| placed(index[axis], self.n()[axis], self.is_periodic));
             self.heights_mm.row(w)[u]
         };
         Ok(Self {
@@ -182,7 +179,7 @@ struct Taps {
 }
 
 impl Taps {
-    fn of(place: f64, n: usize, ends: Ends) -> Self {
+    fn of(place: f64, n: usize, is_periodic: bool) -> Self {
         if n == 1 {
             return Self {
                 n: 1,
@@ -202,7 +199,7 @@ impl Taps {
             if inside {
                 (first + tap) as usize
             } else {
-                placed(first + tap, n, ends)
+                placed(first + tap, n, is_periodic)
             }
         };
         Self {
@@ -225,15 +222,13 @@ impl Taps {
 }
 
 /// The sample that stands for a place among `n` and beyond.
-fn placed(index: isize, n: usize, ends: Ends) -> usize {
+fn placed(index: isize, n: usize, is_periodic: bool) -> usize {
     let n = n as isize;
-    let inside = match ends {
-        Ends::Hold => index.clamp(0, n - 1),
-        Ends::Repeat => index.rem_euclid(n),
-        Ends::Mirror => {
-            let folded = index.rem_euclid(2 * n);
-            folded.min(2 * n - 1 - folded)
-        }
+    let inside = if is_periodic {
+        index.rem_euclid(n)
+    } else {
+        let folded = index.rem_euclid(2 * n);
+        folded.min(2 * n - 1 - folded)
     };
     inside as usize
 }
@@ -289,12 +284,12 @@ mod tests {
             1e3 * relief.height_mm([u, w])
         });
         let at = |column: usize, row: usize| map.heights_um().row(row)[column];
-        let (held, again) = (
+        let (mirrored, again) = (
             Relief::of_map(&map),
             Relief::of_map(&map.clone().periodic()),
         );
-        assert!((height(&held, 0.7, 0.6) - at(7, 3)).abs() < 1e-9);
-        assert!((height(&held, -9.0, 0.6) - at(0, 3)).abs() < 1e-9);
+        assert!((height(&mirrored, 0.7, 0.6) - at(7, 3)).abs() < 1e-9);
+        assert!((height(&mirrored, -0.8, 0.6) - at(7, 3)).abs() < 1e-9);
         assert!((height(&again, 0.7 - 3.0, 0.6 + 8.0) - at(7, 3)).abs() < 1e-9);
         assert_eq!(Relief::flat().height_mm([f64::MAX, 0.0]), 0.0);
     }

@@ -294,6 +294,7 @@ impl StylusRun {
             force_n: [0, 1].map(|axis| shown(axis) * (load.along_n[axis] - hold.held_n[axis])),
             drag: damping + shown(0).max(shown(1)) * hold.drag,
             stiffness: [0, 1].map(|axis| shown(axis) * load.stiffness[axis]),
+            friction_n: self.device.spec.friction_n,
         };
         let mass = (self.device.spec.mass_kg, &pull);
         let next = self
