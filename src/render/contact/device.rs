@@ -41,37 +41,18 @@ impl Default for DeviceSpec {
 impl DeviceSpec {
     /// Refuses what has no mass, or is no number.
     pub(super) fn check(&self) -> Result<(), RenderError> {
-        let wrong = |what: String, mend: &str| {
-            Err(RenderError::Stylus {
-                what,
-                mend: mend.to_owned(),
-            })
-        };
-        if !(1e-6..=1e3).contains(&self.mass_kg) {
-            let mass_kg = self.mass_kg;
-            return wrong(
-                format!("the mass is {mass_kg} kg"),
-                "give one from 1e-6 to 1000 kg",
-            );
-        }
-        let others = [
-            self.damping_n_s_per_m,
-            self.friction_n,
-            self.resolution_mm,
-            self.bandwidth_hz,
-        ];
-        let is_odd = |x: &f64| !(0.0..=1e6).contains(x);
-        if let Some(odd) = others.into_iter().find(is_odd) {
-            return wrong(
-                format!("a figure of the device is {odd}"),
-                "give damping, friction, resolution and bandwidth from 0 to 1e6",
-            );
+        RenderError::within(("mass", self.mass_kg, "kg"), [1e-6, 1e3])?;
+        for (name, value, unit) in [
+            ("device's damping", self.damping_n_s_per_m, "N·s/m"),
+            ("device's friction", self.friction_n, "N"),
+            ("resolution", self.resolution_mm, "mm"),
+            ("bandwidth", self.bandwidth_hz, "Hz"),
+        ] {
+            RenderError::within((name, value, unit), [0.0, 1e6])?;
         }
         if self.max_force_n.is_nan() || self.max_force_n <= 0.0 {
-            return wrong(
-                "the device gives no force".to_owned(),
-                "give a largest force above 0 N",
-            );
+            let mend = "give a largest force above 0 N";
+            return Err(RenderError::stylus("the device gives no force", mend));
         }
         Ok(())
     }
@@ -188,16 +169,17 @@ pub(super) struct Pull {
 }
 
 impl Hand {
+    /// A hand that presses down, N, and leads the tip where the path is.
+    pub fn pressing(press_n: f64) -> Self {
+        let leads = None;
+        Self { press_n, leads }
+    }
+
     pub(super) fn check(&self) -> Result<(), RenderError> {
         let [stiffness, damping] = self.leads.unwrap_or_default();
-        let all = [self.press_n, stiffness, damping];
-        if all.iter().all(|x| (0.0..=1e6).contains(x)) {
-            return Ok(());
-        }
-        Err(RenderError::Stylus {
-            what: format!("a hand that presses with {} N", self.press_n),
-            mend: "give its force, stiffness and damping from 0 to 1e6".to_owned(),
-        })
+        RenderError::within(("hand's force", self.press_n, "N"), [0.0, 1e6])?;
+        RenderError::within(("hand's stiffness", stiffness, "N/m"), [0.0, 1e6])?;
+        RenderError::within(("hand's damping", damping, "N·s/m"), [0.0, 1e6])
     }
 
     /// The tip after a step along the surface towards a target, by velocities at the step's end:
@@ -262,10 +244,8 @@ impl SimulatedDevice {
         hand.check()?;
         let [x_mm, y_mm, z_mm] = place_mm;
         if !place_mm.iter().all(|mm| mm.abs() <= 1e9) {
-            return Err(RenderError::Stylus {
-                what: "the stylus starts nowhere".to_owned(),
-                mend: "give finite places in mm".to_owned(),
-            });
+            let what = "the stylus starts nowhere";
+            return Err(RenderError::stylus(what, "give finite places in mm"));
         }
         Ok(Self {
             spec,

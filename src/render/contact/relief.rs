@@ -91,12 +91,7 @@ impl Relief {
     /// # Errors
     /// A radius that is no length, or that covers too many points.
     pub fn under_sphere(&self, radius_mm: f64) -> Result<Self, RenderError> {
-        if !(0.0..=100.0).contains(&radius_mm) {
-            return Err(RenderError::Stylus {
-                what: format!("the tip's radius is {radius_mm} mm"),
-                mend: "give one from 0 to 100 mm".to_owned(),
-            });
-        }
+        RenderError::within(("tip's radius", radius_mm, "mm"), [0.0, 100.0])?;
         let lattices = self.lattices.iter();
         let dilated: Result<_, _> = lattices.map(|one| one.dilated(radius_mm)).collect();
         Ok(Self { lattices: dilated? })

@@ -162,10 +162,10 @@ pub(super) fn dilated(
         .clamp(least, most);
     let n_below = (side + 2 * reach[0]).saturating_mul(side + 2 * reach[1]);
     if n_below > MAX_BELOW {
-        return Err(RenderError::Stylus {
-            what: format!("a tip of {radius_mm} mm covers {n_below} points"),
-            mend: "give a smaller radius, or a map of coarser steps".to_owned(),
-        });
+        return Err(RenderError::stylus(
+            format!("a tip of {radius_mm} mm covers {n_below} points"),
+            "give a smaller radius, or a map of coarser steps",
+        ));
     }
     let sphere = Sphere::new(radius_mm, step_mm, reach);
     let mut rested = heights_mm.clone();

@@ -248,10 +248,7 @@ fn tick(tip: &Tip, name: &str, bench: &mut Bench<'_>) -> Result<Row, ReportError
     let law = ContactLaw::default();
     let contact = Contact::new(&relief, tip.clone(), law, Friction::coulomb(0.3))?;
     let spec = DeviceSpec::default();
-    let hand = Hand {
-        press_n: 1.0,
-        leads: None,
-    };
+    let hand = Hand::pressing(1.0);
     let place = [0.0, 0.0, -0.5];
     let mut device = SimulatedDevice::new(spec, hand, (Stepper::Exact, 1e-3), place)?;
     let sampling = (1000.0, Sampling::default());

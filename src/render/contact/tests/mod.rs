@@ -17,17 +17,7 @@ fn flat(law: ContactLaw) -> Contact {
 }
 
 fn setup(law: ContactLaw, method: Stepper, rate_hz: f64) -> StylusSetup {
-    StylusSetup {
-        contact: flat(law),
-        device: DeviceSpec::default(),
-        hand: Hand {
-            press_n: 1.0,
-            leads: None,
-        },
-        method,
-        rate_hz,
-        sampling: None,
-    }
+    StylusSetup::of(flat(law), method, rate_hz)
 }
 
 fn dropped(setup: StylusSetup, drop_mm: f64) -> StylusRun {
