@@ -162,6 +162,7 @@ pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
     let way = Way::of(&args.way)?;
     let setup = setup(args)?;
     let (rate_hz, mut case, (method, why)) = (setup.rate_hz, setup.case(), setup.chosen());
+    let felt_as = format!("{}: {}", args.surface, setup.contact.relief().reading());
     let start = args
         .way
         .drop
@@ -177,6 +178,7 @@ pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
         );
         return Err(CliError::Input(what));
     }
+    terminal::notice(&felt_as);
     if args.how.method == Stepper::Auto {
         terminal::notice(&format!("method {}: {why}", method.name()));
     }
@@ -229,6 +231,10 @@ impl Way {
                 let seconds = path.duration_s();
                 (WayKind::Path(path), seconds)
             }
+            (None, Some(_)) if !(args.speed > 0.0 && args.speed.is_finite()) => {
+                let what = format!("the speed is {} mm/s; give more than 0 mm/s", args.speed);
+                return Err(CliError::Input(what));
+            }
             (None, Some([start, end])) => {
                 let stroke = Stroke::Line {
                     start,
@@ -267,11 +273,6 @@ fn setup(args: &ProbeArgs) -> Result<StylusSetup, CliError> {
     let (wall, device, how) = (&args.wall, &args.device, &args.how);
     let tip = tip(&wall.tip, wall.tip_radius)?;
     let mut felt = felt(&args.surface, &args.felt, &tip)?;
-    terminal::notice(&format!(
-        "surface {}: {}",
-        args.surface,
-        felt.relief.reading()
-    ));
     if let Some(mu) = wall.friction {
         felt.friction = Friction::coulomb(mu);
     }

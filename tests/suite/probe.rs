@@ -79,6 +79,7 @@ fn a_probe_that_cannot_be_held_is_refused_with_the_limit() {
         let is_told = outcome.err.contains("the rate is") && !outcome.err.contains("method");
         assert!(is_told, "before its method is named: {outcome:?}");
     }
+    refused("--stroke 0,0:9,0 --speed 0", &["the speed is 0 mm/s"]);
     refused("--delay 3", &["--controller sampled"]);
     refused("--method magic", &["no method \"magic\""]);
 }

@@ -15,7 +15,7 @@ use crate::RenderError;
 use selvedge_foundation::numerics::{Grid, extent, in_pieces, n_threads, to_whole};
 
 /// Sides of the squares that are asked first, samples.
-const SIDES: [usize; 2] = [4, 32];
+const SIDES: [usize; 2] = [4, 256];
 /// Most samples below the sphere anywhere over such a square: 100 MB of them.
 const MAX_BELOW: usize = 4_000_000;
 /// What rounding may make of two drops that are the same, mm.

@@ -21,6 +21,10 @@ use selvedge_foundation::named;
 
 /// Looks at a solution of an implicit step, or at the end of a contact.
 const MAX_LOOKS: u32 = 100;
+/// How exactly the end of a contact is located, as a part of its piece.
+const EVENT: f64 = 1e-12;
+/// Looks that move the same end, after which halves are tried.
+const SLOW: i32 = 3;
 /// Pieces of one step at which a stiff wall that rings is taken as it is.
 const MAX_PIECES: u32 = 1_000_000;
 /// How long a piece may be, as a part of 1/ω: an eighth of a period.
@@ -205,18 +209,23 @@ impl Column<'_> {
         }
         // Below, what the force makes of a velocity lies above it; above, below it.
         let miss = |next: f64| next - by(next);
-        let [low, high] = crossing([(low, low - high), (high, miss(high))], miss);
+        let [low, high] = crossing([(low, low - high), (high, miss(high))], 0.0, miss);
         end(0.5 * (low + high))
     }
 }
 
-/// The ends, to rounding, between which a function crosses 0, from two places where its values have
-/// different signs: by the chord, the value of an end that stays too long halved (Illinois).
-fn crossing([mut low, mut high]: [(f64, f64); 2], value: impl Fn(f64) -> f64) -> [f64; 2] {
-    let mut kept = 0;
+/// The ends, nearer than `near` or to rounding, between which a function crosses 0, from two places where its values have
+/// different signs: by the chord, the value of an end that stays too long halved (Illinois), and by
+/// halves where that is slow, as from an end that is all but a crossing itself.
+fn crossing(
+    [mut low, mut high]: [(f64, f64); 2],
+    near: f64,
+    value: impl Fn(f64) -> f64,
+) -> [f64; 2] {
+    let mut kept: i32 = 0;
     for _ in 0..MAX_LOOKS {
         let chord = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-        let is_between = chord > low.0 && chord < high.0;
+        let is_between = chord > low.0 && chord < high.0 && kept.abs() < SLOW;
         let middle = if is_between {
             chord
         } else {
@@ -226,16 +235,21 @@ fn crossing([mut low, mut high]: [(f64, f64); 2], value: impl Fn(f64) -> f64) ->
         if at == 0.0 {
             return [middle; 2];
         }
-        if (at < 0.0) == (low.1 < 0.0) {
-            low = (middle, at);
-            high.1 *= if kept < 0 { 0.5 } else { 1.0 };
-            kept = -1;
+        let moved = if (at < 0.0) == (low.1 < 0.0) { -1 } else { 1 };
+        let is_again = kept.signum() == moved;
+        kept = if !is_again || kept.abs() >= SLOW {
+            moved
         } else {
-            high = (middle, at);
-            low.1 *= if kept > 0 { 0.5 } else { 1.0 };
-            kept = 1;
-        }
-        if high.0 - low.0 <= 4.0 * f64::EPSILON * (low.0.abs() + high.0.abs()) {
+            kept + moved
+        };
+        let (end, other) = if moved < 0 {
+            (&mut low, &mut high)
+        } else {
+            (&mut high, &mut low)
+        };
+        *end = (middle, at);
+        other.1 *= if is_again { 0.5 } else { 1.0 };
+        if high.0 - low.0 <= near + 4.0 * f64::EPSILON * (low.0.abs() + high.0.abs()) {
             break;
         }
     }
@@ -344,7 +358,8 @@ impl Column<'_> {
             let left_s = step_s - begun_s;
             let rings_s = PIECE * (self.mass_kg / piece.k).sqrt();
             let is_calm = left_s > rings_s && self.is_calm(&piece, start, (begun_s, step_s));
-            let length_s = if is_calm { left_s } else { left_s.min(rings_s) };
+            let is_whole = is_calm || left_s <= rings_s;
+            let length_s = if is_whole { left_s } else { rings_s };
             let motion = |after_s: f64| self.along(&piece, start, begun_s, after_s);
             // How far the contact that changes first is from that.
             let left = |after_s: f64, motion: Motion| {
@@ -363,10 +378,10 @@ impl Column<'_> {
                 let ends = [(0.0, left(0.0, start)), (length_s, at_end)];
                 // At 0 it has not changed yet.
                 let beyond = |s: f64| left(s, motion(s)) + f64::MIN_POSITIVE;
-                let [_, event_s] = crossing(ends, beyond);
+                let [_, event_s] = crossing(ends, EVENT * length_s, beyond);
                 (at, t_s) = (motion(event_s), begun_s + event_s);
             }
-            if t_s >= step_s || (at_end >= 0.0 && length_s == left_s) {
+            if t_s >= step_s || (at_end >= 0.0 && is_whole) {
                 return at;
             }
         }
