@@ -161,30 +161,31 @@ struct DeviceArgs {
 pub(super) fn run(args: &ProbeArgs) -> Result<(), CliError> {
     let way = Way::of(&args.way)?;
     let setup = setup(args)?;
-    let n_steps = (way.seconds * setup.rate_hz + LAST_ROW_SLACK).floor();
-    if !(0.0..=MAX_ROWS).contains(&n_steps) {
-        let what = format!(
-            "{} s at {} Hz are no table; give at most {MAX_ROWS:e} rows",
-            way.seconds, setup.rate_hz
-        );
-        return Err(CliError::Input(what));
-    }
-    let (method, why) = setup.chosen();
-    if args.how.method == Stepper::Auto {
-        terminal::notice(&format!("method {}: {why}", method.name()));
-    }
-    let mut case = setup.case();
-    case.method = method;
-    if case.standing() != Standing::Stable {
-        terminal::notice(&case.advice());
-    }
-    let rate_hz = setup.rate_hz;
+    let (rate_hz, mut case, (method, why)) = (setup.rate_hz, setup.case(), setup.chosen());
+    let felt_as = format!("{}: {}", args.surface, setup.contact.relief().reading());
     let start = args
         .way
         .drop
         .map_or(StylusStart::Resting, StylusStart::Above);
     let mut from_row = 0;
+    // What is no setting is refused before anything is said of it.
     let mut run = StylusRun::new(setup, way.place_mm(0.0, &mut from_row), start)?;
+    let n_steps = (way.seconds * rate_hz + LAST_ROW_SLACK).floor();
+    if !(0.0..=MAX_ROWS).contains(&n_steps) {
+        let what = format!(
+            "{} s at {rate_hz} Hz are no table; give at most {MAX_ROWS:e} rows",
+            way.seconds
+        );
+        return Err(CliError::Input(what));
+    }
+    terminal::notice(&felt_as);
+    if args.how.method == Stepper::Auto {
+        terminal::notice(&format!("method {}: {why}", method.name()));
+    }
+    case.method = method;
+    if case.standing() != Standing::Stable {
+        terminal::notice(&case.advice());
+    }
     let mut table = TableOut::new(
         args.out.as_deref(),
         &StylusRow::COLUMNS.map(|(name, _)| name),
@@ -229,6 +230,10 @@ impl Way {
                 let path = ExplorationPath::read(path)?;
                 let seconds = path.duration_s();
                 (WayKind::Path(path), seconds)
+            }
+            (None, Some(_)) if !(args.speed > 0.0 && args.speed.is_finite()) => {
+                let what = format!("the speed is {} mm/s; give more than 0 mm/s", args.speed);
+                return Err(CliError::Input(what));
             }
             (None, Some([start, end])) => {
                 let stroke = Stroke::Line {

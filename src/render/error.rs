@@ -73,3 +73,31 @@ pub enum RenderError {
         mend: String,
     },
 }
+
+impl RenderError {
+    /// What is wrong with a stylus, and how to mend it.
+    pub(crate) fn stylus(what: impl Into<String>, mend: impl Into<String>) -> Self {
+        let (what, mend) = (what.into(), mend.into());
+        Self::Stylus { what, mend }
+    }
+
+    /// Refuses a figure of a stylus that is outside a range, in a unit, or no number.
+    pub(crate) fn within(
+        (name, value, unit): (&str, f64, &str),
+        [min, max]: [f64; 2],
+    ) -> Result<(), Self> {
+        if (min..=max).contains(&value) {
+            return Ok(());
+        }
+        let what = format!("the {name} is {value} {unit}");
+        let max = if max < 1e5 {
+            max.to_string()
+        } else {
+            format!("{max:e}")
+        };
+        Err(Self::stylus(
+            what,
+            format!("give one from {min} to {max} {unit}"),
+        ))
+    }
+}

@@ -225,7 +225,12 @@ fn the_shipped_library_has_sixteen_textiles_and_its_scenes_open() {
     let lab = Lab::new();
     assert_eq!(lab.print(&["textile", "list"]).lines().count(), 16);
     lab.write("a.csv", "t_s,x_mm,y_mm\n0,70,70\n0.1,80,75\n");
-    for scene in ["four-alternatives", "all-sixteen"] {
+    for scene in [
+        "four-alternatives",
+        "all-sixteen",
+        "five-brownian",
+        "wall-harwin",
+    ] {
         let text = format!(
             "{}/assets/scenes/{scene}.scene.toml",
             env!("CARGO_MANIFEST_DIR")

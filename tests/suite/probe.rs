@@ -72,7 +72,14 @@ fn a_probe_that_cannot_be_held_is_refused_with_the_limit() {
         &["explicit-euler cannot hold", "N/m"],
     );
     refused("--stiffness nan", &["the stiffness is NaN N/m", "1e9"]);
-    refused("--rate 0", &["the rate is 0 Hz"]);
+    for rate in ["0", "-5", "nan", "inf", "1e9"] {
+        let line = [DROP, &format!("--rate={rate}")].join(" ");
+        let outcome = lab.run(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(outcome.code, 2, "{rate}: {outcome:?}");
+        let is_told = outcome.err.contains("the rate is") && !outcome.err.contains("method");
+        assert!(is_told, "before its method is named: {outcome:?}");
+    }
+    refused("--stroke 0,0:9,0 --speed 0", &["the speed is 0 mm/s"]);
     refused("--delay 3", &["--controller sampled"]);
     refused("--method magic", &["no method \"magic\""]);
 }

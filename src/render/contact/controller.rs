@@ -65,10 +65,10 @@ impl HapticLoop {
     ) -> Result<Self, RenderError> {
         let period_s = period_s(rate_hz)?;
         if sampling.delay_ticks > MAX_DELAY {
-            return Err(RenderError::Stylus {
-                what: format!("a force that is {} ticks late", sampling.delay_ticks),
-                mend: format!("give a delay of at most {MAX_DELAY} ticks"),
-            });
+            return Err(RenderError::stylus(
+                format!("a force that is {} ticks late", sampling.delay_ticks),
+                format!("give a delay of at most {MAX_DELAY} ticks"),
+            ));
         }
         Ok(Self {
             contact,
@@ -154,11 +154,6 @@ impl HapticLoop {
 
 /// The period of a rate.
 pub(super) fn period_s(rate_hz: f64) -> Result<f64, RenderError> {
-    if (1.0..=1e6).contains(&rate_hz) {
-        return Ok(1.0 / rate_hz);
-    }
-    Err(RenderError::Stylus {
-        what: format!("the rate is {rate_hz} Hz"),
-        mend: "give one from 1 Hz to 1e6 Hz (steps of 1 s to 1 µs)".to_owned(),
-    })
+    RenderError::within(("rate", rate_hz, "Hz"), [1.0, 1e6])?;
+    Ok(1.0 / rate_hz)
 }

@@ -10,7 +10,7 @@ pub struct DeviceSpec {
     pub mass_kg: f64,
     /// Its own damping b, N·s/m.
     pub damping_n_s_per_m: f64,
-    /// Its own Coulomb friction `f_c` along z, N.
+    /// Its own Coulomb friction `f_c`, N: along z, and together along x and y.
     pub friction_n: f64,
     /// Resolution Δ of its encoders, mm; 0 is without steps.
     pub resolution_mm: f64,
@@ -41,37 +41,18 @@ impl Default for DeviceSpec {
 impl DeviceSpec {
     /// Refuses what has no mass, or is no number.
     pub(super) fn check(&self) -> Result<(), RenderError> {
-        let wrong = |what: String, mend: &str| {
-            Err(RenderError::Stylus {
-                what,
-                mend: mend.to_owned(),
-            })
-        };
-        if !(1e-6..=1e3).contains(&self.mass_kg) {
-            let mass_kg = self.mass_kg;
-            return wrong(
-                format!("the mass is {mass_kg} kg"),
-                "give one from 1e-6 to 1000 kg",
-            );
-        }
-        let others = [
-            self.damping_n_s_per_m,
-            self.friction_n,
-            self.resolution_mm,
-            self.bandwidth_hz,
-        ];
-        let is_odd = |x: &f64| !(0.0..=1e6).contains(x);
-        if let Some(odd) = others.into_iter().find(is_odd) {
-            return wrong(
-                format!("a figure of the device is {odd}"),
-                "give damping, friction, resolution and bandwidth from 0 to 1e6",
-            );
+        RenderError::within(("mass", self.mass_kg, "kg"), [1e-6, 1e3])?;
+        for (name, value, unit) in [
+            ("device's damping", self.damping_n_s_per_m, "N·s/m"),
+            ("device's friction", self.friction_n, "N"),
+            ("resolution", self.resolution_mm, "mm"),
+            ("bandwidth", self.bandwidth_hz, "Hz"),
+        ] {
+            RenderError::within((name, value, unit), [0.0, 1e6])?;
         }
         if self.max_force_n.is_nan() || self.max_force_n <= 0.0 {
-            return wrong(
-                "the device gives no force".to_owned(),
-                "give a largest force above 0 N",
-            );
+            let mend = "give a largest force above 0 N";
+            return Err(RenderError::stylus("the device gives no force", mend));
         }
         Ok(())
     }
@@ -183,19 +164,22 @@ pub(super) struct Pull {
     /// N·s/m.
     pub(super) drag: f64,
     pub(super) stiffness: [f64; 2],
+    /// What the device's own Coulomb friction takes at most, N.
+    pub(super) friction_n: f64,
 }
 
 impl Hand {
+    /// A hand that presses down, N, and leads the tip where the path is.
+    pub fn pressing(press_n: f64) -> Self {
+        let leads = None;
+        Self { press_n, leads }
+    }
+
     pub(super) fn check(&self) -> Result<(), RenderError> {
         let [stiffness, damping] = self.leads.unwrap_or_default();
-        let all = [self.press_n, stiffness, damping];
-        if all.iter().all(|x| (0.0..=1e6).contains(x)) {
-            return Ok(());
-        }
-        Err(RenderError::Stylus {
-            what: format!("a hand that presses with {} N", self.press_n),
-            mend: "give its force, stiffness and damping from 0 to 1e6".to_owned(),
-        })
+        RenderError::within(("hand's force", self.press_n, "N"), [0.0, 1e6])?;
+        RenderError::within(("hand's stiffness", stiffness, "N/m"), [0.0, 1e6])?;
+        RenderError::within(("hand's damping", damping, "N·s/m"), [0.0, 1e6])
     }
 
     /// The tip after a step along the surface towards a target, by velocities at the step's end:
@@ -215,14 +199,20 @@ impl Hand {
                 velocity_m_per_s: target_m_per_s,
             };
         };
-        let velocity_m_per_s = [0, 1].map(|axis| {
+        let momentum = [0, 1].map(|axis| {
             // The hand's spring is taken at the step's end, its damper against the device's frame.
             let away_m = 1e-3 * (target_mm[axis] - from.place_mm[axis]);
             let drive_n = pull.force_n[axis] + stiffness * away_m;
+            mass_kg * from.velocity_m_per_s[axis] + step_s * drive_n
+        });
+        // Dry friction at the step's end: all of the momentum, or as much as it can take.
+        let size = momentum[0].hypot(momentum[1]);
+        let kept = (1.0 - step_s * pull.friction_n / size).max(0.0);
+        let velocity_m_per_s = [0, 1].map(|axis| {
             let inertia = mass_kg
                 + step_s * (pull.drag + damping)
                 + step_s * step_s * (stiffness + pull.stiffness[axis]);
-            (mass_kg * from.velocity_m_per_s[axis] + step_s * drive_n) / inertia
+            kept * momentum[axis] / inertia
         });
         Along {
             place_mm: [0, 1]
@@ -254,10 +244,8 @@ impl SimulatedDevice {
         hand.check()?;
         let [x_mm, y_mm, z_mm] = place_mm;
         if !place_mm.iter().all(|mm| mm.abs() <= 1e9) {
-            return Err(RenderError::Stylus {
-                what: "the stylus starts nowhere".to_owned(),
-                mend: "give finite places in mm".to_owned(),
-            });
+            let what = "the stylus starts nowhere";
+            return Err(RenderError::stylus(what, "give finite places in mm"));
         }
         Ok(Self {
             spec,
@@ -322,6 +310,7 @@ impl StylusDevice for SimulatedDevice {
         let pull = Pull {
             force_n: [x_n, y_n],
             drag: self.spec.damping_n_s_per_m,
+            friction_n: self.spec.friction_n,
             ..Pull::default()
         };
         self.along = self

@@ -60,10 +60,10 @@ impl Friction {
         if is_good {
             return Ok(());
         }
-        Err(RenderError::Stylus {
-            what: "the friction is none that there is".to_owned(),
-            mend: "give coefficients from 0 to 10, and positive stiffness and speed".to_owned(),
-        })
+        Err(RenderError::stylus(
+            "the friction is none that there is",
+            "give coefficients from 0 to 10, and positive stiffness and speed",
+        ))
     }
 
     /// Coefficients at rest and sliding at a place, u in mm.

@@ -6,7 +6,17 @@
 //! their power series at a short time, then the time doubled by putting two steps after each other.
 
 /// Terms of the series; with [`SHORT`] the rest is below rounding.
-const TERMS: u32 = 16;
+const TERMS: usize = 16;
+/// `1/n`: a division costs as much as the rest of a term.
+const INVERSES: [f64; TERMS + 3] = {
+    let mut all = [0.0; TERMS + 3];
+    let mut n = 1;
+    while n < all.len() {
+        all[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    all
+};
 /// Largest `2αt + √κ t` of the series.
 const SHORT: f64 = 0.5;
 /// More doublings than any step of 1 s has.
@@ -45,12 +55,12 @@ impl Kernel {
         let (mut before, mut term) = (0.0, 1.0);
         let (mut g, mut rate, mut h, mut i) = (0.0, 0.0, 0.0, 0.0);
         for n in 1..=TERMS {
-            let n = f64::from(n);
+            let next_over = INVERSES[n + 1];
             g += term;
-            rate += n * term;
-            h += term / (n + 1.0);
-            i += term / ((n + 1.0) * (n + 2.0));
-            let next = -(a * n * term + b * before) / (n * (n + 1.0));
+            rate += n as f64 * term;
+            h += term * next_over;
+            i += term * (next_over * INVERSES[n + 2]);
+            let next = -(a * term + b * before * INVERSES[n]) * next_over;
             (before, term) = (term, next);
         }
         let h = h * t_s * t_s;

@@ -124,42 +124,20 @@ impl Compression {
 impl ContactLaw {
     /// Refuses what is no spring: negative, NaN, beyond 10⁹ N/m.
     pub fn check(&self) -> Result<(), RenderError> {
-        let wrong = |what: String, mend: &str| {
-            Err(RenderError::Stylus {
-                what,
-                mend: mend.to_owned(),
-            })
-        };
-        let (k, b, most) = (
-            self.stiffness_n_per_m,
-            self.damping_n_s_per_m,
-            self.ceiling_n,
-        );
-        if !(0.0..=MAX_STIFFNESS_N_PER_M).contains(&k) {
-            return wrong(
-                format!("the stiffness is {k} N/m"),
-                "give one from 0 to 1e9 N/m",
-            );
-        }
-        if !(0.0..=1e6).contains(&b) {
-            return wrong(
-                format!("the damping is {b} N·s/m"),
-                "give one from 0 to 1e6 N·s/m",
-            );
-        }
+        let (k, b) = (self.stiffness_n_per_m, self.damping_n_s_per_m);
+        RenderError::within(("stiffness", k, "N/m"), [0.0, MAX_STIFFNESS_N_PER_M])?;
+        RenderError::within(("damping", b, "N·s/m"), [0.0, 1e6])?;
+        let most = self.ceiling_n;
         if most.is_nan() || most <= 0.0 {
-            return wrong(
-                format!("the force ceiling is {most} N"),
-                "give more than 0 N",
-            );
+            let what = format!("the force ceiling is {most} N");
+            return Err(RenderError::stylus(what, "give more than 0 N"));
         }
-        match self.cloth {
-            Some(cloth) if !cloth.is_curve() => wrong(
-                format!("the compression {cloth:?} makes no curve"),
-                "give T0 above TM, LC from 0.05 to 2 and RC from 1 to 100 %",
-            ),
-            _ => Ok(()),
+        if let Some(cloth) = self.cloth.filter(|cloth| !cloth.is_curve()) {
+            let what = format!("the compression {cloth:?} makes no curve");
+            let mend = "give T0 above TM, LC from 0.05 to 2 and RC from 1 to 100 %";
+            return Err(RenderError::stylus(what, mend));
         }
+        Ok(())
     }
 
     /// Whether force is piecewise linear in depth, so that it can be stepped exactly.

@@ -28,6 +28,7 @@ mod limits;
 mod passivity;
 mod patch;
 mod relief;
+mod rolling;
 mod row;
 mod run;
 mod stepper;

@@ -58,10 +58,10 @@ impl Contact {
         friction.check()?;
         let places = tip.contacts_mm.iter().flatten();
         if tip.contacts_mm.is_empty() || !places.into_iter().all(|mm| mm.abs() <= 1e3) {
-            return Err(RenderError::Stylus {
-                what: "the tip has no contact, or one that is not within 1 m".to_owned(),
-                mend: "give places in mm".to_owned(),
-            });
+            return Err(RenderError::stylus(
+                "the tip has no contact, or one that is not within 1 m",
+                "give places in mm",
+            ));
         }
         let n = tip.contacts_mm.len();
         Ok(Self {

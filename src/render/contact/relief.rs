@@ -3,23 +3,22 @@
 //! Heights lie on lattices: one of an area, or one along the warp and one along the weft, whose
 //! heights add up. Between points they are cubic (Catmull & Rom 1974) along both axes, so that
 //! height and gradient are continuous everywhere, also at the ends: what repeats goes on at its
-//! other side, a profile by its mirror image, a map by the height of its edge.
+//! other side, all else by its mirror image.
 //!
 //! A sphere of radius r whose lowest point is at (u, w, z) touches where z reaches the dilation
 //! `d(u, w) = max_{s² + q² ≤ r²} h(u + s, w + q) + √(r² − s² − q²) − r`. It is taken at the points
-//! once, when preparing, and interpolated as heights are: valleys narrower than the sphere vanish.
+//! once, when preparing ([`super::rolling`]), and interpolated as heights are: valleys narrower than
+//! the sphere vanish.
 #![expect(
     clippy::cast_possible_wrap,
     clippy::cast_sign_loss,
     reason = "numbers of samples: at most 64 million, and never negative once they are placed"
 )]
 
+use super::rolling::dilated;
 use crate::RenderError;
-use selvedge_foundation::numerics::{Grid, in_pieces, n_threads, to_whole};
+use selvedge_foundation::numerics::{Grid, to_whole};
 use selvedge_textile::surface::{Direction, HeightMap, Profile, Surface};
-
-/// Most comparisons that a dilation may take: some ten seconds.
-const MAX_WORK: usize = 20_000_000_000;
 
 /// A surface as a tip meets it, in the textile's frame: u along the warp, w along the weft.
 #[derive(Debug, Clone, Default)]
@@ -36,19 +35,12 @@ pub(super) struct Spot {
     pub(super) slope: [f64; 2],
 }
 
-/// How heights go on beyond their ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Ends {
-    Repeat,
-    Mirror,
-    Hold,
-}
-
 #[derive(Debug, Clone)]
 struct Lattice {
     heights_mm: Grid<f64>,
     step_mm: [f64; 2],
-    ends: Ends,
+    /// Whether it goes on at its other side; else by its mirror image.
+    is_periodic: bool,
 }
 
 impl Relief {
@@ -59,16 +51,11 @@ impl Relief {
 
     /// The heights of a map, missing ones filled.
     pub fn of_map(map: &HeightMap) -> Self {
-        let ends = if map.is_periodic() {
-            Ends::Repeat
-        } else {
-            Ends::Hold
-        };
         Self {
             lattices: vec![Lattice {
                 heights_mm: map.filled().heights_um().map(|um| 1e-3 * um),
                 step_mm: map.step_mm(),
-                ends,
+                is_periodic: map.is_periodic(),
             }],
         }
     }
@@ -90,17 +77,21 @@ impl Relief {
         }
     }
 
+    /// Which reading of a surface it is, for people.
+    pub fn reading(&self) -> &'static str {
+        match self.lattices.as_slice() {
+            [] => "a plane",
+            [one] if one.n().into_iter().all(|n| n > 1) => "heights over an area",
+            _ => "profiles along warp and weft, added up",
+        }
+    }
+
     /// What the lowest point of a sphere rests on: the dilation above.
     ///
     /// # Errors
-    /// A radius that is no length, or so many points within it that it would take minutes.
+    /// A radius that is no length, or that covers too many points.
     pub fn under_sphere(&self, radius_mm: f64) -> Result<Self, RenderError> {
-        if !(0.0..=100.0).contains(&radius_mm) {
-            return Err(RenderError::Stylus {
-                what: format!("the tip's radius is {radius_mm} mm"),
-                mend: "give one from 0 to 100 mm".to_owned(),
-            });
-        }
+        RenderError::within(("tip's radius", radius_mm, "mm"), [0.0, 100.0])?;
         let lattices = self.lattices.iter();
         let dilated: Result<_, _> = lattices.map(|one| one.dilated(radius_mm)).collect();
         Ok(Self { lattices: dilated? })
@@ -130,7 +121,7 @@ impl Lattice {
         Some(Self {
             heights_mm: Grid::from_rows(width, about_mean)?,
             step_mm: [profile.step_mm(); 2],
-            ends: Ends::Mirror,
+            is_periodic: false,
         })
     }
 
@@ -140,8 +131,8 @@ impl Lattice {
 
     fn add_at(&self, place_mm: [f64; 2], spot: &mut Spot) {
         let [n_u, n_w] = self.n();
-        let along = Taps::of(place_mm[0] / self.step_mm[0], n_u, self.ends);
-        let across = Taps::of(place_mm[1] / self.step_mm[1], n_w, self.ends);
+        let along = Taps::of(place_mm[0] / self.step_mm[0], n_u, self.is_periodic);
+        let across = Taps::of(place_mm[1] / self.step_mm[1], n_w, self.is_periodic);
         let (mut height, mut du, mut dw) = (0.0, 0.0, 0.0);
         for tap in 0..across.n {
             let row = self.heights_mm.row(across.index[tap]);
@@ -160,96 +151,16 @@ impl Lattice {
         spot.slope[1] += dw / self.step_mm[1];
     }
 
-    /// Samples around and below a sphere, by how far its underside is above its lowest point: the
-    /// nearest first. What is farther than the heights reach cannot touch.
-    fn drops_mm(&self, radius_mm: f64) -> Vec<(f64, [isize; 2])> {
-        let [low, high] =
-            selvedge_foundation::numerics::extent(self.heights_mm.values().iter().copied());
-        let reach = |axis: usize| {
-            let is_alone = self.n()[axis] == 1;
-            let n = radius_mm / self.step_mm[axis];
-            if is_alone {
-                0
-            } else {
-                to_whole::<i32>(n.min(1e6))
-            }
-        };
-        let mut drops = Vec::new();
-        for row in -reach(1)..=reach(1) {
-            for column in -reach(0)..=reach(0) {
-                let offset = [column as isize, row as isize];
-                let drop_mm = self.drop_mm(radius_mm, offset);
-                drops.extend(
-                    drop_mm
-                        .filter(|drop_mm| *drop_mm <= high - low)
-                        .map(|drop_mm| (drop_mm, offset)),
-                );
-            }
-        }
-        drops.sort_by(|a, b| a.0.total_cmp(&b.0));
-        drops
-    }
-
-    /// How far a sphere's underside is above its lowest point at a sample; `None` beside it.
-    fn drop_mm(&self, radius_mm: f64, [du, dw]: [isize; 2]) -> Option<f64> {
-        let away_mm = (du as f64 * self.step_mm[0]).hypot(dw as f64 * self.step_mm[1]);
-        let depth_mm = (radius_mm - away_mm) * (radius_mm + away_mm);
-        (away_mm <= radius_mm).then(|| radius_mm - depth_mm.max(0.0).sqrt())
-    }
-
+    /// What the lowest point of a sphere rests on at every point.
     fn dilated(&self, radius_mm: f64) -> Result<Self, RenderError> {
-        let drops = self.drops_mm(radius_mm);
-        let [n_u, n_w] = self.n();
-        if drops.len().saturating_mul(n_u * n_w) > MAX_WORK {
-            return Err(RenderError::Stylus {
-                what: format!("a tip of {radius_mm} mm covers {} points", drops.len()),
-                mend: "give a smaller radius, or a map of coarser steps".to_owned(),
-            });
-        }
-        let mut rested = self.heights_mm.values().to_vec();
-        let high = rested.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let sphere = (radius_mm, drops.as_slice());
-        let work = |(): &mut (), row: usize, out: &mut [f64]| self.rest_on(sphere, high, row, out);
-        in_pieces(&mut rested, n_u, n_threads(), || (), work);
+        let at = |index: [isize; 2]| {
+            let [u, w] = [0, 1].map(|axis| placed(index[axis], self.n()[axis], self.is_periodic));
+            self.heights_mm.row(w)[u]
+        };
         Ok(Self {
-            // As many as there were.
-            heights_mm: Grid::from_rows(n_u, rested).unwrap_or_else(|| self.heights_mm.clone()),
+            heights_mm: dilated(&self.heights_mm, self.step_mm, radius_mm, at)?,
             ..*self
         })
-    }
-
-    /// Where a sphere rests over a row of heights up to `high`. Beside each other it mostly rests
-    /// on the same summit, which is tried first: what cannot reach as high is passed over.
-    fn rest_on(
-        &self,
-        (radius_mm, drops): (f64, &[(f64, [isize; 2])]),
-        high: f64,
-        row: usize,
-        out: &mut [f64],
-    ) {
-        let [n_u, n_w] = self.n();
-        let top = |column: usize, (drop_mm, [du, dw]): (f64, [isize; 2])| {
-            let at = placed(column as isize + du, n_u, self.ends);
-            let row = placed(row as isize + dw, n_w, self.ends);
-            self.heights_mm.row(row)[at] - drop_mm
-        };
-        let mut summit = [0, 0];
-        for (column, out) in out.iter_mut().enumerate() {
-            summit[0] -= 1;
-            let guess = self.drop_mm(radius_mm, summit);
-            let guess = guess.map(|drop_mm| top(column, (drop_mm, summit)));
-            let mut best = guess.unwrap_or(f64::NEG_INFINITY);
-            for &drop in drops {
-                if high - drop.0 <= best {
-                    break;
-                }
-                let reached = top(column, drop);
-                if reached > best {
-                    (best, summit) = (reached, drop.1);
-                }
-            }
-            *out = best;
-        }
     }
 }
 
@@ -263,7 +174,7 @@ struct Taps {
 }
 
 impl Taps {
-    fn of(place: f64, n: usize, ends: Ends) -> Self {
+    fn of(place: f64, n: usize, is_periodic: bool) -> Self {
         if n == 1 {
             return Self {
                 n: 1,
@@ -283,7 +194,7 @@ impl Taps {
             if inside {
                 (first + tap) as usize
             } else {
-                placed(first + tap, n, ends)
+                placed(first + tap, n, is_periodic)
             }
         };
         Self {
@@ -306,15 +217,13 @@ impl Taps {
 }
 
 /// The sample that stands for a place among `n` and beyond.
-fn placed(index: isize, n: usize, ends: Ends) -> usize {
+fn placed(index: isize, n: usize, is_periodic: bool) -> usize {
     let n = n as isize;
-    let inside = match ends {
-        Ends::Hold => index.clamp(0, n - 1),
-        Ends::Repeat => index.rem_euclid(n),
-        Ends::Mirror => {
-            let folded = index.rem_euclid(2 * n);
-            folded.min(2 * n - 1 - folded)
-        }
+    let inside = if is_periodic {
+        index.rem_euclid(n)
+    } else {
+        let folded = index.rem_euclid(2 * n);
+        folded.min(2 * n - 1 - folded)
     };
     inside as usize
 }
@@ -370,12 +279,12 @@ mod tests {
             1e3 * relief.height_mm([u, w])
         });
         let at = |column: usize, row: usize| map.heights_um().row(row)[column];
-        let (held, again) = (
+        let (mirrored, again) = (
             Relief::of_map(&map),
             Relief::of_map(&map.clone().periodic()),
         );
-        assert!((height(&held, 0.7, 0.6) - at(7, 3)).abs() < 1e-9);
-        assert!((height(&held, -9.0, 0.6) - at(0, 3)).abs() < 1e-9);
+        assert!((height(&mirrored, 0.7, 0.6) - at(7, 3)).abs() < 1e-9);
+        assert!((height(&mirrored, -0.8, 0.6) - at(7, 3)).abs() < 1e-9);
         assert!((height(&again, 0.7 - 3.0, 0.6 + 8.0) - at(7, 3)).abs() < 1e-9);
         assert_eq!(Relief::flat().height_mm([f64::MAX, 0.0]), 0.0);
     }

@@ -60,6 +60,18 @@ pub struct StylusRun {
 }
 
 impl StylusSetup {
+    /// A usual device in a hand that presses with 1 N, with a force that acts at all times.
+    pub fn of(contact: Contact, method: Stepper, rate_hz: f64) -> Self {
+        Self {
+            contact,
+            device: DeviceSpec::default(),
+            hand: Hand::pressing(1.0),
+            method,
+            rate_hz,
+            sampling: None,
+        }
+    }
+
     /// The case of a wall that this is, for limits and maps.
     pub fn case(&self) -> WallCase {
         let law = self.contact.law();
@@ -97,10 +109,10 @@ impl StylusSetup {
         self.contact.set_law(law)?;
         self.method = self.chosen().0;
         if self.method == Stepper::Exact && !law.is_linear() && self.sampling.is_none() {
-            return Err(RenderError::Stylus {
-                what: "a cloth's compression is not piecewise linear".to_owned(),
-                mend: "take method implicit-euler, or leave its figures out".to_owned(),
-            });
+            return Err(RenderError::stylus(
+                "a cloth's compression is not piecewise linear",
+                "take method implicit-euler, or leave its figures out",
+            ));
         }
         // What is not displayed is no axis of the device.
         let [x, y, z] = &mut self.device.axes;
@@ -207,10 +219,10 @@ impl StylusRun {
     /// A place that is none; motion that grows without bound, with the stable limit.
     pub fn step(&mut self, target_mm: [f64; 2]) -> Result<&StylusRow, RenderError> {
         if !target_mm.iter().all(|mm| mm.abs() <= 1e9) {
-            return Err(RenderError::Stylus {
-                what: format!("the path leads to {target_mm:?} mm"),
-                mend: "give finite places in mm".to_owned(),
-            });
+            return Err(RenderError::stylus(
+                format!("the path leads to {target_mm:?} mm"),
+                "give finite places in mm",
+            ));
         }
         self.lead_to(target_mm);
         let before = self.device.upright;
@@ -294,6 +306,7 @@ impl StylusRun {
             force_n: [0, 1].map(|axis| shown(axis) * (load.along_n[axis] - hold.held_n[axis])),
             drag: damping + shown(0).max(shown(1)) * hold.drag,
             stiffness: [0, 1].map(|axis| shown(axis) * load.stiffness[axis]),
+            friction_n: self.device.spec.friction_n,
         };
         let mass = (self.device.spec.mass_kg, &pull);
         let next = self
@@ -373,9 +386,9 @@ impl StylusRun {
         if gained_j.is_finite() && gained_j <= most_j {
             return Ok(());
         }
-        Err(RenderError::Stylus {
-            what: format!("the motion grows without end at {} s", self.row.t_s),
-            mend: self.advice.clone(),
-        })
+        Err(RenderError::stylus(
+            format!("the motion grows without end at {} s", self.row.t_s),
+            self.advice.clone(),
+        ))
     }
 }

@@ -10,7 +10,7 @@
 //! | Runge–Kutta 4 | four looks | never certain: the surface is no smooth force |
 //! | trapezoid | spring by its mean over the step, `ΔU/Δd` | always, for linear springs |
 //! | implicit Euler | all at the end | always; takes what it should not |
-//! | exact | pieces in closed form, ends of contact located by halving | always: it is the truth |
+//! | exact | pieces in closed form, ends of contact located to rounding | always: it is the truth |
 //!
 //! In contact the trapezoid is the trapezoidal rule; where a step crosses the surface that rule
 //! alone would pay out more than was put in. With B = 0 it keeps energy to rounding.
@@ -19,10 +19,12 @@ use super::kernel::Kernel;
 use super::law::{Floor, Spring};
 use selvedge_foundation::named;
 
-/// Halvings that locate an event within a step: to rounding.
-const HALVINGS: u32 = 52;
-/// Looks at a solution of an implicit step.
+/// Looks at a solution of an implicit step, or at the end of a contact.
 const MAX_LOOKS: u32 = 100;
+/// How exactly the end of a contact is located, as a part of its piece.
+const EVENT: f64 = 1e-12;
+/// Looks that move the same end, after which halves are tried.
+const SLOW: i32 = 3;
 /// Pieces of one step at which a stiff wall that rings is taken as it is.
 const MAX_PIECES: u32 = 1_000_000;
 /// How long a piece may be, as a part of 1/ω: an eighth of a period.
@@ -201,126 +203,185 @@ impl Column<'_> {
         let inertia = m + theta * h * b;
         let free = (m * v + h * (self.push_n - (1.0 - theta) * b * v)) / inertia;
         let by = |next: f64| free + h / inertia * force_n(end(next));
-        let (mut low, mut high) = (free, by(free));
+        let (low, high) = (free, by(free));
         if high <= low {
             return end(low);
         }
         // Below, what the force makes of a velocity lies above it; above, below it.
         let miss = |next: f64| next - by(next);
-        let (mut at_low, mut at_high) = (low - high, miss(high));
-        let mut kept = 0;
-        for _ in 0..MAX_LOOKS {
-            let middle = (low * at_high - high * at_low) / (at_high - at_low);
-            let middle = if middle > low && middle < high {
-                middle
-            } else {
-                0.5 * (low + high)
-            };
-            let at = miss(middle);
-            if at < 0.0 {
-                (low, at_low) = (middle, at);
-                at_high *= if kept < 0 { 0.5 } else { 1.0 };
-                kept = -1;
-            } else {
-                (high, at_high) = (middle, at);
-                at_low *= if kept > 0 { 0.5 } else { 1.0 };
-                kept = 1;
-            }
-            if at == 0.0 || high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs()) {
-                return end(middle);
-            }
-        }
+        let [low, high] = crossing([(low, low - high), (high, miss(high))], 0.0, miss);
         end(0.5 * (low + high))
     }
 }
 
-impl Column<'_> {
-    /// A contact's surface at a time after the start: between its places at start and end.
-    fn floor_at(&self, contact: usize, share: f64, step_s: f64) -> Floor {
-        let (before, after) = (&self.floors[0][contact], &self.floors[2][contact]);
-        let gone_m = after.height_m - before.height_m;
-        Floor {
-            height_m: before.height_m + share * gone_m,
-            rise_m_per_s: gone_m / step_s,
-            ..*before
-        }
-    }
-
-    fn touch(&self, contact: usize, at: Motion, (t_s, step_s): (f64, f64)) -> Touch {
-        let floor = self.floor_at(contact, t_s / step_s, step_s);
-        let depth_m = floor.height_m - at.z_m;
-        if depth_m <= 0.0 {
-            return Touch::Away;
-        }
-        let damper_n = self.spring.b * (floor.rise_m_per_s - at.v_m_per_s);
-        let force_n = self.spring.k * depth_m + damper_n;
-        if force_n < 0.0 {
-            Touch::Loose
-        } else if force_n >= self.spring.ceiling_n(&floor) {
-            Touch::Full
+/// The ends, nearer than `near` or to rounding, between which a function crosses 0, from two places where its values have
+/// different signs: by the chord, the value of an end that stays too long halved (Illinois), and by
+/// halves where that is slow, as from an end that is all but a crossing itself.
+fn crossing(
+    [mut low, mut high]: [(f64, f64); 2],
+    near: f64,
+    value: impl Fn(f64) -> f64,
+) -> [f64; 2] {
+    let mut kept: i32 = 0;
+    for _ in 0..MAX_LOOKS {
+        let chord = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        let is_between = chord > low.0 && chord < high.0 && kept.abs() < SLOW;
+        let middle = if is_between {
+            chord
         } else {
-            Touch::Pressed
+            0.5 * (low.0 + high.0)
+        };
+        let at = value(middle);
+        if at == 0.0 {
+            return [middle; 2];
+        }
+        let moved = if (at < 0.0) == (low.1 < 0.0) { -1 } else { 1 };
+        let is_again = kept.signum() == moved;
+        kept = if !is_again || kept.abs() >= SLOW {
+            moved
+        } else {
+            kept + moved
+        };
+        let (end, other) = if moved < 0 {
+            (&mut low, &mut high)
+        } else {
+            (&mut high, &mut low)
+        };
+        *end = (middle, at);
+        other.1 *= if is_again { 0.5 } else { 1.0 };
+        if high.0 - low.0 <= near + 4.0 * f64::EPSILON * (low.0.abs() + high.0.abs()) {
+            break;
+        }
+    }
+    [low.0, high.0]
+}
+
+impl Touch {
+    /// By depth, force of spring and damper, and ceiling.
+    fn of([depth_m, force_n, ceiling_n]: [f64; 3]) -> Self {
+        if depth_m <= 0.0 {
+            Self::Away
+        } else if force_n < 0.0 {
+            Self::Loose
+        } else if force_n >= ceiling_n {
+            Self::Full
+        } else {
+            Self::Pressed
         }
     }
 
-    fn piece(&self, at: Motion, when: (f64, f64)) -> Piece {
+    /// How far that is from its end; below 0 beyond it.
+    fn left(self, [depth_m, force_n, ceiling_n]: [f64; 3]) -> f64 {
+        match self {
+            Self::Away => -depth_m,
+            Self::Loose => depth_m.min(-force_n),
+            // It leaves without force before it leaves the depth.
+            Self::Pressed => force_n.min(ceiling_n - force_n),
+            Self::Full => force_n - ceiling_n,
+        }
+    }
+}
+
+impl Column<'_> {
+    /// How fast a contact's surface rises over a step: evenly.
+    fn rise_m_per_s(&self, contact: usize, step_s: f64) -> f64 {
+        (self.floors[2][contact].height_m - self.floors[0][contact].height_m) / step_s
+    }
+
+    /// Depth, force and ceiling of a contact at a time after the start of a step.
+    fn figures(&self, contact: usize, at: Motion, (t_s, step_s): (f64, f64)) -> [f64; 3] {
+        let floor = &self.floors[0][contact];
+        let rise_m_per_s = self.rise_m_per_s(contact, step_s);
+        let depth_m = floor.height_m + rise_m_per_s * t_s - at.z_m;
+        let damper_n = self.spring.b * (rise_m_per_s - at.v_m_per_s);
+        let force_n = self.spring.k * depth_m + damper_n;
+        [depth_m, force_n, self.spring.ceiling_n(floor)]
+    }
+
+    fn piece(&self, at: Motion, (t_s, step_s): (f64, f64)) -> Piece {
         let mut piece = Piece {
             c: self.damping,
             f: self.push_n,
             ..Piece::default()
         };
-        for contact in 0..self.floors[0].len() {
-            let floor = self.floor_at(contact, 0.0, when.1);
-            match self.touch(contact, at, when) {
+        let Spring { k, b, .. } = *self.spring;
+        for (contact, floor) in self.floors[0].iter().enumerate() {
+            match Touch::of(self.figures(contact, at, (t_s, step_s))) {
                 Touch::Away | Touch::Loose => {}
-                Touch::Full => piece.f += self.spring.ceiling_n(&floor),
+                Touch::Full => piece.f += self.spring.ceiling_n(floor),
                 Touch::Pressed => {
-                    piece.k += self.spring.k;
-                    piece.c += self.spring.b;
-                    piece.f += self.spring.k * floor.height_m + self.spring.b * floor.rise_m_per_s;
-                    piece.g += self.spring.k * floor.rise_m_per_s;
+                    let rise_m_per_s = self.rise_m_per_s(contact, step_s);
+                    piece.k += k;
+                    piece.c += b;
+                    piece.f += k * floor.height_m + b * rise_m_per_s;
+                    piece.g += k * rise_m_per_s;
                 }
             }
         }
         piece
     }
 
+    /// Whether no contact changes how it touches until the step is over: about the even motion that
+    /// spring and surface lead to, `½ m ẏ² + ½ k y²` only falls, so a ringing never swings wider
+    /// than it does now.
+    fn is_calm(&self, piece: &Piece, at: Motion, (t_s, step_s): (f64, f64)) -> bool {
+        let v_m_per_s = piece.g / piece.k;
+        let led = |t_s: f64| Motion {
+            z_m: (piece.f + piece.g * t_s - piece.c * v_m_per_s) / piece.k,
+            v_m_per_s,
+        };
+        let away_m = at.z_m - led(t_s).z_m;
+        let faster = at.v_m_per_s - v_m_per_s;
+        let twice_j = self.mass_kg * faster * faster + piece.k * away_m * away_m;
+        let Spring { k, b, .. } = *self.spring;
+        let swing_m = (twice_j / piece.k).sqrt();
+        let swing_n = ((k * k / piece.k + b * b / self.mass_kg) * twice_j).sqrt();
+        (0..self.floors[0].len()).all(|contact| {
+            let now = Touch::of(self.figures(contact, at, (t_s, step_s)));
+            [t_s, step_s].into_iter().all(|t_s| {
+                let [depth_m, force_n, ceiling_n] = self.figures(contact, led(t_s), (t_s, step_s));
+                let swings = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+                swings.into_iter().all(|(m, n)| {
+                    let then = [depth_m + m * swing_m, force_n + n * swing_n, ceiling_n];
+                    Touch::of(then) == now
+                })
+            })
+        })
+    }
+
     /// Piece after piece until the step is over.
     fn exact(&self, from: Motion, step_s: f64) -> Motion {
         let (mut at, mut t_s) = (from, 0.0);
         for _ in 0..MAX_PIECES {
-            let piece = self.piece(at, (t_s, step_s));
-            let rings_s = PIECE * (self.mass_kg / piece.k).sqrt();
-            let left_s = step_s - t_s;
-            let is_last = left_s <= rings_s;
-            let length_s = if is_last { left_s } else { rings_s };
-            let end = self.along(&piece, at, t_s, length_s);
             let (start, begun_s) = (at, t_s);
-            let is_same = |motion: Motion, after_s: f64| {
-                (0..self.floors[0].len()).all(|contact| {
-                    let then = self.touch(contact, motion, (begun_s + after_s, step_s));
-                    then == self.touch(contact, start, (begun_s, step_s))
-                })
+            let piece = self.piece(start, (begun_s, step_s));
+            let left_s = step_s - begun_s;
+            let rings_s = PIECE * (self.mass_kg / piece.k).sqrt();
+            let is_calm = left_s > rings_s && self.is_calm(&piece, start, (begun_s, step_s));
+            let is_whole = is_calm || left_s <= rings_s;
+            let length_s = if is_whole { left_s } else { rings_s };
+            let motion = |after_s: f64| self.along(&piece, start, begun_s, after_s);
+            // How far the contact that changes first is from that.
+            let left = |after_s: f64, motion: Motion| {
+                let of = |contact: usize| {
+                    let before = self.figures(contact, start, (begun_s, step_s));
+                    let now = self.figures(contact, motion, (begun_s + after_s, step_s));
+                    Touch::of(before).left(now)
+                };
+                (0..self.floors[0].len())
+                    .map(of)
+                    .fold(f64::INFINITY, f64::min)
             };
-            if is_same(end, length_s) {
-                (at, t_s) = (end, t_s + length_s);
-                if is_last {
-                    return at;
-                }
-                continue;
+            (at, t_s) = (motion(length_s), begun_s + length_s);
+            let at_end = left(length_s, at);
+            if at_end < 0.0 {
+                let ends = [(0.0, left(0.0, start)), (length_s, at_end)];
+                // At 0 it has not changed yet.
+                let beyond = |s: f64| left(s, motion(s)) + f64::MIN_POSITIVE;
+                let [_, event_s] = crossing(ends, EVENT * length_s, beyond);
+                (at, t_s) = (motion(event_s), begun_s + event_s);
             }
-            let (mut low_s, mut high_s) = (0.0, length_s);
-            for _ in 0..HALVINGS {
-                let middle_s = 0.5 * (low_s + high_s);
-                if is_same(self.along(&piece, start, begun_s, middle_s), middle_s) {
-                    low_s = middle_s;
-                } else {
-                    high_s = middle_s;
-                }
-            }
-            at = self.along(&piece, start, begun_s, high_s);
-            t_s += high_s;
-            if t_s >= step_s {
+            if t_s >= step_s || (at_end >= 0.0 && is_whole) {
                 return at;
             }
         }

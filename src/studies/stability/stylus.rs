@@ -3,8 +3,8 @@
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use selvedge_render::RenderError;
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, StylusRun,
-    StylusSetup, StylusStart, Tip,
+    Contact, ContactLaw, Friction, Relief, Sampling, Stepper, StylusRun, StylusSetup, StylusStart,
+    Tip,
 };
 
 /// Steps of each run.
@@ -44,18 +44,8 @@ fn falling(
         ..ContactLaw::default()
     };
     let contact = Contact::new(&Relief::flat(), Tip::stylus(0.0), law, Friction::none())?;
-    let hand = Hand {
-        press_n: 1.0,
-        leads: None,
-    };
-    let setup = StylusSetup {
-        contact,
-        device: DeviceSpec::default(),
-        hand,
-        method,
-        rate_hz,
-        sampling,
-    };
+    let mut setup = StylusSetup::of(contact, method, rate_hz);
+    setup.sampling = sampling;
     StylusRun::new(setup, [0.0; 2], StylusStart::Above(1.0))
 }
 

@@ -10,10 +10,11 @@ use crate::{Bench, Effort, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Grid, quantile};
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, HapticLoop, Sampling, SimulatedDevice,
+    Contact, ContactLaw, DeviceSpec, Friction, Hand, HapticLoop, Relief, Sampling, SimulatedDevice,
     Stepper, StylusRun, StylusStart, Tip, WallCase,
 };
 use selvedge_render::scene::Geometry;
+use selvedge_textile::Library;
 use std::f64::consts::TAU;
 
 /// Limits of the sampled wall, buzzing, and ticks.
@@ -64,7 +65,12 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     rows.push(tick(&Tip::stylus(0.1), "1 contact", bench)?);
     let array = Geometry::default().contactors();
     rows.push(tick(&Tip::array(&array, 0.1), "24 contacts", bench)?);
+    bench.step(0.9, "rolling")?;
+    rows.extend(rolling(bench)?);
     let notes = [
+        "Without damping of the wall (75 g, b = 0.02 N·s/m, 1 kHz) the eigenvalues give 40.0018 N/m \
+         and 2b/T gives 40: with x = bT/m and e = exp(−x) the limit is (b²/m)(1 − e)/(1 − e − x e) = \
+         (2b/T)(1 + x/6 + …), so that 2b/T is exact only as bT/m goes to 0.",
         "CHAI3D took 673 µs in the median and 1.07 ms in the 99th percentile for 24 contacts with \
          the same relief as a mesh; at most 20 µs are aimed at here.",
         "Rows called map: what the eigenvalues and the passivity of the held wall say of a device \
@@ -208,6 +214,31 @@ fn buzzing(bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> {
     Ok(rows)
 }
 
+/// What it costs to roll a tip over a cloth of the library, of a million points, by its radius.
+fn rolling(bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> {
+    let mut rows = Vec::new();
+    let library = Library::shipped()?;
+    for id in bench
+        .effort
+        .pick(&["denim"][..], &["denim", "silk-crepe", "wool-rib"])
+    {
+        let map = crate::textiles::relief(id, &library.manifest(id)?.source)?;
+        let [width, height] = [map.heights_um().width(), map.heights_um().height()];
+        let relief = Relief::of_map(&map);
+        for radius_mm in bench.effort.pick(&[0.5][..], &[0.1, 0.5, 2.0]) {
+            let n_repeats = bench.effort.pick(1, 5);
+            let cost = bench.time_repeated(n_repeats, 1, || relief.under_sphere(*radius_mm));
+            let row = Row::of(
+                "roll",
+                format!("a tip of {radius_mm} mm"),
+                format!("{id}'s relief"),
+            );
+            rows.push(row.cost(cost).with("points", width * height));
+        }
+    }
+    Ok(rows)
+}
+
 /// What a tick of the loop costs at 1 kHz on a relief of 512 × 512 points.
 fn tick(tip: &Tip, name: &str, bench: &mut Bench<'_>) -> Result<Row, ReportError> {
     let (n, side_mm) = RELIEF;
@@ -217,10 +248,7 @@ fn tick(tip: &Tip, name: &str, bench: &mut Bench<'_>) -> Result<Row, ReportError
     let law = ContactLaw::default();
     let contact = Contact::new(&relief, tip.clone(), law, Friction::coulomb(0.3))?;
     let spec = DeviceSpec::default();
-    let hand = Hand {
-        press_n: 1.0,
-        leads: None,
-    };
+    let hand = Hand::pressing(1.0);
     let place = [0.0, 0.0, -0.5];
     let mut device = SimulatedDevice::new(spec, hand, (Stepper::Exact, 1e-3), place)?;
     let sampling = (1000.0, Sampling::default());

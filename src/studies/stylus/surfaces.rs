@@ -4,7 +4,7 @@ use crate::ReportError;
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Stepper, StylusSetup, Tip,
+    Contact, ContactLaw, DeviceSpec, Friction, Relief, Stepper, StylusSetup, Tip,
 };
 use selvedge_textile::surface::HeightMap;
 use std::f64::consts::TAU;
@@ -17,8 +17,6 @@ const SPEED_MM_PER_S: f64 = 50.0;
 const POINTS: (usize, f64) = (2048, 0.005);
 /// Damping of the wall as a share of the critical.
 const DAMPING: f64 = 0.1;
-/// Mass of the tip, kg.
-const MASS_KG: f64 = 0.075;
 
 named! {
     /// A surface.
@@ -94,7 +92,7 @@ pub(super) fn place_mm(t_s: f64) -> [f64; 2] {
 }
 
 fn damping(stiffness: f64) -> f64 {
-    2.0 * DAMPING * (stiffness * MASS_KG).sqrt()
+    2.0 * DAMPING * (stiffness * DeviceSpec::default().mass_kg).sqrt()
 }
 
 /// A stylus in a hand that presses with 1 N.
@@ -108,18 +106,5 @@ pub(super) fn setup(
         damping_n_s_per_m: damping(stiffness),
         ..ContactLaw::default()
     })?;
-    Ok(StylusSetup {
-        contact,
-        device: DeviceSpec {
-            mass_kg: MASS_KG,
-            ..DeviceSpec::default()
-        },
-        hand: Hand {
-            press_n: 1.0,
-            leads: None,
-        },
-        method,
-        rate_hz,
-        sampling: None,
-    })
+    Ok(StylusSetup::of(contact, method, rate_hz))
 }

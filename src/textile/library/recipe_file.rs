@@ -1,6 +1,6 @@
 //! A file of recipes: a library whose textiles are built when they are asked for.
 //!
-//! Every `[[textile]]` is a manifest without a `[source]` of files. `like = "ID"` begins with the
+//! Every `[[textile]]` is a manifest without a `[source]` of files: any model. `like = "ID"` begins with the
 //! keys of a textile further up and changes what is stated; `sides = ["face", "back"]` makes two
 //! surfaces of one textile, the second with `-back` after its id.
 
@@ -164,7 +164,9 @@ impl Recipe {
             id.push_str(BACK);
             manifest.name.push_str(", back");
         }
-        if !manifest.source.keys_mut().set_side(side) {
+        // A model without sides is the face of itself.
+        let is_made = side == Side::Face && manifest.source.is_recipe();
+        if !manifest.source.keys_mut().set_side(side) && !is_made {
             return Err(manifest.source.no_recipe(path));
         }
         Ok(Self { id, manifest })
@@ -230,8 +232,9 @@ fn within(
             wrong("id", format!("textile \"{id}\": {what}"), &mend).into()
         }
         TextileError::NoRecipe { kind, .. } => {
-            let what = format!("textile \"{id}\": a source of kind \"{kind}\" is no recipe");
-            wrong("id", what, "give kind = \"weave\" or \"knit\"").into()
+            let what = format!("textile \"{id}\": a source of kind \"{kind}\" makes no such side");
+            let mend = "give a model; of these kind = \"weave\" and \"knit\" have a back";
+            wrong("id", what, mend).into()
         }
         other => other,
     }

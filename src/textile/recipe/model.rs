@@ -25,8 +25,8 @@ pub(crate) trait Model {
         Ok(texts)
     }
 
-    /// The relief of the whole textile, which repeats: heights of the model itself, without a
-    /// probe; `None` where the model knows its strokes alone.
+    /// The relief of the whole textile: heights of the model itself, without a probe; `None` where
+    /// the model knows its strokes alone.
     fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
         None
     }

@@ -14,6 +14,8 @@ pub(crate) struct SurfaceSample {
     pub(crate) step_mm: [f64; 2],
     /// What is pictured.
     pub(crate) patch: HeightMap,
+    /// All of the surface, where it was drawn in two dimensions.
+    pub(crate) area: Option<HeightMap>,
     /// Figures found on it, for the manifest.
     pub(crate) measured: Vec<(&'static str, f64)>,
 }
@@ -28,6 +30,7 @@ impl SurfaceSample {
             strokes_um,
             step_mm: [step_mm; 2],
             patch,
+            area: None,
             measured: Vec::new(),
         }
     }
@@ -42,6 +45,7 @@ impl SurfaceSample {
             strokes_um: Direction::ALL.map(|direction| heights(direction.index())),
             step_mm: patch.step_mm(),
             patch,
+            area: None,
             measured: Vec::new(),
         }
     }
@@ -50,6 +54,10 @@ impl SurfaceSample {
 impl Model for SurfaceSample {
     fn strokes_um(&self) -> ([Vec<f64>; 4], [f64; 2]) {
         (self.strokes_um.clone(), self.step_mm)
+    }
+
+    fn height_map(&self) -> Option<Result<HeightMap, SurfaceError>> {
+        self.area.clone().map(Ok)
     }
 
     fn relief(&self, _step_mm: f64) -> Result<HeightMap, SurfaceError> {

@@ -6,3 +6,4 @@ mod brownian;
 mod models;
 mod seventy_four;
 mod shipped;
+mod wall_harwin;

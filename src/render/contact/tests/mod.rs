@@ -17,17 +17,7 @@ fn flat(law: ContactLaw) -> Contact {
 }
 
 fn setup(law: ContactLaw, method: Stepper, rate_hz: f64) -> StylusSetup {
-    StylusSetup {
-        contact: flat(law),
-        device: DeviceSpec::default(),
-        hand: Hand {
-            press_n: 1.0,
-            leads: None,
-        },
-        method,
-        rate_hz,
-        sampling: None,
-    }
+    StylusSetup::of(flat(law), method, rate_hz)
 }
 
 fn dropped(setup: StylusSetup, drop_mm: f64) -> StylusRun {
@@ -151,7 +141,11 @@ fn the_limits_of_sampled_walls_are_the_known_ones() {
         }
     }
     let bare = sampled(0.075, 0.02, 0.0, 0).stiffness_limits(0.04, 0.03);
-    assert!((bare.exact / 40.0 - 1.0).abs() < 1e-4, "2b/T: {bare:?}");
+    // Without damping of the wall, in closed form: 2b/T as bT/m goes to 0.
+    let (x, e) = (0.02 * 1e-3 / 0.075, f64::exp(-0.02 * 1e-3 / 0.075));
+    let known = 0.02 * 0.02 / 0.075 * (1.0 - e) / (1.0 - e - x * e);
+    assert!((known - 40.001_777_86).abs() < 1e-6, "{known}");
+    assert!((bare.exact / known - 1.0).abs() < 1e-6, "{bare:?}");
     assert!((bare.passive - 40.0).abs() < 1e-9 && (bare.quiet - 40.0).abs() < 1e-9);
     let damped = sampled(0.05, 0.02, 40.0, 1).stiffness_limits(0.0, 0.0);
     assert!(

@@ -147,6 +147,74 @@ fn a_hand_that_leads_a_mass_over_a_ripple_gives_and_takes_all_of_its_energy() {
 }
 
 #[test]
+fn a_devices_own_friction_holds_it_along_the_surface_and_takes_energy() {
+    let mut setup = setup(LAW, Stepper::Exact, 1000.0);
+    setup.device.friction_n = 0.4;
+    setup.hand = Hand {
+        press_n: 0.0,
+        leads: Some([200.0, 5.0]),
+    };
+    let mut run = StylusRun::new(setup, [0.0; 2], StylusStart::Above(5.0)).unwrap();
+    let place = |run: &mut StylusRun, [x_mm, y_mm]: [f64; 2]| {
+        let [x_mm, y_mm, _] = run.step([x_mm, y_mm]).unwrap().place_mm;
+        x_mm.hypot(y_mm)
+    };
+    for nth in 0..1000 {
+        let along_mm = 1.9e-3 * f64::from(nth);
+        let gone_mm = place(&mut run, [0.6 * along_mm, 0.8 * along_mm]);
+        assert_eq!(
+            gone_mm, 0.0,
+            "0.4 N hold what 200 N/m pull over {along_mm} mm"
+        );
+    }
+    let mut gone_mm = 0.0;
+    for nth in 1000..6000 {
+        let along_mm = 1.9e-3 * f64::from(nth);
+        gone_mm = place(&mut run, [0.6 * along_mm, 0.8 * along_mm]);
+    }
+    // The hand's damper takes its part of 1.9 mm/s.
+    let lag_mm = (0.4 + 5.0 * 1.9e-3) / 0.2;
+    assert!(
+        (1.9e-3 * 5999.0 - gone_mm - lag_mm).abs() < 0.01,
+        "{gone_mm}"
+    );
+    assert!(run.gained_j() < -1e-4, "{}", run.gained_j());
+}
+
+#[test]
+fn surfaces_that_are_known_over_an_area_are_felt_over_it() {
+    use selvedge_textile::Library;
+    let brownian = std::path::Path::new("../../textiles/brownian");
+    let felt = |library: Library, id: &str| {
+        let textile = library.load(id).unwrap();
+        (
+            FeltSurface::of_textile(&textile, &Tip::stylus(0.0))
+                .unwrap()
+                .relief,
+            textile,
+        )
+    };
+    let (relief, textile) = felt(Library::open(brownian).unwrap(), "brownian-h5");
+    assert_eq!(relief.reading(), "heights over an area");
+    let h = |u: f64, w: f64| 1e3 * relief.height_mm([u, w]);
+    let twist_um = h(3.0, 3.0) - h(3.0, 12.0) - h(12.0, 3.0) + h(12.0, 12.0);
+    assert!(twist_um.abs() > 0.1, "no sum of profiles: {twist_um}");
+    let profile = textile
+        .surface()
+        .profile(selvedge_textile::surface::Direction::WarpForward);
+    let heights = profile.unwrap().heights_um();
+    for i in [100_usize, 400, 900] {
+        let rise_um = h(0.02 * i as f64, 10.0) - h(0.0, 10.0);
+        assert!(
+            (rise_um - heights[i] + heights[0]).abs() < 1e-3,
+            "{i}: {rise_um}"
+        );
+    }
+    let flat = Relief::flat();
+    assert_eq!(flat.reading(), "a plane");
+}
+
+#[test]
 fn friction_is_bounded_by_the_load_at_any_step() {
     for rate_hz in [1.0, 1e3, 1e6] {
         let contact = Contact::new(

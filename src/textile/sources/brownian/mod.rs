@@ -225,6 +225,7 @@ impl Brownian {
         let patch = thinned(&map, stride).unwrap_or_else(|| map.clone());
         let mut drawn = SurfaceSample::of_strokes(&strokes, patch);
         drawn.step_mm = map.step_mm();
+        drawn.area = Some(map);
         let lines = [0, 2].map(|index| drawn.strokes_um[index].as_slice());
         if let Some(found) = Hurst::of_lines(&lines) {
             drawn.measured = vec![("hurst", found.exponent), ("hurst_error", found.error)];

@@ -33,6 +33,10 @@ use selvedge_foundation::numerics::{Random, to_index};
 const EXAMPLES: &str = include_str!("../../../../textiles/fourier-templates.toml");
 /// Distance of the picture's points, mm.
 const PICTURE_STEP_MM: f64 = 0.4;
+/// Points of the surface to the shortest wave, as a stylus feels it: at best, and at least.
+const POINTS_PER_WAVE: [f64; 2] = [8.0, 4.0];
+/// Most points of that along a side.
+const MAX_POINTS: f64 = 2000.0;
 
 choice! {
     /// How two profiles become a surface.
@@ -142,7 +146,24 @@ impl Fourier {
         let places = line(PICTURE_STEP_MM);
         let patch = HeightMap::new(plane.heights_um(&places, &places), [PICTURE_STEP_MM; 2]);
         let patch = patch.map_err(TextileError::surface("the drawn surface"))?;
-        Ok(SurfaceSample::of_lines([warp, weft], self.step_mm, patch))
+        Ok(SurfaceSample {
+            area: self.area(&plane),
+            ..SurfaceSample::of_lines([warp, weft], self.step_mm, patch)
+        })
+    }
+
+    /// The surface there and back both ways; `None` where its waves are too short for its size.
+    fn area(&self, plane: &series::Plane) -> Option<HeightMap> {
+        let side_mm = 2.0 * self.length_mm;
+        let n_waves = side_mm * self.highest_per_m / 1000.0;
+        let [most, least] = POINTS_PER_WAVE.map(|points| points * n_waves);
+        let n = most.clamp(side_mm / PICTURE_STEP_MM, MAX_POINTS).round();
+        (least <= n).then_some(())?;
+        let step_mm = side_mm / n;
+        let at = |i: usize| mirrored(i as f64 * step_mm, self.length_mm);
+        let places: Vec<f64> = (0..to_index(n)).map(at).collect();
+        let map = HeightMap::new(plane.heights_um(&places, &places), [step_mm; 2]);
+        Some(map.ok()?.periodic())
     }
 }
 
