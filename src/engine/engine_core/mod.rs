@@ -3,8 +3,11 @@
 //! It is told what time it is, so that a test, a picture or a benchmark may drive it as it likes.
 
 mod obey;
+mod stylus;
 
 use std::time::{Duration, Instant};
+
+use stylus::FeltStylus;
 
 use super::input::{
     Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring, playable,
@@ -15,7 +18,7 @@ use super::sequence::Sequence;
 use super::track::Track;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
+    RenderingView, Snapshot, SourceKind, TICKS_PER_S, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -47,6 +50,7 @@ pub struct EngineCore {
     mask: Vec<bool>,
     /// What is felt in place of the whole scene.
     sequence: Sequence,
+    stylus: FeltStylus,
     revision: u64,
 }
 
@@ -76,9 +80,10 @@ impl EngineCore {
             ignored: 0,
             mask: Vec::new(),
             sequence: Sequence::default(),
+            stylus: FeltStylus::default(),
             revision: 0,
         };
-        core.scene.render(pose, &[], None);
+        core.render_again();
         (core, sender)
     }
 
@@ -150,14 +155,15 @@ impl EngineCore {
         } else {
             self.pose
         };
-        let played = self.sequence.next_tick();
-        self.scene.render(self.rendered, &self.mask, played);
+        self.sequence.next_tick();
+        self.lead_stylus();
+        self.render_again();
         self.tick += 1;
     }
 
-    /// Renders the last tick anew, after something else than the pose changed.
+    /// Renders the tick, anew after something else than the pose changed.
     fn render_again(&mut self) {
-        let played = self.sequence.played();
+        let played = (self.sequence.played(), self.stylus.driven());
         self.scene.render(self.rendered, &self.mask, played);
     }
 
@@ -191,17 +197,6 @@ impl EngineCore {
     /// before output limits, µm; zeros while stopped or held.
     pub fn felt_um(&self) -> &[[f32; 2]] {
         self.scene.felt_um(self.is_silent())
-    }
-
-    /// Writes the last tick to whoever listens at a tap: what the device plays, before its limits.
-    pub fn write_to(&self, tap: &mut Tap) {
-        let Pose {
-            position,
-            angle_deg,
-            ..
-        } = self.pose();
-        let place = [position.x_mm, position.y_mm, angle_deg];
-        tap.write(self.tick, place, self.felt_um());
     }
 
     /// Whether the device plays silence: stopped or held.
@@ -288,6 +283,8 @@ impl EngineCore {
             .map_or(SourceKind::Pointer, PointerInput::kind);
         snapshot.playback = self.playback();
         snapshot.recording = self.recording_view();
+        snapshot.stylus = self.stylus();
+        snapshot.counters.stylus_steps = self.stylus.n_steps();
         snapshot.counters.ignored = self.ignored;
     }
 

@@ -136,16 +136,8 @@ impl StylusRun {
             sampling,
         } = setup;
         let period_s = period_s(rate_hz)?;
-        for instant in 0..3 {
-            contact.look(instant, place_mm, [0.0; 2]);
-        }
-        let z_mm = match start {
-            StylusStart::Above(above_mm) => 1e3 * contact.rest_m(0, 0.0) + above_mm,
-            StylusStart::Resting => 1e3 * contact.rest_m(0, hand.press_n),
-        };
-        let place = [place_mm[0], place_mm[1], z_mm];
-        let device = SimulatedDevice::new(spec, hand, (method, period_s), place)?;
-        contact.go_on(1e-3 * z_mm);
+        let device = SimulatedDevice::new(spec, hand, (method, period_s), [0.0; 3])?;
+        contact.forget();
         let sampled = sampling.map(|sampling| {
             let rate = (rate_hz, sampling);
             HapticLoop::new(contact.clone(), rate, spec.mass_kg, hand.press_n)
@@ -163,9 +155,35 @@ impl StylusRun {
             method,
             rate_hz,
         };
-        run.sense()?;
-        run.start_j = run.row.energy_j;
+        if !run.begin(place_mm, start) {
+            return Err(run.why_not(place_mm));
+        }
         Ok(run)
+    }
+
+    /// Begins anew from a place on the surface, mm, as if nothing had been before; whether it is
+    /// there. Allocates nothing.
+    pub fn begin(&mut self, place_mm: [f64; 2], start: StylusStart) -> bool {
+        self.contact.forget();
+        for instant in 0..3 {
+            self.contact.look(instant, place_mm, [0.0; 2]);
+        }
+        let z_mm = match start {
+            StylusStart::Above(above_mm) => 1e3 * self.contact.rest_m(0, 0.0) + above_mm,
+            StylusStart::Resting => 1e3 * self.contact.rest_m(0, self.device.hand.press_n),
+        };
+        self.device.put_at([place_mm[0], place_mm[1], z_mm]);
+        self.contact.go_on(1e-3 * z_mm);
+        if let Some((sampled, tick)) = &mut self.sampled {
+            sampled.begin(&self.contact);
+            *tick = LoopTick::default();
+        }
+        let spec = &self.device.spec;
+        self.crossover = Crossover::new(spec.bandwidth_hz, self.rate_hz);
+        (self.n_steps, self.driven_j) = (0, [0.0; 2]);
+        let is_there = is_place(place_mm) && z_mm.is_finite() && self.sense().is_ok();
+        self.start_j = self.row.energy_j;
+        is_there
     }
 
     /// How it is at this instant.
@@ -206,16 +224,24 @@ impl StylusRun {
     /// # Errors
     /// A place that is none; motion that grows without bound, with the stable limit.
     pub fn step(&mut self, target_mm: [f64; 2]) -> Result<&StylusRow, RenderError> {
-        if !target_mm.iter().all(|mm| mm.abs() <= 1e9) {
-            return Err(RenderError::Stylus {
-                what: format!("the path leads to {target_mm:?} mm"),
-                mend: "give finite places in mm".to_owned(),
-            });
+        if self.advance(target_mm) {
+            Ok(&self.row)
+        } else {
+            Err(self.why_not(target_mm))
+        }
+    }
+
+    /// The same for a thread that must not allocate: whether that could be done.
+    pub fn advance(&mut self, target_mm: [f64; 2]) -> bool {
+        if !is_place(target_mm) {
+            return false;
         }
         self.lead_to(target_mm);
         let before = self.device.upright;
         if let Some((_, tick)) = &self.sampled {
-            self.device.hold_n(tick.force_n)?;
+            if self.device.hold_n(tick.force_n).is_err() {
+                return false;
+            }
             let Along {
                 place_mm,
                 velocity_m_per_s,
@@ -235,9 +261,7 @@ impl StylusRun {
         }
         self.contact.go_on(after_m);
         self.n_steps += 1;
-        self.sense()?;
-        self.check_bounded()?;
-        Ok(&self.row)
+        self.sense().is_ok() && self.is_bounded()
     }
 
     /// The contact's mean force along z over a step that began so: what moved the mass, N.
@@ -367,15 +391,27 @@ impl StylusRun {
         0.5 * self.device.spec.mass_kg * of_motion + of_contact_j + of_hand_j
     }
 
-    fn check_bounded(&self) -> Result<(), RenderError> {
+    fn is_bounded(&self) -> bool {
         let gained_j = self.gained_j();
         let most_j = MAX_GAIN * (self.put_in_j() + NOTHING_J);
-        if gained_j.is_finite() && gained_j <= most_j {
-            return Ok(());
-        }
-        Err(RenderError::Stylus {
-            what: format!("the motion grows without end at {} s", self.row.t_s),
-            mend: self.advice.clone(),
-        })
+        gained_j.is_finite() && gained_j <= most_j
     }
+
+    /// Why a step towards a place could not be made.
+    fn why_not(&self, target_mm: [f64; 2]) -> RenderError {
+        let (what, mend) = if is_place(target_mm) {
+            let t_s = self.row.t_s;
+            let what = format!("the motion grows without end at {t_s} s");
+            (what, self.advice.clone())
+        } else {
+            let what = format!("the path leads to {target_mm:?} mm");
+            (what, "give finite places in mm".to_owned())
+        };
+        RenderError::Stylus { what, mend }
+    }
+}
+
+/// Whether there may be such a place along a surface, mm.
+fn is_place(place_mm: [f64; 2]) -> bool {
+    place_mm.iter().all(|mm| mm.abs() <= 1e9)
 }
