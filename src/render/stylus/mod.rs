@@ -19,7 +19,7 @@ mod tick_path;
 use std::sync::Arc;
 
 use crate::RenderError;
-use crate::contact::{StylusRun, StylusSetup, StylusStart};
+use crate::contact::{Stepper, StylusRun, StylusSetup, StylusStart};
 use crate::scene::TICKS_PER_S;
 use selvedge_foundation::numerics::{to_index, to_whole};
 use selvedge_textile::surface::Surface;
@@ -30,6 +30,8 @@ pub use tick_path::TickPath;
 
 /// Most steps of a tick: 10 kHz, half a millisecond of work.
 const MAX_STEPS: usize = 250;
+/// Most radians that an exact wall may ring within a tick: a millisecond of work or two.
+const MAX_RINGING: f64 = 4000.0;
 /// Most steps that a place which is gone to is made up for with.
 const MAX_CATCH_UP: usize = 1000;
 /// The same in ticks: a second.
@@ -85,7 +87,7 @@ impl StylusDrive {
     /// their setup, at a rate in Hz and with so many µm a N.
     ///
     /// # Errors
-    /// A setup that is none, a drive that is no number from 0 to 1e9.
+    /// A setup that is none or takes too long, a drive that is no number from 0 to 1e9.
     pub fn prepare(
         textiles: Vec<(Arc<Surface>, Option<StylusSetup>)>,
         (rate_hz, um_per_n): (f64, f64),
@@ -100,8 +102,11 @@ impl StylusDrive {
         let rate_hz = Self::rate_hz(rate_hz);
         let n_steps = to_index(rate_hz / TICKS_PER_S);
         let run = |(surface, setup): (Arc<Surface>, Option<StylusSetup>)| {
-            let setup = setup.map(|setup| StylusSetup { rate_hz, ..setup });
-            let run = setup.map(|setup| StylusRun::new(setup, [0.0; 2], StylusStart::Resting));
+            let run = setup.map(|setup| {
+                let setup = StylusSetup { rate_hz, ..setup };
+                check_work(&setup)?;
+                StylusRun::new(setup, [0.0; 2], StylusStart::Resting)
+            });
             run.transpose().map(|run| (surface, run))
         };
         Ok(Self {
@@ -229,6 +234,20 @@ impl StylusDrive {
         self.driven.1 = [0.0; 2];
         self.spectrum.clear();
     }
+}
+
+/// Refuses what an exact wall has to be cut into too many pieces for.
+fn check_work(setup: &StylusSetup) -> Result<(), RenderError> {
+    let case = setup.case();
+    let ringing = (case.stiffness_n_per_m / case.mass_kg).sqrt() / TICKS_PER_S;
+    let is_exact = setup.chosen().0 == Stepper::Exact && setup.sampling.is_none();
+    if is_exact && ringing > MAX_RINGING {
+        return Err(RenderError::Stylus {
+            what: format!("the wall rings {ringing:.0} radians in a tick of 25 ms"),
+            mend: "take method implicit-euler, or a softer wall".to_owned(),
+        });
+    }
+    Ok(())
 }
 
 #[cfg(test)]

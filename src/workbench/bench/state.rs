@@ -45,6 +45,8 @@ pub(crate) struct EngineScene {
     pub(crate) preparing: Preparing,
     /// The gains that the engine has.
     pub(crate) applied_gains: AppliedGains,
+    /// The stylus that is felt in place of the array, in a line.
+    pub(crate) stylus: Option<String>,
 }
 
 /// What plots look at a contactor with.

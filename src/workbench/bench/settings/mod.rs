@@ -6,6 +6,7 @@
 
 mod own_files;
 pub(crate) mod preferences;
+pub(crate) mod stylus;
 #[cfg(test)]
 mod tests;
 

@@ -11,6 +11,7 @@ use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
+use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::SpectrumScale;
 use crate::kit::theme::colour_map::ColourMap;
@@ -95,6 +96,11 @@ pub(crate) struct Preferences {
     /// The keys that the user gave to acts.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) keys: ChosenKeys,
+    /// The stylus as it is applied.
+    pub(crate) stylus: StylusSettings,
+    /// What was asked of it and waits, since it cannot be held.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) stylus_waiting: Option<StylusSettings>,
 }
 
 impl Default for Preferences {
@@ -116,6 +122,8 @@ impl Default for Preferences {
             array: None,
             tablet_areas: BTreeMap::new(),
             keys: ChosenKeys::new(),
+            stylus: StylusSettings::default(),
+            stylus_waiting: None,
             window_size: None,
             folders: KnownFolders::default(),
             sound: SoundPreferences::default(),

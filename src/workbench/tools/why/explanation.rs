@@ -33,6 +33,8 @@ pub(crate) struct Explanation {
     pub(crate) on_finger: [OnFinger; 2],
     /// What the whole display feels like, by a model.
     pub(crate) perceptual_level: PerceptualLevel,
+    /// Whether its amplitudes are the stylus' vibration, and not the array's rendering.
+    pub(crate) is_stylus: bool,
     /// What becomes of the amplitudes at the output.
     pub output: Output,
 }
@@ -88,7 +90,7 @@ impl Explanation {
     pub(crate) fn of_chosen(bench: &mut Bench) -> Option<Self> {
         let contactor = bench.selection.contactor?;
         let live = &bench.live;
-        let trace = bench.inspection.inspector.trace(0, contactor, &live.pose)?;
+        let mut trace = bench.inspection.inspector.trace(0, contactor, &live.pose)?;
         let cloths = &bench.document.scene().textiles;
         let cloth = trace
             .touch
@@ -105,6 +107,15 @@ impl Explanation {
             (contactor / n_columns, contactor % n_columns)
         });
         let dot = live.dots.get(contactor);
+        let is_stylus = live.stylus.is_some();
+        if let Some(dot) = dot.filter(|_| is_stylus) {
+            trace.amplitudes_um = dot.amplitude_um;
+            // No spectrum of the textile has a part in it.
+            let touch = trace.touch.as_mut();
+            touch
+                .into_iter()
+                .for_each(|touch| touch.directions = Default::default());
+        }
         let on_finger = dot.map_or([live.on_finger; 2], |dot| dot.on_finger);
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);
@@ -127,6 +138,7 @@ impl Explanation {
             textile,
             on_finger,
             perceptual_level: live.perceptual_level,
+            is_stylus,
             output,
         })
     }
