@@ -164,8 +164,7 @@ impl StylusDrive {
             return 0;
         };
         let was_at_rest = leg.n_still >= REST_TICKS;
-        let stands = leg.place_mm == place_mm;
-        leg.n_still = if stands {
+        leg.n_still = if path.stands() {
             leg.n_still.saturating_add(1)
         } else {
             0

@@ -18,6 +18,8 @@ pub(crate) mod settings;
 #[cfg(test)]
 mod tests;
 pub(crate) mod through;
+#[cfg(test)]
+mod through_tests;
 pub(crate) mod view;
 
 use eframe::egui::Ui;

@@ -4,7 +4,7 @@
 pub(crate) use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::widgets::scale::{Curve, Scale};
 use selvedge_render::contact::{
-    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, Stepper, StylusSetup, WallCase,
+    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, StylusSetup, WallCase,
 };
 
 use super::ground::Ground;
