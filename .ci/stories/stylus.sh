@@ -7,8 +7,8 @@
 # What stands below the sliders.
 words() { import -window root -crop 300x130+4+425 +repage rgb:- | md5sum; }
 say_other() { [ "$(words)" != "$1" ]; }
-keeps() { grep -A 5 "^\[$1\]" "$XDG_CONFIG_HOME/selvedge/settings.toml" | grep -q "$2"; }
-is_recorded() { grep -q '^stylus = "K 1000 N/m' "$XDG_DATA_HOME"/selvedge/recordings/*/recording.toml; }
+keeps() { grep -A 14 "^\[$1\]" "$XDG_CONFIG_HOME/selvedge/settings.toml" | grep -q "$2"; }
+is_recorded() { grep -q '^stylus = "K ' "$XDG_DATA_HOME"/selvedge/recordings/*/recording.toml; }
 
 display
 start
@@ -42,5 +42,5 @@ start
 slowly 'mousemove 760 14' 'key ctrl+k' 'type --delay 40 Stylus' 'key Return' 'key shift+F11'
 sleep 1
 shot again
-keeps stylus 'stiffness_n_per_m = 1000' && keeps stylus_waiting 'stiffness_n_per_m = 100000' || fail "settings are gone"
+keeps stylus 'sampled = true' && keeps stylus_waiting 'stiffness_n_per_m = 100000' || fail "settings are gone"
 stop

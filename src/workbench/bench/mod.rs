@@ -208,7 +208,6 @@ impl Bench {
                 rendering: opened.rendering,
                 preparing: Preparing::new(opened.cache, opened.rendering),
                 applied_gains: AppliedGains::default(),
-                stylus: None,
             },
             library: LibraryState {
                 view: LibraryView::new(library, opened.library_view),

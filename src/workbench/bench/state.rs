@@ -45,8 +45,6 @@ pub(crate) struct EngineScene {
     pub(crate) preparing: Preparing,
     /// The gains that the engine has.
     pub(crate) applied_gains: AppliedGains,
-    /// The stylus that is felt in place of the array, in a line.
-    pub(crate) stylus: Option<String>,
 }
 
 /// What plots look at a contactor with.
@@ -141,6 +139,8 @@ pub(crate) struct DeviceState {
     pub(crate) felt_log: FeltLog,
     /// The sound of what is felt.
     pub(crate) sound: Sound,
+    /// The stylus that drives it in place of the array, in a line.
+    pub(crate) stylus: Option<String>,
 }
 
 /// What was felt lately.

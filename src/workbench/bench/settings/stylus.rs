@@ -48,7 +48,7 @@ impl Default for StylusSettings {
             mass_kg: DeviceSpec::default().mass_kg,
             own_damping_n_s_per_m: 0.5,
             press_n: 0.3,
-            um_per_n: 1000.0,
+            um_per_n: 200.0,
             method: Stepper::Auto,
             is_sampled: false,
             is_lateral: true,

@@ -27,6 +27,7 @@ use eframe::egui::Ui;
 use crate::bench::Bench;
 use crate::bench::export::{Exported, NOTHING_FELT, row};
 use crate::bench::pane::Pane;
+use crate::bench::recording::Recording;
 use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::bench::view::Source;
@@ -134,7 +135,7 @@ impl Stylus {
         self.end = looked_at.or(newest);
         let is_replayed = bench.live.play.source == Source::Recording;
         let at_hand = bench.exploration.at_hand.as_ref();
-        let recording = at_hand.filter(|_| is_replayed).map(|one| one.about());
+        let recording = at_hand.filter(|_| is_replayed).map(Recording::about);
         self.recorded = recording.and_then(|about| about.stylus.clone());
         self.note = None;
         let Some(end) = self.end else {

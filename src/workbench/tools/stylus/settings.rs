@@ -107,7 +107,7 @@ pub(crate) const DIALS: [Dial; 9] = [
     ),
     dial(
         "Drive",
-        decades([10.0, 1e5], 4.0, 1000.0, (0, "µm/N")),
+        decades([1.0, 1e4], 4.0, 200.0, (0, "µm/N")),
         "What a N of its vibration drives a device with, before gains and limits",
         |settings| &mut settings.um_per_n,
     ),

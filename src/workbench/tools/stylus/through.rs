@@ -145,5 +145,5 @@ fn feel(stylus: Option<(StylusDrive, String)>, bench: &mut Bench) {
     bench.send(Command::SetStylus(drive.map(Box::new)));
     let said = words.clone().unwrap_or_else(|| "off".to_owned());
     bench.engine.say_what("stylus", said);
-    bench.engine_scene.stylus = words;
+    bench.device.stylus = words;
 }

@@ -111,10 +111,9 @@ impl Explanation {
         if let Some(dot) = dot.filter(|_| is_stylus) {
             trace.amplitudes_um = dot.amplitude_um;
             // No spectrum of the textile has a part in it.
-            let touch = trace.touch.as_mut();
-            touch
-                .into_iter()
-                .for_each(|touch| touch.directions = Default::default());
+            if let Some(touch) = &mut trace.touch {
+                touch.directions = Default::default();
+            }
         }
         let on_finger = dot.map_or([live.on_finger; 2], |dot| dot.on_finger);
         let bridge = live.bridge.as_ref();
