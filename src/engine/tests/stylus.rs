@@ -46,14 +46,12 @@ fn setup_on(
     setup
 }
 
-fn drive_of(
-    scene: &RenderScene,
-    change: impl FnOnce(&mut StylusSetup, &mut ContactLaw),
-) -> Option<Box<StylusDrive>> {
+/// Lets this scene be felt by a stylus whose setup is changed.
+fn felt_on(scene: &RenderScene, change: impl FnOnce(&mut StylusSetup, &mut ContactLaw)) -> Command {
     let surface = &scene.textiles[0].surface;
     let textiles = vec![(Arc::clone(surface), Some(setup_on(surface, change)))];
     let drive = StylusDrive::prepare(textiles, (1000.0, 2000.0), &scene.filters);
-    Some(Box::new(drive.unwrap()))
+    Command::SetStylus(Some(Box::new(drive.unwrap())))
 }
 
 /// An engine in told time whose stylus waits to be sent, the scene, and when it began.
@@ -73,9 +71,9 @@ fn waiting() -> (Engine, RenderScene, Instant) {
 /// The same with the stylus felt along a stroke.
 fn stroking() -> (Engine, RenderScene) {
     let (mut engine, scene, _) = waiting();
-    let drive = drive_of(&scene, |_, _| {});
+    let felt = felt_on(&scene, |_, _| {});
     for command in [
-        Command::SetStylus(drive),
+        felt,
         Command::SetSource(InputSource::Stroke(STROKE)),
         Command::Play,
     ] {
@@ -139,9 +137,7 @@ fn nothing_is_stepped_unless_a_stylus_is_felt_and_a_tick_has_so_many_steps() {
 #[test]
 fn a_stylus_that_stands_is_silent_and_costs_nothing_until_it_moves_again() {
     let (mut engine, scene, start) = waiting();
-    engine
-        .send(Command::SetStylus(drive_of(&scene, |_, _| {})))
-        .unwrap();
+    engine.send(felt_on(&scene, |_, _| {})).unwrap();
     explore(&mut engine, start, 40);
     assert!(shared(&mut engine)[0] > 0.0, "it moves");
     engine.advance_ticks(10);
@@ -224,9 +220,7 @@ fn it_is_heard_as_it_is_felt() {
 #[test]
 fn what_it_recorded_replays_bit_for_bit() {
     let (mut engine, scene, start) = waiting();
-    engine
-        .send(Command::SetStylus(drive_of(&scene, |_, _| {})))
-        .unwrap();
+    engine.send(felt_on(&scene, |_, _| {})).unwrap();
     engine.advance(start);
     // In the middle of a run, with a pause in it.
     let mut pointer = engine.take_pointer().unwrap();
@@ -273,7 +267,7 @@ fn a_moment_that_is_gone_to_is_felt_as_one_of_a_run() {
     let (mut engine, scene, _) = waiting();
     let path = path();
     for command in [
-        Command::SetStylus(drive_of(&scene, |_, _| {})),
+        felt_on(&scene, |_, _| {}),
         Command::SetSource(InputSource::Replay(Arc::clone(&path))),
         Command::Play,
     ] {
@@ -369,9 +363,9 @@ fn whatever_the_setting_amplitudes_are_numbers() {
     let mut n_broken_off = 0;
     for change in [stiff, explicit, sampled, broken] {
         let (mut engine, scene, _) = waiting();
-        let drive = drive_of(&scene, change);
+        let felt = felt_on(&scene, change);
         for command in [
-            Command::SetStylus(drive),
+            felt,
             Command::SetSource(InputSource::Stroke(STROKE)),
             Command::Play,
         ] {
