@@ -30,6 +30,7 @@ mod patch;
 mod relief;
 mod row;
 mod run;
+mod setup;
 mod stepper;
 mod tip;
 
@@ -44,7 +45,8 @@ pub use passivity::Passivity;
 pub use patch::Contact;
 pub use relief::Relief;
 pub use row::StylusRow;
-pub use run::{StylusRun, StylusSetup, StylusStart};
+pub use run::{StylusRun, StylusStart};
+pub use setup::StylusSetup;
 pub use stepper::Stepper;
 pub use tip::Tip;
 

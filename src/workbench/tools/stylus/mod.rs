@@ -6,8 +6,8 @@
 //! sliders ─▶ settings: what cannot be held waits until it is confirmed
 //! ```
 //!
-//! Nothing is prepared or computed while the pane is out of sight and it is not felt [`through`] the
-//! device.
+//! Nothing is prepared or computed while the pane is out of sight and it is not felt [`through`]
+//! the device.
 
 pub(crate) mod chart;
 pub(crate) mod controls;
@@ -228,7 +228,7 @@ impl Tool for Stylus {
     }
 
     fn begin(&mut self, bench: &mut Bench) {
-        let kept = &bench.settings.preferences;
+        let kept = &bench.settings.preferences.hand;
         self.chosen.take_up(kept.stylus, kept.stylus_waiting);
     }
 
@@ -281,8 +281,8 @@ impl Tool for Stylus {
     }
 
     fn keep_preferences(&self, preferences: &mut Preferences) {
-        preferences.stylus = self.chosen.applied;
+        preferences.hand.stylus = self.chosen.applied;
         let asked = self.chosen.asked.as_ref();
-        preferences.stylus_waiting = asked.map(|(settings, _)| *settings);
+        preferences.hand.stylus_waiting = asked.map(|(settings, _)| *settings);
     }
 }

@@ -220,7 +220,7 @@ fn settings_are_there_in_the_next_run_and_what_cannot_be_held_waits() {
     let again = |text: &str| {
         let (kept, odd) = Preferences::from_text(text, path).unwrap();
         let mut chosen = Chosen::default();
-        chosen.take_up(kept.stylus, kept.stylus_waiting);
+        chosen.take_up(kept.hand.stylus, kept.hand.stylus_waiting);
         (chosen, odd)
     };
     let (chosen, odd) = again(&text);
