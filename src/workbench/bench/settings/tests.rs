@@ -188,6 +188,20 @@ fn path() -> &'static Path {
     Path::new("settings.toml")
 }
 
+/// A tablet whose surface was placed, and a stylus that waits.
+fn hand_tools() -> HandTools {
+    HandTools {
+        tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
+            .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
+            .into(),
+        stylus_waiting: Some(StylusSettings {
+            stiffness_n_per_m: 1e5,
+            ..StylusSettings::default()
+        }),
+        ..HandTools::default()
+    }
+}
+
 #[test]
 fn every_setting_survives_writing_and_reading() {
     let preferences = Preferences {
@@ -221,16 +235,7 @@ fn every_setting_survives_writing_and_reading() {
             Some("[]".to_owned()),
         ],
         array: Some("rig \"2\"".to_owned()),
-        hand: HandTools {
-            tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
-                .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
-                .into(),
-            stylus_waiting: Some(StylusSettings {
-                stiffness_n_per_m: 1e5,
-                ..StylusSettings::default()
-            }),
-            ..HandTools::default()
-        },
+        hand: hand_tools(),
         window_size: Some([1600.0, 1000.5]),
         folders: KnownFolders {
             sessions: Some("/lab/study 1".to_owned()),
