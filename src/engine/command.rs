@@ -5,6 +5,7 @@
 
 use super::{InputSource, PreparedScene, SequenceStep, SoundFeed, Tap};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
+use selvedge_render::stylus::StylusDrive;
 use selvedge_render::{PlacedLevel, RenderError};
 use selvedge_textile::tactile::Tuning;
 
@@ -36,6 +37,10 @@ pub enum Command {
     /// vibrations; limits, calibration, soft start, mask and stops are those of every tick. While
     /// everything is off nothing is played.
     PlaySequence(Vec<SequenceStep>),
+    /// Lets the first display feel this stylus in place of the array from the next tick on, or the
+    /// array again. Sequences go before it. It stays with edits of its scene; where they change
+    /// the list of textiles it is silent until the next comes, and another scene ends it.
+    SetStylus(Option<Box<StylusDrive>>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.

@@ -209,6 +209,7 @@ impl Engine {
             Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
             Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
             Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),
+            Command::SetStylus(stylus) => CoreCommand::Stylus(stylus).into(),
             Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
             Command::TurnBy(by_deg) => ReadyCommand::Core(CoreCommand::Turn(by_deg)),
             Command::Play => ReadyCommand::control(Control::Play),

@@ -1,6 +1,7 @@
 //! A scene made ready to be felt: everything that the real-time thread must not make itself.
 
 use std::fmt;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{
@@ -12,6 +13,7 @@ use selvedge_foundation::geometry::Point;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
 use selvedge_render::scene::{Display, LoadedScene, Pose};
+use selvedge_textile::surface::Surface;
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
 pub struct PreparedScene {
@@ -21,6 +23,7 @@ pub struct PreparedScene {
     pub(super) renderer: ArrayRenderer,
     poses: Vec<Pose>,
     outputs: Vec<Output>,
+    surfaces: Vec<Arc<Surface>>,
 }
 
 /// What the limits of an output make of one display.
@@ -58,7 +61,7 @@ impl PreparedScene {
         let scene = RenderScene::of(loaded);
         let renderer = ArrayRenderer::prepare_with_cache(&scene, method, accuracy, cache)?;
         let (profile, start) = place_of(loaded);
-        Ok(Self::around(renderer, profile, start))
+        Ok(Self::around((renderer, &scene), profile, start))
     }
 
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
@@ -73,10 +76,14 @@ impl PreparedScene {
         (method, accuracy): (Method, &Accuracy),
     ) -> Result<Self, EngineError> {
         let renderer = ArrayRenderer::prepare(scene, method, accuracy)?;
-        Ok(Self::around(renderer, profile, start))
+        Ok(Self::around((renderer, scene), profile, start))
     }
 
-    fn around(renderer: ArrayRenderer, profile: ArrayProfile, start: Point) -> Self {
+    fn around(
+        (renderer, scene): (ArrayRenderer, &RenderScene),
+        profile: ArrayProfile,
+        start: Point,
+    ) -> Self {
         static SERIAL: AtomicU64 = AtomicU64::new(1);
         let output = |frame: &DisplayFrame| Output {
             coder: Coder::new(&profile, frame.n_contactors()),
@@ -90,6 +97,11 @@ impl PreparedScene {
             outputs: renderer.frames().iter().map(output).collect(),
             profile,
             renderer,
+            surfaces: (scene
+                .textiles
+                .iter()
+                .map(|placed| Arc::clone(&placed.surface)))
+            .collect(),
         }
     }
 
@@ -125,6 +137,11 @@ impl PreparedScene {
         &self.renderer
     }
 
+    /// The surfaces of its textiles, in the order of the scene's list.
+    pub(super) fn surfaces(&self) -> &[Arc<Surface>] {
+        &self.surfaces
+    }
+
     /// Where the pointer starts.
     pub(super) fn start(&self) -> Point {
         self.start
@@ -138,12 +155,13 @@ impl PreparedScene {
     /// Renders every display at this pose, or those beside the first at poses of their own as far
     /// as `apart` has them, and looks which output limits their amplitudes meet.
     /// Contactors of the first display that the mask says are not felt do nothing. Where something
-    /// is played, the first display feels that in place of the whole scene.
+    /// is played, the first display feels that in place of the whole scene; else what a stylus
+    /// drives it with, if one is felt.
     pub(super) fn render(
         &mut self,
         (pose, apart): (Pose, &[Pose]),
         mask: &[bool],
-        played: Option<Played>,
+        (played, stylus): (Option<Played>, Option<(usize, [f64; 2])>),
     ) {
         self.poses.fill(pose);
         for (place, own) in self.poses.iter_mut().skip(1).zip(apart) {
@@ -155,8 +173,14 @@ impl PreparedScene {
         };
         self.renderer.uncover(0, textile);
         self.renderer.tick(&self.poses);
-        if let Some(Played::Vibration(amplitude_um)) = played {
-            self.renderer.vibrate_display(0, amplitude_um);
+        match (played, stylus) {
+            (Some(Played::Vibration(amplitude_um)), _) => {
+                self.renderer.vibrate_display(0, amplitude_um);
+            }
+            (None, Some((textile, amplitude_um))) => {
+                self.renderer.drive_display(0, textile, amplitude_um);
+            }
+            (Some(Played::Textile(_)) | None, _) => {}
         }
         self.renderer.mask_display(0, mask);
         for (output, frame) in self.outputs.iter_mut().zip(self.renderer.frames()) {
@@ -236,6 +260,7 @@ impl PreparedScene {
             is_stopped: false,
             is_silent: false,
             sequence_step: None,
+            stylus: None,
             rendering: RenderingView::of(&self.renderer),
             pointer: PointerView::default(),
             source: SourceKind::Pointer,

@@ -8,6 +8,7 @@ use super::sequence::Sequence;
 use super::{PreparedScene, Snapshot, SoundFeed, Tap};
 use selvedge_device::{ArrayChange, Bridge, Coder};
 use selvedge_render::PlacedLevel;
+use selvedge_render::stylus::StylusDrive;
 use selvedge_textile::tactile::Tuning;
 
 /// What the engine's thread obeys. Everything in it is already allocated.
@@ -90,6 +91,8 @@ pub(super) enum CoreCommand {
     Mask(Vec<bool>),
     /// What is felt in place of the whole scene.
     PlaySequence(Sequence),
+    /// What is felt in place of the array; `None`: the array.
+    Stylus(Option<Box<StylusDrive>>),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
     Angle(f64),
@@ -119,6 +122,7 @@ pub(super) enum Retired {
     Gains(Vec<(usize, f64)>),
     Mask(Vec<bool>),
     Sequence(Sequence),
+    Stylus(Box<StylusDrive>),
     Bridge(Box<Bridge>),
     Array(Box<NextArray>),
     Tap(Box<Tap>),

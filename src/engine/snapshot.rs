@@ -14,6 +14,7 @@ use selvedge_foundation::geometry::Point;
 use selvedge_render::Counters;
 use selvedge_render::array::{ArrayRenderer, ErrorBound, Method};
 use selvedge_render::scene::Pose;
+use selvedge_render::stylus::StylusState;
 use selvedge_textile::tactile::Tuning;
 
 /// The engine after a tick.
@@ -49,6 +50,8 @@ pub struct Snapshot {
     pub is_silent: bool,
     /// Which step of a sequence is played, from 0; `None` while none is.
     pub sequence_step: Option<u16>,
+    /// What the stylus does that is felt in place of the array; `None`: the array is felt.
+    pub stylus: Option<StylusState>,
     /// How amplitudes are made.
     pub rendering: RenderingView,
     /// The pointer and its velocity.
@@ -181,6 +184,8 @@ pub struct EngineCounters {
     pub ignored: u64,
     /// Samples that the full ring had no room for.
     pub(crate) tick_samples_lost: u64,
+    /// Steps of a stylus that was felt; 0 while none ever was.
+    pub stylus_steps: u64,
     /// Frames not made because no armed device listened.
     pub frames_unheard: u64,
     /// Commands obeyed before this was shown: all that were sent once it equals

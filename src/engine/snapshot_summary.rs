@@ -10,6 +10,7 @@ use std::thread::{self, JoinHandle, Thread};
 use super::{EngineError, Playback, Snapshot};
 use selvedge_device::{BridgeState, CodeCounters, DeviceCounters};
 use selvedge_render::scene::Pose;
+use selvedge_render::stylus::StylusState;
 use selvedge_textile::tactile::Tuning;
 
 /// What of a snapshot is worth drawing a window for.
@@ -23,6 +24,7 @@ pub(super) struct SnapshotSummary {
     is_silent: bool,
     is_stopped: bool,
     sequence_step: Option<u16>,
+    stylus: Option<StylusState>,
     tuning: Tuning,
     playback: Playback,
     n_recorded: u64,
@@ -56,6 +58,7 @@ impl SnapshotSummary {
             is_silent: snapshot.is_silent,
             is_stopped: snapshot.is_stopped,
             sequence_step: snapshot.sequence_step,
+            stylus: snapshot.stylus,
             tuning: snapshot.rendering.tuning,
             playback: snapshot.playback,
             n_recorded: snapshot.recording.n_ticks,

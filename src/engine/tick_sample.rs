@@ -26,6 +26,8 @@ pub struct TickSample {
     pub pose: Pose,
     /// Whether the device played silence (stopped, or held).
     pub is_silent: bool,
+    /// Whether a stylus was felt in place of the array.
+    pub is_stylus: bool,
     /// The device's tick at which its frame is played; `None` when no armed device got it, as of
     /// every display but the first.
     pub apply_tick: Option<u32>,
@@ -57,6 +59,7 @@ impl TickSample {
             tick: core.tick_count(),
             pose: core.shown_pose(display),
             is_silent: core.is_silent(),
+            is_stylus: core.stylus().is_some(),
             apply_tick: apply_tick.filter(|_| display == 0),
             mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
             watched: u32::try_from(watched).unwrap_or(u32::MAX),

@@ -27,6 +27,7 @@ mod plan;
 mod replay;
 pub mod scene;
 mod stats;
+pub mod stylus;
 
 pub use array::single;
 pub use difference::{DifferenceMeter, Largest, LevelDifference, Spread, Tally};

@@ -145,6 +145,11 @@ fn a_step_of_a_stylus_allocates_nothing() {
                 force_n = row.map_or(f64::NAN, |row| row.force_n);
             });
         }
+        assert_no_alloc(|| {
+            assert!(!run.advance([f64::NAN; 2]), "nowhere is refused");
+            assert!(run.begin([0.0; 2], StylusStart::Resting));
+            assert!(run.advance([0.01, 0.0]));
+        });
         assert!(force_n > 0.1, "{method:?} pressed: {force_n}");
     }
 }

@@ -4,8 +4,11 @@
 
 mod motion;
 mod obey;
+mod stylus;
 
 use std::time::{Duration, Instant};
+
+use stylus::FeltStylus;
 
 use super::fingers::Fingers;
 use super::input::{
@@ -17,7 +20,7 @@ use super::sequence::Sequence;
 use super::track::Track;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, Played, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SourceKind, TICKS_PER_S, Tap, VelocityMethod,
+    RenderingView, Snapshot, SourceKind, TICKS_PER_S, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -50,6 +53,7 @@ pub struct EngineCore {
     mask: Vec<bool>,
     /// What is felt in place of the whole scene.
     sequence: Sequence,
+    stylus: FeltStylus,
     revision: u64,
 }
 
@@ -80,9 +84,10 @@ impl EngineCore {
             ignored: 0,
             mask: Vec::new(),
             sequence: Sequence::default(),
+            stylus: FeltStylus::default(),
             revision: 0,
         };
-        core.scene.render((pose, &[]), &[], None);
+        core.render_again();
         (core, sender)
     }
 
@@ -156,13 +161,15 @@ impl EngineCore {
         };
         self.fingers.follow(&self.pose, now);
         let played = self.sequence.next_tick();
+        self.lead_stylus();
         self.render(played);
         self.tick += 1;
     }
 
     fn render(&mut self, played: Option<Played>) {
         let poses = (self.rendered, self.fingers.rendered(self.is_stopped));
-        self.scene.render(poses, &self.mask, played);
+        let first = (played, self.stylus.driven());
+        self.scene.render(poses, &self.mask, first);
     }
 
     /// Renders the last tick anew, after something else than the pose changed.
@@ -206,17 +213,6 @@ impl EngineCore {
     /// The same of any display: what a device that drove it would play, µm.
     pub(super) fn felt_um_of(&self, display: usize) -> &[[f32; 2]] {
         self.scene.felt_um(display, self.is_silent())
-    }
-
-    /// Writes the last tick to whoever listens at a tap: what the device plays, before its limits.
-    pub fn write_to(&self, tap: &mut Tap) {
-        let Pose {
-            position,
-            angle_deg,
-            ..
-        } = self.pose();
-        let place = [position.x_mm, position.y_mm, angle_deg];
-        tap.write(self.tick, place, self.felt_um());
     }
 
     /// Whether the device plays silence: stopped or held.
@@ -306,6 +302,8 @@ impl EngineCore {
             .map_or(SourceKind::Pointer, PointerInput::kind);
         snapshot.playback = self.playback();
         snapshot.recording = self.recording_view();
+        snapshot.stylus = self.stylus();
+        snapshot.counters.stylus_steps = self.stylus.n_steps();
         snapshot.counters.ignored = self.ignored;
     }
 

@@ -7,7 +7,7 @@ use super::{EngineCore, Say};
 use crate::input::PointerInput;
 use crate::ready::{CoreCommand, NextScene, Retired};
 use crate::sequence::Sequence;
-use crate::{Notice, SoundFeed, stereo_levels};
+use crate::{Notice, SoundFeed, Tap, stereo_levels};
 use selvedge_render::RenderError;
 use selvedge_render::scene::Pose;
 
@@ -24,6 +24,17 @@ impl EngineCore {
         });
         let middles_mm = [frame.position().x_mm, self.scene.start().x_mm];
         feed.push(stereo_levels(middles_mm, contactors, feed.alone()));
+    }
+
+    /// Writes the last tick to whoever listens at a tap: what the device plays, before its limits.
+    pub fn write_to(&self, tap: &mut Tap) {
+        let Pose {
+            position,
+            angle_deg,
+            ..
+        } = self.pose();
+        let place = [position.x_mm, position.y_mm, angle_deg];
+        tap.write(self.tick, place, self.felt_um());
     }
 
     /// Obeys, and hands back what was replaced: at most two things.
@@ -52,6 +63,10 @@ impl EngineCore {
                 let next = self.playable_sequence(next, say);
                 let last = std::mem::replace(&mut self.sequence, next);
                 retired[0] = Some(Retired::Sequence(last));
+            }
+            CoreCommand::Stylus(next) => {
+                retired[0] = self.stylus.exchange(next).map(Retired::Stylus);
+                self.revision += 1;
             }
             CoreCommand::Source(source) => retired[0] = self.set_source(source),
             CoreCommand::Angle(angle_deg) => self.set_angle(angle_deg, say),
@@ -104,6 +119,7 @@ impl EngineCore {
             self.rendered = self.pose.at_rest();
         }
         let retired = std::mem::replace(&mut self.scene, scene);
+        self.stylus.is_over |= !next.is_edited;
         self.render_again();
         [recording, Some(Retired::Scene(retired))]
     }

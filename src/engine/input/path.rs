@@ -131,6 +131,11 @@ impl PointerInput for ReplayInput {
         self.motion = self.motion.after(control);
     }
 
+    fn pose_before(&self, n_ticks: u64) -> Option<Pose> {
+        let mut cursor = PathCursor::at(&self.path, self.tick.checked_sub(n_ticks)?);
+        cursor.step(&self.path).map(|(_, pose)| pose)
+    }
+
     fn playback(&self) -> Playback {
         Playback {
             is_playing: self.motion == Motion::Playing,
@@ -186,6 +191,11 @@ impl PointerInput for StrokeInput {
             | Control::LoopWithin(_) => {}
         }
         self.motion = self.motion.after(control);
+    }
+
+    fn pose_before(&self, n_ticks: u64) -> Option<Pose> {
+        let tick = (self.next_tick.checked_sub(1)?).checked_sub(n_ticks)?;
+        Some(self.stroke.pose_at(tick as f64 / TICKS_PER_S))
     }
 
     fn playback(&self) -> Playback {

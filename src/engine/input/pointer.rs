@@ -104,6 +104,11 @@ pub trait PointerInput: Send + Debug {
         }
     }
 
+    /// The pose so many ticks before the last one, of a path that knows it. Allocates nothing.
+    fn pose_before(&self, _n_ticks: u64) -> Option<Pose> {
+        None
+    }
+
     /// The display's angle where the source tells it, degrees counter-clockwise.
     fn angle_deg(&self) -> Option<f64> {
         None

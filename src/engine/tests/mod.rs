@@ -12,6 +12,7 @@ mod seek;
 mod sequence;
 mod shown;
 mod sound;
+mod stylus;
 mod tick_samples;
 mod update;
 

@@ -36,6 +36,7 @@ use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::scene::Pose;
+use selvedge_foundation::geometry::Point;
 use selvedge_textile::tactile::Tuning;
 
 /// How powers are found.
@@ -201,6 +202,26 @@ impl ArrayRenderer {
             // The next tick renders anew even where the display stands.
             self.displays[display].forget();
         }
+    }
+
+    /// The same with what a source of its own makes of this textile (its place in the list), before
+    /// gains, µm peak: they come on top, as on what is rendered.
+    pub fn drive_display(&mut self, display: usize, textile: usize, amplitude_um: [f64; 2]) {
+        let known = (textile < self.plan.textiles.len()).then(|| self.gains.factors(textile));
+        let factors = known.unwrap_or_default();
+        let amplitude_um = [0, 1].map(|band| single(factors[band] * amplitude_um[band]));
+        self.vibrate_display(display, amplitude_um);
+    }
+
+    /// The topmost textile under a point of the workspace (its place in the list), and where that
+    /// is along its warp and weft, mm.
+    pub fn place_on_textile(&self, at: Point) -> Option<(usize, [f64; 2])> {
+        let mut textiles = self.plan.textiles.iter().enumerate().rev();
+        textiles.find_map(|(textile, plan)| {
+            let place = plan.place_of(at);
+            let is_on = at.is_finite() && plan.contains(place.x_mm, place.y_mm);
+            is_on.then_some((textile, [place.x_mm, place.y_mm]))
+        })
     }
 
     /// Lets one display feel this textile alone (its place in the list) from the next tick on,

@@ -81,6 +81,14 @@ impl HapticLoop {
         })
     }
 
+    /// Begins anew where a contact is, with the controller that it has.
+    pub(super) fn begin(&mut self, contact: &Contact) {
+        self.contact.go_where(contact);
+        self.late.fill(LoopTick::default());
+        (self.next, self.before_mm) = (0, None);
+        self.passivity.forget();
+    }
+
     /// The energy that was observed.
     pub fn passivity(&self) -> &Passivity {
         &self.passivity

@@ -242,26 +242,37 @@ impl SimulatedDevice {
     ) -> Result<Self, RenderError> {
         spec.check()?;
         hand.check()?;
-        let [x_mm, y_mm, z_mm] = place_mm;
         if !place_mm.iter().all(|mm| mm.abs() <= 1e9) {
             let what = "the stylus starts nowhere";
             return Err(RenderError::stylus(what, "give finite places in mm"));
         }
-        Ok(Self {
+        let mut device = Self {
             spec,
             hand,
             method,
             period_s,
-            target_mm: [x_mm, y_mm],
-            along: Along {
-                place_mm: [x_mm, y_mm],
-                velocity_m_per_s: [0.0; 2],
-            },
+            target_mm: [0.0; 2],
+            along: Along::default(),
             upright: Motion {
-                z_m: 1e-3 * z_mm,
+                z_m: 0.0,
                 v_m_per_s: 0.0,
             },
-        })
+        };
+        device.put_at(place_mm);
+        Ok(device)
+    }
+
+    /// Puts it at rest at a place, mm.
+    pub(super) fn put_at(&mut self, [x_mm, y_mm, z_mm]: [f64; 3]) {
+        self.target_mm = [x_mm, y_mm];
+        self.along = Along {
+            place_mm: [x_mm, y_mm],
+            velocity_m_per_s: [0.0; 2],
+        };
+        self.upright = Motion {
+            z_m: 1e-3 * z_mm,
+            v_m_per_s: 0.0,
+        };
     }
 
     /// Where the hand leads the stylus until the next force, mm.

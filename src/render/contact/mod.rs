@@ -31,6 +31,7 @@ mod relief;
 mod rolling;
 mod row;
 mod run;
+mod setup;
 mod stepper;
 mod tip;
 
@@ -45,7 +46,8 @@ pub use passivity::Passivity;
 pub use patch::Contact;
 pub use relief::Relief;
 pub use row::StylusRow;
-pub use run::{StylusRun, StylusSetup, StylusStart};
+pub use run::{StylusRun, StylusStart};
+pub use setup::StylusSetup;
 pub use stepper::Stepper;
 pub use tip::Tip;
 

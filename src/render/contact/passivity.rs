@@ -30,6 +30,11 @@ impl Passivity {
         }
     }
 
+    /// Forgets what was observed.
+    pub(super) fn forget(&mut self) {
+        (self.energy_j, self.held_n, self.place_mm) = (0.0, [0.0; 3], None);
+    }
+
     /// What the surface took so far, less what it gave, J.
     pub fn energy_j(&self) -> f64 {
         self.energy_j

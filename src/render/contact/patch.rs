@@ -96,6 +96,22 @@ impl Contact {
         &self.relief
     }
 
+    /// Forgets what was pressed and bent.
+    pub(super) fn forget(&mut self) {
+        self.bristles = Bristles::default();
+        for floors in &mut self.floors {
+            floors.fill(Floor::default());
+        }
+    }
+
+    /// Goes where another is that is the same tip on the same surface.
+    pub(super) fn go_where(&mut self, other: &Self) {
+        self.bristles = other.bristles;
+        for (floors, others) in self.floors.iter_mut().zip(&other.floors) {
+            floors.clone_from_slice(others);
+        }
+    }
+
     /// Looks where the surface is under every contact at an instant of a step.
     pub(super) fn look(&mut self, instant: usize, place_mm: [f64; 2], velocity_m_per_s: [f64; 2]) {
         let contacts = self.tip.contacts_mm.iter();

@@ -1,12 +1,12 @@
 //! A stylus that is led over a surface, step by step: what a command writes and a window shows.
 
-use super::controller::{HapticLoop, LoopTick, Sampling, period_s};
+use super::controller::{HapticLoop, LoopTick, period_s};
 use super::crossover::Crossover;
-use super::device::{Along, DeviceSpec, Hand, Pull, SimulatedDevice, StylusDevice as _};
-use super::law::ForceParts;
-use super::limits::{StiffnessLimits, WallCase};
+use super::device::{Along, Pull, SimulatedDevice, StylusDevice as _};
+use super::limits::WallCase;
 use super::patch::Contact;
 use super::row::StylusRow;
+use super::setup::StylusSetup;
 use super::stepper::{Motion, Stepper};
 use crate::RenderError;
 
@@ -14,23 +14,6 @@ use crate::RenderError;
 const MAX_GAIN: f64 = 10.0;
 /// An energy that nobody feels, J.
 const NOTHING_J: f64 = 1e-9;
-
-/// All that a run is made of.
-#[derive(Debug, Clone)]
-pub struct StylusSetup {
-    /// The tip on its surface.
-    pub contact: Contact,
-    /// The simulated device.
-    pub device: DeviceSpec,
-    /// The hand on it.
-    pub hand: Hand,
-    /// How it is stepped.
-    pub method: Stepper,
-    /// Steps, or ticks of the controller, a second.
-    pub rate_hz: f64,
-    /// The force is sampled and held; without this it acts at all times.
-    pub sampling: Option<Sampling>,
-}
 
 /// Where a run begins, at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,70 +42,6 @@ pub struct StylusRun {
     advice: String,
 }
 
-impl StylusSetup {
-    /// A usual device in a hand that presses with 1 N, with a force that acts at all times.
-    pub fn of(contact: Contact, method: Stepper, rate_hz: f64) -> Self {
-        Self {
-            contact,
-            device: DeviceSpec::default(),
-            hand: Hand::pressing(1.0),
-            method,
-            rate_hz,
-            sampling: None,
-        }
-    }
-
-    /// The case of a wall that this is, for limits and maps.
-    pub fn case(&self) -> WallCase {
-        let law = self.contact.law();
-        WallCase {
-            mass_kg: self.device.mass_kg,
-            damping_n_s_per_m: self.device.damping_n_s_per_m,
-            stiffness_n_per_m: law.stiffness_n_per_m,
-            wall_damping_n_s_per_m: law.damping_n_s_per_m,
-            period_s: 1.0 / self.rate_hz,
-            delay_ticks: self.sampling.map(|sampling| sampling.delay_ticks),
-            method: self.method,
-        }
-    }
-
-    /// The largest stiffnesses that this device is held with.
-    pub fn stiffness_limits(&self) -> StiffnessLimits {
-        let (friction_n, resolution_mm) = (self.device.friction_n, self.device.resolution_mm);
-        self.case().stiffness_limits(friction_n, resolution_mm)
-    }
-
-    /// The stepper that is taken, and why: what `auto` chose, or what was asked for.
-    pub fn chosen(&self) -> (Stepper, String) {
-        if self.method == Stepper::Auto {
-            return self.case().choose(self.contact.law().is_linear());
-        }
-        (self.method, "as asked".to_owned())
-    }
-
-    fn checked(mut self) -> Result<Self, RenderError> {
-        period_s(self.rate_hz)?;
-        self.device.check()?;
-        self.hand.check()?;
-        let mut law = *self.contact.law();
-        law.ceiling_n = law.ceiling_n.min(self.device.max_force_n);
-        self.contact.set_law(law)?;
-        self.method = self.chosen().0;
-        if self.method == Stepper::Exact && !law.is_linear() && self.sampling.is_none() {
-            return Err(RenderError::stylus(
-                "a cloth's compression is not piecewise linear",
-                "take method implicit-euler, or leave its figures out",
-            ));
-        }
-        // What is not displayed is no axis of the device.
-        let [x, y, z] = &mut self.device.axes;
-        *z &= law.parts != ForceParts::Lateral;
-        *x &= law.parts != ForceParts::Normal;
-        *y &= law.parts != ForceParts::Normal;
-        Ok(self)
-    }
-}
-
 impl StylusRun {
     /// A run from a place on the surface, mm.
     ///
@@ -148,16 +67,8 @@ impl StylusRun {
             sampling,
         } = setup;
         let period_s = period_s(rate_hz)?;
-        for instant in 0..3 {
-            contact.look(instant, place_mm, [0.0; 2]);
-        }
-        let z_mm = match start {
-            StylusStart::Above(above_mm) => 1e3 * contact.rest_m(0, 0.0) + above_mm,
-            StylusStart::Resting => 1e3 * contact.rest_m(0, hand.press_n),
-        };
-        let place = [place_mm[0], place_mm[1], z_mm];
-        let device = SimulatedDevice::new(spec, hand, (method, period_s), place)?;
-        contact.go_on(1e-3 * z_mm);
+        let device = SimulatedDevice::new(spec, hand, (method, period_s), [0.0; 3])?;
+        contact.forget();
         let sampled = sampling.map(|sampling| {
             let rate = (rate_hz, sampling);
             HapticLoop::new(contact.clone(), rate, spec.mass_kg, hand.press_n)
@@ -175,9 +86,35 @@ impl StylusRun {
             method,
             rate_hz,
         };
-        run.sense()?;
-        run.start_j = run.row.energy_j;
+        if !run.begin(place_mm, start) {
+            return Err(run.why_not(place_mm));
+        }
         Ok(run)
+    }
+
+    /// Begins anew from a place on the surface, mm, as if nothing had been before; whether it is
+    /// there. Allocates nothing.
+    pub fn begin(&mut self, place_mm: [f64; 2], start: StylusStart) -> bool {
+        self.contact.forget();
+        for instant in 0..3 {
+            self.contact.look(instant, place_mm, [0.0; 2]);
+        }
+        let z_mm = match start {
+            StylusStart::Above(above_mm) => 1e3 * self.contact.rest_m(0, 0.0) + above_mm,
+            StylusStart::Resting => 1e3 * self.contact.rest_m(0, self.device.hand.press_n),
+        };
+        self.device.put_at([place_mm[0], place_mm[1], z_mm]);
+        self.contact.go_on(1e-3 * z_mm);
+        if let Some((sampled, tick)) = &mut self.sampled {
+            sampled.begin(&self.contact);
+            *tick = LoopTick::default();
+        }
+        let spec = &self.device.spec;
+        self.crossover = Crossover::new(spec.bandwidth_hz, self.rate_hz);
+        (self.n_steps, self.driven_j) = (0, [0.0; 2]);
+        let is_there = is_place(place_mm) && z_mm.is_finite() && self.sense().is_ok();
+        self.start_j = self.row.energy_j;
+        is_there
     }
 
     /// How it is at this instant.
@@ -218,16 +155,24 @@ impl StylusRun {
     /// # Errors
     /// A place that is none; motion that grows without bound, with the stable limit.
     pub fn step(&mut self, target_mm: [f64; 2]) -> Result<&StylusRow, RenderError> {
-        if !target_mm.iter().all(|mm| mm.abs() <= 1e9) {
-            return Err(RenderError::stylus(
-                format!("the path leads to {target_mm:?} mm"),
-                "give finite places in mm",
-            ));
+        if self.advance(target_mm) {
+            Ok(&self.row)
+        } else {
+            Err(self.why_not(target_mm))
+        }
+    }
+
+    /// The same for a thread that must not allocate: whether that could be done.
+    pub fn advance(&mut self, target_mm: [f64; 2]) -> bool {
+        if !is_place(target_mm) {
+            return false;
         }
         self.lead_to(target_mm);
         let before = self.device.upright;
         if let Some((_, tick)) = &self.sampled {
-            self.device.hold_n(tick.force_n)?;
+            if self.device.hold_n(tick.force_n).is_err() {
+                return false;
+            }
             let Along {
                 place_mm,
                 velocity_m_per_s,
@@ -247,9 +192,7 @@ impl StylusRun {
         }
         self.contact.go_on(after_m);
         self.n_steps += 1;
-        self.sense()?;
-        self.check_bounded()?;
-        Ok(&self.row)
+        self.sense().is_ok() && self.is_bounded()
     }
 
     /// The contact's mean force along z over a step that began so: what moved the mass, N.
@@ -380,15 +323,24 @@ impl StylusRun {
         0.5 * self.device.spec.mass_kg * of_motion + of_contact_j + of_hand_j
     }
 
-    fn check_bounded(&self) -> Result<(), RenderError> {
+    fn is_bounded(&self) -> bool {
         let gained_j = self.gained_j();
         let most_j = MAX_GAIN * (self.put_in_j() + NOTHING_J);
-        if gained_j.is_finite() && gained_j <= most_j {
-            return Ok(());
-        }
-        Err(RenderError::stylus(
-            format!("the motion grows without end at {} s", self.row.t_s),
-            self.advice.clone(),
-        ))
+        gained_j.is_finite() && gained_j <= most_j
     }
+
+    /// Why a step towards a place could not be made.
+    fn why_not(&self, target_mm: [f64; 2]) -> RenderError {
+        if is_place(target_mm) {
+            let what = format!("the motion grows without end at {} s", self.row.t_s);
+            return RenderError::stylus(what, self.advice.clone());
+        }
+        let what = format!("the path leads to {target_mm:?} mm");
+        RenderError::stylus(what, "give finite places in mm")
+    }
+}
+
+/// Whether there may be such a place along a surface, mm.
+fn is_place(place_mm: [f64; 2]) -> bool {
+    place_mm.iter().all(|mm| mm.abs() <= 1e9)
 }

@@ -15,6 +15,8 @@
 //! In contact the trapezoid is the trapezoidal rule; where a step crosses the surface that rule
 //! alone would pay out more than was put in. With B = 0 it keeps energy to rounding.
 
+use serde::{Deserialize, Serialize};
+
 use super::kernel::Kernel;
 use super::law::{Floor, Spring};
 use selvedge_foundation::named;
@@ -32,13 +34,15 @@ const PIECE: f64 = 0.785;
 
 named! {
     /// A way to step a stylus.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
     pub enum Stepper {
         /// Euler's rule.
         ExplicitEuler = "explicit-euler",
         /// Velocity first, then place by the new velocity.
         SemiImplicitEuler = "semi-implicit-euler",
         /// The classical method of four stages.
+        #[serde(rename = "rk4")]
         RungeKutta4 = "rk4",
         /// The trapezoidal rule, with the spring's mean over the step.
         Trapezoid = "trapezoid",

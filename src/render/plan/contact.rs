@@ -180,7 +180,7 @@ impl TextilePlan {
     }
 
     /// A place of the workspace in the textile's frame.
-    pub(super) fn place_of(&self, at: Point) -> Point {
+    pub(crate) fn place_of(&self, at: Point) -> Point {
         Point::default() + self.textile_from_workspace.turn(at - self.origin)
     }
 
@@ -201,7 +201,7 @@ impl TextilePlan {
         self.within_mm.is_none() && covers(place.x_mm, width) && covers(place.y_mm, height)
     }
 
-    pub(super) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
+    pub(crate) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
         let within = |place: f64, extent: f64| -EDGE_MM <= place && place < extent - EDGE_MM;
         let is_felt_at = |[from, to]: [Point; 2]| {
             let turned = self.textile_from_workspace.inverse();

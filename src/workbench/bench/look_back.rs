@@ -11,6 +11,7 @@ use crate::bench::view::{Dot, EngineView, Source};
 use selvedge_device::{Coder, LimiterState};
 use selvedge_engine::TICKS_PER_S;
 use selvedge_render::scene::Pose;
+use selvedge_render::stylus::StylusState;
 
 /// The tick that is looked back at.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,7 @@ pub(crate) struct LookBack {
     newest: u64,
     tick: u64,
     pose: Pose,
+    is_stylus: bool,
     dots: Vec<Dot>,
 }
 
@@ -53,6 +55,7 @@ impl Bench {
             newest,
             tick: entry.tick_sample.tick,
             pose,
+            is_stylus: entry.tick_sample.is_stylus,
             dots: dots.collect(),
         })
     }
@@ -99,6 +102,7 @@ impl Bench {
         live.speed_mm_per_s = back.pose.velocity.speed_mm_per_s();
         live.dots.clone_from(&back.dots);
         live.on_finger = OnFinger::Past;
+        live.stylus = back.is_stylus.then_some(StylusState::Led);
         let amplitudes_um = back.dots.iter().map(|dot| dot.amplitude_um);
         live.perceptual_level = PerceptualLevel::of(amplitudes_um);
     }

@@ -48,6 +48,7 @@ impl Bench {
             scene: self.document.scene().name.clone(),
             scene_file: self.document.path().cloned(),
             tuning: Some(self.document.tuning()),
+            stylus: self.device.stylus.clone(),
             ..About::default()
         }
     }

@@ -128,6 +128,7 @@ pub(crate) fn live_view(
         reference_db: snapshot.rendering.compression_reference_db,
         input: input_view(&snapshot.pointer),
         sequence_step: snapshot.sequence_step,
+        stylus: snapshot.stylus,
         bridge: snapshot
             .link
             .as_ref()

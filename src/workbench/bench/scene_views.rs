@@ -27,7 +27,11 @@ impl Bench {
     /// The same for amplitudes that the engine rendered.
     pub(crate) fn rendered_origin(&self) -> Origin {
         let status = &self.live.status;
-        self.origin().by_method(status.method, status.bound_db)
+        let origin = self.origin().by_method(status.method, status.bound_db);
+        match &self.device.stylus {
+            Some(words) => origin.and("felt_in_place_of_array", words, words),
+            None => origin,
+        }
     }
 
     /// The scene as panes draw it, without a look at pictures.

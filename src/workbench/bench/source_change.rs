@@ -30,7 +30,12 @@ impl Bench {
     pub(crate) fn sources_view(&self) -> SourcesView {
         let sources = &self.exploration.sources;
         let surface = sources.chosen_device().map(|device| {
-            let own = self.settings.preferences.tablet_areas.get(&device.name);
+            let own = self
+                .settings
+                .preferences
+                .hand
+                .tablet_areas
+                .get(&device.name);
             let usual = || Area::usual(device.axes, self.document.scene().size_mm);
             SurfaceView {
                 name: device.name.clone(),
@@ -47,7 +52,7 @@ impl Bench {
     /// Keeps where the surface of tablets of this name lies; one that is read now is read so from
     /// now on.
     fn place_surface(&mut self, name: &str, area: Option<&str>) {
-        let areas = &mut self.settings.preferences.tablet_areas;
+        let areas = &mut self.settings.preferences.hand.tablet_areas;
         match area.map(str::parse).transpose() {
             Ok(Some(area)) => drop(areas.insert(name.to_owned(), area)),
             Ok(None) => drop(areas.remove(name)),
@@ -79,7 +84,7 @@ impl Bench {
             .sources
             .listed(path)
             .map(|found| &found.name);
-        let area = name.and_then(|name| self.settings.preferences.tablet_areas.get(name));
+        let area = name.and_then(|name| self.settings.preferences.hand.tablet_areas.get(name));
         let area = area.copied();
         let chosen = SourceCommand::Device(path.to_owned());
         self.exploration.sources.chosen = Some((chosen, path.display().to_string()));
@@ -236,7 +241,15 @@ mod tests {
         }
         window.dispatch(SourceCommand::Area("Pen tablet".to_owned(), None).into());
         assert_eq!(window.bench.sources_view().surface, Some(usual));
-        assert!(window.bench.settings.preferences.tablet_areas.is_empty());
+        assert!(
+            window
+                .bench
+                .settings
+                .preferences
+                .hand
+                .tablet_areas
+                .is_empty()
+        );
     }
 
     #[test]

@@ -139,6 +139,8 @@ pub(crate) struct DeviceState {
     pub(crate) felt_log: FeltLog,
     /// The sound of what is felt.
     pub(crate) sound: Sound,
+    /// The stylus that drives it in place of the array, in a line.
+    pub(crate) stylus: Option<String>,
 }
 
 /// What was felt lately.

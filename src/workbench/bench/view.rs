@@ -16,6 +16,7 @@ use selvedge_device::{BridgeState, ClockFit, DeviceUid, Distribution, LimiterSta
 use selvedge_engine::InputRate;
 use selvedge_foundation::geometry::{Frame, Point};
 use selvedge_render::scene::Pose;
+use selvedge_render::stylus::StylusState;
 use selvedge_textile::tactile::{Filters, Tuning};
 
 /// The scene as it is drawn.
@@ -182,6 +183,8 @@ pub(crate) struct EngineView {
     pub input: InputView,
     /// The step of a sequence that is played.
     pub(crate) sequence_step: Option<u16>,
+    /// What the stylus does that is felt in place of the array; `None`: the array is felt.
+    pub(crate) stylus: Option<StylusState>,
     /// The device.
     pub bridge: Option<BridgeView>,
 }

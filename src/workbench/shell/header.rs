@@ -9,6 +9,7 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, DeviceCommand, PlayCommand, ShowCommand};
 use crate::bench::history::StepList;
 use crate::bench::keys::hint;
+use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::view::{EngineView, SceneView};
 use crate::kit::theme;
@@ -58,6 +59,7 @@ pub(crate) fn show(
             show_escape(ui, bench, commands);
             show_armed(ui, &bench.live);
             show_sound(ui, bench, commands);
+            show_stylus(ui, &bench.live, commands);
             ui.add_space(2.0 * STEP);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 show_name(ui, scene);
@@ -156,6 +158,15 @@ fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     let response = response.on_disabled_hover_text("Nothing moves by itself");
     if response.on_hover_text(tip).clicked() {
         commands.push(command);
+    }
+}
+
+/// That a stylus is felt in place of the array, and the way to where that is switched.
+fn show_stylus(ui: &mut Ui, live: &EngineView, commands: &mut Commands) {
+    let tip = "What is felt is the stylus’ vibration, not the array’s rendering; the Stylus pane \
+               switches it off";
+    if live.stylus.is_some() && button(ui, "Stylus felt", tip, None) {
+        commands.push(ShowCommand::Reveal(Pane::Stylus).into());
     }
 }
 

@@ -69,6 +69,9 @@ pub(crate) struct About {
     /// Gains and compression when it began.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tuning: Option<Tuning>,
+    /// The stylus that was felt in place of the array when it began.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) stylus: Option<String>,
     /// Places that were noted, in their order.
     #[serde(default, rename = "marker", skip_serializing_if = "Vec::is_empty")]
     pub(crate) markers: Vec<Marker>,

@@ -4,8 +4,10 @@
 //! file is set aside under another name, so that nothing is lost. Knows where the file is and when
 //! it is written; what is in it is in `preferences.rs`.
 
+pub(crate) mod hand;
 mod own_files;
 pub(crate) mod preferences;
+pub(crate) mod stylus;
 #[cfg(test)]
 mod tests;
 

@@ -11,10 +11,10 @@ use crate::bench::overlays::Overlays;
 use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
+use crate::bench::settings::hand::HandTools;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::SpectrumScale;
 use crate::kit::theme::colour_map::ColourMap;
-use selvedge_engine::Area;
 use selvedge_foundation::files::{FileError, keys_to_string, known_keys_from_str};
 
 /// Most scenes that are remembered.
@@ -85,13 +85,9 @@ pub(crate) struct Preferences {
     /// The scenes that were opened or saved last, newest first, by absolute path.
     #[serde(with = "scene_paths")]
     pub(crate) recent_scenes: Vec<PathBuf>,
-    /// Where the surfaces of tablets of these names lie in the workspace.
-    #[serde(
-        rename = "tablet_areas_mm",
-        with = "areas",
-        skip_serializing_if = "BTreeMap::is_empty"
-    )]
-    pub(crate) tablet_areas: BTreeMap<String, Area>,
+    /// What the hand holds.
+    #[serde(flatten)]
+    pub(crate) hand: HandTools,
     /// The keys that the user gave to acts.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) keys: ChosenKeys,
@@ -114,7 +110,7 @@ impl Default for Preferences {
             perspective: Perspective::default(),
             arrangements: Default::default(),
             array: None,
-            tablet_areas: BTreeMap::new(),
+            hand: HandTools::default(),
             keys: ChosenKeys::new(),
             window_size: None,
             folders: KnownFolders::default(),
@@ -369,31 +365,6 @@ mod scene_paths {
             known.remember_scene(path);
         }
         Ok(known.recent_scenes)
-    }
-}
-
-/// Areas by the names of their tablets, as left, bottom, width and height.
-mod areas {
-    use std::collections::BTreeMap;
-
-    use serde::de::Error as _;
-    use serde::{Deserialize as _, Deserializer, Serializer};
-
-    use super::Area;
-
-    pub(super) fn serialize<S: Serializer>(
-        areas: &BTreeMap<String, Area>,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_map(areas.iter().map(|(name, area)| (name, area.numbers())))
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<BTreeMap<String, Area>, D::Error> {
-        let areas = BTreeMap::<String, [f64; 4]>::deserialize(from)?;
-        let area = |(name, numbers)| Ok((name, Area::of(numbers).map_err(D::Error::custom)?));
-        areas.into_iter().map(area).collect()
     }
 }
 

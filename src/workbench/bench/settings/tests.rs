@@ -10,9 +10,11 @@ use crate::bench::part::DotStyle;
 use crate::bench::perspective::Perspective;
 use crate::bench::rendering::Rendering;
 use crate::bench::settings::Settings;
+use crate::bench::settings::hand::HandTools;
 use crate::bench::settings::preferences::{
     KnownFolders, Loudness, Preferences, Scales, SoundPreferences,
 };
+use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::{Handle, SpectrumScale};
 use crate::kit::theme::colour_map::ColourMap;
@@ -186,6 +188,20 @@ fn path() -> &'static Path {
     Path::new("settings.toml")
 }
 
+/// A tablet whose surface was placed, and a stylus that waits.
+fn hand_tools() -> HandTools {
+    HandTools {
+        tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
+            .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
+            .into(),
+        stylus_waiting: Some(StylusSettings {
+            stiffness_n_per_m: 1e5,
+            ..StylusSettings::default()
+        }),
+        ..HandTools::default()
+    }
+}
+
 #[test]
 fn every_setting_survives_writing_and_reading() {
     let preferences = Preferences {
@@ -219,9 +235,7 @@ fn every_setting_survives_writing_and_reading() {
             Some("[]".to_owned()),
         ],
         array: Some("rig \"2\"".to_owned()),
-        tablet_areas: [("Pen \"S\" 5.1", [-3.5, 20.0, 216.0, 135.25])]
-            .map(|(name, area)| (name.to_owned(), Area::of(area).unwrap()))
-            .into(),
+        hand: hand_tools(),
         window_size: Some([1600.0, 1000.5]),
         folders: KnownFolders {
             sessions: Some("/lab/study 1".to_owned()),

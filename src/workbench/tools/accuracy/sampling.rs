@@ -138,7 +138,9 @@ impl Accuracy {
         let scene = &bench.inspection.scene;
         let is_settled = snapshot.counters.commands_obeyed == n_sent
             && snapshot.scene_serial == bench.engine_scene.serial
-            && snapshot.rendering.tuning == scene.tuning;
+            && snapshot.rendering.tuning == scene.tuning
+            // A stylus is no rendering of the array.
+            && snapshot.stylus.is_none();
         if !is_settled {
             self.tally.changed += 1;
             return;

@@ -180,6 +180,7 @@ impl Experiment {
             bench.send(Command::StopRecording);
         }
         bench.send(Command::SetAngle(0.0));
+        bench.send(Command::SetStylus(None));
         bench.send(Command::SetContactorMask(Vec::new()));
         let perspective = ShowCommand::Perspective(Perspective::Experiment);
         bench.commands.push(perspective.into());

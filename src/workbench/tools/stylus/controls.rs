@@ -3,6 +3,7 @@
 
 use eframe::egui::{ComboBox, RichText, Stroke, Ui, vec2};
 
+use crate::bench::view::EngineView;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::scale::Scale;
@@ -19,7 +20,7 @@ const RAIL_END: f32 = 6.0;
 const METHODS: f32 = 150.0;
 
 /// Shows all rows, and applies what can be held.
-pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus) {
+pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus, live: &EngineView) {
     let (_, limit) = stylus.map();
     let mut settings = stylus.chosen.shown();
     let ink = Palette::in_ui(ui).text;
@@ -47,6 +48,7 @@ pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus) {
     if settings != stylus.chosen.shown() {
         stylus.chosen.ask(settings);
     }
+    show_through(ui, stylus, live);
     show_question(ui, stylus);
 }
 
@@ -83,6 +85,27 @@ fn show_choices(ui: &mut Ui, settings: &mut StylusSettings) {
         ];
         toggles(ui, &mut settings.is_lateral, &kinds);
     });
+}
+
+/// The switch that lets it be felt in place of the array, and how it stands with that.
+fn show_through(ui: &mut Ui, stylus: &mut Stylus, live: &EngineView) {
+    row(ui, "Through the device", |ui| {
+        let kinds = [
+            (false, "off", "The array is felt"),
+            (
+                true,
+                "on",
+                "The stylus’ vibration is felt on every contactor in place of the array",
+            ),
+        ];
+        toggles(ui, &mut stylus.through.is_on, &kinds);
+    });
+    for words in stylus.through.notes(live.stylus) {
+        note(ui, words, Tone::Quiet);
+    }
+    if let Some(words) = &stylus.recorded {
+        note(ui, &format!("Recorded with a stylus: {words}"), Tone::Quiet);
+    }
 }
 
 /// Marks on a rail the largest value that can be held.

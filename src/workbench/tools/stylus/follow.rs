@@ -1,9 +1,8 @@
 //! The stylus on the path of the display: a simulation that goes on with every tick, or begins
 //! anew where another stretch of the last minutes is looked at.
 //!
-//! Between ticks n − 1 and n the centre is led along `p(s) = p₀ + d s + (d₀ − d) s (1 − s)²`, with
-//! d the way of this tick, d₀ that of the tick before and s from 0 to 1: it passes through every
-//! pose, and its velocity does not jump. A run begins at rest, where the hand's force is borne,
+//! Between two ticks the centre is led along a [`TickPath`]: it passes through every pose, and its
+//! velocity does not jump. A run begins at rest, where the hand's force is borne,
 //! wherever the display comes onto a textile, after a pause or a leap, and every ten seconds of
 //! felt time. So what is felt at a tick follows from the path alone: looked back at, it is the same
 //! as it was live.
@@ -13,13 +12,12 @@ use std::collections::VecDeque;
 use selvedge_engine::TICKS_PER_S;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_render::contact::{StylusRow, StylusRun, StylusSetup, StylusStart};
+use selvedge_render::stylus::TickPath;
 
 /// Ticks that are shown: one second.
 pub(crate) const WINDOW: u64 = 40;
 /// A run begins anew every so many ticks of felt time: what must be computed at most to look back.
 const LEG: u64 = 400;
-/// A display that moves farther in a tick has leapt, mm.
-const LEAP_MM: f64 = 50.0;
 /// Steps that are made in one frame at most: some 20 ms of work.
 const MOST_STEPS: u64 = 12_000;
 
@@ -155,9 +153,7 @@ impl Follower {
             let earlier = (self.leg.as_ref())
                 .filter(|leg| column >= leg.start + 2)
                 .and_then(|_| led_from(way.spot, column - 1));
-            let moved = difference(spot.place_mm, before);
-            let moved_before = earlier.map_or(moved, |earlier| difference(before, earlier));
-            self.go_on(column, before, [moved, moved_before]);
+            self.go_on(column, &TickPath::new(earlier, before, spot.place_mm));
         }
         if let Some(setup) = setup.flatten() {
             self.begin(setup, column, spot);
@@ -189,7 +185,7 @@ impl Follower {
     }
 
     /// Steps from the tick before to this one.
-    fn go_on(&mut self, column: u64, from: [f64; 2], [moved, moved_before]: [[f64; 2]; 2]) {
+    fn go_on(&mut self, column: u64, path: &TickPath) {
         let Some(leg) = &mut self.leg else { return };
         let Some(run) = &mut leg.run else { return };
         let ticks = (column - leg.start) as f64;
@@ -200,10 +196,7 @@ impl Follower {
             leg.n_steps += 1;
             self.n_steps += 1;
             let s = leg.n_steps as f64 / steps_a_tick - (ticks - 1.0);
-            let bend = s * (1.0 - s) * (1.0 - s);
-            let target =
-                [0, 1].map(|i| from[i] + moved[i] * s + (moved_before[i] - moved[i]) * bend);
-            if let Err(error) = run.step(target) {
+            if let Err(error) = run.step(path.at(s)) {
                 self.trouble = Some(error.to_string());
                 leg.run = None;
                 return;
@@ -229,15 +222,11 @@ fn row_of(run: &StylusRun, column: f64, way_mm: f64) -> FeltRow {
     }
 }
 
-fn difference(now: [f64; 2], before: [f64; 2]) -> [f64; 2] {
-    [now[0] - before[0], now[1] - before[1]]
-}
-
 /// Where the display was a tick before, if it was led from there over the same textile.
 fn led_from(spot: &dyn Fn(u64) -> Option<Spot>, column: u64) -> Option<[f64; 2]> {
     let (before, now) = (spot(column.checked_sub(1)?)?, spot(column)?);
-    let [x, y] = difference(now.place_mm, before.place_mm);
-    let is_led = before.textile == now.textile && x.hypot(y) <= LEAP_MM;
+    let path = TickPath::new(None, before.place_mm, now.place_mm);
+    let is_led = before.textile == now.textile && path.is_led();
     is_led.then_some(before.place_mm)
 }
 

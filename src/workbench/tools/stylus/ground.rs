@@ -8,7 +8,7 @@ use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_render::contact::{Contact, ContactLaw, FeltSurface, Tip};
 use selvedge_textile::Textile;
 
-/// So many prepared textiles are kept.
+/// So many prepared textiles are kept at least.
 const MOST: usize = 8;
 
 /// A textile and a radius of the tip, mm.
@@ -79,6 +79,8 @@ impl Computed<GroundKey> for Prepared {
 #[derive(Debug, Default)]
 pub(crate) struct Grounds {
     kept: Vec<(GroundKey, Arc<Prepared>)>,
+    /// How many are wanted at once.
+    n_wanted: usize,
     preparing: Latest<GroundKey, Prepared>,
 }
 
@@ -86,6 +88,11 @@ impl Grounds {
     /// Preparations begun so far.
     pub(crate) fn n_begun(&self) -> u64 {
         self.preparing.n_begun()
+    }
+
+    /// Keeps so many at once, if that is more than usual.
+    pub(crate) fn make_room_for(&mut self, n_wanted: usize) {
+        self.n_wanted = n_wanted;
     }
 
     /// One that is prepared.
@@ -111,7 +118,7 @@ impl Grounds {
             return;
         };
         self.kept.push((key.clone(), Arc::clone(prepared)));
-        let n_old = self.kept.len().saturating_sub(MOST);
+        let n_old = self.kept.len().saturating_sub(self.n_wanted.max(MOST));
         self.kept.drain(..n_old);
     }
 }

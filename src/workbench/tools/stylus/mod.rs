@@ -6,7 +6,8 @@
 //! sliders ─▶ settings: what cannot be held waits until it is confirmed
 //! ```
 //!
-//! Nothing is prepared or computed while the pane is out of sight. It drives no device.
+//! Nothing is prepared or computed while the pane is out of sight and it is not felt [`through`]
+//! the device.
 
 pub(crate) mod chart;
 pub(crate) mod controls;
@@ -16,6 +17,9 @@ pub(crate) mod map;
 pub(crate) mod settings;
 #[cfg(test)]
 mod tests;
+pub(crate) mod through;
+#[cfg(test)]
+mod through_tests;
 pub(crate) mod view;
 
 use eframe::egui::Ui;
@@ -23,7 +27,10 @@ use eframe::egui::Ui;
 use crate::bench::Bench;
 use crate::bench::export::{Exported, NOTHING_FELT, row};
 use crate::bench::pane::Pane;
+use crate::bench::recording::Recording;
+use crate::bench::settings::preferences::Preferences;
 use crate::bench::tool::{PaneContext, Tool};
+use crate::bench::view::Source;
 use crate::kit::pane::framed;
 use selvedge_chart::Chart;
 use selvedge_foundation::geometry::Point;
@@ -33,6 +40,7 @@ use crate::tools::stylus::chart::Second;
 use crate::tools::stylus::follow::{Follower, Progress, Spot, WINDOW, Way};
 use crate::tools::stylus::ground::{Ground, GroundKey, Grounds};
 use crate::tools::stylus::settings::{Chosen, StylusSettings};
+use crate::tools::stylus::through::ThroughDevice;
 
 /// Why there is nothing to export for a moment.
 const PREPARING: &str =
@@ -55,6 +63,9 @@ type Drawn = (u64, u64, StylusSettings);
 #[derive(Debug, Default)]
 pub(crate) struct Stylus {
     pub(crate) chosen: Chosen,
+    pub(crate) through: ThroughDevice,
+    /// The stylus that the recording at hand was made with.
+    pub(crate) recorded: Option<String>,
     follower: Follower,
     grounds: Grounds,
     made_for: Option<Circumstances>,
@@ -122,6 +133,10 @@ impl Stylus {
             });
         }
         self.end = looked_at.or(newest);
+        let is_replayed = bench.live.play.source == Source::Recording;
+        let at_hand = bench.exploration.at_hand.as_ref();
+        let recording = at_hand.filter(|_| is_replayed).map(Recording::about);
+        self.recorded = recording.and_then(|about| about.stylus.clone());
         self.note = None;
         let Some(end) = self.end else {
             return Progress::Done;
@@ -212,6 +227,16 @@ impl Tool for Stylus {
         &[Pane::Stylus]
     }
 
+    fn begin(&mut self, bench: &mut Bench) {
+        let kept = &bench.settings.preferences.hand;
+        self.chosen.take_up(kept.stylus, kept.stylus_waiting);
+    }
+
+    fn logic(&mut self, bench: &mut Bench) {
+        let settings = self.chosen.applied;
+        self.through.follow(settings, &mut self.grounds, bench);
+    }
+
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
         self.follow(context.bench);
         framed(ui, 10, |ui| view::show(ui, self, context));
@@ -252,5 +277,12 @@ impl Tool for Stylus {
     fn leave_scene(&mut self, _bench: &mut Bench) {
         self.grounds = Grounds::default();
         self.made_for = None;
+        self.through.is_on = false;
+    }
+
+    fn keep_preferences(&self, preferences: &mut Preferences) {
+        preferences.hand.stylus = self.chosen.applied;
+        let asked = self.chosen.asked.as_ref();
+        preferences.hand.stylus_waiting = asked.map(|(settings, _)| *settings);
     }
 }

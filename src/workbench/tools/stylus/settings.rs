@@ -1,58 +1,13 @@
 //! What holds the stylus and how it is computed, and whether that can be held: asked before it is
 //! applied.
 
+pub(crate) use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::widgets::scale::{Curve, Scale};
 use selvedge_render::contact::{
-    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, Stepper, StylusSetup, WallCase,
+    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, StylusSetup, WallCase,
 };
 
 use super::ground::Ground;
-
-/// Everything that is chosen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct StylusSettings {
-    /// Stiffness K of the wall, N/m.
-    pub(crate) stiffness_n_per_m: f64,
-    /// Damping B of the wall, N·s/m.
-    pub(crate) damping_n_s_per_m: f64,
-    /// Steps, or ticks of the controller, a second.
-    pub(crate) rate_hz: f64,
-    /// Ticks by which a sampled force is late, a whole number.
-    pub(crate) delay_ticks: f64,
-    /// Radius of the tip, mm.
-    pub(crate) radius_mm: f64,
-    /// Mass at the tip, kg.
-    pub(crate) mass_kg: f64,
-    /// The device's own damping b, N·s/m.
-    pub(crate) own_damping_n_s_per_m: f64,
-    /// With what force the hand presses down, N.
-    pub(crate) press_n: f64,
-    /// How it is stepped.
-    pub(crate) method: Stepper,
-    /// Whether the force is sampled and held; else it acts at all times.
-    pub(crate) is_sampled: bool,
-    /// Whether forces along the surface are given too.
-    pub(crate) is_lateral: bool,
-}
-
-impl Default for StylusSettings {
-    /// A desk-top arm that follows a wall of 1 N/mm without ringing for long.
-    fn default() -> Self {
-        Self {
-            stiffness_n_per_m: 1000.0,
-            damping_n_s_per_m: 5.0,
-            rate_hz: 1000.0,
-            delay_ticks: 0.0,
-            radius_mm: 0.5,
-            mass_kg: DeviceSpec::default().mass_kg,
-            own_damping_n_s_per_m: 0.5,
-            press_n: 0.3,
-            method: Stepper::Auto,
-            is_sampled: false,
-            is_lateral: true,
-        }
-    }
-}
 
 /// A number that is chosen with a slider.
 pub(crate) struct Dial {
@@ -98,7 +53,7 @@ const fn dial(
 }
 
 /// All of them, in the order of their rows.
-pub(crate) const DIALS: [Dial; 8] = [
+pub(crate) const DIALS: [Dial; 9] = [
     dial(
         "Stiffness K",
         decades(STIFFNESSES, 4.0, 1000.0, (0, "N/m")),
@@ -150,6 +105,12 @@ pub(crate) const DIALS: [Dial; 8] = [
         "With what force the hand presses down",
         |settings| &mut settings.press_n,
     ),
+    dial(
+        "Drive",
+        decades([1.0, 1e4], 4.0, 200.0, (0, "µm/N")),
+        "What a N of its vibration drives a device with, before gains and limits",
+        |settings| &mut settings.um_per_n,
+    ),
 ];
 
 impl StylusSettings {
@@ -171,6 +132,19 @@ impl StylusSettings {
             delay_ticks: selvedge_foundation::numerics::to_index(self.delay_ticks),
             is_kept_passive: false,
         })
+    }
+
+    /// The same within the ends of every slider; what is no number is as at first.
+    fn within(mut self) -> Self {
+        for dial in &DIALS {
+            let value = (dial.field)(&mut self);
+            if value.is_nan() {
+                *value = dial.scale.resting;
+            }
+            *value = value.clamp(dial.scale.least, dial.scale.most);
+        }
+        self.delay_ticks = self.delay_ticks.round();
+        self
     }
 
     /// Why it should not be applied unasked: a line with the limit; `None` if it can be held.
@@ -228,6 +202,13 @@ impl Chosen {
             .map_or(self.applied, |(asked, _)| *asked)
     }
 
+    /// Takes up what was kept: what cannot be held waits, whether it was applied or asked for.
+    pub(crate) fn take_up(&mut self, applied: StylusSettings, asked: Option<StylusSettings>) {
+        for settings in [Some(applied), asked].into_iter().flatten() {
+            self.ask(settings.within());
+        }
+    }
+
     /// Applies settings that can be held; others wait for [`Self::confirm`].
     pub(crate) fn ask(&mut self, settings: StylusSettings) {
         // What was confirmed once is not asked for again.
@@ -246,29 +227,5 @@ impl Chosen {
         if let Some((asked, _)) = self.asked.take() {
             self.applied = asked;
         }
-    }
-}
-
-impl StylusSettings {
-    /// All of it in a line.
-    pub(crate) fn words(&self) -> String {
-        let controller = if self.is_sampled {
-            format!("sampled, {} ticks late", self.delay_ticks)
-        } else {
-            "continuous".to_owned()
-        };
-        format!(
-            "K {} N/m, B {} N·s/m, {} Hz, {controller}, method {}, tip {} mm, mass {} kg, device b \
-             {} N·s/m, hand {} N, force along the surface {}",
-            self.stiffness_n_per_m,
-            self.damping_n_s_per_m,
-            self.rate_hz,
-            self.method.name(),
-            self.radius_mm,
-            self.mass_kg,
-            self.own_damping_n_s_per_m,
-            self.press_n,
-            if self.is_lateral { "on" } else { "off" }
-        )
     }
 }

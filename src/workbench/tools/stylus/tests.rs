@@ -11,10 +11,10 @@ use crate::shell::headless::Headless;
 use selvedge_render::contact::{Standing, Stepper};
 
 /// Radius of the tip, mm.
-const FINE_MM: f64 = 0.05;
+pub(super) const FINE_MM: f64 = 0.05;
 
 /// A window whose display has explored by itself, with the pane in sight.
-fn explored(n_ticks: u32) -> Headless {
+pub(super) fn explored(n_ticks: u32) -> Headless {
     let mut desk = Headless::shipped();
     // A fine tip is soon rolled over all textiles.
     stylus(&mut desk).chosen.applied.radius_mm = FINE_MM;
@@ -26,14 +26,14 @@ fn explored(n_ticks: u32) -> Headless {
     desk
 }
 
-fn fine() -> StylusSettings {
+pub(super) fn fine() -> StylusSettings {
     StylusSettings {
         radius_mm: FINE_MM,
         ..StylusSettings::default()
     }
 }
 
-fn stylus(desk: &mut Headless) -> &mut Stylus {
+pub(super) fn stylus(desk: &mut Headless) -> &mut Stylus {
     desk.workbench.tools.get_mut().unwrap()
 }
 

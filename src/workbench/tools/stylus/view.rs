@@ -78,12 +78,12 @@ const NAMES: [&str; 6] = [
 
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus, context: &PaneContext<'_>) {
-    let size = ui.available_size();
+    let (size, live) = (ui.available_size(), &context.bench.live);
     if size.x >= WIDE {
         let whole = ui.available_rect_before_wrap();
         let (left, right) = whole.split_left_right_at_x(whole.left() + CONTROLS);
         within(ui, left, |ui| {
-            scroll_area("stylus controls").show(ui, |ui| controls::show(ui, stylus));
+            scroll_area("stylus controls").show(ui, |ui| controls::show(ui, stylus, live));
         });
         within(ui, right.with_min_x(right.left() + 3.0 * STEP), |ui| {
             show_line(ui, stylus, context);
@@ -100,7 +100,7 @@ pub(crate) fn show(ui: &mut Ui, stylus: &mut Stylus, context: &PaneContext<'_>) 
         show_line(ui, stylus, context);
         let left_over = size.y - LINE - GAP;
         show_panels(ui, (&FIRST, 1), 0.5 * left_over, stylus, context);
-        controls::show(ui, stylus);
+        controls::show(ui, stylus, live);
         show_panels(ui, (&REST, 1), LEAST, stylus, context);
     });
 }

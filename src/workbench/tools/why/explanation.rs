@@ -33,6 +33,8 @@ pub(crate) struct Explanation {
     pub(crate) on_finger: [OnFinger; 2],
     /// What the whole display feels like, by a model.
     pub(crate) perceptual_level: PerceptualLevel,
+    /// Whether its amplitudes are the stylus' vibration, and not the array's rendering.
+    pub(crate) is_stylus: bool,
     /// What becomes of the amplitudes at the output.
     pub output: Output,
 }
@@ -90,7 +92,9 @@ impl Explanation {
         let live = &bench.live;
         let display = bench.display();
         let inspector = &mut bench.inspection.inspector;
-        let trace = inspector.trace(display, contactor, &live.pose)?;
+        let mut trace = inspector.trace(display, contactor, &live.pose)?;
+        // What a stylus drives is the first display.
+        let is_stylus = live.stylus.is_some() && display == 0;
         let cloths = &bench.document.scene().textiles;
         let cloth = trace
             .touch
@@ -107,6 +111,13 @@ impl Explanation {
             (contactor / n_columns, contactor % n_columns)
         });
         let dot = live.dots.get(contactor);
+        if let Some(dot) = dot.filter(|_| is_stylus) {
+            trace.amplitudes_um = dot.amplitude_um;
+            // No spectrum of the textile has a part in it.
+            if let Some(touch) = &mut trace.touch {
+                touch.directions = Default::default();
+            }
+        }
         let on_finger = dot.map_or([live.on_finger; 2], |dot| dot.on_finger);
         let bridge = live.bridge.as_ref();
         let gain = bridge.and_then(|bridge| bridge.gain);
@@ -129,6 +140,7 @@ impl Explanation {
             textile,
             on_finger,
             perceptual_level: live.perceptual_level,
+            is_stylus,
             output,
         })
     }

@@ -72,6 +72,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Explanation {
         textile: Some("1 Sine".to_owned()),
         on_finger: [OnFinger::ShownOnly; 2],
         perceptual_level: PerceptualLevel::default(),
+        is_stylus: false,
         output,
     }
 }

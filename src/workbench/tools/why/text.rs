@@ -12,6 +12,9 @@ use selvedge_render::array::DirectionTrace;
 /// The line of the output limits: views mark it when one bites.
 pub(crate) const LIMITS: &str = "Limits";
 
+/// What is felt where a stylus drives the display.
+const STYLUS: &str = "the stylus’ vibration, not the array’s rendering";
+
 /// The terms of a gain with their names, dB.
 pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
     [
@@ -27,7 +30,12 @@ pub(crate) fn gain_terms(terms: &GainTerms) -> [(&'static str, f64); 5] {
 pub(crate) fn lines(why: &Explanation) -> Vec<(String, String)> {
     let mut lines = vec![("Position".to_owned(), place(why))];
     let Some(touch) = why.touch() else {
-        lines.push(("Textile".to_owned(), "none: silent".to_owned()));
+        let words = if why.is_stylus {
+            STYLUS
+        } else {
+            "none: silent"
+        };
+        lines.push(("Textile".to_owned(), words.to_owned()));
         lines.push(("Drive codes".to_owned(), codes(why)));
         return lines;
     };
@@ -40,14 +48,20 @@ pub(crate) fn lines(why: &Explanation) -> Vec<(String, String)> {
         lines.push(spectrum(direction));
     }
     if touch.directions.iter().all(Option::is_none) {
-        let words = "below 0.01 mm/s, or too fast: silent";
+        let words = if why.is_stylus {
+            STYLUS
+        } else {
+            "below 0.01 mm/s, or too fast: silent"
+        };
         lines.push(("Spectra".to_owned(), words.to_owned()));
     }
     let both = |values: [f64; 2], decimals, unit: &str| {
         let [low, high] = values.map(|value| fixed(value, decimals));
         format!("{low} / {high} {unit}")
     };
-    lines.push(("Without gain".to_owned(), both(why.bare_um(), 3, "µm")));
+    if !why.is_stylus {
+        lines.push(("Without gain".to_owned(), both(why.bare_um(), 3, "µm")));
+    }
     let [low, high] = touch.gains.map(|terms| gain_terms(&terms));
     for ((name, low_db), (_, high_db)) in low.into_iter().zip(high) {
         lines.push((format!("+ {name}"), both([low_db, high_db], 2, "dB")));
