@@ -189,11 +189,7 @@ impl Engine {
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
             Command::Connect(target) => self.connect(target),
-            Command::Disconnect => {
-                self.switch.set_device(None);
-                self.device.actuators = None;
-                ReadyCommand::Disconnect
-            }
+            Command::Disconnect => self.disconnect(),
             Command::Arm => ReadyCommand::Arm {
                 presses: self.switch.presses(),
             },
@@ -206,8 +202,8 @@ impl Engine {
                 tuning,
                 textiles_db,
             } => CoreCommand::gains(tuning, textiles_db).into(),
-            Command::SetLevels(levels) => ReadyCommand::Core(CoreCommand::Levels(levels)),
-            Command::SetContactorMask(mask) => ReadyCommand::Core(CoreCommand::Mask(mask)),
+            Command::SetLevels(levels) => CoreCommand::Levels(levels).into(),
+            Command::SetContactorMask(mask) => CoreCommand::Mask(mask).into(),
             Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),
             Command::SetStylus(stylus) => CoreCommand::Stylus(stylus).into(),
             Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
@@ -231,6 +227,12 @@ impl Engine {
             Command::Shutdown => ReadyCommand::Shutdown,
         };
         self.push(command)
+    }
+
+    fn disconnect(&mut self) -> ReadyCommand {
+        self.switch.set_device(None);
+        self.device.actuators = None;
+        ReadyCommand::Disconnect
     }
 
     /// The latest snapshot.

@@ -86,7 +86,7 @@ use std::time::Duration;
 pub const TICK: Duration = Duration::from_millis(25);
 
 /// Displays of a scene that fingers can hold; in a larger scene the others go with the first.
-pub const MAX_FINGERS: usize = 10;
+pub(crate) const MAX_FINGERS: usize = 10;
 
 /// Ticks per second.
 pub const TICKS_PER_S: f64 = selvedge_render::scene::TICKS_PER_S;

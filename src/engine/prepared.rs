@@ -251,7 +251,6 @@ impl PreparedScene {
             scene_serial: self.serial,
             revision: 0,
             tick: 0,
-            t_s: 0.0,
             pose,
             rendered: pose,
             others_moved: 0,

@@ -28,8 +28,6 @@ pub struct Snapshot {
     pub revision: u64,
     /// Ticks since the engine started.
     pub tick: u64,
-    /// `tick / 40`, s.
-    pub t_s: f64,
     /// Where the first display is, how it is turned and how it moves. Its time is that of the
     /// source.
     pub pose: Pose,

@@ -20,7 +20,7 @@ use super::sequence::Sequence;
 use super::track::Track;
 use super::{
     EngineError, InputRate, InputSource, Notice, Playback, Played, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SourceKind, TICKS_PER_S, VelocityMethod,
+    RenderingView, Snapshot, SourceKind, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -284,7 +284,6 @@ impl EngineCore {
         snapshot.scene_serial = self.scene.serial();
         snapshot.revision = self.revision;
         snapshot.tick = self.tick;
-        snapshot.t_s = self.tick as f64 / TICKS_PER_S;
         snapshot.pose = self.pose;
         snapshot.rendered = self.rendered;
         snapshot.turn_deg = self.angle_deg;

@@ -20,6 +20,7 @@
 mod controller;
 mod crossover;
 mod device;
+mod exact;
 mod felt;
 mod friction;
 mod kernel;

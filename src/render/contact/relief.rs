@@ -7,8 +7,8 @@
 //!
 //! A sphere of radius r whose lowest point is at (u, w, z) touches where z reaches the dilation
 //! `d(u, w) = max_{s² + q² ≤ r²} h(u + s, w + q) + √(r² − s² − q²) − r`. It is taken at the points
-//! once, when preparing ([`super::rolling`]), and interpolated as heights are: valleys narrower than
-//! the sphere vanish.
+//! once, when preparing (`rolling.rs`), and interpolated as heights are: valleys narrower than the
+//! sphere vanish.
 #![expect(
     clippy::cast_possible_wrap,
     clippy::cast_sign_loss,

@@ -9,7 +9,7 @@ use crate::{Computed, undefined};
 ///
 /// # Errors
 /// Fewer than two or more than 1000 alternatives, a distance that is not finite.
-pub fn choice_share(d_prime: f64, m: u32) -> Computed {
+pub(crate) fn choice_share(d_prime: f64, m: u32) -> Computed {
     if !(2..=1000).contains(&m) || !d_prime.is_finite() {
         return undefined(format!("d′ = {d_prime} among {m} alternatives"));
     }

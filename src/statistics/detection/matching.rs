@@ -10,7 +10,7 @@ const MOST: f64 = 30.0;
 
 /// The share of correct matches at a distance d′ by independent looks at all three (Macmillan &
 /// Creelman 2005, equation 9.5): Φ(d′/√2) Φ(d′/2) + Φ(−d′/√2) Φ(−d′/2).
-pub fn abx_share(d_prime: f64) -> f64 {
+pub(crate) fn abx_share(d_prime: f64) -> f64 {
     let (between, within) = (d_prime / 2.0_f64.sqrt(), d_prime / 2.0);
     normal_lower(between) * normal_lower(within) + normal_lower(-between) * normal_lower(-within)
 }

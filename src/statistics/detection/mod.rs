@@ -15,9 +15,10 @@ mod yes_no;
 
 pub(crate) use choice::inverted;
 pub use choice::{Choice, Correction};
-pub use forced_choice::choice_share;
-pub use matching::{abx_share, same_different};
+pub(crate) use forced_choice::choice_share;
+pub(crate) use matching::abx_share;
+pub use matching::same_different;
 pub use relation::{GroupDPrime, Relation};
 pub use roc::{Roc, roc};
-pub use triangle::triangle_share;
+pub(crate) use triangle::triangle_share;
 pub use yes_no::{Answers, YesNo, group_yes_no, yes_no};

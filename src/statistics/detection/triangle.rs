@@ -7,7 +7,7 @@ use crate::distribution::{normal_density, normal_lower};
 ///
 /// By the rule of Gauss and Legendre with five nodes in each eighth from 0 to 9 (Abramowitz &
 /// Stegun table 25.4): exact to rounding.
-pub fn triangle_share(d_prime: f64) -> f64 {
+pub(crate) fn triangle_share(d_prime: f64) -> f64 {
     const NODES: [[f64; 2]; 5] = [
         [-0.906_179_845_938_664, 0.236_926_885_056_189_1],
         [-0.538_469_310_105_683_1, 0.478_628_670_499_366_5],

@@ -68,9 +68,10 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     bench.step(0.9, "rolling")?;
     rows.extend(rolling(bench)?);
     let notes = [
-        "Without damping of the wall (75 g, b = 0.02 N·s/m, 1 kHz) the eigenvalues give 40.0018 N/m \
-         and 2b/T gives 40: with x = bT/m and e = exp(−x) the limit is (b²/m)(1 − e)/(1 − e − x e) = \
-         (2b/T)(1 + x/6 + …), so that 2b/T is exact only as bT/m goes to 0.",
+        "Without damping of the wall (75 g, b = 0.02 N·s/m, 1 kHz) the eigenvalues give 40.0018 \
+         N/m and 2b/T gives 40: with x = bT/m and e = exp(−x) the limit is \
+         (b²/m)(1 − e)/(1 − e − x e) = (2b/T)(1 + x/6 + …), so that 2b/T is exact only as bT/m \
+         goes to 0.",
         "CHAI3D took 673 µs in the median and 1.07 ms in the 99th percentile for 24 contacts with \
          the same relief as a mesh; at most 20 µs are aimed at here.",
         "Rows called map: what the eigenvalues and the passivity of the held wall say of a device \

@@ -187,9 +187,9 @@ fn notes(findings: &Findings) -> Vec<String> {
     let methods = Stepper::ALL.into_iter().filter(|one| *one != Stepper::Auto);
     let thrown = "On the random relief above 10⁵ N/m the tip is thrown off crests, and every error \
                   makes it another flight: no step of any method comes near there.";
-    let bounces = "Exact steps cost most at 1 kHz and 10⁹ N/m on the sine: between steps the surface \
-                   is taken as straight, a stiff tip bounces several times off every bend of it, \
-                   and each bounce is followed; faster steps bend less and cost less.";
+    let bounces = "Exact steps cost most at 1 kHz and 10⁹ N/m on the sine: between steps the \
+                   surface is taken as straight, a stiff tip bounces several times off every bend \
+                   of it, and each bounce is followed; faster steps bend less and cost less.";
     methods
         .map(of)
         .chain([thrown, bounces].map(str::to_owned))

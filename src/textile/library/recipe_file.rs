@@ -1,8 +1,8 @@
 //! A file of recipes: a library whose textiles are built when they are asked for.
 //!
-//! Every `[[textile]]` is a manifest without a `[source]` of files: any model. `like = "ID"` begins with the
-//! keys of a textile further up and changes what is stated; `sides = ["face", "back"]` makes two
-//! surfaces of one textile, the second with `-back` after its id.
+//! Every `[[textile]]` is a manifest without a `[source]` of files: any model. `like = "ID"` begins
+//! with the keys of a textile further up and changes what is stated; `sides = ["face", "back"]`
+//! makes two surfaces of one textile, the second with `-back` after its id.
 
 use std::path::{Path, PathBuf};
 
