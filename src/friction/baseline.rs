@@ -178,7 +178,7 @@ fn mean_course(examples: &[&Example]) -> Course {
 }
 
 /// Mean and standard deviation of every figure.
-fn scales(examples: &[Example]) -> Vec<[f64; 2]> {
+pub(crate) fn scales(examples: &[Example]) -> Vec<[f64; 2]> {
     let n = examples.len().max(1) as f64;
     (0..N_FIGURES)
         .map(|figure| {

@@ -7,6 +7,7 @@
 pub mod baseline;
 pub mod cloth;
 pub mod example;
+pub mod network;
 pub mod picture;
 pub mod score;
 pub mod signal;

@@ -1,0 +1,5 @@
+//! Networks.
+pub mod ours;
+pub mod batch;
+#[cfg(test)]
+mod tests;
