@@ -330,8 +330,7 @@ mod tests {
 
     #[test]
     fn each_baseline_predicts_and_what_knows_more_misses_less() {
-        let [learnt, held_back] =
-            Split::Cloths.windows(6);
+        let [learnt, held_back] = Split::Cloths.windows(6);
         let [learnt, held_back] = [learnt, held_back].map(|windows| all_taken(&windows, 2));
         let mut table = Vec::new();
         for baseline in Baseline::ALL {

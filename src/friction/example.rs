@@ -1,7 +1,7 @@
 //! Pictures with their traces, and which of them are learnt from and which are held back.
 
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Grid, Random, in_pieces};
+use selvedge_foundation::numerics::{Grid, Random, in_pieces, to_byte};
 
 use crate::cloth::{Area, Camera, FINGER_ROWS, Family, Recipe};
 use crate::picture::Looks;
@@ -13,6 +13,12 @@ pub const WINDOW: usize = 1280;
 pub const SHORT_WINDOW: usize = 512;
 /// Samples of a whole trace: 155 mm.
 const TRACE: usize = 1984;
+/// Pixels of a side of the picture that networks of whole pictures see.
+pub const SQUARE: usize = 512;
+/// Cloths of each family that are learnt from.
+pub const N_CLOTHS: usize = 150;
+/// Seed of the first cloth that is held back.
+const HELD_BACK: u64 = 10_000;
 /// Strokes that the best possible prediction is the mean of.
 const N_STROKES: u64 = 16;
 
@@ -54,6 +60,8 @@ pub struct Window {
 pub struct Example {
     /// Where it was taken.
     pub window: Window,
+    /// The picture around the middle of the finger's path, 256 shades, [`SQUARE`] a side.
+    square: Grid<u8>,
     /// The strip under the finger, brightness 0 to 1.
     pub strip: Grid<f32>,
     /// What is read from it.
@@ -72,9 +80,17 @@ impl Window {
         let recipe = Recipe::of(self.family, self.seed);
         let relief_um = recipe.relief_um(self.area);
         let rubbed = recipe.rubbed(&relief_um, self.area, self.take);
-        let strip = recipe.photo(&relief_um, self.area, &Camera::of(self.take));
+        let camera = Camera::of(self.take);
+        let strip = recipe.photo(&relief_um, self.area, &camera);
+        let [from, n] = self.area.columns;
+        let around = Area {
+            columns: [from + n.saturating_sub(SQUARE) / 2, SQUARE],
+            rows: [0, SQUARE],
+        };
+        let square = recipe.photo(&recipe.relief_um(around), around, &camera);
         Example {
             window: self,
+            square: square.map(|v| to_byte(f64::from(255.0 * v))),
             looks: Looks::of(&strip),
             strip,
             course: Course::of(&rubbed.friction),
@@ -107,6 +123,11 @@ pub fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
 }
 
 impl Example {
+    /// The picture around the middle of the finger's path, brightness 0 to 1.
+    pub fn square(&self) -> Grid<f32> {
+        self.square.map(|v| f32::from(v) / 255.0)
+    }
+
     /// The best that anybody could predict: what hangs on the surface, and the mean of what
     /// differs from stroke to stroke.
     pub fn best_possible(&self) -> Course {
@@ -132,13 +153,14 @@ impl Example {
 
 impl Split {
     /// Windows to learn from, and those that are held back. `scale` cloths of each family are
-    /// learnt from (40 is what is shipped), a quarter of that held back.
+    /// learnt from ([`N_CLOTHS`] is what results are told of), a quarter of that held back, at most
+    /// 20; those do not depend on how many are learnt from.
     pub fn windows(self, scale: usize) -> [Vec<Window>; 2] {
-        let n_held_back = (scale / 4).max(1);
+        let n_held_back = (scale / 4).clamp(1, 20);
         match self {
             Self::Cloths => [
                 apart(&Family::ALL, 0, scale, 2),
-                apart(&Family::ALL, scale as u64, n_held_back, 1),
+                apart(&Family::ALL, HELD_BACK, n_held_back, 1),
             ],
             Self::Family => {
                 let known: Vec<_> = Family::ALL
@@ -147,7 +169,7 @@ impl Split {
                     .collect();
                 [
                     apart(&known, 0, scale, 2),
-                    apart(&[Family::Twill], 0, 4 * n_held_back, 1),
+                    apart(&[Family::Twill], HELD_BACK, 4 * n_held_back, 1),
                 ]
             }
             Self::Places => [&[0, HOP] as &[usize], &[WINDOW]].map(|starts| {
@@ -181,7 +203,7 @@ fn at((family, seed): (Family, u64), columns: [usize; 2]) -> Window {
         seed,
         area: Area {
             columns,
-            rows: [0, FINGER_ROWS],
+            rows: [(SQUARE - FINGER_ROWS) / 2, FINGER_ROWS],
         },
         take,
     }

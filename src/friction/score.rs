@@ -46,34 +46,35 @@ impl Prediction {
     }
 }
 
-/// A measure: its name, its unit, and whether the paper has it.
+/// A measure: its name in a table's head, its column in a file, its unit there.
 #[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    /// Its name in a table's head.
+    /// Its name.
     pub name: &'static str,
+    /// Its column in files.
+    pub column: &'static str,
     /// Its unit; empty for a plain number.
     pub unit: &'static str,
 }
 
+const fn measure(name: &'static str, column: &'static str, unit: &'static str) -> Measure {
+    Measure { name, column, unit }
+}
+
 /// What is measured; all but the ratio of deviations and the correlation are best at 0.
-pub const MEASURES: [Measure; 11] = {
-    const fn measure(name: &'static str, unit: &'static str) -> Measure {
-        Measure { name, unit }
-    }
-    [
-        measure("spectrogram RMSE", ""),
-        measure("spectrogram MAE", ""),
-        measure("signal RMSE", ""),
-        measure("signal MAE", ""),
-        measure("signal RMSE", "% of mean"),
-        measure("level error", "%"),
-        measure("ratio of deviations", ""),
-        measure("log-spectral distance", "dB"),
-        measure("band energy error", "dB"),
-        measure("dominant period error", "mm"),
-        measure("correlation", ""),
-    ]
-};
+pub const MEASURES: [Measure; 11] = [
+    measure("spectrogram RMSE", "spectrogram_rmse", ""),
+    measure("spectrogram MAE", "spectrogram_mae", ""),
+    measure("signal RMSE", "signal_rmse", ""),
+    measure("signal MAE", "signal_mae", ""),
+    measure("signal RMSE", "signal_rmse_percent", "% of mean"),
+    measure("level error", "level_error_percent", "%"),
+    measure("ratio of deviations", "deviation_ratio", ""),
+    measure("log-spectral distance", "log_spectral_distance_db", "dB"),
+    measure("band energy error", "band_energy_error_db", "dB"),
+    measure("dominant period error", "dominant_period_error_mm", "mm"),
+    measure("correlation", "correlation", ""),
+];
 /// Which of [`MEASURES`] is the log-spectral distance.
 pub const LOG_SPECTRAL: usize = 7;
 /// Which of [`MEASURES`] is the error of the level.

@@ -1,85 +1,128 @@
-use super::batch::*;
-use super::ours::*;
-use crate::example::*;
-use crate::score::*;
-use crate::signal::*;
-use burn::optim::{AdamConfig, GradientsParams};
-use burn::tensor::Device;
-use burn::module::Module;
-use selvedge_foundation::numerics::{Grid, Random};
-use std::time::Instant;
+//! What learning promises: it learns, it goes on where it was broken off, a cloth between two lies
+//! between them.
+
+use super::*;
+use crate::example::{Example, Split, all_taken};
+use crate::score::{LOG_SPECTRAL, MEASURES, score};
+use selvedge_foundation::progress::unheard;
+
+fn small(method: Method) -> Lesson {
+    Lesson {
+        size: Size {
+            width: 4,
+            n_layers: 1,
+        },
+        n_rounds: 2,
+        ..Lesson::usual(method, 3)
+    }
+}
+
+fn examples() -> Vec<Example> {
+    all_taken(&Split::Places.windows(2)[0], 2)
+}
 
 #[test]
-#[ignore = "exploration"]
-fn explore() {
+fn learning_goes_on_where_it_was_broken_off_to_the_same_bytes() {
+    let examples = examples();
+    for method in Method::ALL {
+        let lesson = small(method);
+        let mut whole = Learning::begin(lesson, &examples);
+        let first = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        let checkpoint = whole.checkpoint();
+        let second = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        assert!(
+            second.spectra < first.spectra,
+            "{method:?}: {first:?}, {second:?}"
+        );
+        let mut resumed = Learning::resume(lesson, &examples, &checkpoint).unwrap();
+        assert_eq!(resumed.n_rounds_done(), 1);
+        assert_eq!(
+            unheard(|progress| resumed.round(&examples, progress)).unwrap(),
+            second
+        );
+        let [a, b] = [&whole, &resumed].map(|l| l.network().predict(&examples[0]).trace);
+        assert!(a == b, "{method:?}");
+        assert!(Learning::resume(lesson, &examples, &checkpoint[..20]).is_err());
+    }
+}
+
+#[test]
+fn weights_come_back_from_their_file() {
+    let examples = examples();
+    let lesson = small(Method::Ours);
+    let network = Learning::begin(lesson, &examples)
+        .network()
+        .into_ours()
+        .unwrap();
+    let bytes = network.weights().to_bytes();
+    let weights = Weights::from_bytes(&bytes).unwrap();
+    let back = OurNetwork::from_weights(&weights, lesson.size).unwrap();
+    let looks = &examples[0].looks;
+    assert_eq!(back.courses(&[looks]), network.courses(&[looks]));
+    assert!(OurNetwork::from_weights(&weights, Size::default()).is_err());
+    for cut in [0, 8, 15, 16, bytes.len() - 1] {
+        assert!(Weights::from_bytes(&bytes[..cut]).is_err(), "{cut}");
+    }
+}
+
+#[test]
+fn a_cloth_between_two_lies_between_them() {
+    let examples = examples();
+    let network = Learning::begin(small(Method::Ours), &examples)
+        .network()
+        .into_ours()
+        .unwrap();
+    let [a, b] = [&examples[0].looks, &examples[5].looks];
+    let own = |looks| network.courses(&[looks]).pop().unwrap();
+    assert_eq!(network.between(a, b, 0.0).unwrap(), own(a));
+    assert_eq!(network.between(a, b, 1.0).unwrap(), own(b));
+    let middle = network.between(a, b, 0.5).unwrap();
+    assert!(middle != own(a) && middle != own(b));
+    assert_eq!(network.latents(&[a, b]).len(), 2);
+}
+
+#[test]
+#[ignore = "runs"]
+fn go() {
+    use crate::runs::*;
     let var = |name: &str, usual: usize| std::env::var(name).map_or(usual, |n| n.parse().unwrap());
-    let scale = var("N", 40);
-    let [learnt, held_back] = Split::Cloths.windows(40);
-    let mut learnt = learnt;
-    if scale > 40 {
-        learnt = Split::Cloths.windows(scale + 10)[0].clone();
-        learnt.retain(|w| !(40..50).contains(&w.seed));
-    }
-    let t = Instant::now();
-    let [learnt, held_back] = [learnt, held_back].map(|windows| all_taken(&windows, 2));
-    println!("{} examples in {:?}", learnt.len(), t.elapsed());
-    let device = Device::flex().autodiff();
-    let mut model = drawn(Ours::new(var("W", 16), var("L", 3), &device), 1);
-    println!("{} parameters", model.num_params());
-    let mut optim = AdamConfig::new().init();
-    let scales = Scales::of(&learnt);
-    let n_epochs = var("E", 10);
-    let batch = var("B", 8);
-    let mut random = Random::new(5);
-    let mut order: Vec<usize> = (0..learnt.len()).collect();
-    let total = n_epochs * learnt.len() / batch;
-    let mut step = 0;
-    let start = Instant::now();
-    for epoch in 0..n_epochs {
-        random.shuffle(&mut order);
-        let mut sum = [0.0_f32; 3];
-        for part in order.chunks_exact(batch) {
-            let examples: Vec<&Example> = part.iter().map(|&n| &learnt[n]).collect();
-            let [b, f] = [batch, 11];
-            let out = model.forward(inputs(&examples, &scales, &device));
-            let log: Vec<f32> = examples.iter().flat_map(|e| e.course.log_magnitudes.values().chunks(N_BINS).flat_map(|row| row.iter().zip(&scales.logs).map(|(v, [m, _])| v - m))).collect();
-            let level: Vec<f32> = examples.iter().map(|e| of_level(e.course.level) as f32).collect();
-            let trend: Vec<f32> = examples.iter().flat_map(|e| e.course.trend.iter().map(|t| (t / 0.01) as f32)).collect();
-            let l1 = (out.log - tensor(log, [b, f, N_BINS], &device)).abs().mean();
-            let l2 = (out.level - tensor(level, [b, 1], &device)).abs().mean();
-            let l3 = (out.trend - tensor(trend, [b, f], &device)).abs().mean();
-            sum[0] += l1.clone().into_scalar::<f32>();
-            sum[1] += l2.clone().into_scalar::<f32>();
-            sum[2] += l3.clone().into_scalar::<f32>();
-            let loss = l1 + l2.mul_scalar(0.3) + l3.mul_scalar(0.05);
-            let grads = GradientsParams::from_grads(loss.backward(), &model);
-            let share = step as f64 / total as f64;
-            let lr = var("LR", 2) as f64 * 1e-3 * (0.5 + 0.5 * (std::f64::consts::PI * share).cos()) + 1e-5;
-            model = optim.step(lr, model, grads);
-            step += 1;
-        }
-        let n = (learnt.len() / batch) as f32;
-        println!("epoch {epoch}: {:?} {:.0?}", sum.map(|s| s / n), start.elapsed());
-    }
-    let plain = Device::flex();
-    let model = model.valid();
-    let _ = plain;
-    let mut mean = [0.0; MEASURES.len()];
-    let mut time = 0.0;
-    for example in &held_back {
-        let t = Instant::now();
-        let out = model.forward(inputs(&[example], &scales, &device.clone().inner()));
-        let log: Vec<f32> = out.log.into_data().to_vec().unwrap();
-        let trend: Vec<f32> = out.trend.into_data().to_vec().unwrap();
-        let level: Vec<f32> = out.level.into_data().to_vec().unwrap();
-        time += t.elapsed().as_secs_f64();
-        let course = Course {
-            level: 0.38 + 0.05 * f64::from(level[0]),
-            trend: trend.iter().map(|&t| 0.01 * f64::from(t)).collect(),
-            log_magnitudes: Grid::from_rows(N_BINS, log.iter().enumerate().map(|(n, l)| (l + scales.logs[n % N_BINS][0]).max(0.0)).collect()).unwrap(),
+    let split = Split::ALL[var("S", 0)];
+    let folder = std::path::Path::new("/tmp/runs");
+    std::fs::create_dir_all(folder).unwrap();
+    let start = std::time::Instant::now();
+    let taken = Taken::of(split, None, var("T", 2));
+    println!("{} taken {:.0?}", taken.learnt.len(), start.elapsed());
+    let go = |contestant| {
+        let run = Run {
+            contestant,
+            split,
+            folder,
         };
-        let found = score(&Prediction::of_course(&course), &example.trace);
-        mean.iter_mut().zip(found).for_each(|(sum, x)| *sum += x / held_back.len() as f64);
+        if run.finished().unwrap().is_some() {
+            return;
+        }
+        let scores = unheard(|progress| {
+            run.run(&taken, progress, &mut |said| {
+                println!("{said} {:.0?}", start.elapsed())
+            })
+        })
+        .unwrap();
+        println!("{} {:8.3?}", run.name(), mean(&scores));
+    };
+    if std::env::var("BASE").is_ok() {
+        crate::baseline::Baseline::ALL.map(|b| go(Contestant::Baseline(b)));
     }
-    println!("ours {mean:8.3?}; forward {:.1} ms", 1e3 * time / held_back.len() as f64);
+    for method in std::env::var("METHODS")
+        .unwrap_or_default()
+        .split(',')
+        .filter(|m| !m.is_empty())
+    {
+        let method = Method::ALL
+            .into_iter()
+            .find(|m| m.word() == method)
+            .unwrap();
+        let mut lesson = Lesson::usual(method, var("SEED", 1) as u64);
+        lesson.n_rounds = var("E", lesson.n_rounds);
+        go(Contestant::Network(lesson));
+    }
 }
