@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::example::{Example, Split, all_taken};
-use crate::score::{LOG_SPECTRAL, MEASURES, score};
 use selvedge_foundation::progress::unheard;
 
 fn small(method: Method) -> Lesson {
@@ -110,7 +109,9 @@ fn go() {
         println!("{} {:8.3?}", run.name(), mean(&scores));
     };
     if std::env::var("BASE").is_ok() {
-        crate::baseline::Baseline::ALL.map(|b| go(Contestant::Baseline(b)));
+        for b in crate::baseline::Baseline::ALL {
+            go(Contestant::Baseline(b));
+        }
     }
     for method in std::env::var("METHODS")
         .unwrap_or_default()

@@ -69,7 +69,8 @@ impl Weights {
 }
 
 /// Draws matrices and kernels from a normal distribution (Glorot & Bengio 2010). Vectors that the
-/// library drew, biases, become 0; those that are the same throughout, of normalisations, stay.
+/// library drew, biases, become 0; those that are the same throughout, of normalisations (never of
+/// one channel), stay.
 ///
 /// The library's own draws hang on a generator that all threads share.
 struct Drawn(Random);
@@ -80,7 +81,7 @@ impl ModuleMapper for Drawn {
             let shape = old.dims();
             if D == 1 {
                 let drawn = values(old.clone());
-                let is_same = drawn.iter().all(|x| *x == drawn[0]);
+                let is_same = drawn.len() > 1 && drawn.iter().all(|x| *x == drawn[0]);
                 return if is_same {
                     old
                 } else {
