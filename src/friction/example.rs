@@ -1,5 +1,7 @@
 //! Pictures with their traces, and which of them are learnt from and which are held back.
 
+use std::sync::OnceLock;
+
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::{Grid, Random, in_pieces, to_byte};
 
@@ -60,8 +62,8 @@ pub struct Window {
 pub struct Example {
     /// Where it was taken.
     pub window: Window,
-    /// The picture around the middle of the finger's path, 256 shades, [`SQUARE`] a side.
-    square: Grid<u8>,
+    /// See [`Self::square`]: made when it is asked for first, of 256 shades.
+    square: OnceLock<Grid<u8>>,
     /// The strip under the finger, brightness 0 to 1.
     pub strip: Grid<f32>,
     /// What is read from it.
@@ -80,17 +82,10 @@ impl Window {
         let recipe = Recipe::of(self.family, self.seed);
         let relief_um = recipe.relief_um(self.area);
         let rubbed = recipe.rubbed(&relief_um, self.area, self.take);
-        let camera = Camera::of(self.take);
-        let strip = recipe.photo(&relief_um, self.area, &camera);
-        let [from, n] = self.area.columns;
-        let around = Area {
-            columns: [from + n.saturating_sub(SQUARE) / 2, SQUARE],
-            rows: [0, SQUARE],
-        };
-        let square = recipe.photo(&recipe.relief_um(around), around, &camera);
+        let strip = recipe.photo(&relief_um, self.area, &Camera::of(self.take));
         Example {
             window: self,
-            square: square.map(|v| to_byte(f64::from(255.0 * v))),
+            square: OnceLock::new(),
             looks: Looks::of(&strip),
             strip,
             course: Course::of(&rubbed.friction),
@@ -123,9 +118,20 @@ pub fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
 }
 
 impl Example {
-    /// The picture around the middle of the finger's path, brightness 0 to 1.
+    /// The picture around the middle of the finger's path, [`SQUARE`] a side, brightness 0 to 1.
     pub fn square(&self) -> Grid<f32> {
-        self.square.map(|v| f32::from(v) / 255.0)
+        let square = self.square.get_or_init(|| {
+            let recipe = Recipe::of(self.window.family, self.window.seed);
+            let [from, n] = self.window.area.columns;
+            let around = Area {
+                columns: [from + n.saturating_sub(SQUARE) / 2, SQUARE],
+                rows: [0, SQUARE],
+            };
+            let camera = Camera::of(self.window.take);
+            let square = recipe.photo(&recipe.relief_um(around), around, &camera);
+            square.map(|v| to_byte(f64::from(255.0 * v)))
+        });
+        square.map(|v| f32::from(v) / 255.0)
     }
 
     /// The best that anybody could predict: what hangs on the surface, and the mean of what
