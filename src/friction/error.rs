@@ -1,0 +1,28 @@
+//! What can go wrong.
+
+use thiserror::Error;
+
+use selvedge_foundation::files::FileError;
+
+/// Why there is no friction from a picture.
+#[derive(Debug, Error)]
+pub enum FrictionError {
+    /// Weights that are none.
+    #[error("the weights cannot be used: {what}; train anew or take the shipped ones")]
+    Weights {
+        /// What is wrong.
+        what: String,
+    },
+    /// A checkpoint that is none.
+    #[error("the checkpoint cannot be used: {what}; remove it to begin anew")]
+    Checkpoint {
+        /// What is wrong.
+        what: String,
+    },
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Stopped by its user.
+    #[error("cancelled")]
+    Cancelled,
+}
