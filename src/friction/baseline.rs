@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Grid, StartPhases, to_index, to_single};
+use selvedge_foundation::numerics::{Complex, Grid, StartPhases, to_index, to_single};
 
 use crate::cloth::PER_MM;
 use crate::example::Example;
@@ -46,7 +46,7 @@ named! {
 }
 
 /// A baseline that has seen what there is to learn.
-pub struct Fitted<'a> {
+pub(crate) struct Fitted<'a> {
     baseline: Baseline,
     learnt: &'a [Example],
     mean: Course,
@@ -67,7 +67,7 @@ impl std::fmt::Debug for Fitted<'_> {
 
 impl Baseline {
     /// Learns from examples, of which there is at least one.
-    pub fn fitted(self, learnt: &[Example]) -> Fitted<'_> {
+    pub(crate) fn fitted(self, learnt: &[Example]) -> Fitted<'_> {
         let scales = scales(learnt);
         let all: Vec<&Example> = learnt.iter().collect();
         Fitted {
@@ -83,7 +83,7 @@ impl Baseline {
 
 impl Fitted<'_> {
     /// What it predicts of a picture (and of what it is told besides).
-    pub fn predict(&self, example: &Example) -> Prediction {
+    pub(crate) fn predict(&self, example: &Example) -> Prediction {
         let n_samples = example.trace.len();
         match self.baseline {
             Baseline::Mean => Prediction::of_trace(vec![self.mean.level; n_samples]),
@@ -318,15 +318,18 @@ impl Ridge {
 }
 
 /// The magnitudes that a trace has, for those that predict them whole.
-pub fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
-    spectra().forward(trace).map(|x| x.norm())
+pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
+    spectra().forward(trace).map(Complex::norm)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::example::{Split, all_taken};
-    use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, score};
+    use crate::score::{MEASURES, score};
+
+    const LOG_SPECTRAL: usize = 7;
+    const LEVEL: usize = 5;
 
     #[test]
     fn each_baseline_predicts_and_what_knows_more_misses_less() {

@@ -10,13 +10,13 @@ use crate::picture::Looks;
 use crate::signal::{Course, HOP};
 
 /// Samples of a window: 100 mm.
-pub const WINDOW: usize = 1280;
+pub(crate) const WINDOW: usize = 1280;
 /// Samples of a window of split C: 40 mm.
-pub const SHORT_WINDOW: usize = 512;
+pub(crate) const SHORT_WINDOW: usize = 512;
 /// Samples of a whole trace: 155 mm.
 const TRACE: usize = 1984;
 /// Pixels of a side of the picture that networks of whole pictures see.
-pub const SQUARE: usize = 512;
+pub(crate) const SQUARE: usize = 512;
 /// Cloths of each family that are learnt from.
 pub const N_CLOTHS: usize = 150;
 /// Seed of the first cloth that is held back.
@@ -46,7 +46,7 @@ named! {
 
 /// Where a picture and its trace are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Window {
+pub(crate) struct Window {
     /// The family of the cloth.
     pub family: Family,
     /// The seed of the cloth.
@@ -59,7 +59,7 @@ pub struct Window {
 
 /// A picture, what it looks like, and the friction along it.
 #[derive(Debug, Clone)]
-pub struct Example {
+pub(crate) struct Example {
     /// Where it was taken.
     pub window: Window,
     /// See [`Self::square`]: made when it is asked for first, of 256 shades.
@@ -78,7 +78,7 @@ pub struct Example {
 
 impl Window {
     /// The picture and the trace.
-    pub fn taken(self) -> Example {
+    pub(crate) fn taken(self) -> Example {
         let recipe = Recipe::of(self.family, self.seed);
         let relief_um = recipe.relief_um(self.area);
         let rubbed = recipe.rubbed(&relief_um, self.area, self.take);
@@ -93,17 +93,10 @@ impl Window {
             of_surface: rubbed.of_surface,
         }
     }
-
-    /// Whether both see the same place of the same cloth.
-    pub fn overlaps(&self, other: &Self) -> bool {
-        let [a, b] = [self, other].map(|window| window.area.columns);
-        let is_same = (self.family, self.seed) == (other.family, other.seed);
-        is_same && a[0] < b[0] + b[1] && b[0] < a[0] + a[1]
-    }
 }
 
 /// Windows taken, on several threads; the result does not depend on how many.
-pub fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
+pub(crate) fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
     let mut taken: Vec<Option<Example>> = vec![None; windows.len()];
     in_pieces(
         &mut taken,
@@ -119,7 +112,7 @@ pub fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
 
 impl Example {
     /// The picture around the middle of the finger's path, [`SQUARE`] a side, brightness 0 to 1.
-    pub fn square(&self) -> Grid<f32> {
+    pub(crate) fn square(&self) -> Grid<f32> {
         let square = self.square.get_or_init(|| {
             let recipe = Recipe::of(self.window.family, self.window.seed);
             let [from, n] = self.window.area.columns;
@@ -136,7 +129,7 @@ impl Example {
 
     /// The best that anybody could predict: what hangs on the surface, and the mean of what
     /// differs from stroke to stroke.
-    pub fn best_possible(&self) -> Course {
+    pub(crate) fn best_possible(&self) -> Course {
         let recipe = Recipe::of(self.window.family, self.window.seed);
         let stroke = |n: u64| {
             let take = u64::MAX - n;
@@ -161,7 +154,7 @@ impl Split {
     /// Windows to learn from, and those that are held back. `scale` cloths of each family are
     /// learnt from ([`N_CLOTHS`] is what results are told of), a quarter of that held back, at most
     /// 20; those do not depend on how many are learnt from.
-    pub fn windows(self, scale: usize) -> [Vec<Window>; 2] {
+    pub(crate) fn windows(self, scale: usize) -> [Vec<Window>; 2] {
         let n_held_back = (scale / 4).clamp(1, 20);
         match self {
             Self::Cloths => [
@@ -237,13 +230,20 @@ fn leaky(scale: usize) -> [Vec<Window>; 2] {
 mod tests {
     use super::*;
 
+    /// Whether both see the same place of the same cloth.
+    fn overlap(one: &Window, other: &Window) -> bool {
+        let [a, b] = [one, other].map(|window| window.area.columns);
+        let is_same = (one.family, one.seed) == (other.family, other.seed);
+        is_same && a[0] < b[0] + b[1] && b[0] < a[0] + a[1]
+    }
+
     #[test]
     fn nothing_that_is_held_back_was_seen() {
         for split in [Split::Cloths, Split::Family, Split::Places] {
             let [learnt, held_back] = split.windows(8);
             assert!(!held_back.is_empty());
             for test in &held_back {
-                let leak = learnt.iter().find(|window| window.overlaps(test));
+                let leak = learnt.iter().find(|window| overlap(window, test));
                 assert_eq!(leak, None, "{split:?}: {test:?}");
                 if split == Split::Places {
                     let same = |w: &&Window| (w.family, w.seed) == (test.family, test.seed);
@@ -262,7 +262,7 @@ mod tests {
         let [learnt, held_back] = Split::Leaky.windows(8);
         let leaks = held_back
             .iter()
-            .filter(|test| learnt.iter().any(|w| w.overlaps(test)));
+            .filter(|test| learnt.iter().any(|w| overlap(w, test)));
         assert_eq!(leaks.count(), held_back.len(), "the leaky split leaks");
     }
 

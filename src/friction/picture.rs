@@ -9,29 +9,32 @@ use crate::cloth::{FINGER_ROWS, PER_MM};
 use crate::signal::{N_BINS, spectra};
 
 /// Kinds of spectra that are read from a strip.
-pub const N_CHANNELS: usize = 3;
+pub(crate) const N_CHANNELS: usize = 3;
 /// Figures of the whole strip.
-pub const N_FIGURES: usize = 2 * N_BANDS + 5;
+pub(crate) const N_FIGURES: usize = 2 * N_BANDS + 5 + SHARES.len();
 /// Bands of wavenumbers, along and across the path.
-pub const N_BANDS: usize = 16;
+pub(crate) const N_BANDS: usize = 16;
+/// Shares of pixels that are darker than what is told: how a cloth shines and shades.
+const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
 /// Rows between those whose spectra are averaged.
 const ROW_STEP: usize = 2;
 
 /// What is known of a strip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Looks {
+pub(crate) struct Looks {
     /// Registered with the spectra of the trace, a row a frame, a column a bin, `ln(1 + m)` of
     /// magnitudes of brightness relative to the mean: of all rows together (what stands across
     /// the path), of each row by itself (root mean square), of the rows' local contrast.
     pub channels: [Grid<f32>; N_CHANNELS],
-    /// Spectra in bands along and across, contrast, skewness, steepness along and across, gloss.
+    /// Spectra in bands along and across, contrast, skewness, steepness along and across, mean
+    /// brightness, quantiles of brightness.
     pub figures: Vec<f64>,
 }
 
 impl Looks {
     /// What a strip of brightness 0 to 1 looks like. A strip without light or contrast has figures
     /// like any other: those of nothing.
-    pub fn of(strip: &Grid<f32>) -> Self {
+    pub(crate) fn of(strip: &Grid<f32>) -> Self {
         let mean = mean(strip.values().iter().map(|&v| f64::from(v))).max(1e-3);
         let relative = |v: f32| f64::from(v) / mean - 1.0;
         let n = strip.width();
@@ -48,7 +51,9 @@ impl Looks {
             }
         }
         let typical = self::mean(contrast.iter().copied());
-        contrast.iter_mut().for_each(|c| *c -= typical);
+        for value in &mut contrast {
+            *value -= typical;
+        }
         let stft = spectra();
         let n_frames = stft.n_frames(n);
         let mut apart = Grid::filled(N_BINS, n_frames, 0.0);
@@ -122,6 +127,16 @@ fn figures(rows: &[Vec<f64>], apart: &Grid<f64>, brightness: f64) -> Vec<f64> {
         log(mean(across).sqrt()),
         brightness,
     ]);
+    let mut sorted: Vec<f64> = rows.iter().step_by(ROW_STEP).flatten().copied().collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let last = sorted.len().saturating_sub(1) as f64;
+    let at = |share: f64| {
+        sorted
+            .get(to_index(share * last))
+            .copied()
+            .unwrap_or_default()
+    };
+    figures.extend(SHARES.map(at));
     figures
 }
 
@@ -144,7 +159,7 @@ fn across_spectra(rows: &[Vec<f64>]) -> Grid<f64> {
 
 /// Strips of [`FINGER_ROWS`] rows at [`PER_MM`] from a picture of any scale (means over what a new
 /// pixel covers, or between pixels where it is coarser), from top to bottom.
-pub fn strips(picture: &Grid<f32>, px_per_mm: f64) -> Vec<Grid<f32>> {
+pub(crate) fn strips(picture: &Grid<f32>, px_per_mm: f64) -> Vec<Grid<f32>> {
     let scaled = rescaled(picture, px_per_mm / PER_MM);
     let part = |row: usize| scaled.part([0, row, scaled.width(), FINGER_ROWS]);
     (0..scaled.height() / FINGER_ROWS)
@@ -154,7 +169,7 @@ pub fn strips(picture: &Grid<f32>, px_per_mm: f64) -> Vec<Grid<f32>> {
 
 /// A picture whose pixels are `step` times as far apart.
 fn rescaled(picture: &Grid<f32>, step: f64) -> Grid<f32> {
-    if step == 1.0 {
+    if (step - 1.0).abs() < 1e-9 {
         return picture.clone();
     }
     let size = [picture.width(), picture.height()].map(|n| to_index(n as f64 / step));

@@ -12,7 +12,6 @@ use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
 use crate::baseline::Baseline;
-use crate::cloth::Family;
 use crate::example::{Example, N_CLOTHS, Split, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
 use crate::score::{MEASURES, Prediction, score};
@@ -25,7 +24,7 @@ pub fn seeds(method: Method, split: Split) -> std::ops::RangeInclusive<u64> {
     let n = match (method, split) {
         (Method::Ours, Split::Cloths) => 5,
         (Method::Ours, _) | (Method::FrictGan, Split::Cloths) => 3,
-        (Method::FrictGan, _) | (Method::OursAdversarial, _) => 1,
+        (Method::FrictGan | Method::OursAdversarial, _) => 1,
     };
     1..=n
 }
@@ -46,6 +45,8 @@ pub struct Run<'a> {
     pub contestant: Contestant,
     /// What is held back.
     pub split: Split,
+    /// Cloths of each family that are learnt from, [`N_CLOTHS`] for the table.
+    pub n_cloths: usize,
     /// Where it is kept.
     pub folder: &'a Path,
 }
@@ -54,35 +55,39 @@ pub struct Run<'a> {
 #[derive(Debug)]
 pub struct Taken {
     /// What is learnt from.
-    pub learnt: Vec<Example>,
+    pub(crate) learnt: Vec<Example>,
     /// What is held back.
-    pub held_back: Vec<Example>,
+    pub(crate) held_back: Vec<Example>,
 }
 
 impl Taken {
-    /// The windows of a split; [`N_CLOTHS`] of each family unless other is asked for.
-    pub fn of(split: Split, n_cloths: Option<usize>, n_threads: usize) -> Self {
-        let windows = split.windows(n_cloths.unwrap_or(N_CLOTHS));
+    /// The windows of a split with so many cloths of each family.
+    pub fn of(split: Split, n_cloths: usize, n_threads: usize) -> Self {
+        let windows = split.windows(n_cloths);
         let [learnt, held_back] = windows.map(|windows| all_taken(&windows, n_threads));
         Self { learnt, held_back }
     }
 }
 
 impl Run<'_> {
-    /// Its name: method, split, seed.
+    /// Its name: method, split, seed, and what differs from what results are told of.
     pub fn name(&self) -> String {
         let split = self.split.letter();
-        match self.contestant {
-            Contestant::Network(lesson) => {
-                format!("{}-{split}-{}", lesson.method.word(), lesson.seed)
-            }
+        let lesson = match self.contestant {
+            Contestant::Network(lesson) => lesson,
             Contestant::Baseline(baseline) => {
-                format!(
-                    "{}-{split}",
-                    baseline.word().replace(' ', "-").to_lowercase()
-                )
+                let baseline = baseline.word().replace(' ', "-").to_lowercase();
+                return format!("{baseline}-{split}");
             }
-        }
+        };
+        let usual = Lesson::usual(lesson.method, lesson.seed);
+        let mut parts = vec![lesson.method.word().to_owned(), split.to_owned()];
+        parts.push(lesson.seed.to_string());
+        parts.extend((lesson.loss != usual.loss).then(|| lesson.loss.word().to_owned()));
+        parts.extend((self.n_cloths != N_CLOTHS).then(|| format!("cloths-{}", self.n_cloths)));
+        let n_rounds = lesson.n_rounds;
+        parts.extend((n_rounds != usual.n_rounds).then(|| format!("rounds-{n_rounds}")));
+        parts.join("-")
     }
 
     fn file(&self, ending: &str) -> PathBuf {
@@ -129,12 +134,12 @@ impl Run<'_> {
         let scores = match self.contestant {
             Contestant::Baseline(baseline) => {
                 let fitted = baseline.fitted(&taken.learnt);
-                self.scored(taken, progress, &|example| fitted.predict(example))?
+                scored(taken, progress, &|example| fitted.predict(example))?
             }
             Contestant::Network(lesson) => {
                 let learning = self.learnt(lesson, &taken.learnt, progress, said)?;
                 let network = learning.network();
-                let scores = self.scored(taken, progress, &|example| network.predict(example))?;
+                let scores = scored(taken, progress, &|example| network.predict(example))?;
                 if let Some(ours) = network.into_ours() {
                     write_atomic(&self.file("weights"), &ours.weights().to_bytes())?;
                 }
@@ -188,22 +193,6 @@ impl Run<'_> {
         Ok(write_atomic(&path, text.as_bytes())?)
     }
 
-    fn scored(
-        &self,
-        taken: &Taken,
-        progress: &mut Progress<'_>,
-        predict: &dyn Fn(&Example) -> Prediction,
-    ) -> Result<Scores, FrictionError> {
-        let n = taken.held_back.len() as f64;
-        let mut scores = Vec::with_capacity(taken.held_back.len());
-        for (at, example) in taken.held_back.iter().enumerate() {
-            let step = progress.step(at as f64 / n, "scoring");
-            step.map_err(|_stopped| FrictionError::Cancelled)?;
-            scores.push(score(&predict(example), &example.trace));
-        }
-        Ok(scores)
-    }
-
     fn keep(&self, taken: &Taken, scores: &Scores) -> Result<(), FrictionError> {
         let path = self.file("scores.csv");
         let mut table = TableWriter::new(Vec::new(), &path, &Self::header())?;
@@ -220,6 +209,21 @@ impl Run<'_> {
         }
         Ok(write_atomic(&path, &table.finish()?)?)
     }
+}
+
+fn scored(
+    taken: &Taken,
+    progress: &mut Progress<'_>,
+    predict: &dyn Fn(&Example) -> Prediction,
+) -> Result<Scores, FrictionError> {
+    let n = taken.held_back.len() as f64;
+    let mut scores = Vec::with_capacity(taken.held_back.len());
+    for (at, example) in taken.held_back.iter().enumerate() {
+        let step = progress.step(at as f64 / n, "scoring");
+        step.map_err(|_stopped| FrictionError::Cancelled)?;
+        scores.push(score(&predict(example), &example.trace));
+    }
+    Ok(scores)
 }
 
 /// Mean of a run over its held-back windows.
@@ -247,11 +251,6 @@ pub fn over_seeds(runs: &[[f64; MEASURES.len()]]) -> [[f64; 2]; MEASURES.len()] 
     })
 }
 
-/// The families, for tables that tell of each.
-pub fn families() -> impl Iterator<Item = &'static str> {
-    Family::ALL.into_iter().map(Family::word)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,7 +260,7 @@ mod tests {
     #[test]
     fn a_run_that_was_broken_off_ends_as_one_that_was_not_and_is_read_afterwards() {
         let folder = std::env::temp_dir().join(format!("selvedge-runs-{}", std::process::id()));
-        let taken = Taken::of(Split::Places, Some(2), 2);
+        let taken = Taken::of(Split::Places, 2, 2);
         let lesson = Lesson {
             size: Size {
                 width: 4,
@@ -276,6 +275,7 @@ mod tests {
             let run = Run {
                 contestant: Contestant::Network(lesson),
                 split: Split::Places,
+                n_cloths: 2,
                 folder: &folder,
             };
             assert_eq!(run.finished().unwrap(), None);

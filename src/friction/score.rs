@@ -2,6 +2,7 @@
 
 use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases};
 
+use crate::baseline::magnitudes_of;
 use crate::picture::band_edges;
 use crate::signal::{Course, HOP, spectra};
 
@@ -12,7 +13,7 @@ const FLOOR: f64 = 0.01;
 
 /// What was predicted.
 #[derive(Debug, Clone)]
-pub struct Prediction {
+pub(crate) struct Prediction {
     /// Magnitudes of the whole trace, a row a frame.
     pub magnitudes: Grid<f64>,
     /// The trace.
@@ -21,15 +22,15 @@ pub struct Prediction {
 
 impl Prediction {
     /// A trace that is predicted whole.
-    pub fn of_trace(trace: Vec<f64>) -> Self {
+    pub(crate) fn of_trace(trace: Vec<f64>) -> Self {
         Self {
-            magnitudes: spectra().forward(&trace).map(|x| x.norm()),
+            magnitudes: magnitudes_of(&trace),
             trace,
         }
     }
 
     /// A trace that is predicted by its parts.
-    pub fn of_course(course: &Course) -> Self {
+    pub(crate) fn of_course(course: &Course) -> Self {
         let n_samples = (course.log_magnitudes.height() - 1) * HOP;
         Self {
             magnitudes: course.whole_magnitudes(n_samples),
@@ -38,7 +39,7 @@ impl Prediction {
     }
 
     /// A trace that is predicted by the magnitudes of all of it.
-    pub fn of_magnitudes(magnitudes: Grid<f64>) -> Self {
+    pub(crate) fn of_magnitudes(magnitudes: Grid<f64>) -> Self {
         let n_samples = (magnitudes.height() - 1) * HOP;
         let start = StartPhases::OfConstant(0);
         let trace = spectra().griffin_lim(&magnitudes, n_samples, start, GriffinLim::default());
@@ -75,13 +76,8 @@ pub const MEASURES: [Measure; 11] = [
     measure("dominant period error", "dominant_period_error_mm", "mm"),
     measure("correlation", "correlation", ""),
 ];
-/// Which of [`MEASURES`] is the log-spectral distance.
-pub const LOG_SPECTRAL: usize = 7;
-/// Which of [`MEASURES`] is the error of the level.
-pub const LEVEL: usize = 5;
-
 /// A prediction against the trace that was felt, by each of [`MEASURES`].
-pub fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len()] {
+pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len()] {
     let truth = Prediction::of_trace(felt.to_vec());
     let bins = || {
         predicted
@@ -191,6 +187,9 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::example::Split;
+
+    const LOG_SPECTRAL: usize = 7;
+    const LEVEL: usize = 5;
 
     #[test]
     fn a_perfect_prediction_has_no_error_and_a_constant_has_the_stated_ones() {

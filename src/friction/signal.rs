@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases, Stft, to_single};
 
 /// Samples of a frame and from frame to frame, as Cai et al. (2021) have them.
-pub const FRAME: usize = 512;
+pub(crate) const FRAME: usize = 512;
 /// See [`FRAME`].
-pub const HOP: usize = 128;
+pub(crate) const HOP: usize = 128;
 /// Bins of a frame.
-pub const N_BINS: usize = FRAME / 2 + 1;
+pub(crate) const N_BINS: usize = FRAME / 2 + 1;
 /// A magnitude m is learnt as `ln(1 + m / MAGNITUDE_SCALE)`: about what a sensor's noise leaves.
-pub const MAGNITUDE_SCALE: f64 = 0.02;
+pub(crate) const MAGNITUDE_SCALE: f64 = 0.02;
 /// Seed of the phases that a signal is found from.
 const PHASE_SEED: u64 = 1984;
 
@@ -32,7 +32,7 @@ pub struct Course {
 }
 
 /// The spectra of a trace.
-pub fn spectra() -> Stft {
+pub(crate) fn spectra() -> Stft {
     Stft::hamming(FRAME, HOP)
 }
 

@@ -265,7 +265,7 @@ mod tests {
     }
 
     fn magnitudes(stft: &Stft, signal: &[f64]) -> Grid<f64> {
-        stft.forward(signal).map(|x| x.norm())
+        stft.forward(signal).map(Complex::norm)
     }
 
     #[test]
@@ -321,7 +321,7 @@ mod tests {
         let signal = friction_like(3);
         let spectra = stft.forward(&signal);
         let start = StartPhases::Of(&spectra);
-        let wanted = spectra.map(|x| x.norm());
+        let wanted = spectra.map(Complex::norm);
         let found = stft.griffin_lim(&wanted, 1280, start, GriffinLim::default());
         for (a, b) in signal.iter().zip(&found) {
             assert!((a - b).abs() < 1e-9, "{a} came back as {b}");

@@ -14,7 +14,7 @@ use super::photo::blurred;
 use super::{Area, PER_MM, Recipe};
 
 /// Rows under the finger, 10 mm.
-pub const FINGER_ROWS: usize = 128;
+pub(crate) const FINGER_ROWS: usize = 128;
 /// Distance of the finger's ridges, samples.
 const RIDGE: f64 = 0.45 * PER_MM;
 /// Ridges that are felt, and the share of each that the next has.
@@ -22,7 +22,7 @@ const RIDGES: (i32, f64) = (6, 0.6);
 
 /// Friction along a path, one value a sample.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rubbed {
+pub(crate) struct Rubbed {
     /// What a sensor gives.
     pub friction: Vec<f64>,
     /// The part of it that hangs on the surface alone: nothing can predict more.
@@ -31,7 +31,7 @@ pub struct Rubbed {
 
 impl Recipe {
     /// A finger drawn along x over a whole area with these heights, whose rows lie under it.
-    pub fn rubbed(&self, relief_um: &Grid<f32>, area: Area, stroke: u64) -> Rubbed {
+    pub(crate) fn rubbed(&self, relief_um: &Grid<f32>, area: Area, stroke: u64) -> Rubbed {
         let of_surface = self.of_surface(relief_um);
         Rubbed {
             friction: self.once_more(&of_surface, area, stroke),
@@ -40,7 +40,7 @@ impl Recipe {
     }
 
     /// Another stroke over the same place: what hangs on no surface is drawn anew.
-    pub fn once_more(&self, of_surface: &[f64], area: Area, stroke: u64) -> Vec<f64> {
+    pub(crate) fn once_more(&self, of_surface: &[f64], area: Area, stroke: u64) -> Vec<f64> {
         let mean = of_surface.iter().sum::<f64>() / of_surface.len().max(1) as f64;
         let mut random = Random::new(self.seed_for("stroke")).branch(&stroke.to_string());
         let unseen = unseen(area.columns, &mut random);

@@ -15,9 +15,9 @@ mod photo;
 mod recipe;
 mod relief;
 
-pub use finger::{FINGER_ROWS, Rubbed};
-pub use photo::Camera;
-pub use recipe::{Family, Recipe};
+pub(crate) use finger::FINGER_ROWS;
+pub(crate) use photo::Camera;
+pub(crate) use recipe::{Family, Recipe};
 
 use selvedge_foundation::numerics::Grid;
 
@@ -26,7 +26,7 @@ pub const PER_MM: f64 = 12.8;
 
 /// A part of a cloth, in samples of [`PER_MM`]: the first column and row, their numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Area {
+pub(crate) struct Area {
     /// The first column and how many.
     pub columns: [usize; 2],
     /// The first row and how many.

@@ -3,8 +3,8 @@
 /// Uniform in [0, 1) for a cell of a lattice (`SplitMix64`'s finalizer over seed and place).
 pub(super) fn cell(seed: u64, x: i64, y: i64) -> f64 {
     let mut bits = seed
-        .wrapping_add((x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15))
-        .wrapping_add((y as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f));
+        .wrapping_add(x.cast_unsigned().wrapping_mul(0x9e37_79b9_7f4a_7c15))
+        .wrapping_add(y.cast_unsigned().wrapping_mul(0xc2b2_ae3d_27d4_eb4f));
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64

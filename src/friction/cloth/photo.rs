@@ -10,7 +10,7 @@ use super::{Area, PER_MM, Recipe};
 
 /// Light, print and camera of one picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Camera {
+pub(crate) struct Camera {
     /// Where the light comes from, radians from +x, and how high it stands.
     pub azimuth: f64,
     /// Height of the light above the cloth, radians.
@@ -33,7 +33,7 @@ pub struct Camera {
 
 impl Camera {
     /// The camera of a seed. Two of three cloths have no print.
-    pub fn of(seed: u64) -> Self {
+    pub(crate) fn of(seed: u64) -> Self {
         let mut random = Random::new(seed).branch("camera");
         let mut between = |low: f64, high: f64| random.uniform_in(low, high);
         Self {
@@ -68,7 +68,7 @@ impl Camera {
 impl Recipe {
     /// The picture of a part with these heights, brightness 0 to 1. Near its edges light and blur
     /// know nothing of what lies beyond.
-    pub fn photo(&self, relief_um: &Grid<f32>, area: Area, camera: &Camera) -> Grid<f32> {
+    pub(crate) fn photo(&self, relief_um: &Grid<f32>, area: Area, camera: &Camera) -> Grid<f32> {
         // What light sees of depth: heights against what is around them.
         let reach = 0.5 * self.pitch_mm[0].max(self.pitch_mm[1]) * PER_MM;
         let around = blurred(relief_um, reach.max(1.0));
@@ -100,8 +100,8 @@ impl Recipe {
             for (column, value) in photo.row_mut(row).iter_mut().enumerate() {
                 let grain = bell(
                     camera.seed ^ 0x9a1,
-                    (left + column) as i64,
-                    (below + row) as i64,
+                    (left + column).cast_signed() as i64,
+                    (below + row).cast_signed() as i64,
                 );
                 let seen = f64::from(*value) + camera.noise * grain;
                 // A picture has 256 shades.

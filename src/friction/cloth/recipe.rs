@@ -33,7 +33,7 @@ named! {
 
 /// The figures of a cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Recipe {
+pub(crate) struct Recipe {
     /// How it is made.
     pub family: Family,
     /// What its chance is drawn from; cloths of one family differ by it.
@@ -62,7 +62,7 @@ pub struct Recipe {
 
 impl Recipe {
     /// The cloth of a family and a seed.
-    pub fn of(family: Family, seed: u64) -> Self {
+    pub(crate) fn of(family: Family, seed: u64) -> Self {
         let mut random = Random::new(seed).branch(family.word());
         let mut between = |low: f64, high: f64| random.uniform_in(low, high);
         // Pitches are spread evenly in their logarithm: fine cloth is as frequent as coarse.

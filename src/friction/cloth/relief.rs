@@ -23,7 +23,7 @@ struct Beside {
 
 impl Recipe {
     /// Heights, µm, about a mean that is nearly 0.
-    pub fn relief_um(&self, area: Area) -> Grid<f32> {
+    pub(crate) fn relief_um(&self, area: Area) -> Grid<f32> {
         let seeds = Seeds {
             warp: self.seed_for("warp"),
             weft: self.seed_for("weft"),
@@ -65,7 +65,7 @@ impl Recipe {
 
     /// Whether the end lies over the pick at their crossing.
     fn is_warp_up(&self, end: i64, pick: i64) -> bool {
-        let repeat = self.repeat as i64;
+        let repeat = self.repeat.cast_signed() as i64;
         match self.family {
             Family::Twill => (end - pick).rem_euclid(repeat) != 0,
             // Crossings step by 2 in five, by 3 in eight.

@@ -1,7 +1,7 @@
 //! What procedural cloth promises: the same place is the same in every part; figures of friction
 //! lie where they were measured; a print changes the picture and not the friction.
 
-use super::finger::FINGER_ROWS;
+use super::finger::{FINGER_ROWS, Rubbed};
 use super::*;
 
 fn strip(columns: [usize; 2]) -> Area {
@@ -87,30 +87,4 @@ fn a_print_is_seen_and_not_felt() {
     let [one, two] = [1, 2].map(|stroke| rubbed(&recipe, area, stroke));
     assert_eq!(one.of_surface, two.of_surface);
     assert_ne!(one.friction, two.friction);
-}
-
-#[test]
-#[ignore = "writes pictures to look at"]
-fn pictures() {
-    use std::io::Write as _;
-    for (n, family) in Family::ALL.into_iter().enumerate() {
-        let recipe = Recipe::of(family, 5 + n as u64);
-        let area = Area {
-            columns: [0, 300],
-            rows: [0, 300],
-        };
-        let photo = recipe.photo(&recipe.relief_um(area), area, &Camera::of(n as u64));
-        let mut file = std::fs::File::create(format!("/tmp/photo_{n}.pgm")).unwrap();
-        write!(file, "P5 300 300 255\n").unwrap();
-        let bytes: Vec<u8> = photo.values().iter().map(|v| (255.0 * v) as u8).collect();
-        file.write_all(&bytes).unwrap();
-        let rubbed = rubbed(&recipe, strip([0, 1280]), 0);
-        let text: String = rubbed
-            .friction
-            .iter()
-            .zip(&rubbed.of_surface)
-            .map(|(a, b)| format!("{a},{b}\n"))
-            .collect();
-        std::fs::write(format!("/tmp/friction_{n}.csv"), text).unwrap();
-    }
 }

@@ -1,4 +1,4 @@
-//! FrictGAN (Cai et al. 2021), built anew from the paper and its authors' description at a quarter
+//! `FrictGAN` (Cai et al. 2021), built anew from the paper and its authors' description at a quarter
 //! and less of its size.
 //!
 //! What differs: pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024; the
@@ -191,7 +191,7 @@ impl Generator {
     }
 
     /// Shapes of what is dropped, for a batch.
-    pub(super) fn masks_of(&self, n: usize, n_frames: usize) -> [[usize; 4]; N_DROPPED] {
+    pub(super) fn masks_of(n: usize, n_frames: usize) -> [[usize; 4]; N_DROPPED] {
         let wide = frames(n_frames);
         std::array::from_fn(|stage| [n, STAGES[stage].1, STAGES[stage].0, wide[stage]])
     }

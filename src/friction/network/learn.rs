@@ -7,7 +7,7 @@ use burn::tensor::{Bytes, Device, Tensor};
 use serde::{Deserialize, Serialize};
 
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Grid, Random, to_single};
+use selvedge_foundation::numerics::{Grid, Random, to_index, to_single};
 use selvedge_foundation::progress::Progress;
 
 use super::critic::{AdversarialLoss, Critic};
@@ -70,9 +70,8 @@ impl Lesson {
             loss: AdversarialLoss::Entropy,
             size: Size::default(),
             n_rounds: match method {
-                Method::Ours => 8,
+                Method::Ours | Method::FrictGan => 8,
                 Method::OursAdversarial => 6,
-                Method::FrictGan => 8,
             },
             seed,
         }
@@ -81,7 +80,7 @@ impl Lesson {
 
 /// What was lost in a round, means over its steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Losses {
+pub(crate) struct Losses {
     /// Mean absolute error of log magnitudes (ours) or of magnitudes (`FrictGAN`).
     pub spectra: f64,
     /// Mean absolute error of the level, in units of 0.05; 0 where it is not learnt apart.
@@ -92,7 +91,7 @@ pub struct Losses {
 
 /// A network in the middle of learning.
 #[derive(Debug)]
-pub struct Learning {
+pub(crate) struct Learning {
     lesson: Lesson,
     learner: Learner,
     n_rounds_done: usize,
@@ -130,7 +129,7 @@ struct FrictGan {
 
 impl Learning {
     /// Begins to learn from examples, of which there is at least one.
-    pub fn begin(lesson: Lesson, examples: &[Example]) -> Self {
+    pub(crate) fn begin(lesson: Lesson, examples: &[Example]) -> Self {
         let device = Device::flex().autodiff();
         let n_frames = examples.first().map_or(1, |e| e.course.trend.len());
         let learner = match lesson.method {
@@ -172,7 +171,7 @@ impl Learning {
     ///
     /// # Errors
     /// Bytes that are none.
-    pub fn resume(
+    pub(crate) fn resume(
         lesson: Lesson,
         examples: &[Example],
         checkpoint: &[u8],
@@ -180,8 +179,8 @@ impl Learning {
         let mut learning = Self::begin(lesson, examples);
         let mut parts = Parts(checkpoint);
         let n_rounds_done = parts.next()?;
-        let head = <[u8; 8]>::try_from(n_rounds_done).map_err(|_| Parts::wrong("no checkpoint"))?;
-        learning.n_rounds_done = u64::from_le_bytes(head) as usize;
+        let head = <[u8; 8]>::try_from(n_rounds_done).map_err(Parts::wrong)?;
+        learning.n_rounds_done = to_index(u64::from_le_bytes(head) as f64);
         match &mut learning.learner {
             Learner::Ours(ours) => {
                 parts.restore(&mut ours.network, &mut ours.optimizer)?;
@@ -199,7 +198,7 @@ impl Learning {
     }
 
     /// Everything that going on needs.
-    pub fn checkpoint(&self) -> Vec<u8> {
+    pub(crate) fn checkpoint(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         put(&mut bytes, &(self.n_rounds_done as u64).to_le_bytes());
         match &self.learner {
@@ -218,7 +217,7 @@ impl Learning {
     }
 
     /// Rounds that are done, of [`Lesson::n_rounds`].
-    pub fn n_rounds_done(&self) -> usize {
+    pub(crate) fn n_rounds_done(&self) -> usize {
         self.n_rounds_done
     }
 
@@ -226,7 +225,7 @@ impl Learning {
     ///
     /// # Errors
     /// Cancelled: what was learnt in this round is not to be used.
-    pub fn round(
+    pub(crate) fn round(
         &mut self,
         examples: &[Example],
         progress: &mut Progress<'_>,
@@ -243,7 +242,7 @@ impl Learning {
             let all = (round as f64 + share) / self.lesson.n_rounds.max(1) as f64;
             progress
                 .step(all, "learning")
-                .map_err(|_| FrictionError::Cancelled)?;
+                .map_err(|_stopped| FrictionError::Cancelled)?;
             // Slower towards the end: half a cosine.
             let rate = 0.5 + 0.5 * (std::f64::consts::PI * all.min(1.0)).cos();
             let lost = match &mut self.learner {
@@ -264,12 +263,12 @@ impl Learning {
     }
 
     /// The network as it is now.
-    pub fn network(&self) -> Network {
+    pub(crate) fn network(&self) -> Network {
         match &self.learner {
-            Learner::Ours(ours) => Network(Kind::Ours(OurNetwork {
+            Learner::Ours(ours) => Network(Kind::Ours(Box::new(OurNetwork {
                 network: ours.network.valid(),
                 scales: ours.scales.clone(),
-            })),
+            }))),
             Learner::FrictGan(gan) => Network(Kind::FrictGan {
                 generator: Box::new(gan.generator.valid()),
                 mean: gan.mean.clone(),
@@ -344,7 +343,7 @@ impl FrictGan {
             let noise = (0..n * N_NOISE)
                 .map(|_| to_single(random.normal()))
                 .collect();
-            let masks = gan.generator.masks_of(n, gan.n_frames).map(|shape| {
+            let masks = Generator::masks_of(n, gan.n_frames).map(|shape| {
                 let kept = (0..shape.iter().product())
                     .map(|_| if random.uniform() < 0.5 { 0.0 } else { 2.0 });
                 tensor(kept.collect(), shape, &device)
@@ -374,10 +373,10 @@ impl FrictGan {
 }
 
 /// A network that has learnt.
-pub struct Network(Kind);
+pub(crate) struct Network(Kind);
 
 enum Kind {
-    Ours(OurNetwork),
+    Ours(Box<OurNetwork>),
     FrictGan {
         generator: Box<Generator>,
         mean: Vec<f32>,
@@ -393,14 +392,13 @@ impl std::fmt::Debug for Network {
 
 impl Network {
     /// What it makes of an example's picture.
-    pub fn predict(&self, example: &Example) -> Prediction {
+    pub(crate) fn predict(&self, example: &Example) -> Prediction {
         match &self.0 {
             Kind::Ours(network) => {
                 let courses = network.courses(&[&example.looks]);
-                courses.first().map_or_else(
-                    || Prediction::of_trace(Vec::new()),
-                    |course| Prediction::of_course(course),
-                )
+                courses
+                    .first()
+                    .map_or_else(|| Prediction::of_trace(Vec::new()), Prediction::of_course)
             }
             Kind::FrictGan {
                 generator,
@@ -420,16 +418,16 @@ impl Network {
     }
 
     /// Ours, if it is that.
-    pub fn into_ours(self) -> Option<OurNetwork> {
+    pub(crate) fn into_ours(self) -> Option<OurNetwork> {
         match self.0 {
-            Kind::Ours(network) => Some(network),
+            Kind::Ours(network) => Some(*network),
             Kind::FrictGan { .. } => None,
         }
     }
 }
 
 /// Our network, ready to be asked.
-pub struct OurNetwork {
+pub(crate) struct OurNetwork {
     network: Registered,
     scales: Scales,
 }
@@ -445,7 +443,7 @@ impl OurNetwork {
     ///
     /// # Errors
     /// Weights of another.
-    pub fn from_weights(weights: &Weights, size: Size) -> Result<Self, FrictionError> {
+    pub(crate) fn from_weights(weights: &Weights, size: Size) -> Result<Self, FrictionError> {
         let network = Registered::new(size, &Device::flex());
         let scales = Scales::from_numbers(&weights.scales);
         match scales {
@@ -460,7 +458,7 @@ impl OurNetwork {
     }
 
     /// Its weights.
-    pub fn weights(&self) -> Weights {
+    pub(crate) fn weights(&self) -> Weights {
         Weights {
             scales: self.scales.numbers(),
             values: read(&self.network),
@@ -468,7 +466,7 @@ impl OurNetwork {
     }
 
     /// What it makes of strips of the same length.
-    pub fn courses(&self, looks: &[&Looks]) -> Vec<Course> {
+    pub(crate) fn courses(&self, looks: &[&Looks]) -> Vec<Course> {
         if looks.is_empty() {
             return Vec::new();
         }
@@ -478,23 +476,9 @@ impl OurNetwork {
         self.scales.courses(self.network.decode(code))
     }
 
-    /// The numbers that stand for each strip's cloth.
-    pub fn latents(&self, looks: &[&Looks]) -> Vec<Vec<f32>> {
-        if looks.is_empty() {
-            return Vec::new();
-        }
-        let code = self
-            .network
-            .encode(self.scales.inputs(looks, &Device::flex()));
-        values(code.latent)
-            .chunks(super::registered::N_LATENT)
-            .map(<[f32]>::to_vec)
-            .collect()
-    }
-
     /// A cloth that lies so far (0 to 1) from the first strip's to the second's, which is as long;
     /// `None` if it is not.
-    pub fn between(&self, from: &Looks, to: &Looks, share: f64) -> Option<Course> {
+    pub(crate) fn between(&self, from: &Looks, to: &Looks, share: f64) -> Option<Course> {
         if from.channels[0].height() != to.channels[0].height() {
             return None;
         }
@@ -573,7 +557,7 @@ fn save<M: Module>(bytes: &mut Vec<u8>, module: &M, optimizer: &ModuleOptimizer)
 struct Parts<'a>(&'a [u8]);
 
 impl<'a> Parts<'a> {
-    fn wrong(what: impl ToString) -> FrictionError {
+    fn wrong(what: impl std::fmt::Display) -> FrictionError {
         FrictionError::Checkpoint {
             what: what.to_string(),
         }

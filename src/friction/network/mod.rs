@@ -17,9 +17,10 @@ mod registered;
 mod weights;
 
 pub use critic::AdversarialLoss;
-pub use learn::{Learning, Lesson, Losses, Method, Network, OurNetwork};
+pub(crate) use learn::{Learning, Losses, OurNetwork};
+pub use learn::{Lesson, Method};
 pub use registered::Size;
-pub use weights::Weights;
+pub(crate) use weights::Weights;
 
 #[cfg(test)]
 mod tests;

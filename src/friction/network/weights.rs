@@ -13,7 +13,7 @@ const MAGIC: [u8; 8] = *b"SLVFRIC1";
 /// What a network is, apart from its layers: how its input is scaled, and its weights, in the
 /// order of its fields.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Weights {
+pub(crate) struct Weights {
     /// How input and output are scaled.
     pub scales: Vec<f32>,
     /// The weights.
@@ -22,7 +22,7 @@ pub struct Weights {
 
 impl Weights {
     /// As a file: a mark, both counts, all numbers, little-endian.
-    pub fn to_bytes(&self) -> Vec<u8> {
+    pub(crate) fn to_bytes(&self) -> Vec<u8> {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX).to_le_bytes();
         let mut bytes = MAGIC.to_vec();
         bytes.extend(count(self.scales.len()));
@@ -40,7 +40,7 @@ impl Weights {
     ///
     /// # Errors
     /// Another kind of file, one that is cut short, numbers that are not finite.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, FrictionError> {
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, FrictionError> {
         let wrong = |what: &str| FrictionError::Weights {
             what: what.to_owned(),
         };
@@ -81,7 +81,8 @@ impl ModuleMapper for Drawn {
             let shape = old.dims();
             if D == 1 {
                 let drawn = values(old.clone());
-                let is_same = drawn.len() > 1 && drawn.iter().all(|x| *x == drawn[0]);
+                let is_same =
+                    drawn.len() > 1 && drawn.iter().all(|x| x.total_cmp(&drawn[0]).is_eq());
                 return if is_same {
                     old
                 } else {
