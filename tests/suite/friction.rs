@@ -67,7 +67,7 @@ fn what_is_no_picture_or_shows_too_little_is_refused_in_one_line() {
     let lab = Lab::new();
     lab.write("cloth.png", cloth());
     lab.write("empty.png", Vec::new());
-    lab.write("words.png", b"no picture".to_vec());
+    lab.write("words.png", b"no picture");
     let cases: [(&[&str], &str); 6] = [
         (
             &["cloth.png", "--px-per-mm", "20"],
