@@ -25,8 +25,6 @@ mod doctor;
 mod experiment;
 mod failure;
 mod figure;
-#[cfg(feature = "friction")]
-mod friction;
 mod help;
 mod identify;
 mod input;
@@ -113,10 +111,6 @@ enum Command {
     Textile(textile::TextileCommand),
     /// The repeats of a cloth from a picture, and the cell that repeats
     Picture(picture::PictureArgs),
-    /// Friction from a picture of cloth, and how far a network gets
-    #[cfg(feature = "friction")]
-    #[command(subcommand)]
-    Friction(friction::FrictionCommand),
     /// Tablets and touch frames
     #[command(subcommand)]
     Input(input::InputCommand),
@@ -172,8 +166,6 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
-        #[cfg(feature = "friction")]
-        Some(Command::Friction(command)) => friction::run(&command),
         Some(Command::Input(command)) => input::run(&command),
         Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Experiment(command)) => experiment::run(&command),
