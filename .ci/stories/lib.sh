@@ -4,6 +4,7 @@
 #   display [WIDTHxHEIGHT]      a display of its own
 #   start [ARGUMENT…]           the program, its window found and focused
 #   slowly 'key r' 'click 1'…   xdotool's words, slowly enough for software drawing
+#   stroke X Y                  a finger goes to and fro on the cloth there, and lifts
 #   await SECONDS COMMAND…      waits until the command succeeds
 #   answer PATH                 answers the field that asks where to save, and waits for the file
 #   shot NAME                   a screenshot, in the folder that SELVEDGE_SHOTS names, if it does
@@ -66,6 +67,15 @@ slowly() {
     eval "xdotool $step"
     sleep 0.4
   done
+}
+
+stroke() {
+  xdotool mousemove "$1" "$2" mousedown 1
+  for step in $(seq 20); do
+    xdotool mousemove $(($1 + step % 4 * 25)) "$2"
+    sleep 0.15
+  done
+  xdotool mouseup 1
 }
 
 await() {

@@ -6,15 +6,6 @@ display 1280x720
 log=$work/data/selvedge/stage
 start --stage
 shot watching
-# A stroke over a cloth: x and y.
-stroke() {
-  xdotool mousemove "$1" "$2" mousedown 1
-  for step in $(seq 20); do
-    xdotool mousemove $(($1 + step % 4 * 25)) "$2"
-    sleep 0.15
-  done
-  xdotool mouseup 1
-}
 rows() { tail -n +2 "$log/visits.csv" | wc -l; }
 has_rows() { [ "$(rows)" -ge "$1" ]; }
 [ "$(rows)" = 0 ] || fail "a visit before the first touch"

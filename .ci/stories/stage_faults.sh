@@ -30,27 +30,18 @@ has_sound && serve
 start --stage
 await 20 is_ready 1 || fail "the array was not found"
 has_sound && { await 20 is_heard || fail "nothing is heard"; }
-stroke() {
-  xdotool mousemove "$1" "$2" mousedown 1
-  for step in $(seq 16); do
-    xdotool mousemove $(($1 + step % 4 * 25)) "$2"
-    sleep 0.15
-  done
-  xdotool mouseup 1
-}
+pull() { kill -KILL "$1" && { wait "$1" 2> /dev/null || true; }; }
 goes_on() { kill -0 "$program" 2> /dev/null || fail "it ended: $1"; }
 stroke 440 150
 # The cable, while a finger is on the cloth.
 xdotool mousemove 440 150 mousedown 1
-kill -KILL "$device"
-wait "$device" 2> /dev/null || true
+pull "$device"
 device=
 stroke 460 150
 goes_on "the cable was pulled"
 look resting
 if has_sound; then
-  kill -KILL "$sound"
-  wait "$sound" 2> /dev/null || true
+  pull "$sound"
   sound=
 fi
 stroke 700 150
