@@ -54,6 +54,10 @@ pub(crate) enum CliError {
     /// A file for other programs.
     #[error(transparent)]
     Sink(#[from] SinkError),
+    /// Friction from a picture.
+    #[cfg(feature = "friction")]
+    #[error(transparent)]
+    Friction(#[from] selvedge_friction::FrictionError),
     /// A report.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -82,6 +86,8 @@ impl CliError {
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
             Self::Sink(error) => code_of_sink(error),
+            #[cfg(feature = "friction")]
+            Self::Friction(error) => code_of_friction(error),
             Self::Report(error) => code_of_report(error),
             Self::Experiment(error) => code_of_experiment(error),
             Self::App(error) => code_of_app(error),
@@ -179,6 +185,16 @@ fn code_of_sink(error: &SinkError) -> u8 {
 }
 
 /// A name that is not known is wrong input; whatever a study ran into, it met while working.
+#[cfg(feature = "friction")]
+fn code_of_friction(error: &selvedge_friction::FrictionError) -> u8 {
+    use selvedge_friction::FrictionError;
+    match error {
+        FrictionError::File(error) => code_of_file(error),
+        FrictionError::Small { .. } | FrictionError::Checkpoint { .. } => 2,
+        FrictionError::Weights { .. } | FrictionError::Cancelled => 1,
+    }
+}
+
 fn code_of_report(error: &ReportError) -> u8 {
     match error {
         ReportError::Unknown { .. } => 2,

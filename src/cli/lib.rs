@@ -25,6 +25,8 @@ mod doctor;
 mod experiment;
 mod failure;
 mod figure;
+#[cfg(feature = "friction")]
+mod friction;
 mod help;
 mod identify;
 mod input;
@@ -111,6 +113,10 @@ enum Command {
     Textile(textile::TextileCommand),
     /// The repeats of a cloth from a picture, and the cell that repeats
     Picture(picture::PictureArgs),
+    /// Friction from a picture of cloth, and how far a network gets
+    #[cfg(feature = "friction")]
+    #[command(subcommand)]
+    Friction(friction::FrictionCommand),
     /// Tablets and touch frames
     #[command(subcommand)]
     Input(input::InputCommand),
@@ -166,6 +172,8 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),
         Some(Command::Picture(args)) => picture::run(&args),
+        #[cfg(feature = "friction")]
+        Some(Command::Friction(command)) => friction::run(&command),
         Some(Command::Input(command)) => input::run(&command),
         Some(Command::Mds(args)) => mds::run(&args),
         Some(Command::Experiment(command)) => experiment::run(&command),

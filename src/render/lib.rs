@@ -19,6 +19,7 @@
 pub mod array;
 pub mod contact;
 mod difference;
+pub mod electrovibration;
 mod error;
 mod error_meter;
 mod gains;

@@ -21,6 +21,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("chart", &["foundation"]),
     ("statistics", &["foundation"]),
     ("textile", &["foundation", "chart"]),
+    ("friction", &["foundation"]),
     ("render", &["foundation", "textile"]),
     ("device", &["foundation"]),
     ("engine", &["foundation", "textile", "render", "device"]),
@@ -68,6 +69,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "foundation",
             "statistics",
             "textile",
+            "friction",
             "render",
             "device",
             "engine",
@@ -86,6 +88,7 @@ const MAX_VISIBLE_ITEMS: usize = 900;
 
 /// Where each third-party crate lives: a crate of this house, a folder or one file; some have two.
 const HOMES: &[(&str, &str)] = &[
+    ("burn", "src/friction/network/"),
     ("clap", "src/cli/"),
     ("clap", "src/workbench/"),
     ("cpal", "src/engine/audio/device.rs"),

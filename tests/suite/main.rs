@@ -22,6 +22,7 @@ mod evidence;
 mod experiment;
 mod experiment_analyse;
 mod firmware;
+mod friction;
 mod golden;
 mod import;
 mod import_kes;

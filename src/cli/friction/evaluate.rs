@@ -1,0 +1,194 @@
+//! `selvedge friction evaluate`: what is finished of all methods on all splits, as one table.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::folder;
+use crate::CliError;
+use crate::output::{TableOut, print};
+use crate::terminal::{self, with_meter};
+use crate::usage::one_of;
+use selvedge_foundation::numerics::n_threads;
+use selvedge_foundation::quantity::fixed;
+use selvedge_friction::{
+    Baseline, Contestant, FrictionError, Lesson, MEASURES, Method, N_CLOTHS, Run, Scores, Split,
+    Taken, mean, over_seeds, seeds,
+};
+
+/// Which runs are put together.
+#[derive(Debug, Args)]
+pub(crate) struct EvaluateArgs {
+    /// Folder of runs, as train fills it; the table goes there, too
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Splits to tell of
+    #[arg(long, num_args = 1.., default_values = ["A", "B", "C", "D"],
+        value_parser = one_of(Split::ALL.map(|split| (split.letter(), split))))]
+    splits: Vec<Split>,
+    /// Leave the simple methods out that are not finished (they take minutes a split)
+    #[arg(long)]
+    only_finished: bool,
+}
+
+/// A row of the table: who, how many runs, each measure's mean and deviation over seeds.
+struct Row {
+    name: &'static str,
+    n_runs: usize,
+    measures: [[f64; 2]; MEASURES.len()],
+}
+
+pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
+    folder(&args.out)?;
+    let path = args.out.join("table.csv");
+    let measures = MEASURES
+        .iter()
+        .flat_map(|m| [m.column.to_owned(), format!("{}_sd", m.column)]);
+    let header: Vec<String> = ["split", "method", "runs"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(measures)
+        .collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let mut csv = TableOut::new(Some(&path), &header)?;
+    let mut lines = Vec::new();
+    for &split in &args.splits {
+        let (rows, missing) = rows(args, split)?;
+        lines.push(format!("{}: {}", split.letter(), split.describe()));
+        lines.extend(table(&rows));
+        for row in &rows {
+            let cells = csv
+                .rows()
+                .text(split.letter())
+                .text(row.name)
+                .number(row.n_runs);
+            for number in row.measures.iter().flatten() {
+                cells.number(number);
+            }
+            cells.end_row()?;
+        }
+        lines.extend(
+            missing
+                .iter()
+                .map(|(method, seeds)| not_run(args, split, *method, seeds)),
+        );
+        lines.push(String::new());
+    }
+    csv.finish()?;
+    print(&lines.join("\n"))
+}
+
+/// What is not run yet, and how it is run.
+fn not_run(args: &EvaluateArgs, split: Split, method: Method, seeds: &[u64]) -> String {
+    let (method, split, out) = (method.word(), split.letter(), args.out.display());
+    let seeds = seeds
+        .iter()
+        .map(u64::to_string)
+        .collect::<Vec<_>>()
+        .join(" ");
+    format!(
+        "not run: {method}, seeds {seeds}: selvedge friction train --out {out} --method {method} \
+         --split {split} --seeds {seeds}"
+    )
+}
+
+type Missing = Vec<(Method, Vec<u64>)>;
+
+fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliError> {
+    let run = |contestant| Run {
+        contestant,
+        split,
+        n_cloths: N_CLOTHS,
+        folder: &args.out,
+    };
+    let mut rows = Vec::new();
+    for (baseline, scores) in baselines(args, split)? {
+        rows.push(Row {
+            name: baseline.word(),
+            n_runs: 1,
+            measures: mean(&scores).map(|mean| [mean, 0.0]),
+        });
+    }
+    let mut missing = Vec::new();
+    for method in Method::ALL {
+        let (mut found, mut not_run) = (Vec::new(), Vec::new());
+        for seed in seeds(method, split) {
+            let lesson = Lesson::usual(method, seed);
+            match run(Contestant::Network(lesson)).finished()? {
+                Some(scores) => found.push(mean(&scores)),
+                None => not_run.push(seed),
+            }
+        }
+        if !found.is_empty() {
+            rows.push(Row {
+                name: method.word(),
+                n_runs: found.len(),
+                measures: over_seeds(&found),
+            });
+        }
+        if !not_run.is_empty() {
+            missing.push((method, not_run));
+        }
+    }
+    Ok((rows, missing))
+}
+
+/// Scores of the simple methods: those that are kept, and those that are made now.
+fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)>, CliError> {
+    let run = |baseline| Run {
+        contestant: Contestant::Baseline(baseline),
+        split,
+        n_cloths: N_CLOTHS,
+        folder: &args.out,
+    };
+    let mut found = Vec::new();
+    let mut taken = None;
+    for baseline in Baseline::ALL {
+        let run = run(baseline);
+        if let Some(scores) = run.finished()? {
+            found.push((baseline, scores));
+        } else if !args.only_finished {
+            let scores = with_meter("evaluate", |progress| -> Result<Scores, FrictionError> {
+                let step = progress.step(0.0, "making pictures of cloth");
+                step.map_err(|_stopped| FrictionError::Cancelled)?;
+                let taken = taken.get_or_insert_with(|| Taken::of(split, N_CLOTHS, n_threads()));
+                run.run(taken, progress, &mut |said| terminal::line(said))
+            })??;
+            found.push((baseline, scores));
+        }
+    }
+    Ok(found)
+}
+
+/// What is read first: spectra, level, deviations, the paper's own measures.
+const SHOWN: [(usize, &str, usize); 8] = [
+    (7, "spectrum dB", 2),
+    (5, "level %", 2),
+    (8, "bands dB", 2),
+    (6, "deviations", 2),
+    (9, "period mm", 2),
+    (10, "correlation", 2),
+    (0, "spectrogram RMSE", 3),
+    (4, "signal RMSE %", 2),
+];
+
+fn table(rows: &[Row]) -> Vec<String> {
+    let line = |name: &str, runs: &str, cells: Vec<String>| {
+        let cells: Vec<_> = cells.iter().map(|cell| format!("{cell:>16}")).collect();
+        format!("{name:17} {runs:>4}  {}", cells.join("  "))
+    };
+    let head = SHOWN.map(|(_, name, _)| name.to_owned());
+    let row = |row: &Row| {
+        let cell = |(measure, _, digits): (usize, &str, usize)| {
+            let [mean, sd] = row.measures[measure].map(|number| fixed(number, digits));
+            if row.n_runs > 1 {
+                format!("{mean} ± {sd}")
+            } else {
+                mean
+            }
+        };
+        line(row.name, &row.n_runs.to_string(), SHOWN.map(cell).to_vec())
+    };
+    let head = line("method", "runs", head.to_vec());
+    std::iter::once(head).chain(rows.iter().map(row)).collect()
+}

@@ -1,0 +1,85 @@
+//! `selvedge friction train`: networks that learn on procedural cloth.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::folder;
+use crate::CliError;
+use crate::terminal::{self, with_meter};
+use crate::usage::one_of;
+use selvedge_foundation::numerics::n_threads;
+use selvedge_friction::{
+    AdversarialLoss, Contestant, FrictionError, Lesson, Method, N_CLOTHS, Run, Split, Taken,
+};
+
+/// What is trained, and where it is kept.
+#[derive(Debug, Args)]
+pub(crate) struct TrainArgs {
+    /// Folder of runs
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// The network: ours, ours-adversarial or frictgan
+    #[arg(long, default_value = "ours",
+        value_parser = one_of(Method::ALL.map(|method| (method.word(), method))))]
+    method: Method,
+    /// What is held back: A (cloths), B (a family), C (places) or D (leaky, for comparison only)
+    #[arg(long, default_value = "A",
+        value_parser = one_of(Split::ALL.map(|split| (split.letter(), split))))]
+    split: Split,
+    /// What everything that is drawn begins with: a run a seed
+    #[arg(long, value_name = "S", num_args = 1.., default_values_t = [1])]
+    seeds: Vec<u64>,
+    /// What generator and critic are told by each other, where there are both
+    #[arg(long, default_value = "bce",
+        value_parser = one_of(AdversarialLoss::ALL.map(|loss| (loss.word(), loss))))]
+    loss: AdversarialLoss,
+    /// Times that every example is seen (as many as results are told of)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: Option<u32>,
+    /// Cloths of each family that are learnt from
+    #[arg(long, value_name = "N", default_value_t = N_CLOTHS as u32,
+        value_parser = clap::value_parser!(u32).range(1..=5000))]
+    cloths: u32,
+}
+
+pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
+    folder(&args.out)?;
+    let lesson = |seed: u64| {
+        let usual = Lesson::usual(args.method, seed);
+        Lesson {
+            loss: args.loss,
+            n_rounds: args.rounds.map_or(usual.n_rounds, |n| n as usize),
+            ..usual
+        }
+    };
+    let run = |seed: u64| Run {
+        contestant: Contestant::Network(lesson(seed)),
+        split: args.split,
+        n_cloths: args.cloths as usize,
+        folder: &args.out,
+    };
+    let mut wanted = Vec::new();
+    for &seed in &args.seeds {
+        let run = run(seed);
+        if run.finished()?.is_some() {
+            terminal::notice(&format!("{} is finished", run.name()));
+        } else {
+            wanted.push(run);
+        }
+    }
+    if wanted.is_empty() {
+        return Ok(());
+    }
+    with_meter("train", |progress| -> Result<(), FrictionError> {
+        progress
+            .step(0.0, "making pictures of cloth")
+            .map_err(|_stopped| FrictionError::Cancelled)?;
+        let taken = Taken::of(args.split, args.cloths as usize, n_threads());
+        for run in wanted {
+            run.run(&taken, progress, &mut |said| terminal::line(said))?;
+        }
+        Ok(())
+    })??;
+    Ok(())
+}

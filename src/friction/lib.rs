@@ -1,0 +1,40 @@
+//! Friction of a textile from its picture: what can be learnt of it, and how far that gets.
+//!
+//! ```text
+//! cloth (recipe, relief, photo, finger) ─▶ example (windows, splits) ─▶ network ─┐
+//! picture (strip, its spectra) ───────────▶ baseline ────────────────────────────┼─▶ score, runs
+//! signal (level, trend, spectra; and back)                      predict ◀────────┘
+//! ```
+//!
+//! After Cai et al. (2021), with what their numbers could not tell kept apart: the mean level, what
+//! is slow, and the spectra of the rest.
+//!
+//! # Invariants
+//! - no rendering, no clocks; files only of runs
+//! - the one home of the library of networks, in `network`
+//! - same recipe, same seed, same bytes, whatever the number of threads
+#![cfg_attr(
+    test,
+    expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
+)]
+
+mod baseline;
+mod cloth;
+mod error;
+mod example;
+mod network;
+mod picture;
+mod predict;
+mod runs;
+mod score;
+mod signal;
+
+pub use baseline::Baseline;
+pub use cloth::PER_MM;
+pub use error::FrictionError;
+pub use example::{N_CLOTHS, Split};
+pub use network::{AdversarialLoss, Lesson, Method, Size};
+pub use predict::{PredictedFriction, Predictor};
+pub use runs::{Contestant, Run, Scores, Taken, mean, over_seeds, seeds};
+pub use score::{MEASURES, Measure};
+pub use signal::Course;

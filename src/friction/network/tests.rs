@@ -1,0 +1,80 @@
+//! What learning promises: it learns, it goes on where it was broken off, a cloth between two lies
+//! between them.
+
+use super::*;
+use crate::example::{Example, Split, all_taken};
+use selvedge_foundation::progress::unheard;
+
+fn small(method: Method) -> Lesson {
+    Lesson {
+        size: Size {
+            width: 4,
+            n_layers: 1,
+        },
+        n_rounds: 2,
+        ..Lesson::usual(method, 3)
+    }
+}
+
+fn examples() -> Vec<Example> {
+    all_taken(&Split::Places.windows(2)[0], 2)
+}
+
+#[test]
+fn learning_goes_on_where_it_was_broken_off_to_the_same_bytes() {
+    let examples = examples();
+    for method in Method::ALL {
+        let lesson = small(method);
+        let mut whole = Learning::begin(lesson, &examples);
+        let first = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        let checkpoint = whole.checkpoint();
+        let second = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        assert!(
+            second.spectra < first.spectra,
+            "{method:?}: {first:?}, {second:?}"
+        );
+        let mut resumed = Learning::resume(lesson, &examples, &checkpoint).unwrap();
+        assert_eq!(resumed.n_rounds_done(), 1);
+        assert_eq!(
+            unheard(|progress| resumed.round(&examples, progress)).unwrap(),
+            second
+        );
+        let [a, b] = [&whole, &resumed].map(|l| l.network().predict(&examples[0]).trace);
+        assert!(a == b, "{method:?}");
+        assert!(Learning::resume(lesson, &examples, &checkpoint[..20]).is_err());
+    }
+}
+
+#[test]
+fn weights_come_back_from_their_file() {
+    let examples = examples();
+    let lesson = small(Method::Ours);
+    let network = Learning::begin(lesson, &examples)
+        .network()
+        .into_ours()
+        .unwrap();
+    let bytes = network.weights().to_bytes();
+    let weights = Weights::from_bytes(&bytes).unwrap();
+    let back = OurNetwork::from_weights(&weights, lesson.size).unwrap();
+    let looks = &examples[0].looks;
+    assert_eq!(back.courses(&[looks]), network.courses(&[looks]));
+    assert!(OurNetwork::from_weights(&weights, Size::default()).is_err());
+    for cut in [0, 8, 15, 16, bytes.len() - 1] {
+        assert!(Weights::from_bytes(&bytes[..cut]).is_err(), "{cut}");
+    }
+}
+
+#[test]
+fn a_cloth_between_two_lies_between_them() {
+    let examples = examples();
+    let network = Learning::begin(small(Method::Ours), &examples)
+        .network()
+        .into_ours()
+        .unwrap();
+    let [a, b] = [&examples[0].looks, &examples[5].looks];
+    let own = |looks| network.courses(&[looks]).pop().unwrap();
+    assert_eq!(network.between(a, b, 0.0).unwrap(), own(a));
+    assert_eq!(network.between(a, b, 1.0).unwrap(), own(b));
+    let middle = network.between(a, b, 0.5).unwrap();
+    assert!(middle != own(a) && middle != own(b));
+}

@@ -1,0 +1,255 @@
+//! Friction from a picture, with how far it may be off: the networks that are shipped, together.
+
+use selvedge_foundation::numerics::{Grid, to_single};
+
+use crate::FrictionError;
+use crate::cloth::PER_MM;
+use crate::network::{OurNetwork, Size, Weights};
+use crate::picture::{Looks, band_edges, strips};
+use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE};
+
+/// Weights learnt from other seeds, and what was found of them on cloths that were held back.
+const SHIPPED: [&[u8]; 4] = [
+    include_bytes!("../../assets/friction/ours-A-1.weights"),
+    include_bytes!("../../assets/friction/ours-A-2.weights"),
+    include_bytes!("../../assets/friction/ours-A-3.weights"),
+    include_bytes!("../../assets/friction/ours-A-4.weights"),
+];
+/// Standard deviation of the level on held-back cloths, a share of it, and of a bin's log magnitude
+/// in dB, as `assets/friction/provenance.toml` has them.
+const HELD_BACK: [f64; 2] = [0.095, 4.0];
+/// Standard deviations to either side of an interval of 95 %.
+const WIDE: f64 = 1.96;
+
+/// Networks that are asked together.
+#[derive(Debug)]
+pub struct Predictor {
+    networks: Vec<OurNetwork>,
+}
+
+/// Friction along a strip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PredictedFriction {
+    /// Coefficient of friction, [`PER_MM`] a millimetre.
+    pub mu: Vec<f64>,
+    /// What it was put together from.
+    pub course: Course,
+    /// The level may be so far off, either way, in 95 of 100 cloths like those that were learnt.
+    pub level_within: f64,
+    /// For bands of wavenumbers (from, to, cycles/mm): how far magnitudes may be off, dB.
+    pub bands: Vec<[f64; 3]>,
+}
+
+impl Predictor {
+    /// The networks that are shipped.
+    ///
+    /// # Errors
+    /// Weights that do not fit: a fault of the program.
+    pub fn shipped() -> Result<Self, FrictionError> {
+        let network =
+            |bytes: &&[u8]| OurNetwork::from_weights(&Weights::from_bytes(bytes)?, Size::default());
+        let networks: Result<_, _> = SHIPPED.iter().map(network).collect();
+        Ok(Self {
+            networks: networks?,
+        })
+    }
+
+    /// Friction along the middle of a picture, brightness 0 to 1, of a scale.
+    ///
+    /// # Errors
+    /// A picture without a strip of 10 mm × 40 mm.
+    pub fn of_picture(
+        &self,
+        picture: &Grid<f32>,
+        px_per_mm: f64,
+    ) -> Result<PredictedFriction, FrictionError> {
+        let looks = Looks::of(&strip(picture, px_per_mm)?);
+        let courses = self
+            .networks
+            .iter()
+            .flat_map(|network| network.courses(&[&looks]));
+        Ok(together(&courses.collect::<Vec<_>>()))
+    }
+
+    /// Friction of a cloth that lies so far (0 to 1) from one picture's to another's, as long as
+    /// the shorter of both.
+    ///
+    /// # Errors
+    /// As [`Self::of_picture`].
+    pub fn between(
+        &self,
+        pictures: [(&Grid<f32>, f64); 2],
+        share: f64,
+    ) -> Result<PredictedFriction, FrictionError> {
+        let [from, to] = pictures.map(|(picture, px_per_mm)| strip(picture, px_per_mm));
+        let (from, to) = (from?, to?);
+        let n = from.width().min(to.width());
+        let [from, to] = [from, to].map(|strip| {
+            let part = strip.part([0, 0, n, strip.height()]);
+            Looks::of(&part.unwrap_or(strip))
+        });
+        let between = |network: &OurNetwork| network.between(&from, &to, share);
+        let courses = self.networks.iter().filter_map(between);
+        Ok(together(&courses.collect::<Vec<_>>()))
+    }
+}
+
+/// The strip in the middle of a picture, of whole steps.
+fn strip(picture: &Grid<f32>, px_per_mm: f64) -> Result<Grid<f32>, FrictionError> {
+    let mut strips = strips(picture, px_per_mm);
+    if strips.is_empty() || strips[0].width() < FRAME {
+        let size_mm = [picture.width(), picture.height()].map(|n| n as f64 / px_per_mm);
+        return Err(FrictionError::Small { size_mm });
+    }
+    let strip = strips.swap_remove(strips.len() / 2);
+    let part = strip.part([0, 0, strip.width() / HOP * HOP, strip.height()]);
+    Ok(part.unwrap_or(strip))
+}
+
+/// What several networks say of one strip.
+fn together(courses: &[Course]) -> PredictedFriction {
+    let course = mean(courses);
+    let n_samples = (course.trend.len() - 1) * HOP;
+    let share = 1.0 / courses.len() as f64;
+    let spread = courses
+        .iter()
+        .map(|c| share * (c.level - course.level).powi(2))
+        .sum::<f64>();
+    let [of_level, _] = HELD_BACK;
+    PredictedFriction {
+        mu: course.trace(n_samples, None),
+        level_within: WIDE * (of_level * course.level).hypot(spread.sqrt()),
+        bands: bands(courses, &course),
+        course,
+    }
+}
+
+/// The mean of courses of the same length; there is at least one.
+fn mean(courses: &[Course]) -> Course {
+    let share = 1.0 / courses.len() as f64;
+    let mut mean = courses[0].clone();
+    mean.level = share * courses.iter().map(|c| c.level).sum::<f64>();
+    for (frame, trend) in mean.trend.iter_mut().enumerate() {
+        *trend = share * courses.iter().map(|c| c.trend[frame]).sum::<f64>();
+    }
+    for (at, log) in mean.log_magnitudes.values_mut().iter_mut().enumerate() {
+        let logs = courses.iter().map(|c| c.log_magnitudes.values()[at]);
+        *log = to_single(share) * logs.sum::<f32>();
+    }
+    mean
+}
+
+/// By band: the networks' spread and what was found on held-back cloths.
+fn bands(courses: &[Course], mean: &Course) -> Vec<[f64; 3]> {
+    let edges = band_edges();
+    let [_, of_bins_db] = HELD_BACK;
+    let db = |log: f32| {
+        20.0 * (MAGNITUDE_SCALE * f64::from(log).exp_m1() + 0.5 * MAGNITUDE_SCALE).log10()
+    };
+    let wavenumber = |bin: usize| bin as f64 * PER_MM / FRAME as f64;
+    edges
+        .windows(2)
+        .map(|band| {
+            let height = mean.log_magnitudes.height();
+            let (mut squares, mut n) = (0.0, 0.0);
+            for (frame, bin) in (0..height).flat_map(|f| (band[0]..band[1]).map(move |b| (f, b))) {
+                let middle = db(mean.log_magnitudes.row(frame)[bin]);
+                for course in courses {
+                    squares += (db(course.log_magnitudes.row(frame)[bin]) - middle).powi(2);
+                    n += 1.0;
+                }
+            }
+            let spread_db = (squares / f64::max(n, 1.0)).sqrt();
+            [
+                wavenumber(band[0]),
+                wavenumber(band[1]),
+                WIDE * spread_db.hypot(of_bins_db),
+            ]
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::{Split, all_taken};
+    use crate::score::{MEASURES, Prediction, score};
+
+    /// Mean log-spectral distance, dB, and level error, %, of every fourth held-back window of
+    /// split A, as `assets/friction/provenance.toml` has them.
+    const RECORDED: [f64; 2] = [3.944_399, 6.999_205];
+
+    #[test]
+    fn the_shipped_networks_reach_the_score_that_is_recorded_of_them() {
+        let windows: Vec<_> = Split::Cloths.windows(80)[1].iter().step_by(4).copied().collect();
+        let predictor = Predictor::shipped().unwrap();
+        let examples = all_taken(&windows, 2);
+        let column = |name: &str| MEASURES.iter().position(|m| m.column == name).unwrap();
+        let measures = ["log_spectral_distance_db", "level_error_percent"].map(column);
+        let mut mean = [0.0; 2];
+        let mut squares = 0.0;
+        for example in &examples {
+            let looks = Looks::of(&example.strip);
+            let courses = predictor.networks.iter().flat_map(|n| n.courses(&[&looks]));
+            let course = super::mean(&courses.collect::<Vec<_>>());
+            let found = score(&Prediction::of_course(&course), &example.trace);
+            squares += (course.level / example.course.level - 1.0).powi(2) / examples.len() as f64;
+            for (sum, measure) in mean.iter_mut().zip(measures) {
+                *sum += found[measure] / examples.len() as f64;
+            }
+        }
+        let far = mean.iter().zip(RECORDED).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(far < 1e-3, "{mean:?}, level {} rms", squares.sqrt());
+    }
+
+    #[test]
+    fn a_picture_gives_friction_with_how_far_it_may_be_off_and_a_small_one_is_refused() {
+        let predictor = Predictor::shipped().unwrap();
+        let strip = Split::Cloths.windows(4)[1][3].taken().strip;
+        let found = predictor.of_picture(&strip, PER_MM).unwrap();
+        assert_eq!(found.mu.len(), 1280);
+        assert!(
+            found.mu.iter().all(|mu| (0.1..1.0).contains(mu)),
+            "{:?}",
+            found.mu
+        );
+        assert!(
+            (0.01..0.2).contains(&found.level_within),
+            "{}",
+            found.level_within
+        );
+        assert!(found.bands.iter().all(|[.., db]| (1.0..40.0).contains(db)));
+        let small = strip.part([0, 0, 500, 128]).unwrap();
+        let refused = predictor
+            .of_picture(&small, PER_MM)
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains("at least 40 mm x 10 mm"), "{refused}");
+    }
+
+    #[test]
+    fn black_white_plain_and_finer_pictures_are_pictures() {
+        let predictor = Predictor::shipped().unwrap();
+        for shade in [0.0, 0.5, 1.0] {
+            let picture = Grid::filled(600, 200, shade);
+            let found = predictor.of_picture(&picture, PER_MM).unwrap();
+            assert!(
+                found.mu.iter().all(|mu| mu.is_finite() && *mu >= 0.0),
+                "{shade}"
+            );
+        }
+        let fine = Grid::from_fn(2400, 600, |x, y| to_single(((x / 7 + y / 7) % 2) as f64));
+        assert_eq!(predictor.of_picture(&fine, 40.0).unwrap().mu.len(), 768);
+    }
+
+    #[test]
+    fn a_cloth_between_two_pictures_is_both_at_the_ends() {
+        let predictor = Predictor::shipped().unwrap();
+        let [a, b] = [1, 6].map(|n| Split::Places.windows(1)[1][n].taken().strip);
+        let pair = [(&a, PER_MM), (&b, PER_MM)];
+        for (share, own) in [(0.0, &a), (1.0, &b)] {
+            let found = predictor.between(pair, share).unwrap();
+            assert_eq!(found, predictor.of_picture(own, PER_MM).unwrap());
+        }
+    }
+}

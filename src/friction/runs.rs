@@ -1,0 +1,299 @@
+//! Runs of lessons, kept in a folder: what is finished is read, what was broken off goes on.
+//!
+//! Of every run the folder holds `NAME.scores.csv` (a row a held-back window), `NAME.rounds.csv`
+//! (what was lost, a row a round), `NAME.weights` (ours only) and, until it is finished,
+//! `NAME.checkpoint`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use selvedge_foundation::files::{FileError, Table, TableWriter, read, read_text, write_atomic};
+use selvedge_foundation::progress::Progress;
+
+use crate::FrictionError;
+use crate::baseline::Baseline;
+use crate::example::{Example, N_CLOTHS, Split, all_taken};
+use crate::network::{Learning, Lesson, Losses, Method};
+use crate::score::{MEASURES, Prediction, score};
+
+/// Scores of held-back windows by [`MEASURES`].
+pub type Scores = Vec<[f64; MEASURES.len()]>;
+
+/// Which seeds a method is run with on a split, for the table.
+pub fn seeds(method: Method, split: Split) -> std::ops::RangeInclusive<u64> {
+    let n = match (method, split) {
+        (Method::Ours, Split::Cloths) => 5,
+        (Method::Ours, _) | (Method::FrictGan, Split::Cloths) => 3,
+        (Method::FrictGan | Method::OursAdversarial, _) => 1,
+    };
+    1..=n
+}
+
+/// A method that is scored on a split.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Contestant {
+    /// A network that learns.
+    Network(Lesson),
+    /// Something simple.
+    Baseline(Baseline),
+}
+
+/// A contestant on a split, in a folder.
+#[derive(Debug, Clone)]
+pub struct Run<'a> {
+    /// Who.
+    pub contestant: Contestant,
+    /// What is held back.
+    pub split: Split,
+    /// Cloths of each family that are learnt from, [`N_CLOTHS`] for the table.
+    pub n_cloths: usize,
+    /// Where it is kept.
+    pub folder: &'a Path,
+}
+
+/// The windows of a split, taken.
+#[derive(Debug)]
+pub struct Taken {
+    /// What is learnt from.
+    pub(crate) learnt: Vec<Example>,
+    /// What is held back.
+    pub(crate) held_back: Vec<Example>,
+}
+
+impl Taken {
+    /// The windows of a split with so many cloths of each family.
+    pub fn of(split: Split, n_cloths: usize, n_threads: usize) -> Self {
+        let windows = split.windows(n_cloths);
+        let [learnt, held_back] = windows.map(|windows| all_taken(&windows, n_threads));
+        Self { learnt, held_back }
+    }
+}
+
+impl Run<'_> {
+    /// Its name: method, split, seed, and what differs from what results are told of.
+    pub fn name(&self) -> String {
+        let split = self.split.letter();
+        let lesson = match self.contestant {
+            Contestant::Network(lesson) => lesson,
+            Contestant::Baseline(baseline) => {
+                let baseline = baseline.word().replace(' ', "-").to_lowercase();
+                return format!("{baseline}-{split}");
+            }
+        };
+        let usual = Lesson::usual(lesson.method, lesson.seed);
+        let mut parts = vec![lesson.method.word().to_owned(), split.to_owned()];
+        parts.push(lesson.seed.to_string());
+        parts.extend((lesson.loss != usual.loss).then(|| lesson.loss.word().to_owned()));
+        parts.extend((self.n_cloths != N_CLOTHS).then(|| format!("cloths-{}", self.n_cloths)));
+        let n_rounds = lesson.n_rounds;
+        parts.extend((n_rounds != usual.n_rounds).then(|| format!("rounds-{n_rounds}")));
+        parts.join("-")
+    }
+
+    fn file(&self, ending: &str) -> PathBuf {
+        self.folder.join(format!("{}.{ending}", self.name()))
+    }
+
+    /// Its scores, if it is finished.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or holds something else.
+    pub fn finished(&self) -> Result<Option<Scores>, FrictionError> {
+        let path = self.file("scores.csv");
+        if !path.exists() {
+            return Ok(None);
+        }
+        let table = Table::read(&read_text(&path)?, &path, &Self::header(), &[])?;
+        let columns: Result<Vec<Vec<f64>>, FileError> = MEASURES
+            .iter()
+            .map(|measure| table.required_numbers(measure.column))
+            .collect();
+        let columns = columns?;
+        let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
+        Ok(Some((0..table.n_rows()).map(row).collect()))
+    }
+
+    fn header() -> Vec<&'static str> {
+        let measures = MEASURES.iter().map(|measure| measure.column);
+        ["family", "seed", "column"]
+            .into_iter()
+            .chain(measures)
+            .collect()
+    }
+
+    /// Runs it to its end, from where it was broken off, and keeps what comes out.
+    ///
+    /// # Errors
+    /// Cancelled (what is done stays); files that cannot be written; a checkpoint that is none.
+    pub fn run(
+        &self,
+        taken: &Taken,
+        progress: &mut Progress<'_>,
+        said: &mut dyn FnMut(&str),
+    ) -> Result<Scores, FrictionError> {
+        let scores = match self.contestant {
+            Contestant::Baseline(baseline) => {
+                let fitted = baseline.fitted(&taken.learnt);
+                scored(taken, progress, &|example| fitted.predict(example))?
+            }
+            Contestant::Network(lesson) => {
+                let learning = self.learnt(lesson, &taken.learnt, progress, said)?;
+                let network = learning.network();
+                let scores = scored(taken, progress, &|example| network.predict(example))?;
+                if let Some(ours) = network.into_ours() {
+                    write_atomic(&self.file("weights"), &ours.weights().to_bytes())?;
+                }
+                scores
+            }
+        };
+        self.keep(taken, &scores)?;
+        // Whether it can be removed does not matter: a finished run is read.
+        drop(fs::remove_file(self.file("checkpoint")));
+        Ok(scores)
+    }
+
+    fn learnt(
+        &self,
+        lesson: Lesson,
+        examples: &[Example],
+        progress: &mut Progress<'_>,
+        said: &mut dyn FnMut(&str),
+    ) -> Result<Learning, FrictionError> {
+        let checkpoint = self.file("checkpoint");
+        let mut learning = if checkpoint.exists() {
+            Learning::resume(lesson, examples, &read(&checkpoint)?)?
+        } else {
+            Learning::begin(lesson, examples)
+        };
+        while learning.n_rounds_done() < lesson.n_rounds {
+            let lost = learning.round(examples, progress)?;
+            let round = learning.n_rounds_done();
+            said(&format!(
+                "{}: round {round} of {}: spectra {:.4}, level {:.4}, critic {:.4}",
+                self.name(),
+                lesson.n_rounds,
+                lost.spectra,
+                lost.level,
+                lost.critic
+            ));
+            self.note(round, lost)?;
+            write_atomic(&checkpoint, &learning.checkpoint())?;
+        }
+        Ok(learning)
+    }
+
+    /// A row of what was lost; rounds that are done again after a break are kept once.
+    fn note(&self, round: usize, lost: Losses) -> Result<(), FrictionError> {
+        let path = self.file("rounds.csv");
+        let before = fs::read_to_string(&path).unwrap_or_default();
+        let mut rows: Vec<&str> = before.lines().skip(1).take(round - 1).collect();
+        let row = format!("{round},{},{},{}", lost.spectra, lost.level, lost.critic);
+        rows.push(&row);
+        let text = format!("round,spectra,level,critic\n{}\n", rows.join("\n"));
+        Ok(write_atomic(&path, text.as_bytes())?)
+    }
+
+    fn keep(&self, taken: &Taken, scores: &Scores) -> Result<(), FrictionError> {
+        let path = self.file("scores.csv");
+        let mut table = TableWriter::new(Vec::new(), &path, &Self::header())?;
+        for (example, scores) in taken.held_back.iter().zip(scores) {
+            let window = &example.window;
+            table
+                .text(window.family.word())
+                .number(window.seed)
+                .number(window.area.columns[0]);
+            for score in scores {
+                table.number(score);
+            }
+            table.end_row()?;
+        }
+        Ok(write_atomic(&path, &table.finish()?)?)
+    }
+}
+
+fn scored(
+    taken: &Taken,
+    progress: &mut Progress<'_>,
+    predict: &dyn Fn(&Example) -> Prediction,
+) -> Result<Scores, FrictionError> {
+    let n = taken.held_back.len() as f64;
+    let mut scores = Vec::with_capacity(taken.held_back.len());
+    for (at, example) in taken.held_back.iter().enumerate() {
+        let step = progress.step(at as f64 / n, "scoring");
+        step.map_err(|_stopped| FrictionError::Cancelled)?;
+        scores.push(score(&predict(example), &example.trace));
+    }
+    Ok(scores)
+}
+
+/// Mean of a run over its held-back windows.
+pub fn mean(scores: &Scores) -> [f64; MEASURES.len()] {
+    let n = scores.len().max(1) as f64;
+    let mut mean = [0.0; MEASURES.len()];
+    for scores in scores {
+        mean.iter_mut()
+            .zip(scores)
+            .for_each(|(sum, score)| *sum += score / n);
+    }
+    mean
+}
+
+/// Mean and standard deviation (0 of a single run) of runs with other seeds.
+pub fn over_seeds(runs: &[[f64; MEASURES.len()]]) -> [[f64; 2]; MEASURES.len()] {
+    let n = runs.len() as f64;
+    std::array::from_fn(|measure| {
+        let mean = runs.iter().map(|run| run[measure]).sum::<f64>() / n;
+        let squares = runs
+            .iter()
+            .map(|run| (run[measure] - mean).powi(2))
+            .sum::<f64>();
+        [mean, (squares / (n - 1.0).max(1.0)).sqrt()]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::Size;
+    use selvedge_foundation::progress::{CancelFlag, unheard};
+
+    #[test]
+    fn a_run_that_was_broken_off_ends_as_one_that_was_not_and_is_read_afterwards() {
+        let folder = std::env::temp_dir().join(format!("selvedge-runs-{}", std::process::id()));
+        let taken = Taken::of(Split::Places, 2, 2);
+        let lesson = Lesson {
+            size: Size {
+                width: 4,
+                n_layers: 1,
+            },
+            n_rounds: 2,
+            ..Lesson::usual(Method::Ours, 1)
+        };
+        let outcome = |name: &str, is_broken_off: bool| {
+            let folder = folder.join(name);
+            fs::create_dir_all(&folder).unwrap();
+            let run = Run {
+                contestant: Contestant::Network(lesson),
+                split: Split::Places,
+                n_cloths: 2,
+                folder: &folder,
+            };
+            assert_eq!(run.finished().unwrap(), None);
+            if is_broken_off {
+                let flag = CancelFlag::new();
+                let mut heard = |_: f64, _: &str| {};
+                let mut progress = Progress::new(&mut heard, flag.clone());
+                let ended = run.run(&taken, &mut progress, &mut |_| flag.cancel());
+                assert!(matches!(ended, Err(FrictionError::Cancelled)), "{ended:?}");
+                assert!(run.file("checkpoint").exists());
+            }
+            let scores = unheard(|progress| run.run(&taken, progress, &mut |_| {})).unwrap();
+            assert_eq!(run.finished().unwrap(), Some(scores));
+            assert!(!run.file("checkpoint").exists());
+            ["scores.csv", "rounds.csv", "weights"]
+                .map(|ending| fs::read(run.file(ending)).unwrap())
+        };
+        assert!(outcome("whole", false) == outcome("broken", true));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,273 @@
+//! Friction on an electrovibration screen: the voltage that a finger feels a textile by.
+//!
+//! `V(s, t) = b f(s) Y(t)` (Cai et al. 2021, section 3.2): f is the coefficient of friction where
+//! the finger is, b an amplification in V, Y a carrier. A square carrier goes from 0 to 1, a sine
+//! from −½ to ½, so that b f is peak to peak for both. The screen pulls by the square of the
+//! voltage: a sine is felt at twice its frequency, a square from 0 to 1 at its own.
+//!
+//! The current limit of such a screen (0.5 mA) is its hardware's; voltage and frequency are limited
+//! here, in one place. Knows nothing of pictures or networks.
+
+use std::f64::consts::TAU;
+
+use selvedge_foundation::named;
+
+use crate::RenderError;
+
+/// Frequencies that a carrier may have, Hz.
+pub const CARRIER_HZ: [f64; 2] = [10.0, 1000.0];
+/// The largest voltage, peak to peak, V.
+pub const MAX_V: f64 = 255.0;
+/// The largest amplification, V: four times what listeners chose at most.
+pub const MAX_AMPLIFICATION_V: f64 = 1000.0;
+
+named! {
+    /// The shape of the carrier.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Carrier {
+        /// 1 for half a period, then 0: felt more strongly below 60 Hz.
+        Square = "square",
+        /// A sine.
+        Sine = "sine",
+    }
+    /// Its name on the command line and in files.
+    pub fn word;
+}
+
+/// How friction becomes a voltage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Electrovibration {
+    amplification_v: f64,
+    carrier_hz: f64,
+    carrier: Carrier,
+}
+
+/// What people chose for a fabric: Cai et al. (2021), table 3, means of twelve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Preset {
+    /// The fabric.
+    pub name: &'static str,
+    /// Amplification b, V.
+    pub amplification_v: f64,
+    /// Frequency of the carrier, Hz.
+    pub carrier_hz: f64,
+}
+
+/// [`Preset`]s by the authors' names of fabrics: F seen in training, N unseen.
+pub const PRESETS: [Preset; 8] = {
+    const fn preset(name: &'static str, amplification_v: f64, carrier_hz: f64) -> Preset {
+        Preset {
+            name,
+            amplification_v,
+            carrier_hz,
+        }
+    }
+    [
+        preset("velvet (F1)", 216.25, 26.25),
+        preset("chiffon (F5)", 98.33, 45.42),
+        preset("wool (F6)", 133.33, 93.58),
+        preset("linen (F9)", 210.0, 120.83),
+        preset("silk (F10)", 150.83, 293.33),
+        preset("fiber (N1)", 110.42, 57.08),
+        preset("wool (N2)", 146.25, 85.83),
+        preset("silk (N3)", 131.67, 173.33),
+    ]
+};
+
+/// A voltage at a moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Driven {
+    /// The voltage, V.
+    pub v: f64,
+    /// Peak to peak, V.
+    pub peak_to_peak_v: f64,
+    /// Whether the limit took something away, or friction was none (negative, not a number).
+    pub is_limited: bool,
+}
+
+impl Electrovibration {
+    /// An amplification in V and a carrier.
+    ///
+    /// # Errors
+    /// An amplification outside 0 … [`MAX_AMPLIFICATION_V`], a frequency outside [`CARRIER_HZ`].
+    pub fn new(
+        amplification_v: f64,
+        carrier_hz: f64,
+        carrier: Carrier,
+    ) -> Result<Self, RenderError> {
+        let refused = |key, value, mend| Err(RenderError::Drive { key, value, mend });
+        if !(0.0..=MAX_AMPLIFICATION_V).contains(&amplification_v) {
+            return refused("the amplification", amplification_v, "give 0 to 1000 V");
+        }
+        let [low, high] = CARRIER_HZ;
+        if !(low..=high).contains(&carrier_hz) {
+            return refused("the carrier", carrier_hz, "give 10 to 1000 Hz");
+        }
+        Ok(Self {
+            amplification_v,
+            carrier_hz,
+            carrier,
+        })
+    }
+
+    /// The voltage at a time, s, where the coefficient of friction is `mu`.
+    pub fn driven(&self, mu: f64, t_s: f64) -> Driven {
+        let wanted_v = self.amplification_v * mu;
+        // Also what is not a number.
+        let is_friction = mu >= 0.0 && wanted_v.is_finite();
+        let peak_to_peak_v = if is_friction {
+            wanted_v.min(MAX_V)
+        } else {
+            0.0
+        };
+        let turn = (self.carrier_hz * t_s).rem_euclid(1.0);
+        let carrier = match self.carrier {
+            Carrier::Square if turn < 0.5 => 1.0,
+            Carrier::Square => 0.0,
+            Carrier::Sine => 0.5 * (TAU * turn).sin(),
+        };
+        Driven {
+            v: if t_s.is_finite() {
+                peak_to_peak_v * carrier
+            } else {
+                0.0
+            },
+            peak_to_peak_v,
+            is_limited: !is_friction || wanted_v > MAX_V,
+        }
+    }
+}
+
+/// Where voltages go: a screen's driver, or a simulated one.
+pub trait VoltageSink {
+    /// Takes a voltage, V, for a time, s. Voltages come in order, within ±[`MAX_V`].
+    fn hold(&mut self, v: f64, time_s: f64);
+}
+
+/// A simulated screen under a finger: two plates, of which the skin slides on one.
+///
+/// `F = ½ ε₀ A (V / g)²` with the gap `g = d₁/ε₁ + d₂ + d₃/ε₃` of insulator, air between the skin's
+/// ridges and outer skin, and friction µ (N + F). Charge that leaks through the skin at low
+/// frequencies is left out. The thicknesses are assumed: 1 µm of glass film (ε 3.9), 3 µm of air,
+/// 0.2 mm of moist skin (ε 1000); 100 V then pull by 0.37 N.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedScreen {
+    /// How hard the finger presses, N.
+    pub press_n: f64,
+    /// Coefficient of friction of skin on the bare screen.
+    pub bare_mu: f64,
+    time_s: f64,
+    /// Time, s, and friction, N, of everything held.
+    felt: Vec<[f64; 2]>,
+}
+
+/// Area of contact, m².
+const CONTACT_M2: f64 = 1e-4;
+/// ε₀, F/m.
+const VACUUM_F_PER_M: f64 = 8.854e-12;
+/// Thickness over permittivity of the layers, m.
+const GAP_M: f64 = 1e-6 / 3.9 + 3e-6 + 2e-4 / 1000.0;
+
+impl SimulatedScreen {
+    /// A finger that presses so hard.
+    pub fn new(press_n: f64, bare_mu: f64) -> Self {
+        Self {
+            press_n,
+            bare_mu,
+            time_s: 0.0,
+            felt: Vec::new(),
+        }
+    }
+
+    /// By how much the screen pulls at a voltage, N.
+    pub fn pull_n(v: f64) -> f64 {
+        0.5 * VACUUM_F_PER_M * CONTACT_M2 * (v / GAP_M).powi(2)
+    }
+
+    /// Time, s, and friction, N, of everything held so far.
+    pub fn felt(&self) -> &[[f64; 2]] {
+        &self.felt
+    }
+}
+
+impl VoltageSink for SimulatedScreen {
+    fn hold(&mut self, v: f64, time_s: f64) {
+        let friction_n = self.bare_mu * (self.press_n + Self::pull_n(v));
+        self.felt.push([self.time_s, friction_n]);
+        self.time_s += time_s;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_foundation::numerics::RealTransform;
+
+    fn wave(carrier: Carrier) -> Electrovibration {
+        Electrovibration::new(120.0, 100.0, carrier).unwrap()
+    }
+
+    #[test]
+    fn a_voltage_is_amplification_times_friction_times_carrier() {
+        let square = wave(Carrier::Square);
+        assert_eq!(square.driven(0.5, 0.0).v, 60.0);
+        assert_eq!(square.driven(0.5, 0.006).v, 0.0);
+        let sine = wave(Carrier::Sine);
+        assert!((sine.driven(0.5, 0.0025).v - 30.0).abs() < 1e-9);
+        assert!((sine.driven(0.5, 0.0075).v + 30.0).abs() < 1e-9);
+        assert!(!sine.driven(0.5, 0.1).is_limited);
+    }
+
+    #[test]
+    fn nothing_leaves_the_limits() {
+        let loud = Electrovibration::new(MAX_AMPLIFICATION_V, 10.0, Carrier::Square).unwrap();
+        for (mu, v) in [(0.255, 255.0), (0.3, 255.0), (0.0, 0.0), (1e300, 255.0)] {
+            let driven = loud.driven(mu, 0.0);
+            assert_eq!((driven.v, driven.is_limited), (v, mu > 0.2551), "{mu}");
+        }
+        for mu in [f64::NAN, -0.1, f64::INFINITY] {
+            let driven = loud.driven(mu, 0.0);
+            assert_eq!((driven.v, driven.is_limited), (0.0, true), "{mu}");
+        }
+        assert_eq!(loud.driven(0.1, f64::NAN).v, 0.0);
+        for (b, hz) in [
+            (-1.0, 50.0),
+            (f64::NAN, 50.0),
+            (1001.0, 50.0),
+            (1.0, 9.9),
+            (1.0, 1000.1),
+        ] {
+            assert!(
+                Electrovibration::new(b, hz, Carrier::Sine).is_err(),
+                "{b}, {hz}"
+            );
+        }
+        for preset in PRESETS {
+            let made =
+                Electrovibration::new(preset.amplification_v, preset.carrier_hz, Carrier::Square);
+            assert!(made.is_ok(), "{}", preset.name);
+        }
+    }
+
+    #[test]
+    fn a_sine_is_felt_at_twice_its_frequency_and_a_square_at_its_own() {
+        for (carrier, hz) in [(Carrier::Sine, 200), (Carrier::Square, 100)] {
+            let wave = wave(carrier);
+            let mut screen = SimulatedScreen::new(1.0, 0.3);
+            for sample in 0..10_000 {
+                screen.hold(wave.driven(0.4, 1e-4 * f64::from(sample)).v, 1e-4);
+            }
+            let friction: Vec<f64> = screen.felt().iter().map(|[_, n]| n - 0.3).collect();
+            let mean = friction.iter().sum::<f64>() / 10_000.0;
+            let about: Vec<f64> = friction.iter().map(|n| n - mean).collect();
+            let spectrum = RealTransform::new(10_000).forward(&about);
+            let strongest = (0..spectrum.len())
+                .max_by(|&a, &b| spectrum[a].norm().total_cmp(&spectrum[b].norm()));
+            // A second of samples: bins are 1 Hz apart.
+            assert_eq!(strongest, Some(hz), "{carrier:?}");
+            assert!(mean > 0.0, "{mean}");
+        }
+        let pull_n = SimulatedScreen::pull_n(100.0);
+        assert!((0.3..0.45).contains(&pull_n), "{pull_n}");
+    }
+}

@@ -1,0 +1,128 @@
+//! `selvedge friction`, run as a user runs it.
+
+use selvedge_foundation::files::{GrayImage, encode_gray_png, gray_values};
+
+use crate::program::Lab;
+
+/// A cloth of threads 0.6 mm apart, 60 mm x 12 mm at 10 px/mm.
+fn cloth() -> Vec<u8> {
+    let turn = std::f64::consts::TAU;
+    let values = (0..600 * 120_u32).map(|i| {
+        let [x, y] = [f64::from(i % 600), f64::from(i / 600)];
+        0.5 + 0.2 * (turn * x / 6.0).cos() + 0.15 * (turn * y / 7.0).cos()
+    });
+    let picture = GrayImage {
+        width: 600,
+        height: 120,
+        values: gray_values(values),
+        white: u16::MAX,
+        texts: Vec::new(),
+    };
+    encode_gray_png(&picture, "cloth.png".as_ref()).unwrap()
+}
+
+#[test]
+fn a_picture_becomes_a_trace_of_friction_and_says_how_sure_it_is() {
+    let lab = Lab::new();
+    lab.write("cloth.png", cloth());
+    let generate = |more: &[&str]| {
+        let args = ["friction", "generate", "cloth.png", "--px-per-mm", "10"];
+        lab.run(&[&args, more].concat())
+    };
+    let ran = generate(&["--out", "f.csv", "--spectrogram", "s.png"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("mean friction 0."), "{}", ran.err);
+    let table = lab.read("f.csv");
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("x_mm,mu"));
+    let mu: Vec<f64> = lines
+        .map(|l| l.split_once(',').unwrap().1.parse().unwrap())
+        .collect();
+    assert_eq!(mu.len(), 768);
+    assert!(mu.iter().all(|mu| (0.05..1.5).contains(mu)), "{mu:?}");
+    assert!(lab.path("s.png").exists());
+    // The same again, and beside itself.
+    for more in [
+        &["--out", "again.csv"] as &[&str],
+        &["--towards", "cloth.png", "--out", "again.csv"],
+    ] {
+        assert_eq!(generate(more).code, 0);
+        let again = lab.read("again.csv");
+        let other: Vec<f64> = again
+            .lines()
+            .skip(1)
+            .map(|l| l.split_once(',').unwrap().1.parse().unwrap())
+            .collect();
+        let far = mu
+            .iter()
+            .zip(&other)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        assert!(far < 1e-4, "{far}");
+    }
+}
+
+#[test]
+fn what_is_no_picture_or_shows_too_little_is_refused_in_one_line() {
+    let lab = Lab::new();
+    lab.write("cloth.png", cloth());
+    lab.write("empty.png", Vec::new());
+    lab.write("words.png", b"no picture");
+    let cases: [(&[&str], &str); 6] = [
+        (
+            &["cloth.png", "--px-per-mm", "20"],
+            "at least 40 mm x 10 mm",
+        ),
+        (&["cloth.png", "--px-per-mm", "0"], "give a number above 0"),
+        (
+            &["cloth.png", "--px-per-mm", "NaN"],
+            "give a number above 0",
+        ),
+        (&["empty.png", "--px-per-mm", "10"], "empty.png"),
+        (&["words.png", "--px-per-mm", "10"], "words.png"),
+        (&["none.png", "--px-per-mm", "10"], "none.png"),
+    ];
+    for (args, said) in cases {
+        let ran = lab.run(&[&["friction", "generate"], args].concat());
+        assert_eq!(ran.code, 2, "{args:?}: {}", ran.err);
+        assert!(ran.err.contains(said), "{args:?}: {}", ran.err);
+    }
+}
+
+#[test]
+fn a_short_training_is_kept_told_and_put_into_a_table() {
+    let lab = Lab::new();
+    let train = [
+        "friction", "train", "--out", "runs", "--split", "C", "--cloths", "1", "--rounds", "1",
+    ];
+    let ran = lab.run(&train);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let name = "ours-C-1-cloths-1-rounds-1";
+    assert!(
+        ran.err.contains(&format!("{name}: round 1 of 1")),
+        "{}",
+        ran.err
+    );
+    let rounds = lab.read(&format!("runs/{name}.rounds.csv"));
+    assert_eq!(rounds.lines().count(), 2, "{rounds}");
+    let again = lab.run(&train);
+    assert!(
+        again.err.contains(&format!("{name} is finished")),
+        "{}",
+        again.err
+    );
+    let evaluate = [
+        "friction",
+        "evaluate",
+        "--out",
+        "runs",
+        "--splits",
+        "C",
+        "--only-finished",
+    ];
+    let told = lab.print(&evaluate);
+    assert!(told.starts_with("C: unseen places"), "{told}");
+    // A shorter lesson is no row of the table.
+    assert!(told.contains("not run: ours, seeds 1 2 3:"), "{told}");
+    assert_eq!(lab.read("runs/table.csv").lines().count(), 1);
+}
