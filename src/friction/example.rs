@@ -17,8 +17,6 @@ pub(crate) const SHORT_WINDOW: usize = 512;
 const TRACE: usize = 1984;
 /// Pixels of a side of the picture that networks of whole pictures see.
 pub(crate) const SQUARE: usize = 512;
-/// Cloths of each family that are learnt from.
-pub const N_CLOTHS: usize = 150;
 /// Seed of the first cloth that is held back.
 const HELD_BACK: u64 = 10_000;
 /// Strokes that the best possible prediction is the mean of.
@@ -151,8 +149,11 @@ impl Example {
 }
 
 impl Split {
+    /// Cloths of each family that are learnt from.
+    pub const N_CLOTHS: usize = 150;
+
     /// Windows to learn from, and those that are held back. `scale` cloths of each family are
-    /// learnt from ([`N_CLOTHS`] is what results are told of), a quarter of that held back, at most
+    /// learnt from ([`Self::N_CLOTHS`] is what results are told of), a quarter of that held back, at most
     /// 20; those do not depend on how many are learnt from.
     pub(crate) fn windows(self, scale: usize) -> [Vec<Window>; 2] {
         let n_held_back = (scale / 4).clamp(1, 20);

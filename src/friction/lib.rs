@@ -30,11 +30,8 @@ mod score;
 mod signal;
 
 pub use baseline::Baseline;
-pub use cloth::PER_MM;
 pub use error::FrictionError;
-pub use example::{N_CLOTHS, Split};
-pub use network::{AdversarialLoss, Lesson, Method, Size};
+pub use example::Split;
+pub use network::{AdversarialLoss, Lesson, Method};
 pub use predict::{PredictedFriction, Predictor};
-pub use runs::{Contestant, Run, Scores, Taken, mean, over_seeds, seeds};
-pub use score::{MEASURES, Measure};
-pub use signal::Course;
+pub use runs::{Contestant, Run, Scores, Taken};

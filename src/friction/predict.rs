@@ -30,14 +30,21 @@ pub struct Predictor {
 /// Friction along a strip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictedFriction {
-    /// Coefficient of friction, [`PER_MM`] a millimetre.
+    /// Coefficient of friction, [`Self::PER_MM`] a millimetre.
     pub mu: Vec<f64>,
-    /// What it was put together from.
-    pub course: Course,
+    /// Its mean.
+    pub level: f64,
+    /// Log magnitudes of its detrended spectra: a row a frame of a centimetre, a column a bin.
+    pub log_magnitudes: Grid<f32>,
     /// The level may be so far off, either way, in 95 of 100 cloths like those that were learnt.
     pub level_within: f64,
     /// For bands of wavenumbers (from, to, cycles/mm): how far magnitudes may be off, dB.
     pub bands: Vec<[f64; 3]>,
+}
+
+impl PredictedFriction {
+    /// Samples of [`Self::mu`] to a millimetre.
+    pub const PER_MM: f64 = PER_MM;
 }
 
 impl Predictor {
@@ -120,7 +127,8 @@ fn together(courses: &[Course]) -> PredictedFriction {
         mu: course.trace(n_samples, None),
         level_within: WIDE * (of_level * course.level).hypot(spread.sqrt()),
         bands: bands(courses, &course),
-        course,
+        level: course.level,
+        log_magnitudes: course.log_magnitudes,
     }
 }
 
@@ -181,10 +189,19 @@ mod tests {
 
     #[test]
     fn the_shipped_networks_reach_the_score_that_is_recorded_of_them() {
-        let windows: Vec<_> = Split::Cloths.windows(80)[1].iter().step_by(4).copied().collect();
+        let windows: Vec<_> = Split::Cloths.windows(80)[1]
+            .iter()
+            .step_by(4)
+            .copied()
+            .collect();
         let predictor = Predictor::shipped().unwrap();
         let examples = all_taken(&windows, 2);
-        let column = |name: &str| MEASURES.iter().position(|m| m.column == name).unwrap();
+        let column = |name: &str| {
+            MEASURES
+                .iter()
+                .position(|measure| *measure == name)
+                .unwrap()
+        };
         let measures = ["log_spectral_distance_db", "level_error_percent"].map(column);
         let mut mean = [0.0; 2];
         let mut squares = 0.0;
@@ -198,7 +215,11 @@ mod tests {
                 *sum += found[measure] / examples.len() as f64;
             }
         }
-        let far = mean.iter().zip(RECORDED).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let far = mean
+            .iter()
+            .zip(RECORDED)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         assert!(far < 1e-3, "{mean:?}, level {} rms", squares.sqrt());
     }
 

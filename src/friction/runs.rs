@@ -12,21 +12,43 @@ use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
 use crate::baseline::Baseline;
-use crate::example::{Example, N_CLOTHS, Split, all_taken};
+use crate::example::{Example, Split, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
 use crate::score::{MEASURES, Prediction, score};
 
-/// Scores of held-back windows by [`MEASURES`].
-pub type Scores = Vec<[f64; MEASURES.len()]>;
+/// Scores of held-back windows, each by [`Self::COLUMNS`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scores(Vec<[f64; Self::N]>);
 
-/// Which seeds a method is run with on a split, for the table.
-pub fn seeds(method: Method, split: Split) -> std::ops::RangeInclusive<u64> {
-    let n = match (method, split) {
-        (Method::Ours, Split::Cloths) => 5,
-        (Method::Ours, _) | (Method::FrictGan, Split::Cloths) => 3,
-        (Method::FrictGan | Method::OursAdversarial, _) => 1,
-    };
-    1..=n
+impl Scores {
+    /// Measures of a window.
+    pub const N: usize = MEASURES.len();
+    /// Their names, with units, as columns of files.
+    pub const COLUMNS: [&str; Self::N] = MEASURES;
+
+    /// Each measure's mean over the windows.
+    pub fn mean(&self) -> [f64; Self::N] {
+        let n = self.0.len().max(1) as f64;
+        let mut mean = [0.0; Self::N];
+        for scores in &self.0 {
+            for (sum, score) in mean.iter_mut().zip(scores) {
+                *sum += score / n;
+            }
+        }
+        mean
+    }
+}
+
+impl Method {
+    /// Which seeds it is run with on a split, for the table.
+    pub fn seeds(self, split: Split) -> std::ops::RangeInclusive<u64> {
+        let n = match (self, split) {
+            (Self::Ours, Split::Cloths) => 5,
+            (Self::Ours, _) | (Self::FrictGan, Split::Cloths) => 3,
+            (Self::FrictGan | Self::OursAdversarial, _) => 1,
+        };
+        1..=n
+    }
 }
 
 /// A method that is scored on a split.
@@ -45,7 +67,7 @@ pub struct Run<'a> {
     pub contestant: Contestant,
     /// What is held back.
     pub split: Split,
-    /// Cloths of each family that are learnt from, [`N_CLOTHS`] for the table.
+    /// Cloths of each family that are learnt from, [`Split::N_CLOTHS`] for the table.
     pub n_cloths: usize,
     /// Where it is kept.
     pub folder: &'a Path,
@@ -84,7 +106,9 @@ impl Run<'_> {
         let mut parts = vec![lesson.method.word().to_owned(), split.to_owned()];
         parts.push(lesson.seed.to_string());
         parts.extend((lesson.loss != usual.loss).then(|| lesson.loss.word().to_owned()));
-        parts.extend((self.n_cloths != N_CLOTHS).then(|| format!("cloths-{}", self.n_cloths)));
+        parts.extend(
+            (self.n_cloths != Split::N_CLOTHS).then(|| format!("cloths-{}", self.n_cloths)),
+        );
         let n_rounds = lesson.n_rounds;
         parts.extend((n_rounds != usual.n_rounds).then(|| format!("rounds-{n_rounds}")));
         parts.join("-")
@@ -104,21 +128,16 @@ impl Run<'_> {
             return Ok(None);
         }
         let table = Table::read(&read_text(&path)?, &path, &Self::header(), &[])?;
-        let columns: Result<Vec<Vec<f64>>, FileError> = MEASURES
-            .iter()
-            .map(|measure| table.required_numbers(measure.column))
-            .collect();
+        let columns = MEASURES.map(|measure| table.required_numbers(measure));
+        let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
         let columns = columns?;
         let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
-        Ok(Some((0..table.n_rows()).map(row).collect()))
+        Ok(Some(Scores((0..table.n_rows()).map(row).collect())))
     }
 
     fn header() -> Vec<&'static str> {
-        let measures = MEASURES.iter().map(|measure| measure.column);
-        ["family", "seed", "column"]
-            .into_iter()
-            .chain(measures)
-            .collect()
+        let place = ["family", "seed", "column"];
+        place.into_iter().chain(MEASURES).collect()
     }
 
     /// Runs it to its end, from where it was broken off, and keeps what comes out.
@@ -140,8 +159,8 @@ impl Run<'_> {
                 let learning = self.learnt(lesson, &taken.learnt, progress, said)?;
                 let network = learning.network();
                 let scores = scored(taken, progress, &|example| network.predict(example))?;
-                if let Some(ours) = network.into_ours() {
-                    write_atomic(&self.file("weights"), &ours.weights().to_bytes())?;
+                if let Some(weights) = network.weights() {
+                    write_atomic(&self.file("weights"), &weights.to_bytes())?;
                 }
                 scores
             }
@@ -196,7 +215,7 @@ impl Run<'_> {
     fn keep(&self, taken: &Taken, scores: &Scores) -> Result<(), FrictionError> {
         let path = self.file("scores.csv");
         let mut table = TableWriter::new(Vec::new(), &path, &Self::header())?;
-        for (example, scores) in taken.held_back.iter().zip(scores) {
+        for (example, scores) in taken.held_back.iter().zip(&scores.0) {
             let window = &example.window;
             table
                 .text(window.family.word())
@@ -223,32 +242,7 @@ fn scored(
         step.map_err(|_stopped| FrictionError::Cancelled)?;
         scores.push(score(&predict(example), &example.trace));
     }
-    Ok(scores)
-}
-
-/// Mean of a run over its held-back windows.
-pub fn mean(scores: &Scores) -> [f64; MEASURES.len()] {
-    let n = scores.len().max(1) as f64;
-    let mut mean = [0.0; MEASURES.len()];
-    for scores in scores {
-        mean.iter_mut()
-            .zip(scores)
-            .for_each(|(sum, score)| *sum += score / n);
-    }
-    mean
-}
-
-/// Mean and standard deviation (0 of a single run) of runs with other seeds.
-pub fn over_seeds(runs: &[[f64; MEASURES.len()]]) -> [[f64; 2]; MEASURES.len()] {
-    let n = runs.len() as f64;
-    std::array::from_fn(|measure| {
-        let mean = runs.iter().map(|run| run[measure]).sum::<f64>() / n;
-        let squares = runs
-            .iter()
-            .map(|run| (run[measure] - mean).powi(2))
-            .sum::<f64>();
-        [mean, (squares / (n - 1.0).max(1.0)).sqrt()]
-    })
+    Ok(Scores(scores))
 }
 
 #[cfg(test)]

@@ -47,35 +47,22 @@ impl Prediction {
     }
 }
 
-/// A measure: its name in a table's head, its column in a file, its unit there.
-#[derive(Debug, Clone, Copy)]
-pub struct Measure {
-    /// Its name.
-    pub name: &'static str,
-    /// Its column in files.
-    pub column: &'static str,
-    /// Its unit; empty for a plain number.
-    pub unit: &'static str,
-}
-
-const fn measure(name: &'static str, column: &'static str, unit: &'static str) -> Measure {
-    Measure { name, column, unit }
-}
-
-/// What is measured; all but the ratio of deviations and the correlation are best at 0.
-pub const MEASURES: [Measure; 11] = [
-    measure("spectrogram RMSE", "spectrogram_rmse", ""),
-    measure("spectrogram MAE", "spectrogram_mae", ""),
-    measure("signal RMSE", "signal_rmse", ""),
-    measure("signal MAE", "signal_mae", ""),
-    measure("signal RMSE", "signal_rmse_percent", "% of mean"),
-    measure("level error", "level_error_percent", "%"),
-    measure("ratio of deviations", "deviation_ratio", ""),
-    measure("log-spectral distance", "log_spectral_distance_db", "dB"),
-    measure("band energy error", "band_energy_error_db", "dB"),
-    measure("dominant period error", "dominant_period_error_mm", "mm"),
-    measure("correlation", "correlation", ""),
+/// What is measured, as columns of files; all but the ratio of deviations and the correlation are
+/// best at 0.
+pub(crate) const MEASURES: [&str; 11] = [
+    "spectrogram_rmse",
+    "spectrogram_mae",
+    "signal_rmse",
+    "signal_mae",
+    "signal_rmse_percent",
+    "level_error_percent",
+    "deviation_ratio",
+    "log_spectral_distance_db",
+    "band_energy_error_db",
+    "dominant_period_error_mm",
+    "correlation",
 ];
+
 /// A prediction against the trace that was felt, by each of [`MEASURES`].
 pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len()] {
     let truth = Prediction::of_trace(felt.to_vec());
@@ -198,7 +185,7 @@ mod tests {
         let perfect = score(&Prediction::of_trace(felt.clone()), felt);
         let expected = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         for ((found, expected), measure) in perfect.iter().zip(expected).zip(MEASURES) {
-            assert!((found - expected).abs() < 1e-9, "{}: {found}", measure.name);
+            assert!((found - expected).abs() < 1e-9, "{measure}: {found}");
         }
         let level = example.course.level;
         let flat = score(&Prediction::of_trace(vec![1.02 * level; felt.len()]), felt);

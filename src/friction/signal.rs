@@ -22,7 +22,7 @@ const PHASE_SEED: u64 = 1984;
 
 /// What is learnt and predicted of a trace.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub(crate) struct Course {
     /// Mean coefficient of friction.
     pub level: f64,
     /// What is added to it slowly, at the middle of each frame.
@@ -38,7 +38,7 @@ pub(crate) fn spectra() -> Stft {
 
 impl Course {
     /// A trace taken apart.
-    pub fn of(trace: &[f64]) -> Self {
+    pub(crate) fn of(trace: &[f64]) -> Self {
         let slow = Slow::of(trace);
         let stft = spectra();
         let rest: Vec<f64> = (0..trace.len())
@@ -53,14 +53,14 @@ impl Course {
     }
 
     /// Magnitudes of the rest.
-    pub fn magnitudes(&self) -> Grid<f64> {
+    pub(crate) fn magnitudes(&self) -> Grid<f64> {
         self.log_magnitudes
             .map(|log| MAGNITUDE_SCALE * f64::from(log).exp_m1().max(0.0))
     }
 
     /// A trace of `n_samples` with this level, trend and rest, never below 0: what the spectra leave
     /// open, the phases, is found by rounds of projection from `phases`, or else from fixed ones.
-    pub fn trace(&self, n_samples: usize, phases: Option<StartPhases<'_>>) -> Vec<f64> {
+    pub(crate) fn trace(&self, n_samples: usize, phases: Option<StartPhases<'_>>) -> Vec<f64> {
         let start = phases.unwrap_or(StartPhases::Random(PHASE_SEED));
         let stft = spectra();
         let rest = stft.griffin_lim(&self.magnitudes(), n_samples, start, GriffinLim::default());
@@ -73,7 +73,7 @@ impl Course {
     }
 
     /// The magnitudes of the whole trace, mean and trend included, as the paper's spectrograms are.
-    pub fn whole_magnitudes(&self, n_samples: usize) -> Grid<f64> {
+    pub(crate) fn whole_magnitudes(&self, n_samples: usize) -> Grid<f64> {
         let slow = Slow::through(self.level, &self.trend, n_samples);
         let slow: Vec<f64> = (0..n_samples).map(|at| slow.at(at as f64)).collect();
         let slow = spectra().forward(&slow);

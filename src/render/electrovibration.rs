@@ -14,13 +14,6 @@ use selvedge_foundation::named;
 
 use crate::RenderError;
 
-/// Frequencies that a carrier may have, Hz.
-pub const CARRIER_HZ: [f64; 2] = [10.0, 1000.0];
-/// The largest voltage, peak to peak, V.
-pub const MAX_V: f64 = 255.0;
-/// The largest amplification, V: four times what listeners chose at most.
-pub const MAX_AMPLIFICATION_V: f64 = 1000.0;
-
 named! {
     /// The shape of the carrier.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,38 +35,6 @@ pub struct Electrovibration {
     carrier: Carrier,
 }
 
-/// What people chose for a fabric: Cai et al. (2021), table 3, means of twelve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Preset {
-    /// The fabric.
-    pub name: &'static str,
-    /// Amplification b, V.
-    pub amplification_v: f64,
-    /// Frequency of the carrier, Hz.
-    pub carrier_hz: f64,
-}
-
-/// [`Preset`]s by the authors' names of fabrics: F seen in training, N unseen.
-pub const PRESETS: [Preset; 8] = {
-    const fn preset(name: &'static str, amplification_v: f64, carrier_hz: f64) -> Preset {
-        Preset {
-            name,
-            amplification_v,
-            carrier_hz,
-        }
-    }
-    [
-        preset("velvet (F1)", 216.25, 26.25),
-        preset("chiffon (F5)", 98.33, 45.42),
-        preset("wool (F6)", 133.33, 93.58),
-        preset("linen (F9)", 210.0, 120.83),
-        preset("silk (F10)", 150.83, 293.33),
-        preset("fiber (N1)", 110.42, 57.08),
-        preset("wool (N2)", 146.25, 85.83),
-        preset("silk (N3)", 131.67, 173.33),
-    ]
-};
-
 /// A voltage at a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Driven {
@@ -86,20 +47,49 @@ pub struct Driven {
 }
 
 impl Electrovibration {
+    /// Frequencies that a carrier may have, Hz.
+    pub const CARRIER_HZ: [f64; 2] = [10.0, 1000.0];
+    /// The largest voltage, peak to peak, V.
+    pub const MAX_V: f64 = 255.0;
+    /// The largest amplification, V: four times what listeners chose at most.
+    pub const MAX_AMPLIFICATION_V: f64 = 1000.0;
+    /// What people chose for a fabric, with square carriers: Cai et al. (2021), table 3, means of
+    /// twelve; by the authors' names, F seen in training, N unseen.
+    pub const PRESETS: [(&str, Self); 8] = {
+        const fn of(amplification_v: f64, carrier_hz: f64) -> Electrovibration {
+            Electrovibration {
+                amplification_v,
+                carrier_hz,
+                carrier: Carrier::Square,
+            }
+        }
+        [
+            ("velvet (F1)", of(216.25, 26.25)),
+            ("chiffon (F5)", of(98.33, 45.42)),
+            ("wool (F6)", of(133.33, 93.58)),
+            ("linen (F9)", of(210.0, 120.83)),
+            ("silk (F10)", of(150.83, 293.33)),
+            ("fiber (N1)", of(110.42, 57.08)),
+            ("wool (N2)", of(146.25, 85.83)),
+            ("silk (N3)", of(131.67, 173.33)),
+        ]
+    };
+
     /// An amplification in V and a carrier.
     ///
     /// # Errors
-    /// An amplification outside 0 … [`MAX_AMPLIFICATION_V`], a frequency outside [`CARRIER_HZ`].
+    /// An amplification outside 0 … [`Self::MAX_AMPLIFICATION_V`], a frequency outside
+    /// [`Self::CARRIER_HZ`].
     pub fn new(
         amplification_v: f64,
         carrier_hz: f64,
         carrier: Carrier,
     ) -> Result<Self, RenderError> {
         let refused = |key, value, mend| Err(RenderError::Drive { key, value, mend });
-        if !(0.0..=MAX_AMPLIFICATION_V).contains(&amplification_v) {
+        if !(0.0..=Self::MAX_AMPLIFICATION_V).contains(&amplification_v) {
             return refused("the amplification", amplification_v, "give 0 to 1000 V");
         }
-        let [low, high] = CARRIER_HZ;
+        let [low, high] = Self::CARRIER_HZ;
         if !(low..=high).contains(&carrier_hz) {
             return refused("the carrier", carrier_hz, "give 10 to 1000 Hz");
         }
@@ -116,7 +106,7 @@ impl Electrovibration {
         // Also what is not a number.
         let is_friction = mu >= 0.0 && wanted_v.is_finite();
         let peak_to_peak_v = if is_friction {
-            wanted_v.min(MAX_V)
+            wanted_v.min(Self::MAX_V)
         } else {
             0.0
         };
@@ -133,14 +123,14 @@ impl Electrovibration {
                 0.0
             },
             peak_to_peak_v,
-            is_limited: !is_friction || wanted_v > MAX_V,
+            is_limited: !is_friction || wanted_v > Self::MAX_V,
         }
     }
 }
 
 /// Where voltages go: a screen's driver, or a simulated one.
 pub trait VoltageSink {
-    /// Takes a voltage, V, for a time, s. Voltages come in order, within ±[`MAX_V`].
+    /// Takes a voltage, V, for a time, s. Voltages come in order, within ±[`Electrovibration::MAX_V`].
     fn hold(&mut self, v: f64, time_s: f64);
 }
 
@@ -220,7 +210,9 @@ mod tests {
 
     #[test]
     fn nothing_leaves_the_limits() {
-        let loud = Electrovibration::new(MAX_AMPLIFICATION_V, 10.0, Carrier::Square).unwrap();
+        let loud =
+            Electrovibration::new(Electrovibration::MAX_AMPLIFICATION_V, 10.0, Carrier::Square)
+                .unwrap();
         for (mu, v) in [(0.255, 255.0), (0.3, 255.0), (0.0, 0.0), (1e300, 255.0)] {
             let driven = loud.driven(mu, 0.0);
             assert_eq!((driven.v, driven.is_limited), (v, mu > 0.2551), "{mu}");
@@ -242,10 +234,10 @@ mod tests {
                 "{b}, {hz}"
             );
         }
-        for preset in PRESETS {
+        for (name, preset) in Electrovibration::PRESETS {
             let made =
                 Electrovibration::new(preset.amplification_v, preset.carrier_hz, Carrier::Square);
-            assert!(made.is_ok(), "{}", preset.name);
+            assert_eq!(made.unwrap(), preset, "{name}");
         }
     }
 

@@ -12,8 +12,7 @@ use crate::usage::one_of;
 use selvedge_foundation::numerics::n_threads;
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{
-    Baseline, Contestant, FrictionError, Lesson, MEASURES, Method, N_CLOTHS, Run, Scores, Split,
-    Taken, mean, over_seeds, seeds,
+    Baseline, Contestant, FrictionError, Lesson, Method, Run, Scores, Split, Taken,
 };
 
 /// Which runs are put together.
@@ -35,15 +34,15 @@ pub(crate) struct EvaluateArgs {
 struct Row {
     name: &'static str,
     n_runs: usize,
-    measures: [[f64; 2]; MEASURES.len()],
+    measures: [[f64; 2]; Scores::N],
 }
 
 pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     folder(&args.out)?;
     let path = args.out.join("table.csv");
-    let measures = MEASURES
-        .iter()
-        .flat_map(|m| [m.column.to_owned(), format!("{}_sd", m.column)]);
+    let measures = Scores::COLUMNS
+        .into_iter()
+        .flat_map(|column| [column.to_owned(), format!("{column}_sd")]);
     let header: Vec<String> = ["split", "method", "runs"]
         .map(str::to_owned)
         .into_iter()
@@ -98,7 +97,7 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
     let run = |contestant| Run {
         contestant,
         split,
-        n_cloths: N_CLOTHS,
+        n_cloths: Split::N_CLOTHS,
         folder: &args.out,
     };
     let mut rows = Vec::new();
@@ -106,16 +105,16 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
         rows.push(Row {
             name: baseline.word(),
             n_runs: 1,
-            measures: mean(&scores).map(|mean| [mean, 0.0]),
+            measures: scores.mean().map(|mean| [mean, 0.0]),
         });
     }
     let mut missing = Vec::new();
     for method in Method::ALL {
         let (mut found, mut not_run) = (Vec::new(), Vec::new());
-        for seed in seeds(method, split) {
+        for seed in method.seeds(split) {
             let lesson = Lesson::usual(method, seed);
             match run(Contestant::Network(lesson)).finished()? {
-                Some(scores) => found.push(mean(&scores)),
+                Some(scores) => found.push(scores.mean()),
                 None => not_run.push(seed),
             }
         }
@@ -138,7 +137,7 @@ fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)
     let run = |baseline| Run {
         contestant: Contestant::Baseline(baseline),
         split,
-        n_cloths: N_CLOTHS,
+        n_cloths: Split::N_CLOTHS,
         folder: &args.out,
     };
     let mut found = Vec::new();
@@ -151,13 +150,27 @@ fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)
             let scores = with_meter("evaluate", |progress| -> Result<Scores, FrictionError> {
                 let step = progress.step(0.0, "making pictures of cloth");
                 step.map_err(|_stopped| FrictionError::Cancelled)?;
-                let taken = taken.get_or_insert_with(|| Taken::of(split, N_CLOTHS, n_threads()));
+                let taken =
+                    taken.get_or_insert_with(|| Taken::of(split, Split::N_CLOTHS, n_threads()));
                 run.run(taken, progress, &mut |said| terminal::line(said))
             })??;
             found.push((baseline, scores));
         }
     }
     Ok(found)
+}
+
+/// Mean and standard deviation (0 of a single run) of runs with other seeds.
+fn over_seeds(runs: &[[f64; Scores::N]]) -> [[f64; 2]; Scores::N] {
+    let n = runs.len() as f64;
+    std::array::from_fn(|measure| {
+        let mean = runs.iter().map(|run| run[measure]).sum::<f64>() / n;
+        let squares = runs
+            .iter()
+            .map(|run| (run[measure] - mean).powi(2))
+            .sum::<f64>();
+        [mean, (squares / (n - 1.0).max(1.0)).sqrt()]
+    })
 }
 
 /// What is read first: spectra, level, deviations, the paper's own measures.

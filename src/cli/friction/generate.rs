@@ -11,7 +11,7 @@ use crate::terminal;
 use selvedge_foundation::files::{Rgb8Image, encode_png};
 use selvedge_foundation::numerics::{Grid, extent, to_byte, to_single};
 use selvedge_foundation::quantity::fixed;
-use selvedge_friction::{PER_MM, PredictedFriction, Predictor};
+use selvedge_friction::{PredictedFriction, Predictor};
 
 /// A picture, and where its friction goes.
 #[derive(Debug, Args)]
@@ -49,7 +49,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     };
     let mut table = TableOut::new(args.out.as_deref(), &["x_mm", "mu"])?;
     for (at, mu) in found.mu.iter().enumerate() {
-        let x_mm = at as f64 / PER_MM;
+        let x_mm = at as f64 / PredictedFriction::PER_MM;
         table.rows().number(x_mm).number(mu).end_row()?;
     }
     table.finish()?;
@@ -76,12 +76,11 @@ fn brightness(image: &Path) -> Result<Grid<f32>, CliError> {
 
 /// How sure this is.
 fn describe(found: &PredictedFriction) -> String {
-    let level = found.course.level;
     let worst = found.bands.iter().map(|[.., db]| *db).fold(0.0, f64::max);
     format!(
         "mean friction {} ± {} (95 % of cloths like those that were learnt: procedural ones), \
          spectrum within {} dB a bin; a picture tells little of an unseen material's friction",
-        fixed(level, 3),
+        fixed(found.level, 3),
         fixed(found.level_within, 3),
         fixed(worst, 1)
     )
@@ -92,7 +91,7 @@ const WIDE: usize = 16;
 
 /// Log magnitudes, dark to light, lowest row at the bottom.
 fn spectrogram(found: &PredictedFriction) -> Rgb8Image {
-    let log = &found.course.log_magnitudes;
+    let log = &found.log_magnitudes;
     let [low, high] = extent(log.values().iter().map(|&log| f64::from(log)));
     let shade = |value: f32| to_byte(255.0 * (f64::from(value) - low) / (high - low).max(1e-9));
     let (n_bins, n_frames) = (log.width(), log.height());

@@ -10,7 +10,7 @@ use crate::terminal::{self, with_meter};
 use crate::usage::one_of;
 use selvedge_foundation::numerics::n_threads;
 use selvedge_friction::{
-    AdversarialLoss, Contestant, FrictionError, Lesson, Method, N_CLOTHS, Run, Split, Taken,
+    AdversarialLoss, Contestant, FrictionError, Lesson, Method, Run, Split, Taken,
 };
 
 /// What is trained, and where it is kept.
@@ -38,7 +38,7 @@ pub(crate) struct TrainArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
     /// Cloths of each family that are learnt from
-    #[arg(long, value_name = "N", default_value_t = N_CLOTHS as u32,
+    #[arg(long, value_name = "N", default_value_t = Split::N_CLOTHS as u32,
         value_parser = clap::value_parser!(u32).range(1..=5000))]
     cloths: u32,
 }
@@ -46,12 +46,10 @@ pub(crate) struct TrainArgs {
 pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
     folder(&args.out)?;
     let lesson = |seed: u64| {
-        let usual = Lesson::usual(args.method, seed);
-        Lesson {
-            loss: args.loss,
-            n_rounds: args.rounds.map_or(usual.n_rounds, |n| n as usize),
-            ..usual
-        }
+        let mut lesson = Lesson::usual(args.method, seed);
+        lesson.loss = args.loss;
+        lesson.n_rounds = args.rounds.map_or(lesson.n_rounds, |n| n as usize);
+        lesson
     };
     let run = |seed: u64| Run {
         contestant: Contestant::Network(lesson(seed)),

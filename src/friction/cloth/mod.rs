@@ -22,7 +22,7 @@ pub(crate) use recipe::{Family, Recipe};
 use selvedge_foundation::numerics::Grid;
 
 /// Pixels and samples a millimetre: 1280 along 100 mm, as Cai et al. (2021) have them.
-pub const PER_MM: f64 = 12.8;
+pub(crate) const PER_MM: f64 = 12.8;
 
 /// A part of a cloth, in samples of [`PER_MM`]: the first column and row, their numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

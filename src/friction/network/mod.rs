@@ -10,16 +10,21 @@
 //! Everything runs on one thread and draws from generators of its own: a lesson gives the same
 //! bytes whatever else runs beside it.
 
+mod checkpoint;
 mod critic;
 mod frictgan;
+mod gan;
 mod learn;
+mod lesson;
+mod ours;
 mod registered;
 mod weights;
 
 pub use critic::AdversarialLoss;
-pub(crate) use learn::{Learning, Losses, OurNetwork};
-pub use learn::{Lesson, Method};
-pub use registered::Size;
+pub(crate) use learn::{Learning, Losses};
+pub use lesson::{Lesson, Method};
+pub(crate) use ours::OurNetwork;
+pub(crate) use registered::Size;
 pub(crate) use weights::Weights;
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ const TREND: f64 = 0.01;
 
 /// How large the network is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Size {
+pub(crate) struct Size {
     /// Channels of the convolutions.
     pub width: usize,
     /// Convolutions that add to what is there.
