@@ -12,7 +12,7 @@ use super::identify::{self, IdentifyArgs};
 use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, terminal};
 use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
-use selvedge_engine::{AudioEntry, AudioError, audio_outputs};
+use selvedge_engine::{AudioEntry, AudioError, AudioOutput};
 
 /// What to do with devices.
 #[derive(Debug, Subcommand)]
@@ -88,7 +88,7 @@ fn list() -> Result<(), CliError> {
         format!("{:widest$}  {}\n", port.path, port.description)
     };
     let mut text: String = ports.iter().map(line).collect();
-    match audio_outputs() {
+    match AudioOutput::list() {
         Ok(cards) => text.extend(cards.iter().map(card_line)),
         Err(AudioError::Absent) => {}
         Err(error) => terminal::notice(&error.to_string()),

@@ -3,7 +3,7 @@
 use clap::Subcommand;
 
 use super::{CliError, output, terminal};
-use selvedge_engine::{AxisRange, EngineError, InputDevice, list_input_devices};
+use selvedge_engine::{AxisRange, EngineError, InputDevice};
 use selvedge_foundation::quantity::fixed;
 
 /// What to do with devices that tell places.
@@ -21,7 +21,7 @@ pub(super) fn run(command: &InputCommand) -> Result<(), CliError> {
 }
 
 fn list() -> Result<(), CliError> {
-    let devices = list_input_devices().map_err(EngineError::from)?;
+    let devices = InputDevice::list().map_err(EngineError::from)?;
     if devices.is_empty() {
         terminal::notice(
             "no tablet or touch frame; connect one, or try the mouse in the workbench",

@@ -13,10 +13,7 @@ use selvedge_foundation::files::{self, SquareTable};
 use selvedge_foundation::numerics;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
-use selvedge_statistics::mds::{
-    DEFAULT_STARTS, Dissimilarities, Elbow, LEAST_STARTS_ON_A_LINE, Loss, MOST_DIMENSIONS, Map,
-    Mds, Null, NullKind, Ties,
-};
+use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, NullKind, Ties};
 
 /// The two sides of a pair may differ by this share of the largest: rounding in a file.
 const ROUNDING_SHARE: f64 = 1e-6;
@@ -40,7 +37,7 @@ pub(super) struct MdsArgs {
         value_parser = one_of([("stress1", Loss::Stress1), ("sstress", Loss::SStress)]))]
     loss: Loss,
     /// Starts in two dimensions and more; on a line at least 1000
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_STARTS,
+    #[arg(long, value_name = "N", default_value_t = Mds::DEFAULT_STARTS,
         value_parser = starts)]
     starts: usize,
     /// What random numbers begin with
@@ -70,11 +67,14 @@ fn dimensions(text: &str) -> Result<Dimensions, String> {
     let (least, most) = text.split_once('-').unwrap_or((text, text));
     let number = |part: &str| part.trim().parse::<usize>().ok();
     match (number(least), number(most)) {
-        (Some(least), Some(most)) if (1..=most).contains(&least) && most <= MOST_DIMENSIONS => {
+        (Some(least), Some(most))
+            if (1..=most).contains(&least) && most <= Mds::MOST_DIMENSIONS =>
+        {
             Ok(least..=most)
         }
         _ => Err(format!(
-            "give 1 to {MOST_DIMENSIONS} dimensions, such as 2 or 1-5"
+            "give 1 to {} dimensions, such as 2 or 1-5",
+            Mds::MOST_DIMENSIONS
         )),
     }
 }
@@ -90,7 +90,7 @@ impl MdsArgs {
             ties: self.ties,
             loss: self.loss,
             n_starts: self.starts,
-            n_starts_on_a_line: self.starts.max(LEAST_STARTS_ON_A_LINE),
+            n_starts_on_a_line: self.starts.max(Mds::LEAST_STARTS_ON_A_LINE),
             seed: self.seed,
             n_threads: self.threads.map_or_else(numerics::n_threads, usize::from),
             ..Mds::default()

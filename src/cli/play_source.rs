@@ -9,8 +9,8 @@ use clap::Args;
 
 use super::{CliError, terminal};
 use selvedge_engine::{
-    Area, EngineCore, EngineError, InputSource, PreparedScene, ProgramLink, Tap, loopback,
-    open_input_device,
+    Area, EngineCore, EngineError, InputDevice, InputSource, PreparedScene, ProgramLink, Tap,
+    loopback,
 };
 use selvedge_render::scene::ExplorationPath;
 
@@ -113,7 +113,7 @@ fn source_of(
     size_mm: [f64; 2],
 ) -> Result<InputSource, CliError> {
     if let Some(device) = &args.input {
-        let opened = open_input_device(device, args.area_mm, size_mm);
+        let opened = InputDevice::open(device, args.area_mm, size_mm);
         return Ok(InputSource::Live(opened.map_err(EngineError::from)?));
     }
     match (&args.path, programs) {

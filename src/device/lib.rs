@@ -55,7 +55,7 @@ mod wire;
 pub use actuator_model::Amplifier;
 pub use actuator_model::{
     ActuatorModel, ActuatorReading, ActuatorWatch, Bimorph, ContactorModel, ContactorReading,
-    MAX_QUALITY, SAMPLES_PER_S, Skin,
+    SAMPLES_PER_S, Skin,
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use certify::{

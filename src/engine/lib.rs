@@ -48,9 +48,7 @@ mod tick_sample;
 mod track;
 mod velocity;
 
-pub use audio::{
-    AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer, audio_outputs,
-};
+pub use audio::{AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
 pub use command::{Command, Notice};
 pub use engine_core::EngineCore;
@@ -58,8 +56,7 @@ pub use error::EngineError;
 pub use handle::{Engine, EngineConfig};
 pub use input::{
     Area, AxisRange, Control, InputDevice, InputError, InputLosses, InputRate, InputSource,
-    Playback, PointerInput, PointerSender, Reading, SourceKind, list_input_devices,
-    open_input_device,
+    Playback, PointerInput, PointerSender, Reading, SourceKind,
 };
 pub use meters::{DurationBucket, DurationHistogram};
 pub use prepared::{PreparedScene, array_of};
@@ -89,7 +86,7 @@ pub const TICK: Duration = Duration::from_millis(25);
 pub(crate) const MAX_FINGERS: usize = 10;
 
 /// Ticks per second.
-pub const TICKS_PER_S: f64 = selvedge_render::scene::TICKS_PER_S;
+pub use selvedge_render::scene::TICKS_PER_S;
 
 #[cfg(test)]
 mod tests;

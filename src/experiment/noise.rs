@@ -29,8 +29,6 @@ const BAND_HZ: [f64; 2] = [30.0, 6_000.0];
 const EDGE: f64 = 1.259_921_049_894_873_2;
 /// Root mean square, of full scale: −20 dB, which leaves room for peaks.
 const RMS: f64 = 0.1;
-/// The longest file, minutes.
-pub const MOST_NOISE_MINUTES: u16 = 120;
 /// The longest fade, s.
 pub(crate) const LONGEST_FADE_S: f64 = 30.0;
 
@@ -87,6 +85,9 @@ impl SoundSource for NoiseSound {
 }
 
 impl MaskingNoise {
+    /// The longest file, minutes.
+    pub const MOST_MINUTES: u16 = 120;
+
     /// Its level, rms, dB re full scale.
     pub const LEVEL_DB: f64 = -20.0;
 
@@ -124,9 +125,9 @@ impl MaskingNoise {
     }
 
     fn check(&self) -> Result<(), ExperimentError> {
-        if !(1..=MOST_NOISE_MINUTES).contains(&self.minutes) {
+        if !(1..=Self::MOST_MINUTES).contains(&self.minutes) {
             let what = format!("the noise lasts {} minutes", self.minutes);
-            let mend = format!("give 1 to {MOST_NOISE_MINUTES}: it is to be repeated");
+            let mend = format!("give 1 to {}: it is to be repeated", Self::MOST_MINUTES);
             return Err(ExperimentError::value(what, mend));
         }
         if !(0.0..=LONGEST_FADE_S).contains(&self.fade_s) {

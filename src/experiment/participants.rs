@@ -23,10 +23,6 @@ const COLUMNS: [&str; 7] = [
 ];
 /// Particulars: the columns between pseudonym and moment.
 const N_PARTICULARS: usize = 5;
-/// What a table calls the sexes.
-pub const SEXES: [&str; 3] = ["female", "male", "other"];
-/// What a table calls the hands that somebody explores with.
-pub const HANDS: [&str; 3] = ["right", "left", "both"];
 /// The oldest age that is taken for one, years.
 const OLDEST_YEARS: u32 = 120;
 
@@ -57,6 +53,11 @@ pub struct Particulars<'a> {
 }
 
 impl Participant {
+    /// What a table calls the sexes.
+    pub const SEXES: [&str; 3] = ["female", "male", "other"];
+    /// What a table calls the hands that somebody explores with.
+    pub const HANDS: [&str; 3] = ["right", "left", "both"];
+
     /// A participant.
     ///
     /// # Errors
@@ -107,7 +108,7 @@ impl Participant {
             let mend = format!("give 1 to {OLDEST_YEARS} whole years, or leave it out");
             return Some((described("age_years", age), mend));
         }
-        for (name, value, known) in [("sex", sex, SEXES), ("handedness", hand, HANDS)] {
+        for (name, value, known) in [("sex", sex, Self::SEXES), ("handedness", hand, Self::HANDS)] {
             if !value.is_empty() && !known.contains(&value.as_str()) {
                 let [first, second, third] = known;
                 let mend = format!("give {first}, {second} or {third}, or leave it out");

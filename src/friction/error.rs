@@ -21,7 +21,8 @@ pub enum FrictionError {
     },
     /// A picture without room for a finger's path.
     #[error(
-        "the picture shows {:.1} mm x {:.1} mm of cloth; give one of at least 40 mm x 10 mm, or its true scale",
+        "the picture shows {:.1} mm x {:.1} mm of cloth; give one of at least 40 mm x 10 mm, \
+         or its true scale",
         size_mm[0], size_mm[1]
     )]
     Small {

@@ -153,8 +153,8 @@ impl Split {
     pub const N_CLOTHS: usize = 150;
 
     /// Windows to learn from, and those that are held back. `scale` cloths of each family are
-    /// learnt from ([`Self::N_CLOTHS`] is what results are told of), a quarter of that held back, at most
-    /// 20; those do not depend on how many are learnt from.
+    /// learnt from ([`Self::N_CLOTHS`] is what results are told of), a quarter of that held back,
+    /// at most 20; those do not depend on how many are learnt from.
     pub(crate) fn windows(self, scale: usize) -> [Vec<Window>; 2] {
         let n_held_back = (scale / 4).clamp(1, 20);
         match self {

@@ -58,8 +58,9 @@ impl Course {
             .map(|log| MAGNITUDE_SCALE * f64::from(log).exp_m1().max(0.0))
     }
 
-    /// A trace of `n_samples` with this level, trend and rest, never below 0: what the spectra leave
-    /// open, the phases, is found by rounds of projection from `phases`, or else from fixed ones.
+    /// A trace of `n_samples` with this level, trend and rest, never below 0: what the spectra
+    /// leave open, the phases, is found by rounds of projection from `phases`, or else from fixed
+    /// ones.
     pub(crate) fn trace(&self, n_samples: usize, phases: Option<StartPhases<'_>>) -> Vec<f64> {
         let start = phases.unwrap_or(StartPhases::Random(PHASE_SEED));
         let stft = spectra();

@@ -130,7 +130,8 @@ impl Electrovibration {
 
 /// Where voltages go: a screen's driver, or a simulated one.
 pub trait VoltageSink {
-    /// Takes a voltage, V, for a time, s. Voltages come in order, within ±[`Electrovibration::MAX_V`].
+    /// Takes a voltage, V, for a time, s. Voltages come in order, within
+    /// ±[`Electrovibration::MAX_V`].
     fn hold(&mut self, v: f64, time_s: f64);
 }
 

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::CliError;
 use crate::terminal::with_meter;
 use crate::usage::one_of;
-use selvedge_experiment::{Colour, MOST_NOISE_MINUTES, MaskingNoise};
+use selvedge_experiment::{Colour, MaskingNoise};
 
 /// A noise and its file.
 #[derive(Debug, Args)]
@@ -17,7 +17,7 @@ pub(crate) struct NoiseArgs {
     out: PathBuf,
     /// How long it lasts; without a fade it can be repeated without a seam
     #[arg(long, value_name = "MINUTES", default_value_t = 10,
-        value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_NOISE_MINUTES)))]
+        value_parser = clap::value_parser!(u16).range(1..=i64::from(MaskingNoise::MOST_MINUTES)))]
     minutes: u16,
     /// As strong in every third of an octave, or in every Hz; both from 30 Hz to 6 kHz
     #[arg(long, default_value = "pink",

@@ -29,15 +29,13 @@ pub(super) const N_INPUTS: usize = 2;
 
 /// The carriers, Hz.
 const CARRIERS_HZ: [f64; 2] = [40.0, 320.0];
-/// The highest quality factor that a model takes.
-pub const MAX_QUALITY: f64 = 1000.0;
 
 /// Everything that is assumed of a contactor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactorModel {
     /// The beam.
     pub bimorph: Bimorph,
-    /// Quality factor of the free beam, up to [`MAX_QUALITY`]. 40 is an assumption.
+    /// Quality factor of the free beam, up to [`Self::MAX_QUALITY`]. 40 is an assumption.
     pub quality: f64,
     /// Mass of the pin, mg.
     pub pin_mg: f64,
@@ -85,6 +83,9 @@ pub(super) enum Drive {
 }
 
 impl ContactorModel {
+    /// The highest quality factor that a model takes.
+    pub const MAX_QUALITY: f64 = 1000.0;
+
     /// The place of the pin's displacement in m among the states of [`system`](Self::system).
     pub const PIN: usize = X_PIN;
 
@@ -93,7 +94,7 @@ impl ContactorModel {
         self.bimorph.check()?;
         self.skin.check()?;
         let ranges = [
-            ("quality factor", self.quality, [0.1, MAX_QUALITY], ""),
+            ("quality factor", self.quality, [0.1, Self::MAX_QUALITY], ""),
             ("full scale in V", self.full_scale_v, [1e-3, 1e4], ""),
         ];
         within("contactor", &ranges)
@@ -329,7 +330,7 @@ mod tests {
     #[test]
     fn the_system_and_the_closed_form_respond_alike() {
         for skin in [Skin::FREE, Skin::LIGHT, Skin::FIRM, Skin::bonded(1e5, 0.0)] {
-            for quality in [0.5, 40.0, MAX_QUALITY] {
+            for quality in [0.5, 40.0, ContactorModel::MAX_QUALITY] {
                 let model = ContactorModel {
                     quality,
                     skin,

@@ -24,7 +24,7 @@ mod synth;
 mod watch;
 
 pub use bimorph::Bimorph;
-pub use contactor::{Amplifier, ContactorModel, MAX_QUALITY};
+pub use contactor::{Amplifier, ContactorModel};
 pub use lanes::ActuatorModel;
 pub use reading::{ActuatorReading, ContactorReading};
 pub use skin::Skin;

@@ -313,7 +313,7 @@ fn rails_and_high_voltage_off_hold_the_amplifier_back() {
 #[test]
 fn everything_stays_finite_at_the_extremes() {
     let mut random = Random::new(9);
-    for quality in [0.1, 40.0, MAX_QUALITY] {
+    for quality in [0.1, 40.0, ContactorModel::MAX_QUALITY] {
         for (ks, cs) in [(0.0, 0.0), (1e5, 0.0), (1e5, 100.0), (1e9, 0.0), (0.0, 1e4)] {
             for preload_um in [None, Some(0.0), Some(1.0), Some(1e4)] {
                 let model = ContactorModel {
@@ -342,7 +342,7 @@ fn everything_stays_finite_at_the_extremes() {
 #[test]
 fn a_sharp_resonance_against_stiff_skin_meets_the_closed_form_to_a_billionth() {
     let model = ContactorModel {
-        quality: MAX_QUALITY,
+        quality: ContactorModel::MAX_QUALITY,
         ..loaded(Skin::bonded(1e5, 0.0))
     };
     let step = *Steps::new(&model).unwrap().plain();

@@ -45,22 +45,22 @@ impl std::fmt::Debug for AudioOutput {
     }
 }
 
-/// The sound cards that take samples of a kind that we make.
-///
-/// # Errors
-/// The system gives no list.
-pub fn audio_outputs() -> Result<Vec<AudioEntry>, AudioError> {
-    let entry = |device: &Device| {
-        let configs = device.supported_output_configs().ok()?;
-        let usable = configs.filter(|config| FORMATS.contains(&config.sample_format()));
-        let n_channels = usable.map(|config| config.channels()).max()?;
-        let name = name_of(device);
-        Some(AudioEntry { name, n_channels })
-    };
-    Ok(devices()?.iter().filter_map(entry).collect())
-}
-
 impl AudioOutput {
+    /// The sound cards that take samples of a kind that we make.
+    ///
+    /// # Errors
+    /// The system gives no list.
+    pub fn list() -> Result<Vec<AudioEntry>, AudioError> {
+        let entry = |device: &Device| {
+            let configs = device.supported_output_configs().ok()?;
+            let usable = configs.filter(|config| FORMATS.contains(&config.sample_format()));
+            let n_channels = usable.map(|config| config.channels()).max()?;
+            let name = name_of(device);
+            Some(AudioEntry { name, n_channels })
+        };
+        Ok(devices()?.iter().filter_map(entry).collect())
+    }
+
     /// Opens the card of this name, or the only one whose name holds it, for the contactors of
     /// arrays like `profile` on these channels. The thread that calls is woken at every tick.
     ///

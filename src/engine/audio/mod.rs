@@ -20,9 +20,9 @@ mod without;
 
 pub use channels::CardChannels;
 #[cfg(feature = "audio")]
-pub use device::{AudioOutput, audio_outputs};
+pub use device::AudioOutput;
 #[cfg(not(feature = "audio"))]
-pub use without::{AudioOutput, audio_outputs};
+pub use without::AudioOutput;
 
 use std::time::Duration;
 

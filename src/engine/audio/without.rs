@@ -9,15 +9,15 @@ pub struct AudioOutput {
     never: std::convert::Infallible,
 }
 
-/// The sound cards.
-///
-/// # Errors
-/// Always: there is no audio in this program.
-pub fn audio_outputs() -> Result<Vec<AudioEntry>, AudioError> {
-    Err(AudioError::Absent)
-}
-
 impl AudioOutput {
+    /// The sound cards.
+    ///
+    /// # Errors
+    /// Always: there is no audio in this program.
+    pub fn list() -> Result<Vec<AudioEntry>, AudioError> {
+        Err(AudioError::Absent)
+    }
+
     /// Opens none.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ mod rate;
 mod source;
 
 pub use error::InputError;
-pub use evdev::{Area, AxisRange, InputDevice, list_input_devices, open_input_device};
+pub use evdev::{Area, AxisRange, InputDevice};
 pub(super) use feed::{FeedItem, FeedSender, feed};
 pub(super) use lines::{Lines, Said};
 pub use live::PointerSender;

@@ -144,7 +144,7 @@ fn who(experiment: &Experiment<'_>) -> String {
             "{first} to {last} years, median {median} ({n} told)"
         ));
     }
-    for sex in crate::SEXES {
+    for sex in Participant::SEXES {
         let n = particular(1).iter().filter(|one| **one == sex).count();
         if n > 0 {
             described.push(format!("{n} {sex}"));

@@ -9,8 +9,7 @@ use selvedge_foundation::files::{FileError, Journal, Table, row_line};
 use selvedge_foundation::quantity::rfc3339;
 
 use super::{
-    COMMENT_COLUMNS, COMMENTS, GUESS_COLUMNS, GUESSES, LONGEST_COMMENT, Tally, VISIT_COLUMNS,
-    VISITS, Visit,
+    COMMENT_COLUMNS, COMMENTS, GUESS_COLUMNS, GUESSES, Tally, VISIT_COLUMNS, VISITS, Visit,
 };
 use selvedge_foundation::numerics::to_whole;
 
@@ -112,7 +111,7 @@ impl VisitLog {
         let comment = if said.is_empty() {
             Vec::new()
         } else {
-            let text: String = said.text.chars().take(LONGEST_COMMENT).collect();
+            let text: String = said.text.chars().take(super::Comment::LONGEST).collect();
             line(&[
                 number_word,
                 said.face.to_owned(),

@@ -41,8 +41,6 @@ const VISIT_COLUMNS: [&str; 15] = [
 ];
 const GUESS_COLUMNS: [&str; 6] = ["visit", "truth", "choice", "order", "sound", "ms"];
 const COMMENT_COLUMNS: [&str; 4] = ["visit", "face", "words", "comment"];
-/// Longest comment, characters.
-pub const LONGEST_COMMENT: usize = 200;
 
 /// How a visit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,6 +102,9 @@ pub struct Comment {
 }
 
 impl Comment {
+    /// The longest text, characters.
+    pub const LONGEST: usize = 200;
+
     fn is_empty(&self) -> bool {
         self.face.is_empty() && self.words.is_empty() && self.text.is_empty()
     }

@@ -3,30 +3,25 @@
 use std::path::Path;
 
 /// Bytes that are free for us where `path` is; `None` where the system does not tell.
-#[cfg(unix)]
+#[cfg_attr(not(unix), expect(unused_variables, reason = "only Unix is asked"))]
 pub fn free_bytes(path: &Path) -> Option<u64> {
-    let found = rustix::fs::statvfs(path).ok()?;
-    found.f_bavail.checked_mul(found.f_frsize)
-}
-
-/// Bytes that are free for us where `path` is: not asked on this system.
-#[cfg(not(unix))]
-pub fn free_bytes(_path: &Path) -> Option<u64> {
+    #[cfg(unix)]
+    if let Ok(found) = rustix::fs::statvfs(path) {
+        return found.f_bavail.checked_mul(found.f_frsize);
+    }
     None
 }
 
 /// Whether we may read and write what is at `path`, without opening it: a port that is opened may
-/// start its device anew.
-#[cfg(unix)]
+/// start its device anew. Elsewhere than on Unix everything may be.
+#[cfg_attr(not(unix), expect(unused_variables, reason = "only Unix is asked"))]
 pub fn is_accessible(path: &Path) -> bool {
-    use rustix::fs::Access;
-
-    rustix::fs::access(path, Access::READ_OK | Access::WRITE_OK).is_ok()
-}
-
-/// Whether we may read and write what is at `path`: not asked on this system.
-#[cfg(not(unix))]
-pub fn is_accessible(_path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use rustix::fs::Access;
+        rustix::fs::access(path, Access::READ_OK | Access::WRITE_OK).is_ok()
+    }
+    #[cfg(not(unix))]
     true
 }
 

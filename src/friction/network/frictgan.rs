@@ -1,5 +1,5 @@
-//! `FrictGAN` (Cai et al. 2021), built anew from the paper and its authors' description at a quarter
-//! and less of its size.
+//! `FrictGAN` (Cai et al. 2021), built anew from the paper and its authors' description, at a
+//! quarter and less of its size.
 //!
 //! What differs: pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024; the
 //! first layer has 4 channels where theirs has 32, and none more than 64 where theirs have 512;

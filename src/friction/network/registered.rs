@@ -1,7 +1,7 @@
 //! Our network: from the spectra of a strip to those of the friction along it, place by place.
 //!
 //! ```text
-//! spectra of the strip ─▶ convolutions over frames and bins ─┬─▶ log magnitudes (+ a curve of bins)
+//! spectra of the strip ─▶ convolutions over frames and bins ─┬─▶ log magnitudes (+ a bin curve)
 //!                              ▲ shifts                      ├─▶ trend, a value a frame
 //! figures of the strip ─▶ latent ────────────────────────────┴─▶ level
 //! ```

@@ -32,13 +32,6 @@ use fit::Problem;
 use search::{Plan, search, work};
 use selvedge_foundation::progress::{Cancelled, Progress};
 
-/// The most dimensions of a map.
-pub const MOST_DIMENSIONS: usize = 5;
-/// Starts in two dimensions and more, when nobody says how many.
-pub const DEFAULT_STARTS: usize = 50;
-/// Fewest starts on a line, where hardly one in a hundred reaches the best order.
-pub const LEAST_STARTS_ON_A_LINE: usize = 1000;
-
 /// How maps are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mds {
@@ -66,8 +59,8 @@ impl Default for Mds {
             ties: Ties::default(),
             loss: Loss::default(),
             descent: Descent::default(),
-            n_starts: DEFAULT_STARTS,
-            n_starts_on_a_line: LEAST_STARTS_ON_A_LINE,
+            n_starts: Self::DEFAULT_STARTS,
+            n_starts_on_a_line: Self::LEAST_STARTS_ON_A_LINE,
             n_exchanged: 6,
             seed: 1,
             n_threads: selvedge_foundation::numerics::n_threads(),
@@ -76,7 +69,15 @@ impl Default for Mds {
 }
 
 impl Mds {
-    /// The best map in each number of dimensions, 1 … [`MOST_DIMENSIONS`]; others are left out.
+    /// The most dimensions of a map.
+    pub const MOST_DIMENSIONS: usize = 5;
+    /// Starts in two dimensions and more, when nobody says how many.
+    pub const DEFAULT_STARTS: usize = 50;
+    /// Fewest starts on a line, where hardly one in a hundred reaches the best order.
+    pub const LEAST_STARTS_ON_A_LINE: usize = 1000;
+
+    /// The best map in each number of dimensions, 1 … [`Self::MOST_DIMENSIONS`]; others are left
+    /// out.
     ///
     /// # Errors
     /// It was cancelled.
@@ -88,7 +89,9 @@ impl Mds {
     ) -> Result<Vec<Map>, Cancelled> {
         let problem = Problem::new(data, self.ties);
         let mut maps: Vec<Map> = Vec::new();
-        let dims: Vec<usize> = dims.filter(|k| (1..=MOST_DIMENSIONS).contains(k)).collect();
+        let dims: Vec<usize> = dims
+            .filter(|k| (1..=Self::MOST_DIMENSIONS).contains(k))
+            .collect();
         let total: f64 = dims.iter().map(|k| self.work(data, *k)).sum();
         let mut done = 0.0;
         for k in dims {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Effort;
-use selvedge_device::{ContactorModel, MAX_QUALITY, SAMPLES_PER_S, Skin};
+use selvedge_device::{ContactorModel, SAMPLES_PER_S, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::{Propagator, StepMethod};
 use selvedge_foundation::quantity::time_span;
@@ -35,7 +35,7 @@ impl Case {
         let skip = effort.pick(3, 0);
         let is_chosen = |nth: usize| nth == 0 || nth > skip;
         let mut cases = Vec::new();
-        for quality in [40.0, MAX_QUALITY] {
+        for quality in [40.0, ContactorModel::MAX_QUALITY] {
             let chosen = loads.iter().enumerate().filter(|(nth, _)| is_chosen(*nth));
             cases.extend(chosen.map(|(_, skin)| Self {
                 name: format!("skin {skin}, Q {quality}"),

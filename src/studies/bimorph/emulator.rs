@@ -7,7 +7,7 @@ use crate::chart::chart;
 use crate::readable::{largest, whole};
 use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Chart, Ink, Series, Style};
-use selvedge_device::{ActuatorModel, ContactorModel, MAX_QUALITY, Skin};
+use selvedge_device::{ActuatorModel, ContactorModel, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 
 /// Contactors that run.
@@ -24,7 +24,9 @@ const TICKS_PER_S: f64 = 40.0;
 /// Rows of the displacement after the resonance has rung down.
 pub(super) fn find(bench: &mut Bench<'_>, findings: &mut Findings) {
     let loads = [Skin::FREE, Skin::LIGHT, Skin::FIRM, Skin::bonded(1e5, 0.0)];
-    let qualities = bench.effort.pick(&[40.0][..], &[40.0, MAX_QUALITY][..]);
+    let qualities = bench
+        .effort
+        .pick(&[40.0][..], &[40.0, ContactorModel::MAX_QUALITY][..]);
     for quality in qualities {
         for skin in loads {
             let model = ContactorModel {

@@ -4,7 +4,7 @@ use super::cases::{SAMPLE_S, propagator};
 use crate::chart::chart;
 use crate::{Bench, Findings, Row};
 use selvedge_chart::{Axis, Series, Style};
-use selvedge_device::{ContactorModel, MAX_QUALITY, Skin};
+use selvedge_device::{ContactorModel, Skin};
 use selvedge_foundation::numerics::ode::StepMethod;
 use selvedge_foundation::quantity::time_span;
 
@@ -22,7 +22,7 @@ pub(super) fn find(bench: &Bench<'_>, findings: &mut Findings) {
         (0..=5 * n_decades).map(|nth| 10.0_f64.powf(f64::from(nth) / f64::from(n_decades)));
     let stiffnesses: Vec<f64> = std::iter::once(0.0).chain(stiffnesses).collect();
     let mut all = Vec::new();
-    for quality in [40.0, MAX_QUALITY] {
+    for quality in [40.0, ContactorModel::MAX_QUALITY] {
         for method in StepMethod::ALL {
             let limit = |&ks: &f64| [ks, limit_s(&contactor(ks, quality), method)];
             let limits: Vec<[f64; 2]> = stiffnesses.iter().map(limit).collect();

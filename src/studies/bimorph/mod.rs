@@ -16,7 +16,7 @@ use super::readable::largest;
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
 use cases::{Case, Step, held_response};
 use selvedge_chart::{Axis, Chart};
-use selvedge_device::{ContactorModel, MAX_QUALITY};
+use selvedge_device::ContactorModel;
 use selvedge_foundation::numerics::ode::StepMethod;
 
 /// What the exact method keeps within.
@@ -162,7 +162,8 @@ fn notes(findings: &Findings) -> Vec<String> {
     let mut notes: Vec<String> = StepMethod::ALL.map(worst).into();
     notes.push(format!(
         "The exact hold needs one product of matrices a sample at any stiffness and any quality up \
-         to {MAX_QUALITY}; the emulator steps every contactor with it."
+         to {}; the emulator steps every contactor with it.",
+        ContactorModel::MAX_QUALITY
     ));
     notes.push(
         "Where neither skin lifts off nor the amplifier reaches a limit the contactor is linear, \

@@ -2,7 +2,7 @@
 
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use crate::bimorph::{CARRIERS_HZ, ContactorStep, SAMPLE_S, propagator};
-use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, MAX_QUALITY, Skin};
+use selvedge_device::{ActuatorModel, Bimorph, ContactorModel, Skin};
 use selvedge_foundation::numerics::Complex;
 use selvedge_foundation::numerics::ode::StepMethod;
 
@@ -43,7 +43,7 @@ fn loaded(skin: Skin, quality: f64) -> ContactorModel {
 
 /// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|.
 fn sharp_and_stiff() -> Verdict {
-    let model = loaded(Skin::bonded(1e5, 0.0), MAX_QUALITY);
+    let model = loaded(Skin::bonded(1e5, 0.0), ContactorModel::MAX_QUALITY);
     let step = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
     let step = step.ok_or_else(|| failed("no step"))?;
     let mut worst = 0.0_f64;
@@ -67,7 +67,7 @@ fn every_stiffness() -> Verdict {
     let (mut worst, mut n_steps) = (0.0_f64, 0);
     for stiffness in [0.0, 1.0, 1e3, 1e6, 1e9] {
         for step_s in [1e-6, 1e-4, 1e-2, 1.0] {
-            let model = loaded(Skin::bonded(stiffness, 0.0), MAX_QUALITY);
+            let model = loaded(Skin::bonded(stiffness, 0.0), ContactorModel::MAX_QUALITY);
             let step = propagator(&model, StepMethod::ExactHold, step_s);
             let Some(step) = step.filter(ContactorStep::is_finite) else {
                 return Err(format!("no finite step of {step_s} s at {stiffness} N/m"));
@@ -85,8 +85,8 @@ fn lifts_off() -> Verdict {
         preload_um: Some(1.0),
         ..Skin::bonded(1e9, 0.0)
     };
-    let mut plant =
-        ActuatorModel::new(&loaded(skin, MAX_QUALITY), LOUDEST.len()).map_err(failed)?;
+    let mut plant = ActuatorModel::new(&loaded(skin, ContactorModel::MAX_QUALITY), LOUDEST.len())
+        .map_err(failed)?;
     let mut most_um = 0.0_f64;
     for _ in 0..20 {
         for one in &plant.tick(&LOUDEST, 60.0).contactors {

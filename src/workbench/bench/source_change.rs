@@ -7,7 +7,7 @@ use crate::bench::Bench;
 use crate::bench::background::finished;
 use crate::bench::sources::{Opened, SourceCommand, SourcesView, SurfaceView};
 use crate::bench::view::Source;
-use selvedge_engine::{Area, InputSource, ProgramLink, list_input_devices, open_input_device};
+use selvedge_engine::{Area, InputDevice, InputSource, ProgramLink};
 use selvedge_foundation::progress::Progress;
 
 /// Where other programs find this one, if the port is free; otherwise any port is taken.
@@ -69,7 +69,7 @@ impl Bench {
 
     fn list_devices(&mut self) {
         if self.exploration.sources.listing.is_none() {
-            let list = |_: &mut Progress<'_>| list_input_devices().map_err(|e| e.to_string());
+            let list = |_: &mut Progress<'_>| InputDevice::list().map_err(|e| e.to_string());
             let task = self.executor.start("selvedge-inputs", list);
             self.exploration.sources.listing = Some(task);
             self.poll_sources();
@@ -89,7 +89,7 @@ impl Bench {
         let chosen = SourceCommand::Device(path.to_owned());
         self.exploration.sources.chosen = Some((chosen, path.display().to_string()));
         let task = self.executor.start("selvedge-input", move |_| {
-            open_input_device(&device, area, size_mm).map_err(|error| error.to_string())
+            InputDevice::open(&device, area, size_mm).map_err(|error| error.to_string())
         });
         self.exploration.sources.opening = Some(task);
         self.poll_sources();

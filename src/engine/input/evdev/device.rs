@@ -34,61 +34,63 @@ const NAP: Timespec = Timespec {
 
 type Handle = EvdevHandle<File>;
 
-/// The devices that tell places, in the command of their numbers; in place of one that may not be
-/// read stands why.
-///
-/// # Errors
-/// There are no devices to be seen at all.
-pub fn list_input_devices() -> Result<Vec<Result<InputDevice, InputError>>, InputError> {
-    let entries = fs::read_dir(FOLDER).map_err(|error| InputError::List(error.to_string()))?;
-    let number = |path: &Path| -> Option<u32> {
-        let name = path.file_name()?.to_str()?;
-        name.strip_prefix("event")?.parse().ok()
-    };
-    let paths = entries.flatten().map(|entry| entry.path());
-    let mut numbered: Vec<(u32, PathBuf)> = paths
-        .filter_map(|path| Some((number(&path)?, path)))
-        .collect();
-    numbered.sort();
-    let look = |(_, path): (u32, PathBuf)| match look_at(&path) {
-        Ok(found) => found.map(|(_, device, _)| Ok(device)),
-        Err(error) => Some(Err(error)),
-    };
-    Ok(numbered.into_iter().filter_map(look).collect())
-}
+impl InputDevice {
+    /// The devices that tell places, in the order of their numbers; in place of one that may not
+    /// be read stands why.
+    ///
+    /// # Errors
+    /// There are no devices to be seen at all.
+    pub fn list() -> Result<Vec<Result<Self, InputError>>, InputError> {
+        let entries = fs::read_dir(FOLDER).map_err(|error| InputError::List(error.to_string()))?;
+        let number = |path: &Path| -> Option<u32> {
+            let name = path.file_name()?.to_str()?;
+            name.strip_prefix("event")?.parse().ok()
+        };
+        let paths = entries.flatten().map(|entry| entry.path());
+        let mut numbered: Vec<(u32, PathBuf)> = paths
+            .filter_map(|path| Some((number(&path)?, path)))
+            .collect();
+        numbered.sort();
+        let look = |(_, path): (u32, PathBuf)| match look_at(&path) {
+            Ok(found) => found.map(|(_, device, _)| Ok(device)),
+            Err(error) => Some(Err(error)),
+        };
+        Ok(numbered.into_iter().filter_map(look).collect())
+    }
 
-/// Opens a device whose surface lies at `area` of the workspace, or where it usually does, and
-/// starts to read it.
-///
-/// # Errors
-/// It may not be read, is not there or tells no places.
-pub fn open_input_device(
-    path: &Path,
-    area: Option<Area>,
-    workspace_mm: [f64; 2],
-) -> Result<Box<dyn PointerInput>, InputError> {
-    let fault = |what: String| InputError::Device {
-        path: path.to_owned(),
-        what,
-    };
-    let Some((handle, device, contact)) = look_at(path)? else {
-        return Err(fault("it tells no places".to_owned()));
-    };
-    let (sender, input) = feed(SourceKind::Device);
-    let reader = Reader {
-        has_clock: handle.set_clock_id(MONOTONIC).is_ok(),
-        decoder: Decoder::new(contact, state_of(&handle, contact)),
-        handle,
-        contact,
-        axes: device.axes,
-        area: area.unwrap_or_else(|| Area::usual(device.axes, workspace_mm)),
-        sender,
-    };
-    thread::Builder::new()
-        .name("selvedge-tablet".to_owned())
-        .spawn(move || reader.run())
-        .map_err(|error| fault(error.to_string()))?;
-    Ok(Box::new(input))
+    /// Opens a device whose surface lies at `area` of the workspace, or where it usually does, and
+    /// starts to read it.
+    ///
+    /// # Errors
+    /// It may not be read, is not there or tells no places.
+    pub fn open(
+        path: &Path,
+        area: Option<Area>,
+        workspace_mm: [f64; 2],
+    ) -> Result<Box<dyn PointerInput>, InputError> {
+        let fault = |what: String| InputError::Device {
+            path: path.to_owned(),
+            what,
+        };
+        let Some((handle, device, contact)) = look_at(path)? else {
+            return Err(fault("it tells no places".to_owned()));
+        };
+        let (sender, input) = feed(SourceKind::Device);
+        let reader = Reader {
+            has_clock: handle.set_clock_id(MONOTONIC).is_ok(),
+            decoder: Decoder::new(contact, state_of(&handle, contact)),
+            handle,
+            contact,
+            axes: device.axes,
+            area: area.unwrap_or_else(|| Area::usual(device.axes, workspace_mm)),
+            sender,
+        };
+        thread::Builder::new()
+            .name("selvedge-tablet".to_owned())
+            .spawn(move || reader.run())
+            .map_err(|error| fault(error.to_string()))?;
+        Ok(Box::new(input))
+    }
 }
 
 /// Opens a device and asks what it is; `None` if it tells no places.
@@ -293,7 +295,7 @@ mod tests {
             ("/dev/null", "no input device"),
             ("/nowhere/event1", "No such"),
         ] {
-            let error = open_input_device(Path::new(path), None, [260.0, 260.0]).unwrap_err();
+            let error = InputDevice::open(Path::new(path), None, [260.0, 260.0]).unwrap_err();
             let text = error.to_string();
             assert!(text.starts_with(path) && text.contains(what), "{text}");
         }
@@ -307,7 +309,7 @@ mod tests {
 
     #[test]
     fn the_devices_are_listed_or_their_lack_is_told() {
-        match list_input_devices() {
+        match InputDevice::list() {
             Ok(devices) => println!("{devices:?}"),
             Err(error) => assert!(error.to_string().contains("/dev/input"), "{error}"),
         }

@@ -18,10 +18,6 @@ mod elsewhere;
 use std::path::PathBuf;
 
 pub use area::{Area, AxisRange};
-#[cfg(all(target_os = "linux", target_pointer_width = "64"))]
-pub use device::{list_input_devices, open_input_device};
-#[cfg(not(all(target_os = "linux", target_pointer_width = "64")))]
-pub use elsewhere::{list_input_devices, open_input_device};
 
 /// A device that could move the display.
 #[derive(Debug, Clone, PartialEq)]

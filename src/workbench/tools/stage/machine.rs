@@ -7,7 +7,7 @@
 //!     └──────────────────┴────── held restart, STOP, close ──┘
 //! ```
 
-use selvedge_experiment::visits::{Comment, LONGEST_COMMENT, N_CLOTHS, Visit, VisitEnd};
+use selvedge_experiment::visits::{Comment, N_CLOTHS, Visit, VisitEnd};
 use selvedge_foundation::numerics::Random;
 
 use crate::bench::settings::preferences::Loudness;
@@ -354,7 +354,7 @@ impl Machine {
                     None => comment.words.push(word),
                 }
             }
-            Act::Comment(text) => comment.text = text.chars().take(LONGEST_COMMENT).collect(),
+            Act::Comment(text) => comment.text = text.chars().take(Comment::LONGEST).collect(),
             _ => {}
         }
     }

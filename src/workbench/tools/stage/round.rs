@@ -139,7 +139,7 @@ fn type_comment(ui: &mut Ui, brush: &Brush<'_>, (place, text): (Rect, &str), act
     let field = TextEdit::singleline(&mut text)
         .hint_text("No names, please")
         .font(eframe::egui::FontId::proportional(brush.layout.label))
-        .char_limit(selvedge_experiment::visits::LONGEST_COMMENT);
+        .char_limit(selvedge_experiment::visits::Comment::LONGEST);
     if ui
         .put(place.shrink(8.0 * brush.layout.unit), field)
         .changed()

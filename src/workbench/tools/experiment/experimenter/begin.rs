@@ -15,7 +15,7 @@ use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{HANDS, SEXES, over_limits};
+use selvedge_experiment::{Participant, over_limits};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -151,8 +151,8 @@ fn show_who(ui: &mut Ui, who: &mut Who) {
         note(ui, words, Tone::Quiet);
     }
     field(ui, "age, years", &mut who.age, ("not told", 84.0));
-    one_of(ui, "sex", &mut who.sex, &SEXES);
-    one_of(ui, "handedness", &mut who.handedness, &HANDS);
+    one_of(ui, "sex", &mut who.sex, &Participant::SEXES);
+    one_of(ui, "handedness", &mut who.handedness, &Participant::HANDS);
     field(
         ui,
         "experience",
