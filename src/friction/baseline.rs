@@ -89,8 +89,7 @@ impl Fitted<'_> {
             Baseline::Mean => Prediction::of_trace(vec![self.mean.level; n_samples]),
             Baseline::OracleMean => Prediction::of_trace(vec![example.course.level; n_samples]),
             Baseline::Class => {
-                let family = example.window.family;
-                let of_family = |other: &&Example| other.window.family == family;
+                let of_family = |other: &&Example| other.cloth == example.cloth;
                 let known: Vec<&Example> = self.learnt.iter().filter(of_family).collect();
                 let course = if known.is_empty() {
                     self.mean.clone()
@@ -113,7 +112,7 @@ impl Fitted<'_> {
             Baseline::HeightMap => Prediction::of_trace(self.felt_slope(example)),
             Baseline::TrueSpectrum => {
                 let mut prediction = Prediction::of_course(&example.course);
-                let start = StartPhases::Random(example.window.take);
+                let start = StartPhases::Random(example.window.map_or(0, |window| window.take));
                 prediction.trace = example.course.trace(n_samples, Some(start));
                 prediction
             }
@@ -326,10 +325,7 @@ pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
 mod tests {
     use super::*;
     use crate::example::{Split, all_taken};
-    use crate::score::{MEASURES, score};
-
-    const LOG_SPECTRAL: usize = 7;
-    const LEVEL: usize = 5;
+    use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, score};
 
     #[test]
     fn each_baseline_predicts_and_what_knows_more_misses_less() {

@@ -29,6 +29,20 @@ pub enum FrictionError {
         /// Its width and height, mm.
         size_mm: [f64; 2],
     },
+    /// A fabric that cannot be learnt from.
+    #[error("{name}: {what}")]
+    Fabric {
+        /// What it is called.
+        name: String,
+        /// What is wrong, and how to mend it.
+        what: String,
+    },
+    /// Too few fabrics.
+    #[error("{n} fabrics are too few: give at least 3, each with a picture and its friction")]
+    Few {
+        /// How many there are.
+        n: usize,
+    },
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),

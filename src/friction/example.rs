@@ -58,8 +58,12 @@ pub(crate) struct Window {
 /// A picture, what it looks like, and the friction along it.
 #[derive(Debug, Clone)]
 pub(crate) struct Example {
-    /// Where it was taken.
-    pub window: Window,
+    /// The family, or the name of a fabric that was given.
+    pub cloth: String,
+    /// The first sample of its cloth.
+    pub column: usize,
+    /// Where a procedural one was taken.
+    pub window: Option<Window>,
     /// See [`Self::square`]: made when it is asked for first, of 256 shades.
     square: OnceLock<Grid<u8>>,
     /// The strip under the finger, brightness 0 to 1.
@@ -82,7 +86,9 @@ impl Window {
         let rubbed = recipe.rubbed(&relief_um, self.area, self.take);
         let strip = recipe.photo(&relief_um, self.area, &Camera::of(self.take));
         Example {
-            window: self,
+            cloth: self.family.word().to_owned(),
+            column: self.area.columns[0],
+            window: Some(self),
             square: OnceLock::new(),
             looks: Looks::of(&strip),
             strip,
@@ -109,16 +115,41 @@ pub(crate) fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
 }
 
 impl Example {
-    /// The picture around the middle of the finger's path, [`SQUARE`] a side, brightness 0 to 1.
+    /// Of a fabric that was given: its strip from a column on, and what was felt there.
+    pub(crate) fn given(name: &str, column: usize, strip: Grid<f32>, trace: &[f64]) -> Self {
+        Self {
+            cloth: name.to_owned(),
+            column,
+            window: None,
+            square: OnceLock::new(),
+            looks: Looks::of(&strip),
+            strip,
+            course: Course::of(trace),
+            of_surface: trace.to_vec(),
+            trace: trace.to_vec(),
+        }
+    }
+
+    /// The picture around the middle of the finger's path, [`SQUARE`] a side, brightness 0 to 1; of
+    /// a fabric that was given the strip, mirrored beyond its edges.
     pub(crate) fn square(&self) -> Grid<f32> {
         let square = self.square.get_or_init(|| {
-            let recipe = Recipe::of(self.window.family, self.window.seed);
-            let [from, n] = self.window.area.columns;
+            let [n, height] = [self.strip.width(), self.strip.height()];
+            let left = n.saturating_sub(SQUARE) / 2;
+            let Some(window) = self.window else {
+                let below = SQUARE.saturating_sub(height) / 2;
+                let row = |row: usize| mirrored(row.cast_signed() - below.cast_signed(), height);
+                let shade = |x: usize, y: usize| self.strip.row(row(y))[(left + x).min(n - 1)];
+                return Grid::from_fn(SQUARE, SQUARE, |x, y| {
+                    to_byte(f64::from(255.0 * shade(x, y)))
+                });
+            };
+            let recipe = Recipe::of(window.family, window.seed);
             let around = Area {
-                columns: [from + n.saturating_sub(SQUARE) / 2, SQUARE],
+                columns: [window.area.columns[0] + left, SQUARE],
                 rows: [0, SQUARE],
             };
-            let camera = Camera::of(self.window.take);
+            let camera = Camera::of(window.take);
             let square = recipe.photo(&recipe.relief_um(around), around, &camera);
             square.map(|v| to_byte(f64::from(255.0 * v)))
         });
@@ -126,12 +157,15 @@ impl Example {
     }
 
     /// The best that anybody could predict: what hangs on the surface, and the mean of what
-    /// differs from stroke to stroke.
+    /// differs from stroke to stroke. Of a fabric that was given nothing but the answer is known.
     pub(crate) fn best_possible(&self) -> Course {
-        let recipe = Recipe::of(self.window.family, self.window.seed);
+        let Some(window) = self.window else {
+            return self.course.clone();
+        };
+        let recipe = Recipe::of(window.family, window.seed);
         let stroke = |n: u64| {
             let take = u64::MAX - n;
-            Course::of(&recipe.once_more(&self.of_surface, self.window.area, take))
+            Course::of(&recipe.once_more(&self.of_surface, window.area, take))
         };
         let strokes: Vec<Course> = (0..N_STROKES).map(stroke).collect();
         let share = 1.0 / N_STROKES as f32;
@@ -146,6 +180,13 @@ impl Example {
             ..Course::of(&self.of_surface)
         }
     }
+}
+
+/// A place beyond the edges of `n` brought back within, there and back again.
+fn mirrored(place: isize, n: usize) -> usize {
+    let n = n.cast_signed();
+    let turn = place.rem_euclid(2 * n);
+    turn.min(2 * n - 1 - turn).cast_unsigned()
 }
 
 impl Split {

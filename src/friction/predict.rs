@@ -1,11 +1,14 @@
 //! Friction from a picture, with how far it may be off: the networks that are shipped, together.
 
-use selvedge_foundation::numerics::{Grid, to_single};
+use nalgebra::DMatrix;
+
+use selvedge_foundation::numerics::{Grid, Random, to_single};
 
 use crate::FrictionError;
 use crate::cloth::PER_MM;
 use crate::network::{OurNetwork, Size, Weights};
 use crate::picture::{Looks, band_edges, strips};
+use crate::score::{MEASURES, Prediction, score};
 use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE};
 
 /// Weights learnt from other seeds, and what was found of them on cloths that were held back.
@@ -32,19 +35,75 @@ pub struct Predictor {
 pub struct PredictedFriction {
     /// Coefficient of friction, [`Self::PER_MM`] a millimetre.
     pub mu: Vec<f64>,
-    /// Its mean.
-    pub level: f64,
-    /// Log magnitudes of its detrended spectra: a row a frame of a centimetre, a column a bin.
-    pub log_magnitudes: Grid<f32>,
     /// The level may be so far off, either way, in 95 of 100 cloths like those that were learnt.
     pub level_within: f64,
     /// For bands of wavenumbers (from, to, cycles/mm): how far magnitudes may be off, dB.
     pub bands: Vec<[f64; 3]>,
+    /// What stands for the whole cloth in the first network.
+    pub latent: Vec<f32>,
+    /// What `mu` was put together from.
+    course: Course,
 }
 
 impl PredictedFriction {
     /// Samples of [`Self::mu`] to a millimetre.
     pub const PER_MM: f64 = PER_MM;
+
+    /// The mean coefficient of friction.
+    pub fn level(&self) -> f64 {
+        self.course.level
+    }
+
+    /// Log magnitudes of what is not slow: a row a centimetre, a column a bin of 1/40 cycles/mm.
+    pub fn log_magnitudes(&self) -> &Grid<f32> {
+        &self.course.log_magnitudes
+    }
+
+    /// The same of a trace that was felt.
+    pub fn log_magnitudes_of(felt: &[f64]) -> Grid<f32> {
+        Course::of(felt).log_magnitudes
+    }
+
+    /// How far it is from the trace that was felt there, by [`Scores::COLUMNS`].
+    ///
+    /// [`Scores::COLUMNS`]: crate::Scores::COLUMNS
+    pub fn scores(&self, felt: &[f64]) -> [f64; MEASURES.len()] {
+        score(&Prediction::of_course(&self.course), felt)
+    }
+
+    /// Where the latents of some lie in the plane in which they differ most (their first two
+    /// principal components, each with its larger side upward), and each axis' share of their
+    /// variance.
+    pub fn plane(found: &[&Self]) -> (Vec<[f64; 2]>, [f64; 2]) {
+        let n = found.len().max(1) as f64;
+        let width = found.first().map_or(0, |one| one.latent.len());
+        let codes = DMatrix::from_fn(found.len(), width, |row, column| {
+            f64::from(found[row].latent[column])
+        });
+        let means = codes.row_sum() / n;
+        let apart = DMatrix::from_fn(found.len(), width, |row, column| {
+            codes[(row, column)] - means[column]
+        });
+        let axes = (apart.transpose() * &apart / n).symmetric_eigen();
+        let mut order: Vec<usize> = (0..width).collect();
+        order.sort_by(|&a, &b| axes.eigenvalues[b].total_cmp(&axes.eigenvalues[a]));
+        let all = axes.eigenvalues.sum().max(f64::MIN_POSITIVE);
+        let mut places = vec![[0.0; 2]; found.len()];
+        let mut shares = [0.0; 2];
+        for (nth, &axis) in order.iter().take(2).enumerate() {
+            let along = &apart * axes.eigenvectors.column(axis);
+            let sign = if along.map(|x| x.powi(3)).sum() < 0.0 {
+                -1.0
+            } else {
+                1.0
+            };
+            shares[nth] = axes.eigenvalues[axis] / all;
+            for (place, value) in places.iter_mut().zip(along.iter()) {
+                place[nth] = sign * value;
+            }
+        }
+        (places, shares)
+    }
 }
 
 impl Predictor {
@@ -71,11 +130,43 @@ impl Predictor {
         px_per_mm: f64,
     ) -> Result<PredictedFriction, FrictionError> {
         let looks = Looks::of(&strip(picture, px_per_mm)?);
-        let courses = self
-            .networks
-            .iter()
-            .flat_map(|network| network.courses(&[&looks]));
-        Ok(together(&courses.collect::<Vec<_>>()))
+        Ok(together(
+            &self.each(&looks),
+            self.networks[0].latent(&looks),
+        ))
+    }
+
+    /// The same where latents are shaken by so much of their own size: what hangs on them.
+    ///
+    /// # Errors
+    /// As [`Self::of_picture`].
+    pub fn shaken(
+        &self,
+        picture: &Grid<f32>,
+        px_per_mm: f64,
+        share: f64,
+        random: &mut Random,
+    ) -> Result<PredictedFriction, FrictionError> {
+        let looks = Looks::of(&strip(picture, px_per_mm)?);
+        let mut course = |network: &OurNetwork| {
+            let noise = std::iter::repeat_with(|| to_single(share * random.normal()));
+            network.shaken(&looks, noise)
+        };
+        let courses: Vec<_> = self.networks.iter().map(&mut course).collect();
+        Ok(together(&courses, self.networks[0].latent(&looks)))
+    }
+
+    /// What each network says of a strip.
+    fn each(&self, looks: &Looks) -> Vec<Course> {
+        let networks = self.networks.iter();
+        networks
+            .flat_map(|network| network.courses(&[looks]))
+            .collect()
+    }
+
+    /// What they say together.
+    pub(crate) fn course(&self, looks: &Looks) -> Course {
+        mean(&self.each(looks))
     }
 
     /// Friction of a cloth that lies so far (0 to 1) from one picture's to another's, as long as
@@ -96,8 +187,10 @@ impl Predictor {
             Looks::of(&part.unwrap_or(strip))
         });
         let between = |network: &OurNetwork| network.between(&from, &to, share);
-        let courses = self.networks.iter().filter_map(between);
-        Ok(together(&courses.collect::<Vec<_>>()))
+        let courses: Vec<_> = self.networks.iter().filter_map(between).collect();
+        let [a, b] = [&from, &to].map(|looks| self.networks[0].latent(looks));
+        let latent = |(a, b): (&f32, &f32)| a + (b - a) * to_single(share);
+        Ok(together(&courses, a.iter().zip(&b).map(latent).collect()))
     }
 }
 
@@ -114,7 +207,7 @@ fn strip(picture: &Grid<f32>, px_per_mm: f64) -> Result<Grid<f32>, FrictionError
 }
 
 /// What several networks say of one strip.
-fn together(courses: &[Course]) -> PredictedFriction {
+fn together(courses: &[Course], latent: Vec<f32>) -> PredictedFriction {
     let course = mean(courses);
     let n_samples = (course.trend.len() - 1) * HOP;
     let share = 1.0 / courses.len() as f64;
@@ -127,8 +220,8 @@ fn together(courses: &[Course]) -> PredictedFriction {
         mu: course.trace(n_samples, None),
         level_within: WIDE * (of_level * course.level).hypot(spread.sqrt()),
         bands: bands(courses, &course),
-        level: course.level,
-        log_magnitudes: course.log_magnitudes,
+        latent,
+        course,
     }
 }
 
@@ -181,7 +274,6 @@ fn bands(courses: &[Course], mean: &Course) -> Vec<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::example::{Split, all_taken};
-    use crate::score::{MEASURES, Prediction, score};
 
     /// Mean log-spectral distance, dB, and level error, %, of every fourth held-back window of
     /// split A, as `assets/friction/provenance.toml` has them.
@@ -207,8 +299,7 @@ mod tests {
         let mut squares = 0.0;
         for example in &examples {
             let looks = Looks::of(&example.strip);
-            let courses = predictor.networks.iter().flat_map(|n| n.courses(&[&looks]));
-            let course = super::mean(&courses.collect::<Vec<_>>());
+            let course = predictor.course(&looks);
             let found = score(&Prediction::of_course(&course), &example.trace);
             squares += (course.level / example.course.level - 1.0).powi(2) / examples.len() as f64;
             for (sum, measure) in mean.iter_mut().zip(measures) {

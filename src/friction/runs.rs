@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use selvedge_foundation::files::{FileError, Table, TableWriter, read, read_text, write_atomic};
+use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
@@ -69,6 +70,8 @@ pub struct Run<'a> {
     pub split: Split,
     /// Cloths of each family that are learnt from, [`Split::N_CLOTHS`] for the table.
     pub n_cloths: usize,
+    /// The fabrics that are learnt from and held back, by name, where it is not procedural cloth.
+    pub fabrics: Option<&'a str>,
     /// Where it is kept.
     pub folder: &'a Path,
 }
@@ -89,12 +92,30 @@ impl Taken {
         let [learnt, held_back] = windows.map(|windows| all_taken(&windows, n_threads));
         Self { learnt, held_back }
     }
+
+    /// The windows that are held back alone.
+    pub fn held_back(split: Split, n_cloths: usize, n_threads: usize) -> Self {
+        let [_, held_back] = split.windows(n_cloths);
+        Self {
+            learnt: Vec::new(),
+            held_back: all_taken(&held_back, n_threads),
+        }
+    }
+
+    /// Windows that are held back: the family, the strip of [`PredictedFriction::PER_MM`], what was
+    /// felt along it.
+    ///
+    /// [`PredictedFriction::PER_MM`]: crate::PredictedFriction::PER_MM
+    pub fn pictures(&self) -> impl Iterator<Item = (&str, &Grid<f32>, &[f64])> {
+        let windows = self.held_back.iter();
+        windows.map(|of| (of.cloth.as_str(), &of.strip, of.trace.as_slice()))
+    }
 }
 
 impl Run<'_> {
     /// Its name: method, split, seed, and what differs from what results are told of.
     pub fn name(&self) -> String {
-        let split = self.split.letter();
+        let split = self.fabrics.unwrap_or_else(|| self.split.letter());
         let lesson = match self.contestant {
             Contestant::Network(lesson) => lesson,
             Contestant::Baseline(baseline) => {
@@ -109,6 +130,8 @@ impl Run<'_> {
         parts.extend(
             (self.n_cloths != Split::N_CLOTHS).then(|| format!("cloths-{}", self.n_cloths)),
         );
+        let width = lesson.size.width;
+        parts.extend((width != usual.size.width).then(|| format!("width-{width}")));
         let n_rounds = lesson.n_rounds;
         parts.extend((n_rounds != usual.n_rounds).then(|| format!("rounds-{n_rounds}")));
         parts.join("-")
@@ -216,11 +239,10 @@ impl Run<'_> {
         let path = self.file("scores.csv");
         let mut table = TableWriter::new(Vec::new(), &path, &Self::header())?;
         for (example, scores) in taken.held_back.iter().zip(&scores.0) {
-            let window = &example.window;
             table
-                .text(window.family.word())
-                .number(window.seed)
-                .number(window.area.columns[0]);
+                .text(&example.cloth)
+                .number(example.window.map_or(0, |window| window.seed))
+                .number(example.column);
             for score in scores {
                 table.number(score);
             }
@@ -270,6 +292,7 @@ mod tests {
                 contestant: Contestant::Network(lesson),
                 split: Split::Places,
                 n_cloths: 2,
+                fabrics: None,
                 folder: &folder,
             };
             assert_eq!(run.finished().unwrap(), None);

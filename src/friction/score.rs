@@ -63,6 +63,11 @@ pub(crate) const MEASURES: [&str; 11] = [
     "correlation",
 ];
 
+/// The place of a measure in [`MEASURES`].
+pub(crate) const LEVEL: usize = 5;
+/// The place of another.
+pub(crate) const LOG_SPECTRAL: usize = 7;
+
 /// A prediction against the trace that was felt, by each of [`MEASURES`].
 pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len()] {
     let truth = Prediction::of_trace(felt.to_vec());
@@ -174,9 +179,6 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::example::Split;
-
-    const LOG_SPECTRAL: usize = 7;
-    const LEVEL: usize = 5;
 
     #[test]
     fn a_perfect_prediction_has_no_error_and_a_constant_has_the_stated_ones() {

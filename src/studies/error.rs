@@ -43,6 +43,10 @@ pub enum ReportError {
     /// What a study simulates cannot be computed.
     #[error(transparent)]
     Statistics(#[from] Undefined),
+    /// Friction cannot be read from a picture.
+    #[cfg(feature = "friction")]
+    #[error(transparent)]
+    Friction(#[from] selvedge_friction::FrictionError),
     /// A study of a floor above cannot do its work.
     #[error("{0}")]
     Study(String),

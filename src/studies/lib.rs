@@ -23,6 +23,8 @@ mod bimorph;
 mod chart;
 mod drive_updates;
 mod error;
+#[cfg(feature = "friction")]
+mod friction;
 mod index;
 mod left_out;
 mod listing;
@@ -76,6 +78,10 @@ pub fn studies() -> Vec<Study> {
         stylus::STUDY,
         stylus::LIMITS,
         readers::STUDY,
+        #[cfg(feature = "friction")]
+        friction::SPECTRA,
+        #[cfg(feature = "friction")]
+        friction::PICTURES,
         mds::STUDY,
         staircases::STUDY,
         left_out::STUDY,

@@ -43,6 +43,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "chart",
             "statistics",
             "textile",
+            "friction",
             "render",
             "device",
             "engine",
@@ -67,6 +68,7 @@ const CRATES: &[(&str, &[&str])] = &[
         "cli",
         &[
             "foundation",
+            "chart",
             "statistics",
             "textile",
             "friction",

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::folder;
+use super::data::DataArgs;
+use super::{folder, pages};
 use crate::CliError;
 use crate::output::{TableOut, print};
 use crate::terminal::{self, with_meter};
@@ -12,7 +13,7 @@ use crate::usage::one_of;
 use selvedge_foundation::numerics::n_threads;
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{
-    Baseline, Contestant, FrictionError, Lesson, Method, Run, Scores, Split, Taken,
+    Baseline, Contestant, Fabric, FrictionError, Lesson, Method, Run, Scores, Split, Taken,
 };
 
 /// Which runs are put together.
@@ -28,6 +29,8 @@ pub(crate) struct EvaluateArgs {
     /// Leave the simple methods out that are not finished (they take minutes a split)
     #[arg(long)]
     only_finished: bool,
+    #[command(flatten)]
+    data: DataArgs,
 }
 
 /// A row of the table: who, how many runs, each measure's mean and deviation over seeds.
@@ -39,6 +42,9 @@ struct Row {
 
 pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     folder(&args.out)?;
+    if let Some(fabrics) = args.data.fabrics()? {
+        return of_fabrics(args, &fabrics);
+    }
     let path = args.out.join("table.csv");
     let measures = Scores::COLUMNS
         .into_iter()
@@ -74,7 +80,37 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         lines.push(String::new());
     }
     csv.finish()?;
+    if let Some(&split) = args.splits.first() {
+        pages::draw(&args.out, split, n_threads())?;
+    }
     print(&lines.join("\n"))
+}
+
+/// What methods make of fabrics of one's own, each left out in turn; the networks are as shipped.
+fn of_fabrics(args: &EvaluateArgs, fabrics: &[Fabric]) -> Result<(), CliError> {
+    let rows = with_meter("evaluate", |progress| Fabric::left_out(fabrics, progress))??;
+    let path = args.out.join("fabrics.csv");
+    let mut csv = TableOut::new(
+        Some(&path),
+        &["method", "level_rmse", "log_spectral_distance_db"],
+    )?;
+    let mut lines = vec![format!(
+        "{:17}  {:>10}  {:>11}",
+        "method", "level RMSE", "spectrum dB"
+    )];
+    for row in rows {
+        let (name, level, distance) = (row.method, row.level_rmse, row.log_spectral_distance_db);
+        let cell = distance.map_or_else(|| "-".to_owned(), |db| fixed(db, 2));
+        lines.push(format!("{name:17}  {:>10}  {cell:>11}", fixed(level, 4)));
+        let distance = distance.map(|db| db.to_string()).unwrap_or_default();
+        csv.rows()
+            .text(name)
+            .number(level)
+            .text(&distance)
+            .end_row()?;
+    }
+    csv.finish()?;
+    print(&format!("{}\n", lines.join("\n")))
 }
 
 /// What is not run yet, and how it is run.
@@ -98,6 +134,7 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
         contestant,
         split,
         n_cloths: Split::N_CLOTHS,
+        fabrics: None,
         folder: &args.out,
     };
     let mut rows = Vec::new();
@@ -138,6 +175,7 @@ fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)
         contestant: Contestant::Baseline(baseline),
         split,
         n_cloths: Split::N_CLOTHS,
+        fabrics: None,
         folder: &args.out,
     };
     let mut found = Vec::new();

@@ -1,15 +1,16 @@
 //! `selvedge friction generate`: a trace of friction from a picture of cloth.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
+use super::data::brightness;
 use crate::CliError;
 use crate::output::{TableOut, write_bytes};
 use crate::picture::positive;
 use crate::terminal;
 use selvedge_foundation::files::{Rgb8Image, encode_png};
-use selvedge_foundation::numerics::{Grid, extent, to_byte, to_single};
+use selvedge_foundation::numerics::{extent, to_byte};
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{PredictedFriction, Predictor};
 
@@ -68,19 +69,13 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| "give a share from 0 to 1".to_owned())
 }
 
-fn brightness(image: &Path) -> Result<Grid<f32>, CliError> {
-    let bytes = selvedge_textile::read_measurement(image)?;
-    let picture = selvedge_textile::picture::load(&bytes, image)?;
-    Ok(picture.luminance.map(to_single))
-}
-
 /// How sure this is.
 fn describe(found: &PredictedFriction) -> String {
     let worst = found.bands.iter().map(|[.., db]| *db).fold(0.0, f64::max);
     format!(
         "mean friction {} ± {} (95 % of cloths like those that were learnt: procedural ones), \
          spectrum within {} dB a bin; a picture tells little of an unseen material's friction",
-        fixed(found.level, 3),
+        fixed(found.level(), 3),
         fixed(found.level_within, 3),
         fixed(worst, 1)
     )
@@ -91,7 +86,7 @@ const WIDE: usize = 16;
 
 /// Log magnitudes, dark to light, lowest row at the bottom.
 fn spectrogram(found: &PredictedFriction) -> Rgb8Image {
-    let log = &found.log_magnitudes;
+    let log = found.log_magnitudes();
     let [low, high] = extent(log.values().iter().map(|&log| f64::from(log)));
     let shade = |value: f32| to_byte(255.0 * (f64::from(value) - low) / (high - low).max(1e-9));
     let (n_bins, n_frames) = (log.width(), log.height());

@@ -1,7 +1,9 @@
 //! `selvedge friction`: friction from a picture, and how far a network gets.
 
+mod data;
 mod evaluate;
 mod generate;
+mod pages;
 mod train;
 
 use std::path::Path;

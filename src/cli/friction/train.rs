@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::data::DataArgs;
 use super::folder;
 use crate::CliError;
 use crate::terminal::{self, with_meter};
@@ -41,6 +42,11 @@ pub(crate) struct TrainArgs {
     #[arg(long, value_name = "N", default_value_t = Split::N_CLOTHS as u32,
         value_parser = clap::value_parser!(u32).range(1..=5000))]
     cloths: u32,
+    /// Channels of ours
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=64))]
+    width: Option<u8>,
+    #[command(flatten)]
+    data: DataArgs,
 }
 
 pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
@@ -49,12 +55,15 @@ pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
         let mut lesson = Lesson::usual(args.method, seed);
         lesson.loss = args.loss;
         lesson.n_rounds = args.rounds.map_or(lesson.n_rounds, |n| n as usize);
-        lesson
+        args.width
+            .map_or(lesson, |width| lesson.with_width(width.into()))
     };
+    let (fabrics, name) = (args.data.fabrics()?, args.data.name());
     let run = |seed: u64| Run {
         contestant: Contestant::Network(lesson(seed)),
         split: args.split,
         n_cloths: args.cloths as usize,
+        fabrics: name.as_deref(),
         folder: &args.out,
     };
     let mut wanted = Vec::new();
@@ -73,7 +82,10 @@ pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
         progress
             .step(0.0, "making pictures of cloth")
             .map_err(|_stopped| FrictionError::Cancelled)?;
-        let taken = Taken::of(args.split, args.cloths as usize, n_threads());
+        let taken = match &fabrics {
+            Some(fabrics) => Taken::of_fabrics(fabrics)?,
+            None => Taken::of(args.split, args.cloths as usize, n_threads()),
+        };
         for run in wanted {
             run.run(&taken, progress, &mut |said| terminal::line(said))?;
         }

@@ -54,4 +54,11 @@ impl Lesson {
             seed,
         }
     }
+
+    /// Ours with so many channels.
+    #[must_use]
+    pub fn with_width(mut self, width: usize) -> Self {
+        self.size.width = width;
+        self
+    }
 }

@@ -11,7 +11,7 @@ use super::critic::{AdversarialLoss, Critic};
 use super::learn::{L1_WEIGHT, Learner, Losses, Network, number};
 use super::lesson::Lesson;
 use super::registered::{Answer, Registered, Scales, Size};
-use super::weights::{Weights, drawn, filled, read};
+use super::weights::{Weights, drawn, filled, read, tensor, values};
 use crate::FrictionError;
 use crate::example::Example;
 use crate::picture::{Looks, N_CHANNELS};
@@ -156,6 +156,28 @@ impl OurNetwork {
             .network
             .encode(self.scales.inputs(looks, &Device::flex()));
         self.scales.courses(self.network.decode(code))
+    }
+
+    /// What stands for the cloth of a strip.
+    pub(crate) fn latent(&self, looks: &Looks) -> Vec<f32> {
+        let inputs = self.scales.inputs(&[looks], &Device::flex());
+        values(self.network.latent(&inputs))
+    }
+
+    /// What it makes of a strip whose latent is shaken: noise in units of the latent's deviation.
+    pub(crate) fn shaken(&self, looks: &Looks, noise: impl Iterator<Item = f32>) -> Course {
+        let device = Device::flex();
+        let mut code = self.network.encode(self.scales.inputs(&[looks], &device));
+        let latent = values(code.latent);
+        let size = latent.iter().map(|x| x * x).sum::<f32>() / latent.len() as f32;
+        let moved = latent
+            .iter()
+            .zip(noise)
+            .map(|(x, noise)| x + size.sqrt() * noise);
+        code.latent = tensor(moved.collect(), [1, latent.len()], &device);
+        self.scales
+            .courses(self.network.decode(code))
+            .swap_remove(0)
     }
 
     /// A cloth that lies so far (0 to 1) from the first strip's to the second's, which is as long;

@@ -111,11 +111,14 @@ impl Registered {
         }
     }
 
+    /// What stands for each cloth, a row of [`N_LATENT`] an example.
+    pub(super) fn latent(&self, inputs: &Inputs) -> Tensor<2> {
+        let figures = relu(self.figures.forward(inputs.figures.clone()));
+        relu(self.latent.forward(figures))
+    }
+
     pub(super) fn encode(&self, inputs: Inputs) -> Code {
-        let latent = relu(
-            self.latent
-                .forward(relu(self.figures.forward(inputs.figures))),
-        );
+        let latent = self.latent(&inputs);
         let shift = |n: usize| {
             let shift: Tensor<2> = self.shifts[n].forward(latent.clone());
             shift.unsqueeze_dim::<3>(2).unsqueeze_dim::<4>(3)

@@ -1,0 +1,396 @@
+//! Friction from a picture: how a trace is found from its spectra, and what a worse picture costs.
+
+use super::chart::{chart, lines_by};
+use super::readable::largest;
+use super::{Bench, Findings, ReportError, Row, Study};
+use selvedge_chart::Axis;
+use selvedge_foundation::numerics::{
+    Complex, Grid, GriffinLim, Random, StartPhases, Stft, n_threads, to_single,
+};
+use selvedge_foundation::quantity::fixed;
+use selvedge_friction::{PredictedFriction, Predictor, Scores, Split, Taken};
+
+/// Samples of a frame, and from frame to frame.
+const FRAME: [usize; 2] = [512, 128];
+/// The spectral error that is promised after 32 rounds.
+const PROMISED: f64 = 0.01;
+
+/// Griffin–Lim: from which phases and in how many rounds.
+pub(crate) const SPECTRA: Study = Study {
+    name: "griffin-lim",
+    question: "From which phases, and in how many rounds, is friction found from its spectra?",
+    reference: "The magnitudes that went in.",
+    error: ("spectral error", "share of all magnitudes"),
+    cost_of: "trace of 100 mm",
+    run: spectra,
+};
+
+/// Worse pictures, and extreme ones.
+pub(crate) const PICTURES: Study = Study {
+    name: "friction-pictures",
+    question: "What does a worse picture cost the friction that is read from it?",
+    reference: "Procedural cloths that were held back, and the friction that was felt on them.",
+    error: ("distance of spectra, mean", "dB"),
+    cost_of: "picture of 100 mm",
+    run: pictures,
+};
+
+/// How a trace is found again.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    name: &'static str,
+    /// Whether its mean is taken off first.
+    is_level: bool,
+    start: fn(u64) -> StartPhases<'static>,
+    momentum: f64,
+}
+
+const WAYS: [Way; 4] = [
+    Way {
+        name: "whole, phases by chance",
+        is_level: true,
+        start: StartPhases::Random,
+        momentum: 0.99,
+    },
+    Way {
+        name: "whole, a constant's phases",
+        is_level: true,
+        start: StartPhases::OfConstant,
+        momentum: 0.99,
+    },
+    Way {
+        name: "without its mean, phases by chance",
+        is_level: false,
+        start: StartPhases::Random,
+        momentum: 0.99,
+    },
+    Way {
+        name: "the same, no overshoot",
+        is_level: false,
+        start: StartPhases::Random,
+        momentum: 0.0,
+    },
+];
+
+fn spectra(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let n_seeds = bench.effort.pick(5, 20);
+    let rounds = bench
+        .effort
+        .pick(&[8, 32][..], &[1, 2, 4, 8, 16, 32, 64, 128]);
+    let taken = Taken::held_back(Split::Cloths, 1, n_threads());
+    let traces: Vec<&[f64]> = taken.pictures().map(|(.., felt)| felt).collect();
+    let [n_window, hop] = FRAME;
+    let stft = Stft::hamming(n_window, hop);
+    let mut rows = Vec::new();
+    for (nth, way) in WAYS.iter().enumerate() {
+        bench.step(nth as f64 / WAYS.len() as f64, way.name)?;
+        for &n_rounds in rounds {
+            rows.push(way.row(bench, &stft, &traces, (n_rounds, n_seeds)));
+        }
+    }
+    let lines = lines_by(
+        &rows,
+        |row| &row.method,
+        |row| Some([row.size?, row.error?]),
+    );
+    let plot = chart(
+        "Worst spectral error over seeds",
+        Axis::log("rounds"),
+        Axis::log("spectral error"),
+        lines,
+        "Traces of procedural cloth, one a family.",
+    );
+    let notes = [
+        "A mean of 0.4 makes two rows of a spectrogram a hundred times as large as all others: \
+         from phases by chance its frames take opposite signs and stay there.",
+    ];
+    Ok(Findings::new(
+        rows,
+        vec![("rounds".to_owned(), plot)],
+        notes,
+    ))
+}
+
+impl Way {
+    fn magnitudes(self, stft: &Stft, trace: &[f64]) -> Grid<f64> {
+        let mean = trace.iter().sum::<f64>() / trace.len() as f64;
+        let off = if self.is_level { 0.0 } else { mean };
+        let rest: Vec<f64> = trace.iter().map(|mu| mu - off).collect();
+        stft.forward(&rest).map(Complex::norm)
+    }
+
+    /// The worst of so many seeds after so many rounds.
+    fn row(
+        self,
+        bench: &mut Bench<'_>,
+        stft: &Stft,
+        traces: &[&[f64]],
+        (n_iterations, n_seeds): (usize, usize),
+    ) -> Row {
+        let how = GriffinLim {
+            n_iterations,
+            momentum: self.momentum,
+        };
+        let found = |trace: &[f64], seed: usize| {
+            let target = self.magnitudes(stft, trace);
+            let start = (self.start)(seed as u64);
+            let found = stft.griffin_lim(&target, trace.len(), start, how);
+            missed(&stft.forward(&found).map(Complex::norm), &target)
+        };
+        let errors: Vec<f64> = (0..n_seeds)
+            .map(|seed| found(traces[seed % traces.len()], seed))
+            .collect();
+        let n_within = errors.iter().filter(|error| **error <= PROMISED).count();
+        let is_used = self.name == WAYS[2].name && n_iterations == 32;
+        Row {
+            error: Some(largest(errors.iter().copied())),
+            promised: is_used.then_some(PROMISED),
+            cost: Some(bench.time(1, || found(traces[0], 0))),
+            size: Some(n_iterations as f64),
+            more: vec![("seeds within 1 %", format!("{n_within} of {n_seeds}"))],
+            ..Row::of(
+                self.name,
+                format!("{n_iterations} rounds"),
+                "procedural cloth",
+            )
+        }
+    }
+}
+
+/// Root of the power of what differs, as a share of all.
+fn missed(found: &Grid<f64>, target: &Grid<f64>) -> f64 {
+    let pairs = found.values().iter().zip(target.values());
+    let (off, all) = pairs.fold((0.0, 0.0), |(off, all), (a, b)| {
+        (off + (a - b).powi(2), all + b * b)
+    });
+    (off / all).sqrt()
+}
+
+/// What is done to a picture before it is read, or to what stands for its cloth.
+#[derive(Debug, Clone, Copy)]
+enum Spoilt {
+    /// Noise of a standard deviation, of white.
+    Noisy(f64),
+    /// The same, then means of 3 × 3 pixels.
+    Smoothed(f64),
+    /// Pixels so many times as large.
+    Coarser(usize),
+    /// A latent that is shaken by so much of its own size.
+    Latent(f64),
+}
+
+impl Spoilt {
+    fn all(bench: &Bench<'_>) -> Vec<Self> {
+        let noise = bench
+            .effort
+            .pick(&[0.0, 0.05][..], &[0.0, 0.01, 0.02, 0.05, 0.1, 0.2]);
+        let coarser = bench.effort.pick(&[2][..], &[2, 4]);
+        let shaken = bench.effort.pick(&[0.1][..], &[0.01, 0.1, 0.3, 1.0]);
+        let noisy = noise.iter().copied().map(Self::Noisy);
+        let smoothed = noise.iter().copied().map(Self::Smoothed);
+        let coarser = coarser.iter().copied().map(Self::Coarser);
+        let latent = shaken.iter().copied().map(Self::Latent);
+        noisy.chain(smoothed).chain(coarser).chain(latent).collect()
+    }
+
+    fn method(self) -> &'static str {
+        match self {
+            Self::Noisy(_) => "as it is",
+            Self::Smoothed(_) => "mean of 3 x 3",
+            Self::Coarser(_) => "coarser",
+            Self::Latent(_) => "latent shaken",
+        }
+    }
+
+    fn setting(self) -> String {
+        match self {
+            Self::Noisy(sd) | Self::Smoothed(sd) => format!("noise {sd}"),
+            Self::Coarser(_) => format!("{} px/mm", self.px_per_mm()),
+            Self::Latent(share) => format!("by {share}"),
+        }
+    }
+
+    fn px_per_mm(self) -> f64 {
+        match self {
+            Self::Coarser(n) => PredictedFriction::PER_MM / n as f64,
+            _ => PredictedFriction::PER_MM,
+        }
+    }
+
+    fn shaken(self) -> f64 {
+        match self {
+            Self::Latent(share) => share,
+            _ => 0.0,
+        }
+    }
+
+    fn picture(self, strip: &Grid<f32>, random: &mut Random) -> Grid<f32> {
+        let mut noisy =
+            |sd: f64| strip.map(|v| (v + to_single(sd * random.normal())).clamp(0.0, 1.0));
+        match self {
+            Self::Noisy(sd) => noisy(sd),
+            Self::Smoothed(sd) => smoothed(&noisy(sd)),
+            Self::Coarser(n) => {
+                let size = [strip.width(), strip.height()].map(|pixels| pixels / n);
+                Grid::from_fn(size[0], size[1], |x, y| mean_of(strip, [n * x, n * y], n))
+            }
+            Self::Latent(_) => strip.clone(),
+        }
+    }
+}
+
+/// Mean of a square of pixels.
+fn mean_of(picture: &Grid<f32>, [left, top]: [usize; 2], n: usize) -> f32 {
+    let rows = (top..top + n).flat_map(|y| &picture.row(y)[left..left + n]);
+    rows.sum::<f32>() / (n * n) as f32
+}
+
+/// Means over a pixel and its eight neighbours.
+fn smoothed(picture: &Grid<f32>) -> Grid<f32> {
+    let [last_x, last_y] = [picture.width() - 1, picture.height() - 1];
+    Grid::from_fn(picture.width(), picture.height(), |x, y| {
+        let rows = [y.saturating_sub(1), y, (y + 1).min(last_y)].map(|y| picture.row(y));
+        let columns = [x.saturating_sub(1), x, (x + 1).min(last_x)];
+        rows.iter()
+            .flat_map(|row| columns.map(|x| row[x]))
+            .sum::<f32>()
+            / 9.0
+    })
+}
+
+fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let n_cloths = bench.effort.pick(4, 40);
+    let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
+    let predictor = Predictor::shipped()?;
+    let place = |column: &str| {
+        Scores::COLUMNS
+            .iter()
+            .position(|name| *name == column)
+            .unwrap_or_default()
+    };
+    let [distance, level] = ["log_spectral_distance_db", "level_error_percent"].map(place);
+    let mut rows = Vec::new();
+    let all = Spoilt::all(bench);
+    for (nth, spoilt) in all.iter().enumerate() {
+        let setting = spoilt.setting();
+        bench.step(nth as f64 / all.len() as f64, &setting)?;
+        let mut random = Random::new(bench.seed).branch(&setting);
+        let (mut distances, mut levels) = (Vec::new(), Vec::new());
+        for (_, strip, felt) in taken.pictures() {
+            let picture = spoilt.picture(strip, &mut random);
+            let (scale, share) = (spoilt.px_per_mm(), spoilt.shaken());
+            let found = predictor.shaken(&picture, scale, share, &mut random);
+            let scores = found?.scores(felt);
+            distances.push(scores[distance]);
+            levels.push(scores[level]);
+        }
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        rows.push(Row {
+            error: Some(mean(&distances)),
+            more: vec![("level error, %", fixed(mean(&levels), 2))],
+            ..Row::of(spoilt.method(), setting, "held-back cloths")
+        });
+    }
+    rows.extend(extreme(bench, &predictor)?);
+    let notes = [
+        "The networks learnt from pictures with the noise of a camera, and of one scale.",
+        "A picture without a strip of 40 mm x 10 mm is refused.",
+    ];
+    Ok(Findings::new(rows, Vec::new(), notes))
+}
+
+/// Pictures that show next to nothing, and what an answer costs.
+fn extreme(bench: &mut Bench<'_>, predictor: &Predictor) -> Result<Vec<Row>, ReportError> {
+    let side = bench.effort.pick(2000, 8000);
+    let per_mm = PredictedFriction::PER_MM;
+    let stripes = |x: usize, _: usize| to_single((x % 2) as f64);
+    let cases = [
+        ("black", Grid::filled(1280, 128, 0.0), per_mm),
+        ("white", Grid::filled(1280, 128, 1.0), per_mm),
+        ("one grey", Grid::filled(1280, 128, 0.5), per_mm),
+        (
+            "stripes of a pixel",
+            Grid::from_fn(1280, 128, stripes),
+            per_mm,
+        ),
+        ("as small as it may be", Grid::filled(512, 128, 0.5), per_mm),
+        (
+            "huge",
+            Grid::from_fn(side, side, stripes),
+            side as f64 / 100.0,
+        ),
+    ];
+    let mut rows = Vec::new();
+    for (case, picture, px_per_mm) in cases {
+        let found = predictor.of_picture(&picture, px_per_mm)?;
+        let is_friction = found.mu.iter().all(|mu| mu.is_finite() && *mu >= 0.0);
+        let told = if is_friction {
+            "finite, not negative"
+        } else {
+            "no friction"
+        };
+        let cost = bench.time(1, || predictor.of_picture(&picture, px_per_mm));
+        rows.push(Row {
+            cost: Some(cost),
+            more: vec![
+                ("level error, %", String::new()),
+                ("friction", told.to_owned()),
+            ],
+            ..Row::of("extreme", "four networks", case)
+        });
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Effort;
+    use selvedge_foundation::progress::unheard;
+
+    #[test]
+    fn phases_by_chance_fail_on_a_whole_trace_and_not_on_one_without_its_mean() {
+        let findings =
+            unheard(|progress| (SPECTRA.run)(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
+        let error = |method: &str| {
+            let is_it = |row: &&Row| row.method == method && row.size == Some(32.0);
+            findings
+                .rows
+                .iter()
+                .find(is_it)
+                .and_then(|row| row.error)
+                .unwrap()
+        };
+        assert!(error(WAYS[0].name) > 0.05);
+        assert!(error(WAYS[1].name) < 0.01 && error(WAYS[2].name) < 0.01);
+        assert_eq!(findings.n_broken(), 0);
+    }
+
+    #[test]
+    fn noise_costs_and_extreme_pictures_give_friction() {
+        let findings =
+            unheard(|progress| (PICTURES.run)(&mut Bench::new(Effort::Quick, 1, progress)))
+                .unwrap();
+        let error = |method: &str, setting: &str| {
+            let is_it = |row: &&Row| row.method == method && row.setting == setting;
+            findings
+                .rows
+                .iter()
+                .find(is_it)
+                .and_then(|row| row.error)
+                .unwrap()
+        };
+        assert!(error("as it is", "noise 0.05") > error("as it is", "noise 0"));
+        let extreme: Vec<_> = findings
+            .rows
+            .iter()
+            .filter(|row| row.method == "extreme")
+            .collect();
+        assert_eq!(extreme.len(), 6);
+        assert!(
+            extreme
+                .iter()
+                .all(|row| row.more[1].1 == "finite, not negative")
+        );
+    }
+}
