@@ -193,7 +193,9 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
     ];
     if let Some(friction) = textile.friction()? {
         let [miu, mmd] = [friction.miu(), friction.mmd()].map(|figure| fixed(figure, 4));
-        rows.push(("friction", format!("MIU {miu}, MMD {mmd}")));
+        let within = manifest.uncertainty.as_ref().and_then(|u| u.friction_level);
+        let within = within.map_or_else(String::new, |level| format!(" ± {}", fixed(level, 4)));
+        rows.push(("friction", format!("MIU {miu}{within}, MMD {mmd}")));
     }
     rows.extend(
         textile

@@ -189,7 +189,7 @@ impl Predictor {
         let between = |network: &OurNetwork| network.between(&from, &to, share);
         let courses: Vec<_> = self.networks.iter().filter_map(between).collect();
         let [a, b] = [&from, &to].map(|looks| self.networks[0].latent(looks));
-        let latent = |(a, b): (&f32, &f32)| a + (b - a) * to_single(share);
+        let latent = |(a, b): (&f32, &f32)| a * to_single(1.0 - share) + b * to_single(share);
         Ok(together(&courses, a.iter().zip(&b).map(latent).collect()))
     }
 }

@@ -55,7 +55,7 @@ pub use library::{
 };
 pub use manifest::{
     AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,
-    Provenance, all_known as known_figures, figures as measured_figures,
+    Provenance, Uncertainty, all_known as known_figures, figures as measured_figures,
 };
 pub use profile_file::read as read_profile;
 pub use recipe::{Group, Parameter, ParameterKind, Place, lit};

@@ -126,3 +126,107 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
     assert!(told.contains("not run: ours, seeds 1 2 3:"), "{told}");
     assert_eq!(lab.read("runs/table.csv").lines().count(), 1);
 }
+
+#[test]
+fn a_textile_keeps_friction_from_a_picture_and_how_far_it_may_be_off() {
+    let lab = Lab::new();
+    lab.write("cloth.png", cloth());
+    let rows: Vec<String> = (0..400)
+        .map(|i| format!("{},{}", f64::from(i) / 10.0, i % 7))
+        .collect();
+    lab.write(
+        "mine/a.csv",
+        format!("x_mm,height_um\n{}\n", rows.join("\n")),
+    );
+    let manifest = [
+        "# mine",
+        "name = \"Mine\"",
+        "construction = \"woven\"",
+        "fibre = \"wool\"",
+        "[source]",
+        "kind = \"profiles\"",
+        "warp_forward = \"a.csv\"",
+        "",
+    ];
+    let manifest = manifest.join("\n");
+    lab.write("mine/textile.toml", &manifest);
+    let args = [
+        "friction",
+        "generate",
+        "cloth.png",
+        "--px-per-mm",
+        "10",
+        "--textile",
+        "mine",
+    ];
+    let ran = lab.run(&args);
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
+    let kept = lab.read("mine/textile.toml");
+    assert!(
+        kept.starts_with("# mine\n") && kept.contains("[uncertainty]"),
+        "{kept}"
+    );
+    assert!(lab.read("mine/friction.csv").starts_with("x_mm,mu\n0,"));
+    let shown = lab.run(&["textile", "show", "mine", "--library", "."]);
+    assert!(
+        shown.out.contains("friction      MIU 0.") && shown.out.contains(" ± 0."),
+        "{}",
+        shown.out
+    );
+    // Friction that was measured is not covered up.
+    let measured = manifest.replace("kind", "friction = \"a.csv\"\nkind");
+    lab.write("mine/textile.toml", &measured);
+    let refused = lab.run(&args);
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.err.contains("friction of its own"),
+        "{}",
+        refused.err
+    );
+    assert_eq!(lab.read("mine/textile.toml"), measured);
+}
+
+#[test]
+fn fabrics_of_ones_own_are_compared_and_one_unlike_all_others_is_told_of() {
+    let lab = Lab::new();
+    let mut means = vec!["name,mu".to_owned()];
+    for nth in 0..6 {
+        lab.write(&format!("mine/cloth{nth}.png"), cloth());
+        let mu = if nth == 2 {
+            0.9
+        } else {
+            0.3 + 0.01 * f64::from(nth)
+        };
+        means.push(format!("cloth{nth},{mu}"));
+    }
+    let args = [
+        "friction",
+        "evaluate",
+        "--out",
+        "out",
+        "--data",
+        "mine",
+        "--px-per-mm",
+        "10",
+    ];
+    let refused = lab.run(&args);
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused
+            .err
+            .contains("cloth0.png: no friction; put cloth0.csv"),
+        "{}",
+        refused.err
+    );
+    lab.write("mine/friction.csv", means.join("\n"));
+    let ran = lab.run(&args);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("cloth2: its friction is"), "{}", ran.err);
+    assert_eq!(ran.out.lines().count(), 6, "{}", ran.out);
+    assert!(
+        ran.out.contains("ridge") && ran.out.contains("shipped networks"),
+        "{}",
+        ran.out
+    );
+    assert_eq!(lab.read("out/fabrics.csv").lines().count(), 6);
+}

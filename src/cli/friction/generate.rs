@@ -1,6 +1,6 @@
 //! `selvedge friction generate`: a trace of friction from a picture of cloth.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,10 +9,13 @@ use crate::CliError;
 use crate::output::{TableOut, write_bytes};
 use crate::picture::positive;
 use crate::terminal;
-use selvedge_foundation::files::{Rgb8Image, encode_png};
+use selvedge_foundation::files::{
+    EditedKeys, KeyValue, Rgb8Image, encode_png, read_text, write_atomic,
+};
 use selvedge_foundation::numerics::{extent, to_byte};
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{PredictedFriction, Predictor};
+use selvedge_textile::Manifest;
 
 /// A picture, and where its friction goes.
 #[derive(Debug, Args)]
@@ -32,6 +35,10 @@ pub(crate) struct GenerateArgs {
     /// The table `x_mm,mu` (standard output if none is named)
     #[arg(long, value_name = "F.csv")]
     out: Option<PathBuf>,
+    /// A folder of a textile that feels like it from now on: friction.csv is written there, and how
+    /// far it may be off into textile.toml
+    #[arg(long, value_name = "DIR")]
+    textile: Option<PathBuf>,
     /// A picture of the spectrogram: a column a centimetre, rows up to 6.4 cycles/mm
     #[arg(long, value_name = "S.png")]
     spectrogram: Option<PathBuf>,
@@ -48,17 +55,44 @@ pub(super) fn run(args: &GenerateArgs) -> Result<(), CliError> {
             predictor.between(pictures, args.share)?
         }
     };
-    let mut table = TableOut::new(args.out.as_deref(), &["x_mm", "mu"])?;
-    for (at, mu) in found.mu.iter().enumerate() {
-        let x_mm = at as f64 / PredictedFriction::PER_MM;
-        table.rows().number(x_mm).number(mu).end_row()?;
+    if let Some(folder) = &args.textile {
+        keep(&found, folder)?;
     }
-    table.finish()?;
+    if args.textile.is_none() || args.out.is_some() {
+        write_trace(&found, args.out.as_deref())?;
+    }
     if let Some(path) = &args.spectrogram {
         write_bytes(path, &encode_png(&spectrogram(&found), path)?)?;
     }
     terminal::notice(&describe(&found));
     Ok(())
+}
+
+fn write_trace(found: &PredictedFriction, out: Option<&Path>) -> Result<(), CliError> {
+    let mut table = TableOut::new(out, &["x_mm", "mu"])?;
+    for (at, mu) in found.mu.iter().enumerate() {
+        let x_mm = at as f64 / PredictedFriction::PER_MM;
+        table.rows().number(x_mm).number(mu).end_row()?;
+    }
+    table.finish()
+}
+
+/// Gives it to a textile. What is wrong with its manifest is told before anything is written; what
+/// nobody touches there stays as it was.
+fn keep(found: &PredictedFriction, folder: &Path) -> Result<(), CliError> {
+    const FRICTION: &str = "friction.csv";
+    let path = folder.join("textile.toml");
+    let mut keys = EditedKeys::parse(&read_text(&path)?, &path)?;
+    let number = |value: f64| KeyValue::Float((1e4 * value).round() / 1e4);
+    let band = |band: &[f64; 3]| KeyValue::Array(band.map(number).to_vec());
+    let bands = found.bands.iter().map(band).collect();
+    keys.set(("", 0, "friction"), Some(&FRICTION.into()));
+    let mut state = |key, value| keys.set(("uncertainty", 0, key), Some(&value));
+    state("friction_level", number(found.level_within));
+    state("friction_bands_db", KeyValue::Array(bands));
+    Manifest::from_toml(&keys.text(), &path)?;
+    write_trace(found, Some(&folder.join(FRICTION)))?;
+    Ok(write_atomic(&path, keys.text().as_bytes())?)
 }
 
 fn share(text: &str) -> Result<f64, String> {

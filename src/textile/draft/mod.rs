@@ -50,6 +50,8 @@ impl Draft {
             source: manifest.source.recipe(),
             appearance: None,
             measured: std::collections::BTreeMap::new(),
+            uncertainty: None,
+            friction: None,
             provenance: None,
             ..manifest.clone()
         };

@@ -91,7 +91,7 @@ pub fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError
     let store = from.files_of(id)?;
     let manifest = read_manifest(&store, id)?;
     let mut names = content_names(&manifest);
-    names.extend(manifest.source.keys().friction().map(ToOwned::to_owned));
+    names.extend(manifest.friction_file().map(ToOwned::to_owned));
     names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
     names.push(MANIFEST.to_owned());
     if let Some(heights) = manifest.source.keys().heights_file() {

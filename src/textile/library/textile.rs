@@ -103,7 +103,7 @@ impl Textile {
     /// # Errors
     /// A file that is missing, or no friction trace.
     pub fn friction(&self) -> Result<Option<Arc<FrictionTrace>>, TextileError> {
-        let Some(name) = self.manifest.source.keys().friction() else {
+        let Some(name) = self.manifest.friction_file() else {
             return Ok(None);
         };
         if let Some(trace) = self.friction.get() {

@@ -5,9 +5,11 @@
 
 mod measured;
 mod provenance;
+mod uncertainty;
 
 pub use measured::{Figure, KnownFigure, all_known, figures};
 pub use provenance::{Parent, Provenance};
+pub use uncertainty::Uncertainty;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -47,6 +49,9 @@ pub struct Manifest<S = Source> {
     /// One line of description.
     #[serde(default)]
     pub notes: String,
+    /// A CSV of `x_mm,mu` beside the manifest: friction that the source itself does not have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<String>,
     /// Where the surface comes from.
     pub source: S,
     /// What it looks like.
@@ -55,6 +60,9 @@ pub struct Manifest<S = Source> {
     /// Figures with units in their names, such as `smd_um`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub measured: BTreeMap<String, f64>,
+    /// How far values may be off that were not measured on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
     /// The textiles that it was made from, and by which program.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub provenance: Option<Provenance>,
@@ -100,9 +108,11 @@ impl Manifest {
             noise_floor_um2_mm: None,
             licence: String::new(),
             notes: String::new(),
+            friction: None,
             source,
             appearance: None,
             measured: BTreeMap::new(),
+            uncertainty: None,
             provenance: None,
         }
     }
@@ -122,6 +132,12 @@ impl Manifest {
         })??;
         manifest.check(&checker)?;
         Ok(manifest)
+    }
+
+    /// The file of its friction, measured or not; `None` where it has none.
+    pub(crate) fn friction_file(&self) -> Option<&str> {
+        let own = self.source.keys().friction();
+        own.or(self.friction.as_deref())
     }
 
     /// The manifest as TOML. `path` only names it in errors.
@@ -147,8 +163,16 @@ impl Manifest {
         for (key, value) in &self.measured {
             measured::check(checker, key, *value)?;
         }
+        if let Some(uncertainty) = &self.uncertainty {
+            uncertainty.check(checker)?;
+        }
         if let Some(provenance) = &self.provenance {
             provenance.check(checker)?;
+        }
+        checker.file_name("", "friction", self.friction.as_deref())?;
+        if self.friction.is_some() && self.source.keys().friction().is_some() {
+            let mend = "keep one of both";
+            return Err(checker.wrong("", "friction", "the source has friction of its own", mend));
         }
         self.source.check(checker)
     }
@@ -164,9 +188,11 @@ impl<S> Manifest<S> {
             noise_floor_um2_mm: self.noise_floor_um2_mm,
             licence: self.licence,
             notes: self.notes,
+            friction: self.friction,
             source: wrap(self.source),
             appearance: self.appearance,
             measured: self.measured,
+            uncertainty: self.uncertainty,
             provenance: self.provenance,
         }
     }
