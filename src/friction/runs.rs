@@ -17,6 +17,9 @@ use crate::example::{Example, Split, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
 use crate::score::{MEASURES, Prediction, score};
 
+/// What files of scores end in.
+const SCORES: &str = "scores.csv";
+
 /// Scores of held-back windows, each by [`Self::COLUMNS`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scores(Vec<[f64; Self::N]>);
@@ -26,6 +29,20 @@ impl Scores {
     pub const N: usize = MEASURES.len();
     /// Their names, with units, as columns of files.
     pub const COLUMNS: [&str; Self::N] = MEASURES;
+
+    fn header() -> Vec<&'static str> {
+        let place = ["family", "seed", "column"];
+        place.into_iter().chain(MEASURES).collect()
+    }
+
+    fn read(path: &Path) -> Result<Self, FrictionError> {
+        let table = Table::read(&read_text(path)?, path, &Self::header(), &[])?;
+        let columns = MEASURES.map(|measure| table.required_numbers(measure));
+        let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
+        let columns = columns?;
+        let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
+        Ok(Self((0..table.n_rows()).map(row).collect()))
+    }
 
     /// Each measure's mean over the windows.
     pub fn mean(&self) -> [f64; Self::N] {
@@ -146,21 +163,33 @@ impl Run<'_> {
     /// # Errors
     /// A file that cannot be read, or holds something else.
     pub fn finished(&self) -> Result<Option<Scores>, FrictionError> {
-        let path = self.file("scores.csv");
-        if !path.exists() {
-            return Ok(None);
+        let path = self.file(SCORES);
+        if path.exists() {
+            Scores::read(&path).map(Some)
+        } else {
+            Ok(None)
         }
-        let table = Table::read(&read_text(&path)?, &path, &Self::header(), &[])?;
-        let columns = MEASURES.map(|measure| table.required_numbers(measure));
-        let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
-        let columns = columns?;
-        let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
-        Ok(Some(Scores((0..table.n_rows()).map(row).collect())))
     }
 
-    fn header() -> Vec<&'static str> {
-        let place = ["family", "seed", "column"];
-        place.into_iter().chain(MEASURES).collect()
+    /// All runs of a folder that are finished, by name.
+    ///
+    /// # Errors
+    /// As [`Self::finished`].
+    pub fn all_finished(folder: &Path) -> Result<Vec<(String, Scores)>, FrictionError> {
+        let entries = fs::read_dir(folder).map_err(FileError::read(folder))?;
+        let mut found = Vec::new();
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let name = path
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned());
+            let name = name
+                .and_then(|name| Some(name.strip_suffix(SCORES)?.strip_suffix('.')?.to_owned()));
+            if let Some(name) = name {
+                found.push((name, Scores::read(&path)?));
+            }
+        }
+        found.sort_by(|a, b| a.0.cmp(&b.0));
+        Ok(found)
     }
 
     /// Runs it to its end, from where it was broken off, and keeps what comes out.
@@ -236,8 +265,8 @@ impl Run<'_> {
     }
 
     fn keep(&self, taken: &Taken, scores: &Scores) -> Result<(), FrictionError> {
-        let path = self.file("scores.csv");
-        let mut table = TableWriter::new(Vec::new(), &path, &Self::header())?;
+        let path = self.file(SCORES);
+        let mut table = TableWriter::new(Vec::new(), &path, &Scores::header())?;
         for (example, scores) in taken.held_back.iter().zip(&scores.0) {
             table
                 .text(&example.cloth)

@@ -125,6 +125,10 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
     // A shorter lesson is no row of the table.
     assert!(told.contains("not run: ours, seeds 1 2 3:"), "{told}");
     assert_eq!(lab.read("runs/table.csv").lines().count(), 1);
+    assert!(
+        told.contains(&format!("besides: {name}: spectrum ")),
+        "{told}"
+    );
     let [traces, latents] = ["traces", "latents"].map(|name| lab.read(&format!("runs/{name}.svg")));
     assert!(traces.contains("nonwoven: felt") && traces.contains("dB off"));
     assert!(latents.contains("% of the variance"));

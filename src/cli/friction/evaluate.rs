@@ -80,10 +80,51 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         lines.push(String::new());
     }
     csv.finish()?;
+    lines.extend(others(args)?);
     if let Some(&split) = args.splits.first() {
         pages::draw(&args.out, split, n_threads())?;
     }
     print(&lines.join("\n"))
+}
+
+/// A run of the table.
+fn kept(args: &EvaluateArgs, split: Split, contestant: Contestant) -> Run<'_> {
+    Run {
+        contestant,
+        split,
+        n_cloths: Split::N_CLOTHS,
+        fabrics: None,
+        folder: &args.out,
+    }
+}
+
+/// Runs of another width, of other rounds, cloths or fabrics: no rows of the table.
+fn others(args: &EvaluateArgs) -> Result<Vec<String>, CliError> {
+    let lessons = |split: Split| {
+        let all = Method::ALL.into_iter();
+        all.flat_map(move |method| {
+            method
+                .seeds(split)
+                .map(move |seed| Lesson::usual(method, seed))
+        })
+    };
+    let of_split = |split: Split| {
+        let simple = Baseline::ALL.into_iter().map(Contestant::Baseline);
+        let all = simple.chain(lessons(split).map(Contestant::Network));
+        all.map(move |contestant| kept(args, split, contestant).name())
+    };
+    let in_table: Vec<String> = Split::ALL.into_iter().flat_map(of_split).collect();
+    let mut lines = Vec::new();
+    for (name, scores) in Run::all_finished(&args.out)? {
+        if !in_table.contains(&name) {
+            let mean = scores.mean();
+            let [db, percent] = [SHOWN[0].0, SHOWN[1].0].map(|measure| fixed(mean[measure], 2));
+            lines.push(format!(
+                "besides: {name}: spectrum {db} dB, level {percent} %"
+            ));
+        }
+    }
+    Ok(lines)
 }
 
 /// What methods make of fabrics of one's own, each left out in turn; the networks are as shipped.
@@ -130,13 +171,6 @@ fn not_run(args: &EvaluateArgs, split: Split, method: Method, seeds: &[u64]) -> 
 type Missing = Vec<(Method, Vec<u64>)>;
 
 fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliError> {
-    let run = |contestant| Run {
-        contestant,
-        split,
-        n_cloths: Split::N_CLOTHS,
-        fabrics: None,
-        folder: &args.out,
-    };
     let mut rows = Vec::new();
     for (baseline, scores) in baselines(args, split)? {
         rows.push(Row {
@@ -150,7 +184,7 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
         let (mut found, mut not_run) = (Vec::new(), Vec::new());
         for seed in method.seeds(split) {
             let lesson = Lesson::usual(method, seed);
-            match run(Contestant::Network(lesson)).finished()? {
+            match kept(args, split, Contestant::Network(lesson)).finished()? {
                 Some(scores) => found.push(scores.mean()),
                 None => not_run.push(seed),
             }
@@ -171,17 +205,10 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
 
 /// Scores of the simple methods: those that are kept, and those that are made now.
 fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)>, CliError> {
-    let run = |baseline| Run {
-        contestant: Contestant::Baseline(baseline),
-        split,
-        n_cloths: Split::N_CLOTHS,
-        fabrics: None,
-        folder: &args.out,
-    };
     let mut found = Vec::new();
     let mut taken = None;
     for baseline in Baseline::ALL {
-        let run = run(baseline);
+        let run = kept(args, split, Contestant::Baseline(baseline));
         if let Some(scores) = run.finished()? {
             found.push((baseline, scores));
         } else if !args.only_finished {
