@@ -133,7 +133,7 @@ fn run_method(
     let mut failed = None;
     let stats = replay(
         &what,
-        path.ticks(),
+        path,
         &mut clock_ns,
         &mut |tick, pose, frames| {
             meter.show(tick as f64 / n_ticks, method.name());
