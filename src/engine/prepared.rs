@@ -76,11 +76,7 @@ impl PreparedScene {
         Ok(Self::around(renderer, profile, start))
     }
 
-    fn around(
-        renderer: ArrayRenderer,
-        profile: ArrayProfile,
-        start: Point,
-    ) -> Self {
+    fn around(renderer: ArrayRenderer, profile: ArrayProfile, start: Point) -> Self {
         static SERIAL: AtomicU64 = AtomicU64::new(1);
         let output = |frame: &DisplayFrame| Output {
             coder: Coder::new(&profile, frame.n_contactors()),

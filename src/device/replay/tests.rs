@@ -338,6 +338,10 @@ fn a_link_that_is_told_the_time_replays_as_it_was_however_its_clock_lies() {
         assert!(link.agrees() && link.counts.judged > 350, "{link}");
         let is_felt = |tick: &&ReplayedTick| tick.peak_um.iter().all(|um| *um > 0.5);
         let n_felt = ticks.iter().filter(is_felt).count();
-        assert!(n_felt > 300, "{n_felt} of {} ticks are felt, {link}", ticks.len());
+        assert!(
+            n_felt > 300,
+            "{n_felt} of {} ticks are felt, {link}",
+            ticks.len()
+        );
     }
 }

@@ -125,7 +125,9 @@ impl Source {
             items.extend(passing.map(|passing| Item::Passing(Box::new(passing))));
         }
         items.sort_by_key(Item::at);
-        self.told = self.told.max(items.last().map(Item::at).filter(|_| self.told.is_some()));
+        self.told = self
+            .told
+            .max(items.last().map(Item::at).filter(|_| self.told.is_some()));
         (items, n_lost)
     }
 

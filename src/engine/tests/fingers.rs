@@ -279,7 +279,10 @@ fn a_recording_of_two_fingers_replays_bit_for_bit_from_its_file_in_the_engine_an
     };
     let mut n_ticks = 0;
     replay(&what, &path, &mut || 0, &mut |tick, _, frames| {
-        let felt: Vec<_> = frames.iter().flat_map(|frame| frame.amplitudes_um()).collect();
+        let felt: Vec<_> = frames
+            .iter()
+            .flat_map(|frame| frame.amplitudes_um())
+            .collect();
         let expected = recording.amplitudes_um(usize::try_from(tick).unwrap());
         assert!(expected.iter().eq(felt), "tick {tick}");
         n_ticks += 1;
@@ -295,7 +298,10 @@ fn a_recording_of_two_fingers_replays_bit_for_bit_from_its_file_in_the_engine_an
         let snapshot = engine.snapshot();
         let felt = [0, 1].map(|display| of_display(snapshot, display)).concat();
         assert_eq!(felt, recording.amplitudes_um(n), "tick {n}");
-        assert_eq!(snapshot.displays[1].pose.position, recording.others(n)[0].position);
+        assert_eq!(
+            snapshot.displays[1].pose.position,
+            recording.others(n)[0].position
+        );
     };
     (0..60).for_each(|n| felt_at(&mut engine, n));
     engine.advance_ticks(1);

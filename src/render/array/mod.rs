@@ -32,6 +32,8 @@ use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
 use table::TableEvaluator;
 
+use std::sync::Arc;
+
 use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};

@@ -59,7 +59,6 @@ mod tests {
     use crate::bench::command::device::DeviceCommand;
     use crate::bench::command::{Edit, PlayCommand};
     use crate::shell::headless::Headless;
-    use selvedge_device::{BridgeError, ContactorModel, replay_log};
     use selvedge_scratch::ScratchFolder;
 
     /// What the log says by this name, in order.
@@ -102,29 +101,5 @@ mod tests {
         assert_eq!(said(&text, "scene_sha256"), expected, "{text}");
         let paths = said(&text, "path_sha256");
         assert_eq!(paths.last(), Some(&sha256_hex([path.as_bytes()])), "{text}");
-    }
-
-    #[test]
-    fn the_log_of_a_window_that_is_told_the_time_plays_again() {
-        let root = ScratchFolder::made("felt");
-        let file = root.join("bridge.csv");
-        let mut window = Headless::shipped();
-        let log = SessionLog::append(&file, None).unwrap();
-        window.workbench.bench.engine.log_links_to(log);
-        window.dispatch(DeviceCommand::ConnectEmulator);
-        window.pass_ticks(40);
-        window.dispatch(DeviceCommand::Arm);
-        window.pass_ticks(400);
-        drop(window);
-        let mut ticks = Vec::new();
-        let contactors = ContactorModel::default();
-        let links = replay_log(&file, &contactors, |tick| {
-            ticks.push(tick.clone());
-            Ok::<(), BridgeError>(())
-        });
-        let links = links.unwrap();
-        eprintln!("{} {}", ticks.len(), links[0]);
-        eprintln!("{}", fs::read_to_string(&file).unwrap().lines().take(30).collect::<Vec<_>>().join("\n"));
-        assert!(ticks.len() >= 400 && links[0].agrees(), "{} ticks, {}", ticks.len(), links[0]);
     }
 }

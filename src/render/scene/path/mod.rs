@@ -79,7 +79,9 @@ impl ExplorationPath {
     pub fn from_csv(text: &str, path: &Path) -> Result<Self, SceneError> {
         let of_others = others::columns();
         let optional = OPTIONAL.into_iter();
-        let optional: Vec<&str> = optional.chain(of_others.iter().map(String::as_str)).collect();
+        let optional: Vec<&str> = optional
+            .chain(of_others.iter().map(String::as_str))
+            .collect();
         let table = Table::read(text, path, &REQUIRED, &optional)?;
         let [times, xs, ys] = REQUIRED.map(|column| table.required_numbers(column));
         let (times, xs, ys) = (times?, xs?, ys?);

@@ -75,7 +75,10 @@ impl ExplorationPath {
             let is_whole = [[false; 4], [true, true, false, false], [true; 4]].contains(&is_known);
             !is_whole || cells.iter().flatten().any(|number| !number.is_finite())
         };
-        let flaw = cells.iter().position(is_flaw).map(|nth| nth / n_others.max(1));
+        let flaw = cells
+            .iter()
+            .position(is_flaw)
+            .map(|nth| nth / n_others.max(1));
         let n_whole = cells.len() / n_others.max(1);
         let flaw = flaw.or((n_others > MOST_OTHERS || n_whole != self.rows.len()).then_some(0));
         if let Some(row) = flaw.filter(|_| n_others > 0) {
@@ -156,9 +159,16 @@ pub(super) fn read(
     let n_others = (1..=MOST_OTHERS).filter(has).last().unwrap_or(0);
     let mut cells = vec![[None; 4]; n_others * table.n_rows()];
     for display in 1..=n_others {
-        for (part, column) in ExplorationPath::columns_of_other(display).iter().enumerate() {
+        for (part, column) in ExplorationPath::columns_of_other(display)
+            .iter()
+            .enumerate()
+        {
             let texts = table.text(column).unwrap_or_default();
-            for (row, text) in texts.iter().enumerate().filter(|(_, text)| !text.is_empty()) {
+            for (row, text) in texts
+                .iter()
+                .enumerate()
+                .filter(|(_, text)| !text.is_empty())
+            {
                 let number = text.parse::<f64>().map_err(|_error| {
                     let what = format!("{column} is \"{text}\"");
                     let mend = "write a finite decimal number with a point, or nothing";

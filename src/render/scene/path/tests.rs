@@ -133,11 +133,17 @@ fn displays_beside_the_first_are_where_their_columns_say() {
         ][nth];
         let is_near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         assert!(is_near(own.position.x_mm, x_mm), "tick {nth}: {own:?}");
-        assert!(is_near(own.velocity.x_mm_per_s, speed), "tick {nth}: {own:?}");
+        assert!(
+            is_near(own.velocity.x_mm_per_s, speed),
+            "tick {nth}: {own:?}"
+        );
     }
     let together = path.clone().with_others(2, vec![[None; 4]; 8]).unwrap();
     assert_eq!(together.n_others(), 0, "nobody was apart");
-    assert!(path.with_others(1, vec![[None; 4]; 3]).is_err(), "a row has none");
+    assert!(
+        path.with_others(1, vec![[None; 4]; 3]).is_err(),
+        "a row has none"
+    );
 }
 
 #[test]

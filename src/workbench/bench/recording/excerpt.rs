@@ -7,9 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::bench::recording::About;
 use crate::bench::recording::file::{Lines, TICKS, new_folder, push_cell};
 use selvedge_foundation::files::{self, FileError, Journal};
-use selvedge_render::scene::{
-    ExplorationPath, PathCursor, PathRow, Pose, SceneError, TICKS_PER_S,
-};
+use selvedge_render::scene::{ExplorationPath, PathCursor, PathRow, Pose, SceneError, TICKS_PER_S};
 
 /// How much is written at once, bytes.
 const CHUNK: usize = 1 << 20;
@@ -91,7 +89,8 @@ mod tests {
     fn a_part_holds_what_was_felt_in_it_and_begins_at_zero() {
         let root = ScratchFolder::made("excerpt");
         let made = explored(60);
-        let mut file = RecordingFile::create(&root, page("Whole"), [0, made.n_contactors()]).unwrap();
+        let mut file =
+            RecordingFile::create(&root, page("Whole"), [0, made.n_contactors()]).unwrap();
         file.append(&made, 0).unwrap();
         let (folder, _) = file.finish().unwrap();
         let part = cut(&folder, &root, &page("Part"), 20..45).unwrap();
@@ -118,7 +117,12 @@ mod tests {
             ..Pose::default()
         };
         // With the first, held elsewhere, let go of there, and held at rest.
-        let others = [pose(1.0, 9.0), pose(7.3, -4.5), pose(7.3, 0.0), pose(8.0, 1e-9)];
+        let others = [
+            pose(1.0, 9.0),
+            pose(7.3, -4.5),
+            pose(7.3, 0.0),
+            pose(8.0, 1e-9),
+        ];
         let ticks = others.iter().zip(0..).map(|(other, tick)| FeltTick {
             tick,
             pose: pose(1.0, 9.0),

@@ -452,7 +452,8 @@ mod tests {
     fn cut_at_any_byte_a_recording_has_every_whole_row() {
         let root = ScratchFolder::made("torn");
         let made = explored(5);
-        let mut file = RecordingFile::create(&root, page("Torn"), [0, made.n_contactors()]).unwrap();
+        let mut file =
+            RecordingFile::create(&root, page("Torn"), [0, made.n_contactors()]).unwrap();
         file.append(&made, 0).unwrap();
         let folder = file.folder.clone();
         assert!(
