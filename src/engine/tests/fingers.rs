@@ -1,6 +1,7 @@
 //! Fingers that hold displays of their own, and displays that follow the first.
 
 use super::*;
+use selvedge_render::array::DisplayFrame;
 use selvedge_render::{Counters, Replay, replay};
 use std::ops::ControlFlow;
 
@@ -281,7 +282,7 @@ fn a_recording_of_two_fingers_replays_bit_for_bit_from_its_file_in_the_engine_an
     replay(&what, &path, &mut || 0, &mut |tick, _, frames| {
         let felt: Vec<_> = frames
             .iter()
-            .flat_map(|frame| frame.amplitudes_um())
+            .flat_map(DisplayFrame::amplitudes_um)
             .collect();
         let expected = recording.amplitudes_um(usize::try_from(tick).unwrap());
         assert!(expected.iter().eq(felt), "tick {tick}");

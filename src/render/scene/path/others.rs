@@ -12,6 +12,10 @@ const COLUMNS: [&str; 4] = ["x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s"];
 /// The most displays beside the first that a path file may have: a finger for each.
 const MOST_OTHERS: usize = 9;
 
+/// What is wrong with a row, and how to mend it.
+const FLAW: &str = "a display beside the first is not whole";
+const MEND: &str = "give place and velocity, or the place, or nothing";
+
 /// A display at a row: place and velocity, mm and mm/s. All are missing while it goes with the
 /// first display, the velocity while it rests, not even turned: no finger held it.
 pub(super) type Cells = [Option<f64>; 4];
@@ -70,21 +74,10 @@ impl ExplorationPath {
         n_others: usize,
         cells: Vec<[Option<f64>; 4]>,
     ) -> Result<Self, SceneError> {
-        let is_flaw = |cells: &Cells| {
-            let is_known = cells.map(|cell| cell.is_some());
-            let is_whole = [[false; 4], [true, true, false, false], [true; 4]].contains(&is_known);
-            !is_whole || cells.iter().flatten().any(|number| !number.is_finite())
-        };
-        let flaw = cells
-            .iter()
-            .position(is_flaw)
-            .map(|nth| nth / n_others.max(1));
-        let n_whole = cells.len() / n_others.max(1);
-        let flaw = flaw.or((n_others > MOST_OTHERS || n_whole != self.rows.len()).then_some(0));
-        if let Some(row) = flaw.filter(|_| n_others > 0) {
+        if let Some(row) = flaw(n_others, self.rows.len(), &cells) {
             return Err(SceneError::Value {
-                what: format!("row {}: a display beside the first is not whole", row + 1),
-                mend: "give place and velocity, or the place, or nothing".to_owned(),
+                what: format!("row {}: {FLAW}", row + 1),
+                mend: MEND.to_owned(),
             });
         }
         let are_apart = cells.iter().any(|cells| *cells != [None; 4]);
@@ -130,6 +123,20 @@ impl ExplorationPath {
     }
 }
 
+/// The first row that is wrong.
+fn flaw(n_others: usize, n_rows: usize, cells: &[Cells]) -> Option<usize> {
+    if n_others > MOST_OTHERS || cells.len() != n_others * n_rows {
+        return Some(0);
+    }
+    let is_flaw = |cells: &Cells| {
+        let is_known = cells.map(|cell| cell.is_some());
+        let is_whole = [[false; 4], [true, true, false, false], [true; 4]].contains(&is_known);
+        !is_whole || cells.iter().flatten().any(|number| !number.is_finite())
+    };
+    let nth = cells.iter().position(is_flaw)?;
+    Some(nth / n_others.max(1))
+}
+
 /// Between two rows: what either does not tell stays as the first of them has it.
 fn mixed(here: &Cells, next: &Cells, share: f64) -> Cells {
     let is_alike = here.map(|cell| cell.is_some()) == next.map(|cell| cell.is_some());
@@ -156,7 +163,7 @@ pub(super) fn read(
         let columns = ExplorationPath::columns_of_other(*display);
         columns.iter().any(|column| table.text(column).is_some())
     };
-    let n_others = (1..=MOST_OTHERS).filter(has).last().unwrap_or(0);
+    let n_others = (1..=MOST_OTHERS).rfind(has).unwrap_or(0);
     let mut cells = vec![[None; 4]; n_others * table.n_rows()];
     for display in 1..=n_others {
         for (part, column) in ExplorationPath::columns_of_other(display)
@@ -177,6 +184,9 @@ pub(super) fn read(
                 cells[row * n_others + display - 1][part] = Some(number);
             }
         }
+    }
+    if let Some(row) = flaw(n_others, table.n_rows(), &cells) {
+        return Err(FileError::content(file, table.line_of(row), FLAW, MEND).into());
     }
     path.with_others(n_others, cells)
 }

@@ -169,11 +169,11 @@ fn wrong_paths_name_the_line_and_the_mend() {
         ),
         (
             "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,\n",
-            "row 1: a display beside the first is not whole",
+            "stroke.csv:2: a display beside the first is not whole",
         ),
         (
             "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,inf\n",
-            "row 1: a display beside the first is not whole",
+            "stroke.csv:2: a display beside the first is not whole",
         ),
         (
             "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,5\n1,0,0,4,b\n",
