@@ -5,7 +5,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::bench::recording::About;
-use crate::bench::recording::file::{Lines, TICKS, new_folder, push_cell};
+use crate::bench::recording::file::{new_folder, push_cell};
+use crate::bench::recording::rows::{Lines, TICKS};
 use selvedge_foundation::files::{self, FileError, Journal};
 use selvedge_render::scene::{ExplorationPath, PathCursor, PathRow, Pose, SceneError, TICKS_PER_S};
 
