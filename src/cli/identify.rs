@@ -59,7 +59,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), CliError> {
     let log = args.record.open()?;
     let mut driver = Driver::open(Target::Port(args.port.clone()), array.clone(), n);
     if let Some(log) = &log {
-        let mut feed = log.feed(driver.bridge().target());
+        let mut feed = driver.bridge().feed_of(log);
         record::say_what(&mut feed, &array, &[]);
         driver.bridge_mut().log_to(feed);
     }

@@ -96,7 +96,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
     let n_felt = moving.core.felt_um().len();
     let mut driver = Driver::open(Target::Port(port), profile.clone(), n_felt);
     if let Some(session_log) = &session_log {
-        let mut feed = session_log.feed(driver.bridge().target());
+        let mut feed = driver.bridge().feed_of(session_log);
         record::say_what(&mut feed, &profile, &args.files());
         driver.bridge_mut().log_to(feed);
     }

@@ -131,21 +131,16 @@ fn run_method(
     let mut meter = Meter::new("rendering");
     let n_ticks = path.n_ticks() as f64;
     let mut failed = None;
-    let stats = replay(
-        &what,
-        path.ticks(),
-        &mut clock_ns,
-        &mut |tick, pose, frames| {
-            meter.show(tick as f64 / n_ticks, method.name());
-            match sink(tick, pose, frames) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    failed = Some(error);
-                    ControlFlow::Break(())
-                }
+    let stats = replay(&what, path, &mut clock_ns, &mut |tick, pose, frames| {
+        meter.show(tick as f64 / n_ticks, method.name());
+        match sink(tick, pose, frames) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failed = Some(error);
+                ControlFlow::Break(())
             }
-        },
-    )?;
+        }
+    })?;
     failed.map_or(Ok(stats), Err)
 }
 

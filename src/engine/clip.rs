@@ -229,7 +229,7 @@ pub fn write_clip(
     let n_ticks = path.n_ticks() as f64;
     let mut amplitudes_um = Vec::new();
     let mut failed: Option<SinkError> = None;
-    replay(what, path.ticks(), &mut || 0, &mut |tick, _, frames| {
+    replay(what, path, &mut || 0, &mut |tick, _, frames| {
         side_by_side(frames, &mut amplitudes_um);
         let mut done = clip.take(tick, &amplitudes_um);
         if tick.is_multiple_of(TICKS_A_STEP) {

@@ -10,7 +10,7 @@ use super::input::Touched;
 use super::sample::SampleCounters;
 use super::track::Track;
 use super::{MAX_FINGERS, VelocityMethod};
-use selvedge_render::scene::Pose;
+use selvedge_render::scene::{ExplorationPath, Pose};
 
 /// The displays beside the first. Nothing here allocates once it was made.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ impl Fingers {
 
     /// What comes from here on is of this tick, in a scene of so many displays.
     pub(super) fn begin_tick(&mut self, n_displays: usize) {
-        self.n_others = n_displays.saturating_sub(1).min(self.all.len());
+        self.n_others = n_others(n_displays);
         for finger in self.apart() {
             finger.track.begin_tick();
             finger.restarted = false;
@@ -98,10 +98,21 @@ impl Fingers {
         }
     }
 
-    /// Estimates at a tick; time and turn are those of the first.
-    pub(super) fn follow(&mut self, first: &Pose, now: Instant) {
+    /// Estimates at a tick; time and turn are those of the first. Where the first follows a path
+    /// that tells of the others, they are where that has them; past its end they rest there.
+    pub(super) fn follow(
+        &mut self,
+        (first, has_ended): (&Pose, bool),
+        now: Instant,
+        told: Option<&ExplorationPath>,
+    ) {
+        let mut poses = [*first; MAX_FINGERS];
+        if let Some(path) = told {
+            self.are_apart = true;
+            path.poses_into(first, &mut poses);
+        }
         let mut has_moved = false;
-        for finger in self.apart() {
+        for (finger, told_pose) in self.apart().iter_mut().zip(&poses[1..]) {
             finger.track.look(now, finger.restarted);
             let position = finger.track.position().unwrap_or(finger.pose.position);
             let pose = Pose {
@@ -109,7 +120,12 @@ impl Fingers {
                 velocity: finger.track.estimate().velocity,
                 ..*first
             };
-            let pose = if finger.is_held { pose } else { pose.at_rest() };
+            let pose = match told {
+                Some(_) if has_ended => told_pose.at_rest(),
+                Some(_) => *told_pose,
+                None if finger.is_held => pose,
+                None => pose.at_rest(),
+            };
             let before = finger.pose;
             has_moved |= (before.position, before.velocity) != (pose.position, pose.velocity);
             finger.pose = pose;
@@ -160,4 +176,9 @@ impl Fingers {
         let n = if self.are_apart { self.n_others } else { 0 };
         &mut self.all[..n]
     }
+}
+
+/// Displays beside the first that fingers may hold, in a scene of so many.
+pub(super) fn n_others(n_displays: usize) -> usize {
+    n_displays.saturating_sub(1).min(MAX_FINGERS - 1)
 }

@@ -287,7 +287,7 @@ impl Engine {
     /// The queue of commands is full; nothing happened then.
     pub fn record(&mut self) -> Result<Recording, EngineError> {
         self.collect();
-        let (recorder, recording) = recording(self.driven.n_contactors);
+        let (recorder, recording) = recording([self.driven.n_others, self.driven.n_contactors]);
         self.push(ReadyCommand::Core(CoreCommand::Record(Box::new(recorder))))?;
         Ok(recording)
     }

@@ -1,7 +1,6 @@
 //! A scene made ready to be felt: everything that the real-time thread must not make itself.
 
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{
@@ -13,7 +12,6 @@ use selvedge_foundation::geometry::Point;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
 use selvedge_render::scene::{Display, LoadedScene, Pose};
-use selvedge_textile::surface::Surface;
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
 pub struct PreparedScene {
@@ -23,7 +21,6 @@ pub struct PreparedScene {
     pub(super) renderer: ArrayRenderer,
     poses: Vec<Pose>,
     outputs: Vec<Output>,
-    surfaces: Vec<Arc<Surface>>,
 }
 
 /// What the limits of an output make of one display.
@@ -61,7 +58,7 @@ impl PreparedScene {
         let scene = RenderScene::of(loaded);
         let renderer = ArrayRenderer::prepare_with_cache(&scene, method, accuracy, cache)?;
         let (profile, start) = place_of(loaded);
-        Ok(Self::around((renderer, &scene), profile, start))
+        Ok(Self::around(renderer, profile, start))
     }
 
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer
@@ -76,14 +73,10 @@ impl PreparedScene {
         (method, accuracy): (Method, &Accuracy),
     ) -> Result<Self, EngineError> {
         let renderer = ArrayRenderer::prepare(scene, method, accuracy)?;
-        Ok(Self::around((renderer, scene), profile, start))
+        Ok(Self::around(renderer, profile, start))
     }
 
-    fn around(
-        (renderer, scene): (ArrayRenderer, &RenderScene),
-        profile: ArrayProfile,
-        start: Point,
-    ) -> Self {
+    fn around(renderer: ArrayRenderer, profile: ArrayProfile, start: Point) -> Self {
         static SERIAL: AtomicU64 = AtomicU64::new(1);
         let output = |frame: &DisplayFrame| Output {
             coder: Coder::new(&profile, frame.n_contactors()),
@@ -97,11 +90,6 @@ impl PreparedScene {
             outputs: renderer.frames().iter().map(output).collect(),
             profile,
             renderer,
-            surfaces: (scene
-                .textiles
-                .iter()
-                .map(|placed| Arc::clone(&placed.surface)))
-            .collect(),
         }
     }
 
@@ -135,11 +123,6 @@ impl PreparedScene {
     /// The renderer, before the engine has it: its method, bound and levels.
     pub fn renderer(&self) -> &ArrayRenderer {
         &self.renderer
-    }
-
-    /// The surfaces of its textiles, in the order of the scene's list.
-    pub(super) fn surfaces(&self) -> &[Arc<Surface>] {
-        &self.surfaces
     }
 
     /// Where the pointer starts.

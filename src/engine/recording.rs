@@ -62,14 +62,16 @@ pub struct RecordedSample {
 struct Block {
     samples: Vec<RecordedSample>,
     ticks: Vec<RecordedTick>,
+    others: Vec<Pose>,
     amplitudes_um: Vec<[f32; 2]>,
 }
 
 impl Block {
-    fn new(n_contactors: usize) -> Self {
+    fn new([n_others, n_contactors]: [usize; 2]) -> Self {
         Self {
             samples: Vec::with_capacity(BLOCK_SAMPLES),
             ticks: Vec::with_capacity(BLOCK_TICKS),
+            others: Vec::with_capacity(BLOCK_TICKS * n_others),
             amplitudes_um: Vec::with_capacity(BLOCK_TICKS * n_contactors),
         }
     }
@@ -90,24 +92,27 @@ pub(super) struct Recorder {
 pub struct Recording {
     spares: Producer<Block>,
     full: Consumer<Block>,
+    n_others: usize,
     n_contactors: usize,
     ticks: Vec<RecordedTick>,
     samples: Vec<RecordedSample>,
+    others: Vec<Pose>,
     amplitudes_um: Vec<[f32; 2]>,
     has_ended: bool,
 }
 
-/// Both sides of a recording of `n_contactors` contactors, those of all displays together.
-pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
+/// Both sides of a recording of so many displays beside the first, and of `n_contactors`
+/// contactors, those of all displays together.
+pub(super) fn recording([n_others, n_contactors]: [usize; 2]) -> (Recorder, Recording) {
     let (mut spares, spares_out) = RingBuffer::new(N_BLOCKS);
     // Every block that exists finds room among the full ones.
     let (full_in, full) = RingBuffer::new(N_BLOCKS + 1);
     for _ in 1..N_BLOCKS {
         // Room for all of them was just made.
-        drop(spares.push(Block::new(n_contactors)));
+        drop(spares.push(Block::new([n_others, n_contactors])));
     }
     let recorder = Recorder {
-        current: Some(Block::new(n_contactors)),
+        current: Some(Block::new([n_others, n_contactors])),
         spares: spares_out,
         full: full_in,
         n_ticks: 0,
@@ -117,9 +122,11 @@ pub(super) fn recording(n_contactors: usize) -> (Recorder, Recording) {
     let recording = Recording {
         spares,
         full,
+        n_others,
         n_contactors,
         ticks: Vec::new(),
         samples: Vec::new(),
+        others: Vec::new(),
         amplitudes_um: Vec::new(),
         has_ended: false,
     };
@@ -160,10 +167,12 @@ impl Recorder {
         }
     }
 
-    /// Adds a tick with the amplitudes of every contactor, µm. Fails, saying why, when it cannot.
+    /// Adds a tick with the poses of displays beside the first and the amplitudes of every
+    /// contactor, µm. Fails, saying why, when it cannot.
     pub(super) fn push<'a>(
         &mut self,
         tick: RecordedTick,
+        others: impl Iterator<Item = Pose>,
         amplitudes_um: impl Iterator<Item = &'a [[f32; 2]]>,
     ) -> Result<(), &'static str> {
         if self.n_ticks >= LONGEST {
@@ -181,6 +190,7 @@ impl Recorder {
             return Err("nobody collected the recording in time");
         };
         block.ticks.push(tick);
+        block.others.extend(others);
         amplitudes_um.for_each(|display| block.amplitudes_um.extend_from_slice(display));
         self.last_angle_deg = Some(tick.pose.angle_deg);
         self.n_ticks += 1;
@@ -224,6 +234,18 @@ impl Recording {
             .unwrap_or_default()
     }
 
+    /// Displays beside the first.
+    pub fn n_others(&self) -> usize {
+        self.n_others
+    }
+
+    /// Where they were at one of the collected ticks, in order, felt or not.
+    pub fn others(&self, index: usize) -> &[Pose] {
+        let start = index * self.n_others;
+        let at = start..start + self.n_others;
+        self.others.get(at).unwrap_or_default()
+    }
+
     /// Contactors of all displays together.
     pub fn n_contactors(&self) -> usize {
         self.n_contactors
@@ -245,7 +267,13 @@ impl Recording {
             angle_deg: recorded.pose.angle_deg,
             velocity: Some(recorded.pose.velocity),
         };
-        ExplorationPath::new(self.ticks.iter().enumerate().map(row).collect())
+        let path = ExplorationPath::new(self.ticks.iter().enumerate().map(row).collect())?;
+        let mut others = Vec::with_capacity(self.others.len());
+        for (n, recorded) in self.ticks.iter().enumerate() {
+            let beside = |own: &Pose| own.beside(&recorded.pose);
+            others.extend(self.others(n).iter().map(beside));
+        }
+        path.with_others(self.n_others, others)
     }
 
     /// Takes full blocks away and gives empty ones back: to be called every few seconds until it
@@ -257,6 +285,7 @@ impl Recording {
         while let Ok(mut block) = self.full.pop() {
             self.ticks.append(&mut block.ticks);
             self.samples.append(&mut block.samples);
+            self.others.append(&mut block.others);
             self.amplitudes_um.append(&mut block.amplitudes_um);
             // A full ring only means that the engine has enough.
             drop(self.spares.push(block));
@@ -284,7 +313,7 @@ impl fmt::Debug for Recording {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::geometry::Point;
+    use std::iter;
 
     fn tick(n: u64) -> RecordedTick {
         let pose = Pose {
@@ -306,10 +335,10 @@ mod tests {
 
     #[test]
     fn blocks_arrive_in_order_and_rows_lie_on_the_ticks() {
-        let (mut recorder, mut recording) = recording(2);
+        let (mut recorder, mut recording) = recording([0, 2]);
         for n in 0..5000 {
             recorder
-                .push(tick(n), [&amplitudes(n)[..]].into_iter())
+                .push(tick(n), iter::empty(), [&amplitudes(n)[..]].into_iter())
                 .unwrap();
             if n % 500 == 0 {
                 recording.collect();
@@ -330,10 +359,10 @@ mod tests {
 
     #[test]
     fn a_recording_that_nobody_collects_ends_with_the_reason() {
-        let (mut recorder, mut recording) = recording(2);
+        let (mut recorder, mut recording) = recording([0, 2]);
         let failed = (0..).find_map(|n| {
             recorder
-                .push(tick(n), [&amplitudes(n)[..]].into_iter())
+                .push(tick(n), iter::empty(), [&amplitudes(n)[..]].into_iter())
                 .err()
                 .map(|why| (n, why))
         });
@@ -347,7 +376,7 @@ mod tests {
 
     #[test]
     fn an_empty_recording_is_no_path() {
-        let (mut recorder, mut recording) = recording(1);
+        let (mut recorder, mut recording) = recording([0, 1]);
         recorder.hand_over();
         recording.collect();
         assert!(recording.to_path().is_err());

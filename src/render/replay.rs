@@ -10,12 +10,12 @@ use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
 use super::error_meter::ErrorMeter;
 use super::stats::{Histogram, RunStats};
 use super::{RenderError, RenderScene};
-use crate::scene::Pose;
+use crate::scene::{ExplorationPath, Pose};
 
 /// What to replay, and how.
 #[derive(Debug, Clone, Copy)]
 pub struct Replay<'a> {
-    /// The scene. Every display follows the path.
+    /// The scene. Displays that the path does not tell of go with the first.
     pub scene: &'a RenderScene,
     /// The method.
     pub method: Method,
@@ -29,14 +29,14 @@ pub struct Replay<'a> {
 /// Takes a tick's number, pose and frames; may stop the run.
 pub(crate) type FrameSink<'a> = dyn FnMut(u64, &Pose, &[DisplayFrame]) -> ControlFlow<()> + 'a;
 
-/// Replays ticks (number, pose). `clock_ns` tells a monotonic time in ns; `sink` takes every tick's
-/// number, pose and frames, and may stop the run.
+/// Replays the ticks of a path. `clock_ns` tells a monotonic time in ns; `sink` takes every tick's
+/// number, the first display's pose and the frames, and may stop the run.
 ///
 /// # Errors
 /// What [`ArrayRenderer::prepare`] refuses.
 pub fn replay(
     what: &Replay<'_>,
-    ticks: impl Iterator<Item = (u64, Pose)> + Clone,
+    path: &ExplorationPath,
     clock_ns: &mut dyn FnMut() -> u64,
     sink: &mut FrameSink<'_>,
 ) -> Result<RunStats, RenderError> {
@@ -44,7 +44,7 @@ pub fn replay(
     let mut renderer = ArrayRenderer::prepare(what.scene, what.method, &what.accuracy)?;
     let prepare_ns = clock_ns().saturating_sub(started_ns);
     let mut comparison = if what.measures_error {
-        Some(Comparison::prepare(what.scene, ticks.clone())?)
+        Some(Comparison::prepare(what.scene, path)?)
     } else {
         None
     };
@@ -57,14 +57,14 @@ pub fn replay(
     };
     if what.measures_error {
         // Timed in a run of its own: the reference between ticks would clear the caches.
-        for (_, pose) in ticks.clone() {
-            poses.fill(pose);
+        for (_, pose) in path.ticks() {
+            path.poses_into(&pose, &mut poses);
             timed_tick(&mut renderer, &poses);
         }
         renderer.reset();
     }
-    for (tick, pose) in ticks {
-        poses.fill(pose);
+    for (tick, pose) in path.ticks() {
+        path.poses_into(&pose, &mut poses);
         if let Some(comparison) = &mut comparison {
             renderer.tick(&poses);
             comparison.add(&poses, renderer.frames());
@@ -134,15 +134,12 @@ struct Comparison {
 
 impl Comparison {
     /// Runs the reference once to learn its largest amplitudes.
-    fn prepare(
-        scene: &RenderScene,
-        ticks: impl Iterator<Item = (u64, Pose)>,
-    ) -> Result<Self, RenderError> {
+    fn prepare(scene: &RenderScene, path: &ExplorationPath) -> Result<Self, RenderError> {
         let mut reference = ArrayRenderer::prepare(scene, Method::Reference, &Accuracy::default())?;
         let mut largest_um = [0.0_f64; 2];
         let mut poses = vec![Pose::default(); scene.displays.len()];
-        for (_, pose) in ticks {
-            poses.fill(pose);
+        for (_, pose) in path.ticks() {
+            path.poses_into(&pose, &mut poses);
             for frame in reference.tick(&poses) {
                 for contactor in 0..frame.n_contactors() {
                     let amplitudes = frame.amplitude_um(contactor);

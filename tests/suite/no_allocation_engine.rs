@@ -15,17 +15,25 @@ use selvedge_engine::{
 };
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation};
 use selvedge_render::array::{Accuracy, Method};
+use selvedge_render::contact::{
+    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Stepper, StylusSetup, Tip,
+};
 use selvedge_render::scene::{ExplorationPath, Geometry, PathRow};
+use selvedge_render::stylus::StylusDrive;
 use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
 use selvedge_textile::surface::{Profile, ProfileSet, Surface};
-use selvedge_textile::tactile::Tuning;
+use selvedge_textile::tactile::{Filters, Tuning};
 
-fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
+fn surface() -> Arc<Surface> {
     let heights = (0..4600)
         .map(|i| 3.0 * (f64::from(i) * 0.03).sin())
         .collect();
     let mut profiles = ProfileSet::default();
     profiles[0] = Some(Profile::new(1.0 / 230.0, heights).unwrap());
+    Arc::new(Surface::from_profiles(profiles, 0.0).unwrap())
+}
+
+fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
     let textile = PlacedSurface {
         workspace_from_textile: Frame {
             origin: Point::default(),
@@ -37,7 +45,7 @@ fn prepared(offsets: Vec<Displacement>) -> PreparedScene {
         scene_band_gains_db: [0.0; 2],
         within_mm: None,
         level: PlacedLevel::Known(3.0),
-        surface: Arc::new(Surface::from_profiles(profiles, 0.0).unwrap()),
+        surface: surface(),
     };
     let scene = RenderScene {
         textiles: vec![textile],
@@ -142,6 +150,53 @@ fn sequences_of_vibrations_and_textiles_allocate_nothing() {
 }
 
 #[test]
+fn a_stylus_that_is_felt_through_the_device_allocates_nothing() {
+    let start = Instant::now();
+    let (mut engine, mut pointer) = engine(start);
+    let surface = surface();
+    let law = ContactLaw::default();
+    let relief = Relief::of_surface(&surface);
+    let contact = Contact::new(&relief, Tip::stylus(0.05), law, Friction::none()).unwrap();
+    let setup = StylusSetup {
+        contact,
+        device: DeviceSpec::default(),
+        hand: Hand {
+            press_n: 0.3,
+            leads: None,
+        },
+        method: Stepper::Auto,
+        rate_hz: 1000.0,
+        sampling: None,
+    };
+    let textiles = vec![(surface, Some(setup))];
+    let drive = StylusDrive::prepare(textiles, (1000.0, 2000.0), &Filters::default()).unwrap();
+    let stylus = Command::SetStylus(Some(Box::new(drive)));
+    engine.send(stylus).unwrap();
+    let _recording = engine.record().unwrap();
+    let mut n_felt = 0;
+    for n in 0..200_u32 {
+        assert_no_alloc(|| {
+            // It moves, is lifted, and comes down elsewhere.
+            if n % 50 < 40 {
+                let stamp = start + TICK * n;
+                push(&mut pointer, stamp, (stamp - start).as_secs_f64());
+            } else {
+                pointer.lift(0);
+            }
+            engine.step_uncollected(start + TICK * (n + 1));
+        });
+        let snapshot = engine.snapshot();
+        assert!(snapshot.stylus.is_some(), "it is felt");
+        let felt = &snapshot.displays[0].contactors;
+        n_felt += usize::from(felt.iter().all(|one| one.amplitude_um[1] > 0.0));
+    }
+    let snapshot = engine.snapshot();
+    assert!(n_felt > 100, "{n_felt} ticks are felt");
+    assert!(snapshot.counters.stylus_steps > 100 * 25);
+    assert_eq!(snapshot.recording.n_ticks, 200);
+}
+
+#[test]
 fn a_replay_that_loops_allocates_nothing() {
     let (mut engine, _) = engine(Instant::now());
     let row = |n: u32| PathRow {
@@ -149,7 +204,9 @@ fn a_replay_that_loops_allocates_nothing() {
         position: Point::new(20.0 + f64::from(n), 50.0),
         ..PathRow::default()
     };
-    let path = Arc::new(ExplorationPath::new((0..50).map(row).collect()).unwrap());
+    let path = ExplorationPath::new((0..50).map(row).collect()).unwrap();
+    let other = [Some(30.0), Some(40.0), Some(50.0), Some(0.0)];
+    let path = Arc::new(path.with_others(1, vec![other; 50]).unwrap());
     engine
         .send(Command::SetSource(InputSource::Replay(path)))
         .unwrap();

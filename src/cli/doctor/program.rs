@@ -12,7 +12,7 @@ use selvedge_engine::{SoundOutput, SoundSource, SoundState};
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::{Accuracy, Method};
-use selvedge_render::scene::{LoadedScene, Stroke, TICKS_PER_S};
+use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow, Stroke, TICKS_PER_S};
 use selvedge_render::{RenderScene, Replay, replay};
 use selvedge_textile::Library;
 use selvedge_textile::tactile::{Filters, Levels};
@@ -80,7 +80,16 @@ pub(super) fn codes_hash() -> Result<String, CliError> {
         radius_mm: 0.25 * height_mm,
         speed_mm_per_s: 120.0,
     };
-    let ticks = (0..N_TICKS).map(|n| (u64::from(n), stroke.pose_at(f64::from(n) / TICKS_PER_S)));
+    let row = |n| {
+        let pose = stroke.pose_at(f64::from(n) / TICKS_PER_S);
+        PathRow {
+            t_s: pose.t_s,
+            position: pose.position,
+            angle_deg: pose.angle_deg,
+            velocity: Some(pose.velocity),
+        }
+    };
+    let path = ExplorationPath::new((0..N_TICKS).map(row).collect())?;
     let profile = ArrayProfile::default();
     let mut coder = Coder::new(&profile, profile.n_contactors());
     let mut bytes = Vec::new();
@@ -91,7 +100,7 @@ pub(super) fn codes_hash() -> Result<String, CliError> {
             accuracy: Accuracy::default(),
             measures_error: false,
         };
-        replay(&what, ticks.clone(), &mut || 0, &mut |_, _, frames| {
+        replay(&what, &path, &mut || 0, &mut |_, _, frames| {
             for frame in frames {
                 let codes = coder.encode(frame.amplitudes_um(), 1.0);
                 bytes.extend(codes.iter().flatten().flat_map(|code| code.to_le_bytes()));

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::Bridge;
 use crate::host::{BridgeCounters, BridgeEvent};
 use crate::link::Link;
-use crate::session_log::{HostCounters, LogFeed, Note};
+use crate::session_log::{HostCounters, LogFeed, Note, SessionLog};
 
 /// From one line of telemetry to the next.
 const TELEMETRY_EVERY: Duration = Duration::from_secs(1);
@@ -22,6 +22,12 @@ pub(super) struct Notes {
 }
 
 impl Bridge {
+    /// An end of a log for this link, in the time in which the link lives. Allocates.
+    pub fn feed_of(&self, log: &SessionLog) -> LogFeed {
+        let told = self.link.as_ref().filter(|link| !link.has_threads());
+        log.feed_told(&self.target, told.map(Link::now))
+    }
+
     /// Writes to a log what happens from now on: call it before the first [`poll`](Self::poll).
     pub fn log_to(&mut self, log: LogFeed) {
         self.session.keep_notes();

@@ -21,6 +21,8 @@ pub(super) struct Stepped {
     living: Living,
     start: Instant,
     pub(super) now: Instant,
+    /// Until when everything has happened: that is when the device takes what is written next.
+    settled: Instant,
 }
 
 impl fmt::Debug for Stepped {
@@ -42,13 +44,14 @@ impl Stepped {
             living,
             start,
             now: start,
+            settled: start,
         }
     }
 
     /// Writes what waits, and lets everything happen that happens until now.
     pub(super) fn settle(&mut self) {
         let Some(port) = &mut self.port else { return };
-        while self.writer.step(port.as_mut(), Some(self.now)) == Some(Written::Yes) {}
+        while self.writer.step(port.as_mut(), Some(self.settled)) == Some(Written::Yes) {}
         loop {
             let at = self.start + (self.living)(self.now.saturating_duration_since(self.start));
             if !self.reader.hear(port.as_mut(), Some(at)) {
@@ -56,6 +59,7 @@ impl Stepped {
                 return;
             }
             if at >= self.now {
+                self.settled = self.now;
                 return;
             }
         }

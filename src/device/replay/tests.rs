@@ -6,7 +6,10 @@ use crate::host::BridgeState;
 use crate::message::StopHow;
 use crate::session_log::VirtualLog;
 use crate::wire::{Faults, Latency, LinkFaults, Simulation};
+use crate::{ArrayProfile, Bridge, BridgeEvent, SessionLog, Target};
 use selvedge_foundation::numerics::Random;
+use selvedge_scratch::ScratchFolder;
+use std::time::{Duration, Instant};
 
 fn recording(faults: &Faults, keeps_frames: bool) -> Simulation {
     let mut simulation = Simulation::of(DeviceModel::default(), faults);
@@ -292,4 +295,53 @@ fn a_log_of_an_earlier_version_is_replayed() {
     );
     let loudest = ticks.iter().flat_map(|tick| &tick.peak_um).copied();
     assert!(loudest.fold(0.0, f64::max) > 1.0);
+}
+
+#[test]
+fn a_link_that_is_told_the_time_replays_as_it_was_however_its_clock_lies() {
+    let folder = ScratchFolder::made("told");
+    // Told time has nothing to do with that of the log: it begins before or after it.
+    for (nth, ahead_s) in [0_u64, 100].into_iter().enumerate() {
+        let path = folder.join(format!("{nth}.csv"));
+        let began = Instant::now() + Duration::from_secs(ahead_s);
+        std::thread::sleep(Duration::from_millis(20));
+        let log = SessionLog::append(&path, None).unwrap();
+        let profile = ArrayProfile::default();
+        let mut bridge = Bridge::open_stepped(Target::Emulator, profile, 24, began, || {});
+        let feed = bridge.feed_of(&log);
+        bridge.log_to(feed);
+        let mut n_sent = 0;
+        for tick in 1..400_u32 {
+            bridge.tell(began + Duration::from_millis(25) * tick);
+            while let Some(event) = bridge.poll() {
+                match event {
+                    BridgeEvent::Ready(_) => assert!(bridge.arm()),
+                    BridgeEvent::Tick { .. } => {
+                        let um = f32::from(u8::try_from(tick % 20).unwrap());
+                        n_sent += u32::from(bridge.send(&[[um, 1.0]; 24], None).is_some());
+                    }
+                    _ => {}
+                }
+            }
+            // The log has a thread of its own, for which told time is too fast.
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(n_sent > 350, "{n_sent}");
+        drop(bridge);
+        log.finish().unwrap();
+        let mut ticks = Vec::new();
+        let links = replay_log(&path, &ContactorModel::default(), |tick| {
+            ticks.push(tick.clone());
+            Ok::<(), BridgeError>(())
+        });
+        let link = &links.unwrap()[0];
+        assert!(link.agrees() && link.counts.judged > 350, "{link}");
+        let is_felt = |tick: &&ReplayedTick| tick.peak_um.iter().all(|um| *um > 0.5);
+        let n_felt = ticks.iter().filter(is_felt).count();
+        assert!(
+            n_felt > 300,
+            "{n_felt} of {} ticks are felt, {link}",
+            ticks.len()
+        );
+    }
 }

@@ -81,6 +81,8 @@ struct Source {
     /// Of the thread that reads and of the one that writes.
     taps: Option<[TapEnd; 2]>,
     recorder: Recorder,
+    /// Of a link that is told the time: what it was told last, as far as it is known here.
+    told: Option<Instant>,
 }
 
 /// One thing to write.
@@ -99,6 +101,11 @@ impl Item {
 }
 
 impl Source {
+    /// What time it is for the link.
+    fn now(&self) -> Instant {
+        self.told.unwrap_or_else(Instant::now)
+    }
+
     fn is_over(&self) -> bool {
         let is_silent = |taps: &[TapEnd; 2]| taps.iter().all(TapEnd::is_over);
         self.entries.is_abandoned() && self.taps.as_ref().is_none_or(is_silent)
@@ -118,6 +125,9 @@ impl Source {
             items.extend(passing.map(|passing| Item::Passing(Box::new(passing))));
         }
         items.sort_by_key(Item::at);
+        self.told = self
+            .told
+            .max(items.last().map(Item::at).filter(|_| self.told.is_some()));
         (items, n_lost)
     }
 
@@ -131,9 +141,9 @@ impl Source {
             }
         }
         if n_lost > 0 {
-            self.recorder.lost(Instant::now(), n_lost, lines);
+            self.recorder.lost(self.now(), n_lost, lines);
         }
-        self.recorder.settle(Instant::now(), lines);
+        self.recorder.settle(self.now(), lines);
     }
 }
 
@@ -193,20 +203,33 @@ impl SessionLog {
 
     /// An end for one link; `target` is what it is opened to. Allocates.
     pub fn feed(&self, target: &str) -> LogFeed {
+        self.feed_told(target, None)
+    }
+
+    /// The same for a link that is told the time, from `told` on. What it is told has nothing to do
+    /// with the system's clock: it is written as the time since the log was opened all the same.
+    pub(super) fn feed_told(&self, target: &str, told: Option<Instant>) -> LogFeed {
         let (entries, end) = RingBuffer::new(MAX_ENTRIES);
+        let begun = |told: Instant| told.checked_sub(self.epoch.monotonic.elapsed());
+        let epoch = Epoch {
+            monotonic: told.and_then(begun).unwrap_or(self.epoch.monotonic),
+            ..self.epoch
+        };
         let number = self.n_links.fetch_add(1, Ordering::Relaxed) + 1;
         self.shared.sources().push(Source {
             number,
             entries: end,
             said: Vec::new(),
             taps: None,
-            recorder: Recorder::new(self.epoch, self.keeps_frames),
+            recorder: Recorder::new(epoch, self.keeps_frames),
+            told,
         });
         let writer = self.writer.as_ref().map(|writer| writer.thread().clone());
         writer.iter().for_each(Thread::unpark);
         let mut feed = LogFeed {
             entries,
             n_lost: 0,
+            told,
             number,
             writer,
             shared: Arc::clone(&self.shared),
@@ -214,7 +237,7 @@ impl SessionLog {
         let program = selvedge_foundation::PROGRAM;
         let frames = if self.keeps_frames { "" } else { HASHED };
         let text = format!("n={number} target={target:?} program={program}{frames}");
-        feed.push(said(event::LINK, text));
+        feed.say(event::LINK, text);
         feed
     }
 
@@ -222,7 +245,8 @@ impl SessionLog {
     /// kind, such as `scene_sha256`.
     pub fn about(&self, name: &str, value: &str) {
         if let Some(newest) = self.shared.sources().last_mut() {
-            newest.said.push(about(name, value));
+            let entry = said(newest.now(), event::ABOUT, about(name, value));
+            newest.said.push(entry);
         }
     }
 
@@ -262,6 +286,8 @@ impl Drop for SessionLog {
 pub struct LogFeed {
     entries: Producer<Entry>,
     n_lost: u64,
+    /// When the link began, if it is told the time.
+    told: Option<Instant>,
     number: u32,
     writer: Option<Thread>,
     shared: Arc<Shared>,
@@ -270,7 +296,12 @@ pub struct LogFeed {
 impl LogFeed {
     /// Says what is played and on what: `name` with its unit or kind, such as `scene_sha256`.
     pub fn about(&mut self, name: &str, value: &str) {
-        self.push(about(name, value));
+        self.say(event::ABOUT, about(name, value));
+    }
+
+    fn say(&mut self, event: &'static str, text: String) {
+        let now = self.told.unwrap_or_else(Instant::now);
+        self.push(said(now, event, text));
     }
 
     /// Says on which array, and with which settings of it.
@@ -283,7 +314,7 @@ impl LogFeed {
 
     /// Adds an entry of now, by the host's clock alone.
     pub(super) fn note(&mut self, note: Note) {
-        self.push(at_once(note));
+        self.push(at(Instant::now(), note));
     }
 
     /// From now on what passes the port is recorded too.
@@ -316,18 +347,18 @@ impl LogFeed {
     }
 }
 
-fn about(name: &str, value: &str) -> Entry {
-    said(event::ABOUT, format!("{name}={value}"))
+fn about(name: &str, value: &str) -> String {
+    format!("{name}={value}")
 }
 
-/// An entry in words, of now.
-fn said(event: &'static str, text: String) -> Entry {
-    at_once(Note::Said(event, text))
+/// An entry in words.
+fn said(now: Instant, event: &'static str, text: String) -> Entry {
+    at(now, Note::Said(event, text))
 }
 
-fn at_once(note: Note) -> Entry {
+fn at(now: Instant, note: Note) -> Entry {
     Entry {
-        at: Instant::now(),
+        at: now,
         tick: None,
         device_us: None,
         note,
@@ -406,7 +437,7 @@ impl OfLink {
             .replace(number)
             .is_some_and(|last| last != number)
         {
-            let entry = said(event::OF_LINK, format!("n={number}"));
+            let entry = said(Instant::now(), event::OF_LINK, format!("n={number}"));
             line::write_entry(lines, &entry, self.epoch);
         }
         lines.push_str(own);

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use stylus::FeltStylus;
 
-use super::fingers::Fingers;
+use super::fingers::{self, Fingers};
 use super::input::{
     Control, InputLosses, LiveInput, PointerInput, PointerSender, Reading, live_ring, playable,
 };
@@ -159,7 +159,8 @@ impl EngineCore {
         } else {
             self.pose
         };
-        self.fingers.follow(&self.pose, now);
+        let told = self.playable.as_deref().and_then(PointerInput::path);
+        self.fingers.follow((&self.pose, self.has_ended), now, told);
         let played = self.sequence.next_tick();
         self.lead_stylus();
         self.render(played);
@@ -197,7 +198,10 @@ impl EngineCore {
             sequence_step: self.sequence.step(),
             tally,
         };
-        let Err(why) = recorder.push(tick, self.scene.amplitudes_um()) else {
+        let (fingers, first) = (&self.fingers, self.pose);
+        let others = 1..=fingers::n_others(self.scene.n_displays());
+        let others = others.map(|display| fingers.pose(display).unwrap_or(first));
+        let Err(why) = recorder.push(tick, others, self.scene.amplitudes_um()) else {
             return None;
         };
         say(Notice::RecordingEnded(why));

@@ -54,7 +54,7 @@ impl EngineCore {
         let Some(mut drive) = self.stylus.drive.take() else {
             return;
         };
-        let is_felt = drive.is_for(self.scene.surfaces()) && !self.stylus.is_over;
+        let is_felt = drive.is_for(self.scene.renderer().surfaces()) && !self.stylus.is_over;
         if self.is_stopped || self.sequence.played().is_some() || !is_felt {
             drive.leave();
         } else if !self.is_held {

@@ -2,12 +2,15 @@
 //! scene whose first display has as many contactors.
 
 use crate::PreparedScene;
+use crate::fingers::n_others;
 use crate::ready::{NextArray, ReadyCommand};
 use selvedge_device::{ArrayChange, ArrayProfile, Coder};
 
 /// What is known of the displays of the scene that was sent last.
 #[derive(Debug)]
 pub(super) struct DrivenArray {
+    /// Displays beside the first that fingers may hold.
+    pub(super) n_others: usize,
     /// Contactors of all displays.
     pub(super) n_contactors: usize,
     /// Contactors of the first display: those that a device plays.
@@ -22,6 +25,7 @@ impl DrivenArray {
     /// The scene's own.
     pub(super) fn of(scene: &PreparedScene) -> Self {
         Self {
+            n_others: n_others(scene.n_displays()),
             n_contactors: scene.n_contactors(),
             n_felt: scene.n_felt(),
             profile: scene.profile().clone(),
@@ -38,6 +42,7 @@ impl DrivenArray {
             scene.drive_as(chosen);
         }
         let is_other = scene.n_felt() != self.n_felt;
+        self.n_others = n_others(scene.n_displays());
         self.n_contactors = scene.n_contactors();
         self.n_felt = scene.n_felt();
         self.profile = scene.profile().clone();

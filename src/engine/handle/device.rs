@@ -38,7 +38,7 @@ impl DeviceHandle {
         };
         self.actuators = bridge.take_actuators();
         if let Some(log) = &self.session_log {
-            let mut feed = log.feed(bridge.target());
+            let mut feed = bridge.feed_of(log);
             feed.about_array(&driven.profile);
             for (name, value) in &self.said {
                 feed.about(name, value);

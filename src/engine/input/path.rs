@@ -136,6 +136,10 @@ impl PointerInput for ReplayInput {
         cursor.step(&self.path).map(|(_, pose)| pose)
     }
 
+    fn path(&self) -> Option<&ExplorationPath> {
+        Some(&*self.path).filter(|path| path.n_others() > 0)
+    }
+
     fn playback(&self) -> Playback {
         Playback {
             is_playing: self.motion == Motion::Playing,

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::time::Instant;
 
 use crate::PointerSample;
-use selvedge_render::scene::Pose;
+use selvedge_render::scene::{ExplorationPath, Pose};
 
 /// What moves the display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,6 +106,11 @@ pub trait PointerInput: Send + Debug {
 
     /// The pose so many ticks before the last one, of a path that knows it. Allocates nothing.
     fn pose_before(&self, _n_ticks: u64) -> Option<Pose> {
+        None
+    }
+
+    /// The path that it moves along, where that tells of displays beside the first.
+    fn path(&self) -> Option<&ExplorationPath> {
         None
     }
 

@@ -10,7 +10,10 @@ use std::thread;
 use super::*;
 use crate::input::PointerInput;
 use crate::ready::{CoreCommand, ReadyCommand};
-use selvedge_device::{BridgeEvent, BridgeState, DeviceState, DisarmedBy, FaultWords, Target};
+use selvedge_device::{
+    BridgeError, BridgeEvent, BridgeState, ContactorModel, DeviceState, DisarmedBy, FaultWords,
+    SessionLog, Target, replay_log,
+};
 #[cfg(unix)]
 use selvedge_device::{DeviceModel, Faults, PtyEmulator};
 use selvedge_scratch::ScratchFolder;
@@ -347,4 +350,42 @@ fn a_panic_on_the_engines_thread_stops_the_device_before_it_has_to_help_itself()
         states.iter().all(|state| state != "RAMP")
     });
     assert!(stopped_by_host, "the device always ramped by itself");
+}
+
+#[test]
+fn the_log_of_a_device_in_told_time_replays_as_it_was() {
+    let folder = ScratchFolder::made("told");
+    let path = folder.join("link.csv");
+    let (mut engine, start) = engine(Method::Auto);
+    engine.step_emulators();
+    engine.log_links_to(SessionLog::append(&path, None).unwrap());
+    engine.send(Command::Connect(Target::Emulator)).unwrap();
+    let mut ticks = 0;
+    for n in 1..400_u32 {
+        if n == 30 {
+            engine.send(Command::Arm).unwrap();
+        }
+        engine.advance(start + TICK * n);
+        ticks += u64::from(
+            engine
+                .snapshot()
+                .link
+                .is_some_and(|link| link.state.is_live()),
+        );
+        // The log has a thread of its own, for which told time is too fast.
+        thread::sleep(Duration::from_millis(1));
+    }
+    assert!(ticks > 300, "{ticks}");
+    drop(engine);
+    let mut n_felt = 0;
+    let links = replay_log(&path, &ContactorModel::default(), |tick| {
+        n_felt += u64::from(tick.state == DeviceState::Run);
+        Ok::<(), BridgeError>(())
+    });
+    let links = links.unwrap();
+    assert!(
+        links[0].agrees() && n_felt + 3 > ticks,
+        "{n_felt} of {ticks}: {}",
+        links[0]
+    );
 }

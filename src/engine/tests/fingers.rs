@@ -1,7 +1,9 @@
 //! Fingers that hold displays of their own, and displays that follow the first.
 
 use super::*;
-use selvedge_render::Counters;
+use selvedge_render::array::DisplayFrame;
+use selvedge_render::{Counters, Replay, replay};
+use std::ops::ControlFlow;
 
 /// The same cloth under so many displays of the same shape.
 fn with_displays(n_displays: usize) -> (Engine, PointerSender, Instant) {
@@ -228,5 +230,86 @@ fn samples_of_ticks_and_news_are_of_the_display_that_is_watched() {
         let (sample, of_tick_um) = engine.next_felt_tick().unwrap();
         assert_eq!((sample.pose, of_tick_um), (pose, &felt_um[..]), "tick {n}");
         assert_eq!(sample.watched_um, felt_um[5]);
+    }
+}
+
+/// Two fingers for 60 ticks, of which the second comes later, is lifted once and the display
+/// turns: as it was recorded.
+fn two_recorded() -> (Engine, Recording) {
+    let (mut engine, mut pointer, start) = with_displays(2);
+    engine.advance(start);
+    let mut recording = engine.record().unwrap();
+    for n in 0..60 {
+        stroke(&mut pointer, (0, 0), start, n);
+        match n {
+            10..30 | 40.. => stroke(&mut pointer, (1, 1), start, n),
+            30 => assert!(pointer.lift(1)),
+            _ => {}
+        }
+        let turn = Command::TurnBy(if (20..50).contains(&n) { 0.7 } else { 0.0 });
+        engine.send(turn).unwrap();
+        engine.advance(start + TICK * (n + 1));
+    }
+    engine.send(Command::StopRecording).unwrap();
+    engine.advance(start + TICK * 61);
+    recording.collect();
+    assert_eq!(recording.ticks().len(), 60);
+    let felt = (0..60).filter(|n| sounds(&recording.amplitudes_um(*n)[24..]));
+    assert!(felt.count() > 35, "the second display is felt");
+    let apart = (0..60).filter(|n| {
+        let [first, second] = recording.amplitudes_um(*n).split_at(24).into();
+        first != second
+    });
+    assert!(apart.count() > 40, "it feels something else");
+    (engine, recording)
+}
+
+#[test]
+fn a_recording_of_two_fingers_replays_bit_for_bit_from_its_file_in_the_engine_and_without() {
+    let (mut engine, recording) = two_recorded();
+    let csv = recording.to_path().unwrap().to_csv().unwrap();
+    let path = ExplorationPath::from_csv(&csv, std::path::Path::new("two.csv")).unwrap();
+    assert_eq!(path, recording.to_path().unwrap());
+    let mut scene = render_scene(exeter());
+    scene.displays = vec![scene.displays[0].clone(); 2];
+    let what = Replay {
+        scene: &scene,
+        method: Method::Auto,
+        accuracy: Accuracy::default(),
+        measures_error: false,
+    };
+    let mut n_ticks = 0;
+    replay(&what, &path, &mut || 0, &mut |tick, _, frames| {
+        let felt: Vec<_> = frames
+            .iter()
+            .flat_map(DisplayFrame::amplitudes_um)
+            .collect();
+        let expected = recording.amplitudes_um(usize::try_from(tick).unwrap());
+        assert!(expected.iter().eq(felt), "tick {tick}");
+        n_ticks += 1;
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!(n_ticks, 60);
+    let source = InputSource::Replay(Arc::new(path));
+    engine.send(Command::SetSource(source)).unwrap();
+    engine.send(Command::Play).unwrap();
+    let felt_at = |engine: &mut Engine, n: usize| {
+        engine.advance_ticks(1);
+        let snapshot = engine.snapshot();
+        let felt = [0, 1].map(|display| of_display(snapshot, display)).concat();
+        assert_eq!(felt, recording.amplitudes_um(n), "tick {n}");
+        assert_eq!(
+            snapshot.displays[1].pose.position,
+            recording.others(n)[0].position
+        );
+    };
+    (0..60).for_each(|n| felt_at(&mut engine, n));
+    engine.advance_ticks(1);
+    let ended = [0, 1].map(|display| of_display(engine.snapshot(), display));
+    assert!(!ended.iter().any(|felt| sounds(felt)), "over");
+    for tick in [45, 15, 33, 5] {
+        engine.send(Command::Seek(tick)).unwrap();
+        felt_at(&mut engine, usize::try_from(tick).unwrap());
     }
 }

@@ -32,11 +32,14 @@ use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
 use table::TableEvaluator;
 
+use std::sync::Arc;
+
 use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::scene::Pose;
 use selvedge_foundation::geometry::Point;
+use selvedge_textile::surface::Surface;
 use selvedge_textile::tactile::Tuning;
 
 /// How powers are found.
@@ -211,6 +214,11 @@ impl ArrayRenderer {
         let factors = known.unwrap_or_default();
         let amplitude_um = [0, 1].map(|band| single(factors[band] * amplitude_um[band]));
         self.vibrate_display(display, amplitude_um);
+    }
+
+    /// The surfaces of the textiles, in the order of the scene's list.
+    pub fn surfaces(&self) -> impl ExactSizeIterator<Item = &Arc<Surface>> {
+        self.plan.textiles.iter().map(|textile| &textile.surface)
     }
 
     /// The topmost textile under a point of the workspace (its place in the list), and where that

@@ -1,16 +1,17 @@
 //! Where the contactors of a display touch which textile, and how they move over it.
 
+use std::sync::Arc;
+
 use super::counters::Counters;
 use super::motion::{Axis, Component};
 use super::point::PointGrid;
 use crate::PlacedSurface;
+use crate::scene::{EDGE_MM, is_on};
 use selvedge_foundation::geometry::{Displacement, Point, Rotation, Velocity};
+use selvedge_textile::surface::Surface;
 
 /// No textile: the contactor lies outside.
 pub(crate) const OUTSIDE: u16 = u16::MAX;
-/// How far outside its left and lower edge a textile is still felt, and how far inside its right
-/// and upper edge no longer, mm.
-const EDGE_MM: f64 = 1e-6;
 
 /// A placed textile, ready to be asked for contacts.
 #[derive(Debug, Clone)]
@@ -19,6 +20,7 @@ pub(crate) struct TextilePlan {
     pub(crate) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     within_mm: Option<[Point; 2]>,
+    pub(crate) surface: Arc<Surface>,
     /// The spectra of each direction in the pool.
     pub spectra: [usize; 4],
     /// How places become points, for each direction.
@@ -174,6 +176,7 @@ impl TextilePlan {
             textile_from_workspace: placed.workspace_from_textile.rotation.inverse(),
             size_mm: placed.size_mm,
             within_mm: placed.within_mm,
+            surface: Arc::clone(&placed.surface),
             spectra,
             points,
         }
@@ -202,15 +205,11 @@ impl TextilePlan {
     }
 
     pub(crate) fn contains(&self, u_mm: f64, w_mm: f64) -> bool {
-        let within = |place: f64, extent: f64| -EDGE_MM <= place && place < extent - EDGE_MM;
-        let is_felt_at = |[from, to]: [Point; 2]| {
+        let in_workspace = || {
             let turned = self.textile_from_workspace.inverse();
-            let at = self.origin + turned.turn(Displacement::new(u_mm, w_mm));
-            within(at.x_mm - from.x_mm, to.x_mm - from.x_mm)
-                && within(at.y_mm - from.y_mm, to.y_mm - from.y_mm)
+            self.origin + turned.turn(Displacement::new(u_mm, w_mm))
         };
-        within(u_mm, self.size_mm[0])
-            && within(w_mm, self.size_mm[1])
-            && self.within_mm.is_none_or(is_felt_at)
+        let place = Point::new(u_mm, w_mm);
+        is_on(place, in_workspace, self.size_mm, self.within_mm)
     }
 }

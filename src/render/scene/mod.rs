@@ -30,6 +30,7 @@ pub use geometry::{ArrayLayout, Geometry, MAX_CONTACTORS};
 pub use loaded::LoadedScene;
 pub use path::{ExplorationPath, PathCursor, PathRow, Ticks};
 pub use placed::PlacedTextile;
+pub(crate) use placed::{EDGE_MM, is_on};
 pub use pose::{Pose, TICKS_PER_S};
 pub use reference::RecordingReference;
 pub use slots::{SlotLetter, TuningSlot};

@@ -10,7 +10,7 @@ use selvedge_textile::tactile::Band;
 
 /// How far outside its left and lower edge a textile is still felt, and how far inside its right
 /// and upper edge no longer, mm.
-const EDGE_MM: f64 = 1e-6;
+pub(crate) const EDGE_MM: f64 = 1e-6;
 
 /// A textile of the library and where it lies.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -64,15 +64,8 @@ impl PlacedTextile {
 
     /// Whether a point of the textile's own axes (u along the warp, w along the weft) is on it.
     pub fn contains(&self, textile_point: Point) -> bool {
-        let [width_mm, height_mm] = self.size_mm;
-        let is_felt_at = |[from, to]: [Point; 2]| {
-            let at = self.workspace_from_textile().point(textile_point);
-            is_within(at.x_mm - from.x_mm, to.x_mm - from.x_mm)
-                && is_within(at.y_mm - from.y_mm, to.y_mm - from.y_mm)
-        };
-        is_within(textile_point.x_mm, width_mm)
-            && is_within(textile_point.y_mm, height_mm)
-            && self.within_mm.is_none_or(is_felt_at)
+        let in_workspace = || self.workspace_from_textile().point(textile_point);
+        is_on(textile_point, in_workspace, self.size_mm, self.within_mm)
     }
 
     /// What it adds to its gain in a band, dB.
@@ -114,6 +107,22 @@ fn is_zero(gain_db: &f64) -> bool {
     gain_db.abs() <= 0.0
 }
 
-fn is_within(place_mm: f64, extent_mm: f64) -> bool {
-    -EDGE_MM <= place_mm && place_mm < extent_mm - EDGE_MM
+/// Whether a point lies on a textile of this size: by its place in the textile's own axes, and by
+/// that in the workspace where it is felt in a part of that only.
+#[inline]
+pub(crate) fn is_on(
+    place: Point,
+    in_workspace: impl FnOnce() -> Point,
+    [width_mm, height_mm]: [f64; 2],
+    within_mm: Option<[Point; 2]>,
+) -> bool {
+    let within = |place_mm, extent_mm| -EDGE_MM <= place_mm && place_mm < extent_mm - EDGE_MM;
+    let is_felt_at = |[from, to]: [Point; 2]| {
+        let at = in_workspace();
+        within(at.x_mm - from.x_mm, to.x_mm - from.x_mm)
+            && within(at.y_mm - from.y_mm, to.y_mm - from.y_mm)
+    };
+    within(place.x_mm, width_mm)
+        && within(place.y_mm, height_mm)
+        && within_mm.is_none_or(is_felt_at)
 }

@@ -115,7 +115,7 @@ impl StylusDrive {
     }
 
     /// Whether it was made for a scene with these surfaces.
-    pub fn is_for(&self, surfaces: &[Arc<Surface>]) -> bool {
+    pub fn is_for<'a>(&self, surfaces: impl ExactSizeIterator<Item = &'a Arc<Surface>>) -> bool {
         let own = self.textiles.iter().map(|(surface, _)| surface);
         own.len() == surfaces.len() && own.zip(surfaces).all(|(a, b)| Arc::ptr_eq(a, b))
     }

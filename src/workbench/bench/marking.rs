@@ -115,11 +115,12 @@ impl Bench {
             .collect();
         let n_contactors = history.n_contactors;
         self.make_recording(about.name.clone(), move || {
-            let mut file = RecordingFile::create(&root, about, n_contactors)?;
+            let mut file = RecordingFile::create(&root, about, [0, n_contactors])?;
             let ticks = entries.iter().zip(&felt_um);
             file.append_ticks(ticks.map(|(entry, amplitudes_um)| FeltTick {
                 tick: entry.tick_sample.tick,
                 pose: entry.tick_sample.pose,
+                others: &[],
                 apply_tick: entry.tick_sample.apply_tick,
                 amplitudes_um,
             }))?;

@@ -376,7 +376,8 @@ mod tests {
     fn a_recording_that_was_broken_off_is_listed_and_replayed() {
         let root = ScratchFolder::made("broken");
         let made = explored(30);
-        let mut file = RecordingFile::create(&root, page("Half"), made.n_contactors()).unwrap();
+        let mut file =
+            RecordingFile::create(&root, page("Half"), [0, made.n_contactors()]).unwrap();
         file.append(&made, 0).unwrap();
         drop(file);
         let mut window = window(&root);

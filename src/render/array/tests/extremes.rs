@@ -1,6 +1,7 @@
 //! Extreme cases: nothing panics, and no NaN comes out.
 
 use super::*;
+use crate::scene::{ExplorationPath, PathRow};
 use crate::{RenderError, Replay, replay};
 use selvedge_foundation::numerics::Random;
 use std::ops::ControlFlow;
@@ -220,8 +221,14 @@ fn a_replay_counts_times_and_measures_errors() {
     let scene = scene_of(vec![placed(&weave(), [0.0, 0.0], 0.0)], exeter());
     let ticks = (0..50_u64).map(|n| {
         let along = n as f64 / 40.0;
-        (n, pose([30.0 + 60.0 * along, 30.0], [60.0, 5.0 * along]))
+        PathRow {
+            t_s: along,
+            position: Point::new(30.0 + 60.0 * along, 30.0),
+            angle_deg: 0.0,
+            velocity: Some(Velocity::new(60.0, 5.0 * along)),
+        }
     });
+    let path = ExplorationPath::new(ticks.collect()).unwrap();
     let mut now_ns = 0;
     let mut clock = || {
         now_ns += 100;
@@ -244,7 +251,7 @@ fn a_replay_counts_times_and_measures_errors() {
                 ControlFlow::Continue(())
             }
         };
-        let stats = replay(&what, ticks.clone(), &mut clock, &mut sink).unwrap();
+        let stats = replay(&what, &path, &mut clock, &mut sink).unwrap();
         assert_eq!(
             (n_frames, stats.counters.ticks, stats.n_contactors),
             (45, 45, 24)

@@ -2,10 +2,14 @@
 //!
 //! Tick n is at `t_first + n/40` s. Between rows values are `a + (b − a)·s`; within 1e-9 s of a
 //! row they are the row's. Everything is a function of the rows: no clock, no random number.
+//! Displays beside the first have columns of their own where fingers held them ([`others`]).
+
+mod others;
 
 use std::path::Path;
 
 use super::{Pose, SceneError, TICKS_PER_S};
+use others::Others;
 use selvedge_foundation::files::{self, FileError, Table, TableWriter};
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_foundation::numerics::to_whole;
@@ -38,6 +42,14 @@ pub struct PathRow {
 pub struct ExplorationPath {
     rows: Vec<PathRow>,
     has_velocity: bool,
+    others: Others,
+}
+
+impl PathRow {
+    /// So far on the way from a number to another.
+    fn mix(a: f64, b: f64, share: f64) -> f64 {
+        a + (b - a) * share
+    }
 }
 
 impl ExplorationPath {
@@ -62,9 +74,15 @@ impl ExplorationPath {
     }
 
     /// Reads the text of a path file: `t_s,x_mm,y_mm` and optionally `angle_deg`,
-    /// `vx_mm_per_s,vy_mm_per_s`. `path` only names it in errors.
+    /// `vx_mm_per_s,vy_mm_per_s`, and of displays beside the first
+    /// `x_mm_1,y_mm_1,vx_mm_per_s_1,vy_mm_per_s_1,…`. `path` only names it in errors.
     pub fn from_csv(text: &str, path: &Path) -> Result<Self, SceneError> {
-        let table = Table::read(text, path, &REQUIRED, &OPTIONAL)?;
+        let of_others = others::columns();
+        let optional = OPTIONAL.into_iter();
+        let optional: Vec<&str> = optional
+            .chain(of_others.iter().map(String::as_str))
+            .collect();
+        let table = Table::read(text, path, &REQUIRED, &optional)?;
         let [times, xs, ys] = REQUIRED.map(|column| table.required_numbers(column));
         let (times, xs, ys) = (times?, xs?, ys?);
         let angles = table.numbers("angle_deg")?;
@@ -89,7 +107,7 @@ impl ExplorationPath {
         if let Some((row, what, mend)) = rows_flaw(&rows) {
             return Err(FileError::content(path, table.line_of(row), what, mend).into());
         }
-        Ok(Self::of_good_rows(rows))
+        others::read(Self::of_good_rows(rows), (&table, path))
     }
 
     /// The text of its file. Reading it gives the same path again.
@@ -100,8 +118,11 @@ impl ExplorationPath {
         if self.has_velocity {
             header.extend_from_slice(&OPTIONAL[1..]);
         }
+        let of_others = (1..=self.n_others()).flat_map(Self::columns_of_other);
+        let of_others: Vec<String> = of_others.collect();
+        header.extend(of_others.iter().map(String::as_str));
         let mut table = TableWriter::new(Vec::new(), Path::new("path"), &header)?;
-        for row in &self.rows {
+        for (nth, row) in self.rows.iter().enumerate() {
             table
                 .number(row.t_s)
                 .number(row.position.x_mm)
@@ -113,6 +134,12 @@ impl ExplorationPath {
                 table
                     .number(velocity.x_mm_per_s)
                     .number(velocity.y_mm_per_s);
+            }
+            for cell in self.others_of(nth).as_flattened() {
+                match cell {
+                    Some(number) => table.number(number),
+                    None => table.text(""),
+                };
             }
             table.end_row()?;
         }
@@ -155,7 +182,11 @@ impl ExplorationPath {
                 row.velocity = None;
             }
         }
-        Self { rows, has_velocity }
+        Self {
+            rows,
+            has_velocity,
+            others: Others::default(),
+        }
     }
 
     /// When a tick is, s.
@@ -166,40 +197,49 @@ impl ExplorationPath {
     /// The row at a time that lies at or after row `from`, interpolated, and the row to start from
     /// next time. Past the end it is the last row.
     pub fn row_at(&self, t_s: f64, from: usize) -> (PathRow, usize) {
-        let n_ahead = self.rows[from..]
-            .iter()
-            .take_while(|row| row.t_s <= t_s)
-            .count();
-        let at = (from + n_ahead).saturating_sub(1);
+        let (at, share) = self.place_of(t_s, from);
         let here = self.rows[at];
-        let Some(&next) = self.rows.get(at + 1) else {
+        let Some(&next) = self.rows.get(at + 1).filter(|_| share > 0.0) else {
             return (here, at);
         };
-        if (t_s - here.t_s).abs() <= SAME_TIME_S {
-            return (here, at);
-        }
-        if (next.t_s - t_s).abs() <= SAME_TIME_S {
+        if share >= 1.0 {
             return (next, at);
         }
-        let share = (t_s - here.t_s) / (next.t_s - here.t_s);
-        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let mix = |a: f64, b: f64| PathRow::mix(a, b, share);
         let velocity = here.velocity.zip(next.velocity).map(|(a, b)| {
             Velocity::new(
                 mix(a.x_mm_per_s, b.x_mm_per_s),
                 mix(a.y_mm_per_s, b.y_mm_per_s),
             )
         });
-        let position = here.position.toward(next.position, share);
-        let angle_deg = mix(here.angle_deg, next.angle_deg);
-        (
-            PathRow {
-                t_s,
-                position,
-                angle_deg,
-                velocity,
-            },
-            at,
-        )
+        let row = PathRow {
+            t_s,
+            position: here.position.toward(next.position, share),
+            angle_deg: mix(here.angle_deg, next.angle_deg),
+            velocity,
+        };
+        (row, at)
+    }
+
+    /// The row before a time that lies at or after row `from`, and how far on the way to the next
+    /// the time is: 0 at the one, 1 at the other, within what counts as the same time.
+    fn place_of(&self, t_s: f64, from: usize) -> (usize, f64) {
+        let rows = self.rows[from..].iter();
+        let n_ahead = rows.take_while(|row| row.t_s <= t_s).count();
+        let at = (from + n_ahead).saturating_sub(1);
+        let here_s = self.rows[at].t_s;
+        let Some(next) = self.rows.get(at + 1) else {
+            return (at, 0.0);
+        };
+        if (t_s - here_s).abs() <= SAME_TIME_S {
+            return (at, 0.0);
+        }
+        if (next.t_s - t_s).abs() <= SAME_TIME_S {
+            return (at, 1.0);
+        }
+        // Not one of the two, so no share says so.
+        let share = (t_s - here_s) / (next.t_s - here_s);
+        (at, share)
     }
 }
 

@@ -108,6 +108,45 @@ fn a_path_survives_writing_and_reading() {
 }
 
 #[test]
+fn displays_beside_the_first_are_where_their_columns_say() {
+    let text = "t_s,x_mm,y_mm,x_mm_1,y_mm_1,vx_mm_per_s_1,vy_mm_per_s_1\n\
+                0,0,0,,,,\n0.05,2,0,9,5,10,0\n0.1,4,0,11,5,20,4\n0.125,5,0,11,5,,\n";
+    let path = read(text).unwrap();
+    assert_eq!(read(&path.to_csv().unwrap()).unwrap(), path);
+    let mut poses = [Pose::default(); 3];
+    let seen: Vec<[Pose; 3]> = path
+        .ticks()
+        .map(|(_, first)| {
+            path.poses_into(&first, &mut poses);
+            poses
+        })
+        .collect();
+    for (nth, [first, own, third]) in seen.iter().enumerate() {
+        assert_eq!(third, first, "tick {nth}: of it nothing is told");
+        let (x_mm, speed) = [
+            (first.position.x_mm, first.velocity.x_mm_per_s),
+            (first.position.x_mm, first.velocity.x_mm_per_s),
+            (9.0, 10.0),
+            (10.0, 15.0),
+            (11.0, 20.0),
+            (11.0, 0.0),
+        ][nth];
+        let is_near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(is_near(own.position.x_mm, x_mm), "tick {nth}: {own:?}");
+        assert!(
+            is_near(own.velocity.x_mm_per_s, speed),
+            "tick {nth}: {own:?}"
+        );
+    }
+    let together = path.clone().with_others(2, vec![[None; 4]; 8]).unwrap();
+    assert_eq!(together.n_others(), 0, "nobody was apart");
+    assert!(
+        path.with_others(1, vec![[None; 4]; 3]).is_err(),
+        "a row has none"
+    );
+}
+
+#[test]
 fn wrong_paths_name_the_line_and_the_mend() {
     for (text, expected) in [
         ("", "stroke.csv:1: no column t_s"),
@@ -127,6 +166,18 @@ fn wrong_paths_name_the_line_and_the_mend() {
         (
             "t_s,x_mm,y_mm,vx_mm_per_s\n0,0,0,1\n",
             "stroke.csv:1: one velocity column",
+        ),
+        (
+            "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,\n",
+            "stroke.csv:2: a display beside the first is not whole",
+        ),
+        (
+            "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,inf\n",
+            "stroke.csv:2: a display beside the first is not whole",
+        ),
+        (
+            "t_s,x_mm,y_mm,x_mm_1,y_mm_1\n0,0,0,4,5\n1,0,0,4,b\n",
+            "stroke.csv:3: y_mm_1 is \"b\"",
         ),
         (
             "t_s,x_mm,y_mm\n0,0,0\n1e300,1,1\n",

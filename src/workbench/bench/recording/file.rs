@@ -4,38 +4,21 @@
 //! Whatever interrupts the program leaves every row but the last half second; a row that is not
 //! whole is left out on reading. Which recordings there are is not known here.
 
-use std::fs::{self, File};
-use std::io::{BufRead as _, BufReader, Read as _};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::bench::recording::rows::{COLUMNS, TICKS, read_rows};
 use crate::bench::recording::{Felt, Recording, missing_before};
 use selvedge_foundation::files::{self, FileError, Journal};
-use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::to_single;
-use selvedge_render::scene::{ExplorationPath, PathRow, Pose, TICKS_PER_S};
+use selvedge_render::scene::{ExplorationPath, Pose, TICKS_PER_S};
 use selvedge_textile::tactile::Tuning;
 
 /// The page.
 const ABOUT: &str = "recording.toml";
-/// The table.
-pub(super) const TICKS: &str = "ticks.csv";
-/// The first columns of the table; two for every contactor follow.
-const COLUMNS: [&str; 8] = [
-    "t_s",
-    "tick",
-    "x_mm",
-    "y_mm",
-    "angle_deg",
-    "vx_mm_per_s",
-    "vy_mm_per_s",
-    "device_tick",
-];
-/// A longer line is in no table of ours.
-const LONGEST_LINE: u64 = 1 << 20;
-/// The most ticks that are read: those of the longest recording.
-const MOST_TICKS: usize = 4 * 3600 * 40;
 /// The most points of an outline.
 const OUTLINE: usize = 64;
 
@@ -128,6 +111,8 @@ pub(crate) struct FeltTick<'a> {
     /// Of the engine.
     pub(crate) tick: u64,
     pub(crate) pose: Pose,
+    /// Those of displays beside the first.
+    pub(crate) others: &'a [Pose],
     /// The device's tick at which it was played; `None` when it was only shown.
     pub(crate) apply_tick: Option<u32>,
     /// [A40, A320] of every contactor, µm.
@@ -149,17 +134,16 @@ impl RecordingFile {
     pub(crate) fn create(
         root: &Path,
         about: About,
-        n_contactors: usize,
+        [n_others, n_contactors]: [usize; 2],
     ) -> Result<Self, FileError> {
         fs::create_dir_all(root).map_err(FileError::write(root))?;
         let folder = new_folder(root, &about.began)?;
         about.write(&folder)?;
         let bands = |nth: usize| [format!("a40_um_{nth}"), format!("a320_um_{nth}")];
-        let amplitudes: Vec<String> = (0..n_contactors).flat_map(bands).collect();
+        let others = (1..=n_others).flat_map(ExplorationPath::columns_of_other);
+        let more: Vec<String> = others.chain((0..n_contactors).flat_map(bands)).collect();
         let columns = COLUMNS.into_iter();
-        let columns: Vec<&str> = columns
-            .chain(amplitudes.iter().map(String::as_str))
-            .collect();
+        let columns: Vec<&str> = columns.chain(more.iter().map(String::as_str)).collect();
         Ok(Self {
             journal: Journal::create(&folder.join(TICKS), &columns)?,
             folder,
@@ -179,6 +163,7 @@ impl RecordingFile {
         self.append_ticks(new.map(|(nth, tick)| FeltTick {
             tick: tick.tick,
             pose: tick.pose,
+            others: recording.others(nth),
             apply_tick: tick.sent.map(|sent| sent.apply_tick),
             amplitudes_um: recording.amplitudes_um(nth),
         }))
@@ -207,6 +192,12 @@ impl RecordingFile {
             lines.push(',');
             if let Some(apply_tick) = tick.apply_tick {
                 files::push_number(&mut lines, apply_tick);
+            }
+            for cell in tick.others.iter().flat_map(|own| own.beside(&pose)) {
+                lines.push(',');
+                if let Some(number) = cell {
+                    files::push_number(&mut lines, number);
+                }
             }
             for um in tick.amplitudes_um.as_flattened() {
                 push_cell(&mut lines, um);
@@ -273,129 +264,24 @@ pub(crate) fn count(folder: &Path) -> Result<([u64; 2], Vec<[f32; 2]>), FileErro
 pub(crate) fn read(folder: &Path) -> Result<Recording, String> {
     let about = About::read(folder).map_err(|error| error.to_string())?;
     let (mut rows, mut device_ticks, mut felt) = (Vec::new(), Vec::new(), Felt::default());
-    let mut engine_ticks = Vec::new();
+    let (mut engine_ticks, mut others, mut n_others) = (Vec::new(), Vec::new(), 0);
     let read = read_rows(folder, |row| {
         rows.push(row.path);
         device_ticks.push(row.device_tick);
         engine_ticks.push(row.engine_tick);
+        n_others = row.others.len();
+        others.extend_from_slice(row.others);
         felt.n_contactors = row.amplitudes_um.len() / 2;
         let bands = row.amplitudes_um.as_chunks().0;
         felt.amplitudes_um.extend_from_slice(bands);
     });
     read.map_err(|error| error.to_string())?;
-    let path = ExplorationPath::new(rows);
+    let path = ExplorationPath::new(rows).and_then(|path| path.with_others(n_others, others));
     let path = path.map_err(|error| format!("{}: {error}", folder.join(TICKS).display()))?;
     let mut recording = Recording::felt(about, path, &device_ticks, felt);
     recording.missing = missing_before(engine_ticks.into_iter());
     recording.folder = Some(folder.to_owned());
     Ok(recording)
-}
-
-/// A row of the table.
-struct Row<'a> {
-    path: PathRow,
-    engine_tick: u64,
-    device_tick: Option<u32>,
-    amplitudes_um: &'a [f32],
-}
-
-/// The lines of a recording's table one after the other; a piece of a last one is left out.
-pub(super) struct Lines {
-    path: PathBuf,
-    reader: BufReader<File>,
-    n_read: usize,
-}
-
-impl Lines {
-    pub(super) fn open(folder: &Path) -> Result<Self, FileError> {
-        let path = folder.join(TICKS);
-        let file = File::open(&path).map_err(FileError::read(&path))?;
-        let reader = BufReader::new(file);
-        Ok(Self {
-            path,
-            reader,
-            n_read: 0,
-        })
-    }
-
-    /// The next line without its end; `None` after the last.
-    pub(super) fn next(&mut self) -> Result<Option<String>, FileError> {
-        let mut line = String::new();
-        let mut bounded = (&mut self.reader).take(LONGEST_LINE);
-        let n_bytes = bounded.read_line(&mut line);
-        let n_bytes = n_bytes.map_err(FileError::read(&self.path))?;
-        self.n_read += 1;
-        if line.ends_with('\n') {
-            line.pop();
-            return Ok(Some(line));
-        }
-        if n_bytes as u64 == LONGEST_LINE {
-            return Err(self.wrong("this line is too long"));
-        }
-        Ok(None)
-    }
-
-    /// What is wrong with the line that was read last.
-    fn wrong(&self, what: &str) -> FileError {
-        let mend = "delete the recording, or restore the file";
-        FileError::content(&self.path, self.n_read, what, mend)
-    }
-}
-
-/// Reads the rows of a recording one after the other.
-fn read_rows(folder: &Path, mut take: impl FnMut(Row<'_>)) -> Result<(), FileError> {
-    let mut lines = Lines::open(folder)?;
-    let (mut amplitudes_um, mut n_columns) = (Vec::new(), 0);
-    for nth in 0..=MOST_TICKS {
-        let Some(line) = lines.next()? else {
-            return Ok(());
-        };
-        let cells = line.as_str();
-        let wrong = |what: &str| lines.wrong(what);
-        if nth == 0 {
-            n_columns = cells.split(',').count();
-            if !cells.starts_with(&COLUMNS.join(",")) || n_columns % 2 == 1 {
-                return Err(wrong("this is no header of a recording"));
-            }
-            continue;
-        }
-        amplitudes_um.clear();
-        let row = row_of(cells, &mut amplitudes_um);
-        let (path_row, engine_tick, device_tick) =
-            row.ok_or_else(|| wrong("this is no row of a recording"))?;
-        if COLUMNS.len() + amplitudes_um.len() != n_columns {
-            return Err(wrong("this row has other columns than the header"));
-        }
-        take(Row {
-            path: path_row,
-            engine_tick,
-            device_tick,
-            amplitudes_um: &amplitudes_um,
-        });
-    }
-    Ok(())
-}
-
-fn row_of(line: &str, amplitudes_um: &mut Vec<f32>) -> Option<(PathRow, u64, Option<u32>)> {
-    let mut cells = line.split(',');
-    let t_s = cells.next()?.parse().ok()?;
-    let engine_tick = cells.next()?.parse().ok()?;
-    let mut number = || cells.next()?.parse::<f64>().ok();
-    let [x_mm, y_mm, angle_deg, vx, vy] = [number()?, number()?, number()?, number()?, number()?];
-    let device_tick = match cells.next()? {
-        "" => None,
-        cell => Some(cell.parse().ok()?),
-    };
-    for cell in cells {
-        amplitudes_um.push(cell.parse().ok()?);
-    }
-    let row = PathRow {
-        t_s,
-        position: Point::new(x_mm, y_mm),
-        angle_deg,
-        velocity: Some(Velocity::new(vx, vy)),
-    };
-    Some((row, engine_tick, device_tick))
 }
 
 #[cfg(test)]
@@ -408,7 +294,7 @@ mod tests {
     fn a_recording_reads_back_as_it_was_made() {
         let root = ScratchFolder::made("recording");
         let made = explored(60);
-        let mut file = RecordingFile::create(&root, page("One"), made.n_contactors()).unwrap();
+        let mut file = RecordingFile::create(&root, page("One"), [0, made.n_contactors()]).unwrap();
         file.append(&made, 0).unwrap();
         let (folder, about) = file.finish().unwrap();
         assert_eq!(about.ticks, Some([60, 0]), "no device was armed");
@@ -426,7 +312,8 @@ mod tests {
     fn cut_at_any_byte_a_recording_has_every_whole_row() {
         let root = ScratchFolder::made("torn");
         let made = explored(5);
-        let mut file = RecordingFile::create(&root, page("Torn"), made.n_contactors()).unwrap();
+        let mut file =
+            RecordingFile::create(&root, page("Torn"), [0, made.n_contactors()]).unwrap();
         file.append(&made, 0).unwrap();
         let folder = file.folder.clone();
         assert!(
@@ -477,7 +364,7 @@ mod tests {
     #[test]
     fn two_that_begin_in_the_same_second_have_a_folder_each() {
         let root = ScratchFolder::made("second");
-        let files = [0, 1].map(|_| RecordingFile::create(&root, page("Same"), 1).unwrap());
+        let files = [0, 1].map(|_| RecordingFile::create(&root, page("Same"), [0, 1]).unwrap());
         assert_ne!(files[0].folder, files[1].folder);
     }
 }

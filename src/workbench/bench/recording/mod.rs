@@ -7,6 +7,7 @@
 pub(crate) mod excerpt;
 pub(crate) mod file;
 pub(crate) mod list;
+mod rows;
 pub(crate) mod running;
 #[cfg(test)]
 pub(crate) mod tests;

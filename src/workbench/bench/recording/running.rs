@@ -146,8 +146,9 @@ impl Writer {
             return Ok(());
         };
         if self.file.is_none() {
-            let (about, n_contactors) = (self.about.clone(), self.recording.n_contactors());
-            let created = RecordingFile::create(root, about, n_contactors);
+            let (about, of) = (self.about.clone(), &self.recording);
+            let sizes = [of.n_others(), of.n_contactors()];
+            let created = RecordingFile::create(root, about, sizes);
             self.file = Some(created.map_err(|error| error.to_string())?);
         }
         let Some(file) = &mut self.file else {

@@ -135,7 +135,7 @@ fn with_amplitudes(recording: Recording, scene: &RenderScene) -> Result<Recordin
         measures_error: false,
     };
     let mut felt = Felt::default();
-    replay(&what, path.ticks(), &mut || 0, &mut |_, _, frames| {
+    replay(&what, &path, &mut || 0, &mut |_, _, frames| {
         if let Some(frame) = frames.first() {
             felt.n_contactors = frame.n_contactors();
             felt.amplitudes_um.extend_from_slice(frame.amplitudes_um());
@@ -451,7 +451,7 @@ mod tests {
                 ..crate::bench::recording::tests::page("One")
             };
             let mut on_disk =
-                file::RecordingFile::create(&root, about, made.n_contactors()).unwrap();
+                file::RecordingFile::create(&root, about, [0, made.n_contactors()]).unwrap();
             on_disk.append(&made, 0).unwrap();
             let of = FigureOf {
                 scene: None,
