@@ -56,6 +56,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "chart",
             "statistics",
             "textile",
+            "friction",
             "render",
             "device",
             "engine",

@@ -6,6 +6,8 @@
 pub(crate) mod array;
 pub(crate) mod device;
 pub(crate) mod edit;
+#[cfg(feature = "friction")]
+pub(crate) mod friction;
 pub(crate) mod lab;
 pub(crate) mod recording;
 
@@ -68,6 +70,9 @@ pub(crate) enum Command {
     Library(LibraryCommand),
     /// Begin a recipe in the textile lab.
     Lab(lab::Beginning),
+    /// Show the friction of a picture.
+    #[cfg(feature = "friction")]
+    Friction(friction::PictureAtHand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -206,8 +211,8 @@ pub(crate) enum Purpose {
     Clip(ClipKind),
     /// Take files of measurements to those that are imported.
     ImportFiles,
-    /// Make a textile of a picture.
-    OpenPicture,
+    /// Open a picture of cloth in this pane.
+    OpenPicture(Pane),
     /// Look at the textiles of a folder too.
     AddLibrary,
     /// Run an experiment by this design.

@@ -33,7 +33,7 @@ impl Headless {
             texts: Vec::new(),
         };
         fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
-        self.dispatch(FileCommand::Use(Purpose::OpenPicture, path));
+        self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path));
         let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
         picture.follow(&self.ctx, &Executor::InLine);
     }
