@@ -135,6 +135,7 @@ mod tests {
     use super::*;
     use crate::bench::command::lab::Beginning;
     use crate::bench::command::{Command, Edit, FileCommand, Purpose};
+    use crate::bench::pane::Pane;
     use crate::bench::recovery::Recovery;
     use crate::shell::headless::Headless;
     use crate::tools::import::Import;

@@ -16,6 +16,17 @@ impl Headless {
         import.follow(&self.ctx, &Executor::InLine);
     }
 
+    /// Predicts the friction of a cloth of one colour.
+    #[cfg(feature = "friction")]
+    pub(crate) fn ask_friction(&mut self) {
+        let plain = selvedge_foundation::numerics::Grid::filled(600, 120, 0.5);
+        self.dispatch(crate::bench::command::friction::PictureAtHand {
+            name: "plain.png".to_owned(),
+            brightness: std::sync::Arc::new(plain),
+            px_per_mm: 10.0,
+        });
+    }
+
     /// Works out a picture of a cloth.
     pub(crate) fn open_picture(&mut self) {
         let folder = ScratchFolder::made("picture");
