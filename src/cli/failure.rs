@@ -190,7 +190,7 @@ fn code_of_friction(error: &selvedge_friction::FrictionError) -> u8 {
     use selvedge_friction::FrictionError;
     match error {
         FrictionError::File(error) => code_of_file(error),
-        FrictionError::Small { .. } | FrictionError::Checkpoint { .. } => 2,
+        FrictionError::Size { .. } | FrictionError::Checkpoint { .. } => 2,
         FrictionError::Weights { .. } | FrictionError::Cancelled => 1,
     }
 }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::bench::command::Command;
 use selvedge_foundation::numerics::Grid;
 
 /// A picture of cloth that another tool has at hand; equal are only clones of one another.
@@ -19,11 +18,5 @@ pub(crate) struct PictureAtHand {
 impl PartialEq for PictureAtHand {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.brightness, &other.brightness)
-    }
-}
-
-impl From<PictureAtHand> for Command {
-    fn from(picture: PictureAtHand) -> Self {
-        Self::Friction(picture)
     }
 }

@@ -137,6 +137,13 @@ impl From<lab::Beginning> for Command {
     }
 }
 
+#[cfg(feature = "friction")]
+impl From<friction::PictureAtHand> for Command {
+    fn from(picture: friction::PictureAtHand) -> Self {
+        Self::Friction(picture)
+    }
+}
+
 impl From<Edit> for Command {
     fn from(edit: Edit) -> Self {
         Self::Edit(edit)
