@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// Declares every pane once: its name in files, its title, its title where there is little room,
-/// the width of what its tool adds to the row of tabs, points, whether it has numbers to export, and
-/// the condition under which it is built if it is not always.
+/// the width of what its tool adds to the row of tabs, points, whether it has numbers to export,
+/// and the condition under which it is built if it is not always.
 macro_rules! panes {
     ($(
         $(#[doc = $doc:literal])*

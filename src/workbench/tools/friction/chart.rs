@@ -21,7 +21,7 @@ const FREQUENCIES_HZ: [f64; 2] = [5.0, 2000.0];
 /// From the largest amplitude of a spectrum down to the least that is shown.
 const DECADES: f64 = 1e-3;
 
-/// What is drawn of a stroke over time, and its spectrum: titles, what it measures, how it is drawn.
+/// What is drawn of a stroke over time, and its spectrum: titles, units, how it is drawn.
 pub(crate) struct Felt {
     titles: [&'static str; 2],
     unit: [&'static str; 2],

@@ -159,7 +159,7 @@ fn show_drive(ui: &mut Ui, drive: &mut Electrovibration) {
     let (b, response) = slider_row(ui, "Gain b", ink, scale, drive.amplification_v);
     tell(
         &response,
-        "Amplification: the voltage where friction is 1; more where cloth feels stronger",
+        "Voltage where friction is 1; more where cloth feels stronger",
     );
     let scale = Scale {
         curve: Curve::Decades(2.0),
