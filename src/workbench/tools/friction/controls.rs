@@ -114,7 +114,11 @@ fn show_picture(ui: &mut Ui, friction: &mut Friction, context: &mut PaneContext<
 /// The textiles of the scene, whose own pictures can be taken.
 fn show_textiles(ui: &mut Ui, friction: &mut Friction, context: &PaneContext<'_>) {
     let loaded = &context.bench.engine_scene.loaded;
-    let is_of = |textile: &Arc<_>| matches!(&friction.chosen.source, Some(Source::Textile(of)) if Arc::ptr_eq(of, textile));
+    let source = &friction.chosen.source;
+    let is_of = |textile: &Arc<_>| match source {
+        Some(Source::Textile(of)) => Arc::ptr_eq(of, textile),
+        _ => false,
+    };
     let all = || context.scene.cloths.iter().zip(loaded.textiles());
     let now = all().find(|(_, textile)| is_of(textile));
     let now = now.map_or_else(|| "of the scene".to_owned(), |(cloth, _)| cloth.title());
