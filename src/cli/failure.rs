@@ -190,7 +190,7 @@ fn code_of_friction(error: &selvedge_friction::FrictionError) -> u8 {
     use selvedge_friction::FrictionError;
     match error {
         FrictionError::File(error) => code_of_file(error),
-        FrictionError::Small { .. }
+        FrictionError::Size { .. }
         | FrictionError::Checkpoint { .. }
         | FrictionError::Fabric { .. }
         | FrictionError::Few { .. } => 2,

@@ -19,13 +19,13 @@ pub enum FrictionError {
         /// What is wrong.
         what: String,
     },
-    /// A picture without room for a finger's path.
+    /// A picture without room for a finger's path, or with far too much.
     #[error(
-        "the picture shows {:.1} mm x {:.1} mm of cloth; give one of at least 40 mm x 10 mm, \
-         or its true scale",
+        "the picture shows {:.1} mm x {:.1} mm of cloth; give one of at least 40 mm x 10 mm and \
+         at most 500 mm, or its true scale",
         size_mm[0], size_mm[1]
     )]
-    Small {
+    Size {
         /// Its width and height, mm.
         size_mm: [f64; 2],
     },

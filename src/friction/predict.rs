@@ -24,6 +24,9 @@ const HELD_BACK: [f64; 2] = [0.095, 4.0];
 /// Standard deviations to either side of an interval of 95 %.
 const WIDE: f64 = 1.96;
 
+/// A picture of more has another scale than was said, and would fill the memory.
+const LARGEST_MM: f64 = 500.0;
+
 /// Networks that are asked together.
 #[derive(Debug)]
 pub struct Predictor {
@@ -120,16 +123,36 @@ impl Predictor {
         })
     }
 
+    /// The strip in the middle of a picture, [`PredictedFriction::PER_MM`] a millimetre: what is
+    /// looked at of it, and all of it if it is such a strip.
+    ///
+    /// # Errors
+    /// A picture without a strip of 10 mm × 40 mm, or of more cloth than a finger strokes.
+    pub fn strip(picture: &Grid<f32>, px_per_mm: f64) -> Result<Grid<f32>, FrictionError> {
+        let size_mm = [picture.width(), picture.height()].map(|n| n as f64 / px_per_mm);
+        let refused = Err(FrictionError::Size { size_mm });
+        if !size_mm.iter().all(|mm| *mm <= LARGEST_MM) {
+            return refused;
+        }
+        let mut strips = strips(picture, px_per_mm);
+        if strips.is_empty() || strips[0].width() < FRAME {
+            return refused;
+        }
+        let strip = strips.swap_remove(strips.len() / 2);
+        let part = strip.part([0, 0, strip.width() / HOP * HOP, strip.height()]);
+        Ok(part.unwrap_or(strip))
+    }
+
     /// Friction along the middle of a picture, brightness 0 to 1, of a scale.
     ///
     /// # Errors
-    /// A picture without a strip of 10 mm × 40 mm.
+    /// As [`Self::strip`].
     pub fn of_picture(
         &self,
         picture: &Grid<f32>,
         px_per_mm: f64,
     ) -> Result<PredictedFriction, FrictionError> {
-        let looks = Looks::of(&strip(picture, px_per_mm)?);
+        let looks = Looks::of(&Self::strip(picture, px_per_mm)?);
         Ok(together(
             &self.each(&looks),
             self.networks[0].latent(&looks),
@@ -147,7 +170,7 @@ impl Predictor {
         share: f64,
         random: &mut Random,
     ) -> Result<PredictedFriction, FrictionError> {
-        let looks = Looks::of(&strip(picture, px_per_mm)?);
+        let looks = Looks::of(&Self::strip(picture, px_per_mm)?);
         let mut course = |network: &OurNetwork| {
             let noise = std::iter::repeat_with(|| to_single(share * random.normal()));
             network.shaken(&looks, noise)
@@ -179,7 +202,7 @@ impl Predictor {
         pictures: [(&Grid<f32>, f64); 2],
         share: f64,
     ) -> Result<PredictedFriction, FrictionError> {
-        let [from, to] = pictures.map(|(picture, px_per_mm)| strip(picture, px_per_mm));
+        let [from, to] = pictures.map(|(picture, px_per_mm)| Self::strip(picture, px_per_mm));
         let (from, to) = (from?, to?);
         let n = from.width().min(to.width());
         let [from, to] = [from, to].map(|strip| {
@@ -192,18 +215,6 @@ impl Predictor {
         let latent = |(a, b): (&f32, &f32)| a * to_single(1.0 - share) + b * to_single(share);
         Ok(together(&courses, a.iter().zip(&b).map(latent).collect()))
     }
-}
-
-/// The strip in the middle of a picture, of whole steps.
-fn strip(picture: &Grid<f32>, px_per_mm: f64) -> Result<Grid<f32>, FrictionError> {
-    let mut strips = strips(picture, px_per_mm);
-    if strips.is_empty() || strips[0].width() < FRAME {
-        let size_mm = [picture.width(), picture.height()].map(|n| n as f64 / px_per_mm);
-        return Err(FrictionError::Small { size_mm });
-    }
-    let strip = strips.swap_remove(strips.len() / 2);
-    let part = strip.part([0, 0, strip.width() / HOP * HOP, strip.height()]);
-    Ok(part.unwrap_or(strip))
 }
 
 /// What several networks say of one strip.
@@ -337,6 +348,11 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(refused.contains("at least 40 mm x 10 mm"), "{refused}");
+        for px_per_mm in [0.5, 0.0, f64::NAN] {
+            let refused = Predictor::strip(&strip, px_per_mm).unwrap_err().to_string();
+            assert!(refused.contains("its true scale"), "{refused}");
+        }
+        assert_eq!(Predictor::strip(&strip, PER_MM).unwrap(), strip);
     }
 
     #[test]

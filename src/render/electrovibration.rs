@@ -11,12 +11,12 @@
 use std::f64::consts::TAU;
 
 use selvedge_foundation::named;
-
-use crate::RenderError;
+use serde::{Deserialize, Serialize};
 
 named! {
     /// The shape of the carrier.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
     pub enum Carrier {
         /// 1 for half a period, then 0: felt more strongly below 60 Hz.
         Square = "square",
@@ -28,11 +28,26 @@ named! {
 }
 
 /// How friction becomes a voltage.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Electrovibration {
-    amplification_v: f64,
-    carrier_hz: f64,
-    carrier: Carrier,
+    /// Amplification b, V.
+    pub amplification_v: f64,
+    /// Frequency of the carrier, Hz.
+    pub carrier_hz: f64,
+    /// Its shape.
+    pub carrier: Carrier,
+}
+
+impl Default for Electrovibration {
+    /// A square that is felt as such, far from the limit on any cloth.
+    fn default() -> Self {
+        Self {
+            amplification_v: 120.0,
+            carrier_hz: 100.0,
+            carrier: Carrier::Square,
+        }
+    }
 }
 
 /// A voltage at a moment.
@@ -75,34 +90,23 @@ impl Electrovibration {
         ]
     };
 
-    /// An amplification in V and a carrier.
-    ///
-    /// # Errors
-    /// An amplification outside 0 … [`Self::MAX_AMPLIFICATION_V`], a frequency outside
-    /// [`Self::CARRIER_HZ`].
-    pub fn new(
-        amplification_v: f64,
-        carrier_hz: f64,
-        carrier: Carrier,
-    ) -> Result<Self, RenderError> {
-        let refused = |key, value, mend| Err(RenderError::Drive { key, value, mend });
-        if !(0.0..=Self::MAX_AMPLIFICATION_V).contains(&amplification_v) {
-            return refused("the amplification", amplification_v, "give 0 to 1000 V");
+    /// The same within the limits; what is no number is as at first.
+    #[must_use]
+    pub fn within_limits(self) -> Self {
+        let or = |value: f64, first: f64| if value.is_nan() { first } else { value };
+        let ([low, high], first) = (Self::CARRIER_HZ, Self::default());
+        let amplification_v = or(self.amplification_v, first.amplification_v);
+        Self {
+            amplification_v: amplification_v.clamp(0.0, Self::MAX_AMPLIFICATION_V),
+            carrier_hz: or(self.carrier_hz, first.carrier_hz).clamp(low, high),
+            ..self
         }
-        let [low, high] = Self::CARRIER_HZ;
-        if !(low..=high).contains(&carrier_hz) {
-            return refused("the carrier", carrier_hz, "give 10 to 1000 Hz");
-        }
-        Ok(Self {
-            amplification_v,
-            carrier_hz,
-            carrier,
-        })
     }
 
-    /// The voltage at a time, s, where the coefficient of friction is `mu`.
+    /// The voltage at a time, s, where the coefficient of friction is `mu`, whatever stands here.
     pub fn driven(&self, mu: f64, t_s: f64) -> Driven {
-        let wanted_v = self.amplification_v * mu;
+        let within = self.within_limits();
+        let wanted_v = within.amplification_v * mu;
         // Also what is not a number.
         let is_friction = mu >= 0.0 && wanted_v.is_finite();
         let peak_to_peak_v = if is_friction {
@@ -110,7 +114,7 @@ impl Electrovibration {
         } else {
             0.0
         };
-        let turn = (self.carrier_hz * t_s).rem_euclid(1.0);
+        let turn = (within.carrier_hz * t_s).rem_euclid(1.0);
         let carrier = match self.carrier {
             Carrier::Square if turn < 0.5 => 1.0,
             Carrier::Square => 0.0,
@@ -195,7 +199,10 @@ mod tests {
     use selvedge_foundation::numerics::RealTransform;
 
     fn wave(carrier: Carrier) -> Electrovibration {
-        Electrovibration::new(120.0, 100.0, carrier).unwrap()
+        Electrovibration {
+            carrier,
+            ..Electrovibration::default()
+        }
     }
 
     #[test]
@@ -211,9 +218,10 @@ mod tests {
 
     #[test]
     fn nothing_leaves_the_limits() {
-        let loud =
-            Electrovibration::new(Electrovibration::MAX_AMPLIFICATION_V, 10.0, Carrier::Square)
-                .unwrap();
+        let loud = Electrovibration {
+            amplification_v: 1e9,
+            ..wave(Carrier::Square)
+        };
         for (mu, v) in [(0.255, 255.0), (0.3, 255.0), (0.0, 0.0), (1e300, 255.0)] {
             let driven = loud.driven(mu, 0.0);
             assert_eq!((driven.v, driven.is_limited), (v, mu > 0.2551), "{mu}");
@@ -223,22 +231,23 @@ mod tests {
             assert_eq!((driven.v, driven.is_limited), (0.0, true), "{mu}");
         }
         assert_eq!(loud.driven(0.1, f64::NAN).v, 0.0);
-        for (b, hz) in [
-            (-1.0, 50.0),
-            (f64::NAN, 50.0),
-            (1001.0, 50.0),
-            (1.0, 9.9),
-            (1.0, 1000.1),
+        for (v, hz, within) in [
+            (-1.0, 50.0, [0.0, 50.0]),
+            (f64::NAN, 9.9, [120.0, 10.0]),
+            (f64::INFINITY, f64::NAN, [1000.0, 100.0]),
+            (1.0, 1000.1, [1.0, 1000.0]),
         ] {
-            assert!(
-                Electrovibration::new(b, hz, Carrier::Sine).is_err(),
-                "{b}, {hz}"
-            );
+            let asked = Electrovibration {
+                amplification_v: v,
+                carrier_hz: hz,
+                ..loud
+            };
+            let found = asked.within_limits();
+            assert_eq!([found.amplification_v, found.carrier_hz], within);
+            assert_eq!(asked.driven(0.2, 0.001), found.driven(0.2, 0.001));
         }
         for (name, preset) in Electrovibration::PRESETS {
-            let made =
-                Electrovibration::new(preset.amplification_v, preset.carrier_hz, Carrier::Square);
-            assert_eq!(made.unwrap(), preset, "{name}");
+            assert_eq!(preset.within_limits(), preset, "{name}");
         }
     }
 

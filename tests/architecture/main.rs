@@ -57,6 +57,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "chart",
             "statistics",
             "textile",
+            "friction",
             "render",
             "device",
             "engine",

@@ -11,6 +11,7 @@ use crate::bench::command::{
     ShowCommand, Tool,
 };
 use crate::bench::overlays::{Overlay, Overlays};
+use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
 use crate::bench::query;
 use crate::bench::settings::preferences::Loudness;
@@ -181,7 +182,15 @@ fn file_acts() -> Vec<Act> {
         file("Save the scene as…", ask(Purpose::SaveScene)).on(CTRL_SHIFT, Key::S),
         file("Save the scene", FileCommand::Save).on(CTRL, Key::S),
         file("Import measurements…", ask(Purpose::ImportFiles)),
-        file("Cloth from a picture…", ask(Purpose::OpenPicture)),
+        file(
+            "Cloth from a picture…",
+            ask(Purpose::OpenPicture(Pane::Picture)),
+        ),
+        #[cfg(feature = "friction")]
+        file(
+            "Friction from a picture…",
+            ask(Purpose::OpenPicture(Pane::Friction)),
+        ),
         file("Add a library…", ask(Purpose::AddLibrary)),
         file("Analyse sessions…", ask(Purpose::OpenLogs)),
         file("Open a path to replay…", ask(Purpose::OpenRecording)).on(CTRL, Key::R),

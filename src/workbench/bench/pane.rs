@@ -3,26 +3,28 @@
 use serde::{Deserialize, Serialize};
 
 /// Declares every pane once: its name in files, its title, its title where there is little room,
-/// the width of what its tool adds to the row of tabs, points, and whether it has numbers to
-/// export.
+/// the width of what its tool adds to the row of tabs, points, whether it has numbers to export,
+/// and the condition under which it is built if it is not always.
 macro_rules! panes {
     ($(
-        $(#[$doc:meta])*
-        $name:ident: $title:literal, $short:literal, $corner:literal, $exports:literal;
+        $(#[doc = $doc:literal])*
+        $name:ident: $title:literal, $short:literal, $corner:literal, $exports:literal
+        $(if $condition:meta)?;
     )*) => {
         /// A part of the window that can be moved, stacked and hidden.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
         pub(crate) enum Pane {
-            $($(#[$doc])* $name,)*
+            $($(#[doc = $doc])* $(#[cfg($condition)])? $name,)*
         }
 
         impl Pane {
             /// Every pane, in the order in which they are listed.
-            pub(crate) const ALL: [Self; [$($title),*].len()] = [$(Self::$name),*];
+            pub(crate) const ALL: [Self; [$($(#[cfg($condition)])? $title),*].len()] =
+                [$($(#[cfg($condition)])? Self::$name),*];
 
             fn facts(self) -> (&'static str, &'static str, f32, bool) {
                 match self {
-                    $(Self::$name => ($title, $short, $corner, $exports),)*
+                    $($(#[cfg($condition)])? Self::$name => ($title, $short, $corner, $exports),)*
                 }
             }
         }
@@ -70,6 +72,8 @@ panes! {
     Import: "Import", "Import", 0.0, true;
     /// A picture of a cloth that becomes a textile.
     Picture: "Picture", "Picture", 0.0, true;
+    /// Friction of a cloth from its picture, felt on an electrovibration screen.
+    Friction: "Friction", "Friction", 0.0, true if feature = "friction";
     /// What a participant of an experiment sees.
     Participant: "Participant", "Participant", 0.0, false;
     /// A design of an experiment as blocks, and what it comes to.

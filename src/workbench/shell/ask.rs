@@ -13,6 +13,7 @@ use eframe::egui::{
 
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
+use crate::bench::pane::Pane;
 use crate::kit::theme;
 use crate::kit::theme::{ROW, STEP};
 use crate::kit::widgets::card;
@@ -77,9 +78,13 @@ impl AskWords {
                 let file = ["/path/to/NAME.txt", "strokes.txt", ""];
                 Self::new(["Add a file of measurements", "Add"], FILE, file)
             }
-            Purpose::OpenPicture => {
+            Purpose::OpenPicture(pane) => {
                 let file = ["/path/to/NAME.png", "cloth.png", ""];
-                Self::new(["Cloth from a picture", "Open"], FILE, file)
+                let title = match pane {
+                    Pane::Picture => "Cloth from a picture",
+                    _ => "Friction from a picture",
+                };
+                Self::new([title, "Open"], FILE, file)
             }
             Purpose::AddLibrary => {
                 let folder = ["/path/to/textiles", "textiles", ""];

@@ -231,7 +231,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
             .add_filter("Tables", &["csv"]),
         Purpose::Clip(kind) => dialog.add_filter(words.title, &[ending(kind)]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
-        Purpose::OpenPicture => dialog.add_filter("Pictures", &PICTURES),
+        Purpose::OpenPicture(_) => dialog.add_filter("Pictures", &PICTURES),
         Purpose::OpenDesign | Purpose::SaveDesign => dialog.add_filter("Designs", &["toml"]),
         Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => {
             return in_folder(dialog, start);
@@ -267,7 +267,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::SaveDesign => ".toml",
         Purpose::Export(_) => ".png",
         Purpose::ImportFiles
-        | Purpose::OpenPicture
+        | Purpose::OpenPicture(_)
         | Purpose::AddLibrary
         | Purpose::OpenDesign
         | Purpose::OpenLogs

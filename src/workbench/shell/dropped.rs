@@ -33,7 +33,7 @@ fn purpose_of(path: &Path) -> Option<Purpose> {
         "toml" => purpose_of_keys(path),
         "csv" if is_path(path) => Some(Purpose::OpenRecording),
         "md" | "pdf" | "json" | "zip" | "" => None,
-        _ if PICTURES.contains(&ending.as_str()) => Some(Purpose::OpenPicture),
+        _ if PICTURES.contains(&ending.as_str()) => Some(Purpose::OpenPicture(Pane::Picture)),
         _ => Some(Purpose::ImportFiles),
     }
 }
@@ -113,10 +113,14 @@ impl Workbench {
         let purpose = match purpose_of(&path) {
             // A picture may be a map of heights, and measurements have any ending: the pane that
             // is looked at decides.
-            None | Some(Purpose::OpenPicture)
+            None | Some(Purpose::OpenPicture(_))
                 if path.is_file() && self.shell.shows(Pane::Import) =>
             {
                 Some(Purpose::ImportFiles)
+            }
+            #[cfg(feature = "friction")]
+            Some(Purpose::OpenPicture(_)) if self.shell.shows(Pane::Friction) => {
+                Some(Purpose::OpenPicture(Pane::Friction))
             }
             purpose => purpose,
         };
@@ -125,7 +129,7 @@ impl Workbench {
             return self.bench.notices.give(words);
         };
         let there = match purpose {
-            Purpose::OpenPicture => Some((Perspective::Cloth, Pane::Picture)),
+            Purpose::OpenPicture(pane) => Some((Perspective::Cloth, pane)),
             Purpose::ImportFiles => Some((Perspective::Cloth, Pane::Import)),
             Purpose::OpenDesign => Some((Perspective::Experiment, Pane::Builder)),
             Purpose::OpenLogs => Some((Perspective::Experiment, Pane::Analysis)),
@@ -172,7 +176,7 @@ mod tests {
             (other, None),
             (path, Some(Purpose::OpenRecording)),
             (measured, Some(Purpose::ImportFiles)),
-            (made("g.PNG", ""), Some(Purpose::OpenPicture)),
+            (made("g.PNG", ""), Some(Purpose::OpenPicture(Pane::Picture))),
             (text, None),
             (root.join("library"), Some(Purpose::AddLibrary)),
             (root.join("recording"), Some(Purpose::OpenRecording)),

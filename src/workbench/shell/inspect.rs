@@ -224,7 +224,7 @@ impl Workbench {
 
     /// Takes a picture of a cloth, as when it is dropped or chosen.
     pub fn open_picture(&mut self, path: PathBuf) {
-        self.dispatch(FileCommand::Use(Purpose::OpenPicture, path).into());
+        self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path).into());
     }
 
     /// Ticks that never were because the engine came too late.

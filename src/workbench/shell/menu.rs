@@ -72,7 +72,7 @@ pub(crate) fn show_scene_menu(
         ui.separator();
         for purpose in [
             Purpose::ImportFiles,
-            Purpose::OpenPicture,
+            Purpose::OpenPicture(Pane::Picture),
             Purpose::AddLibrary,
             Purpose::OpenLogs,
             Purpose::OpenRecording,

@@ -39,6 +39,8 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
         Pane::Lab,
         Pane::Import,
         Pane::Picture,
+        #[cfg(feature = "friction")]
+        Pane::Friction,
         Pane::Collection,
         Pane::Workspace,
     ];

@@ -135,6 +135,7 @@ mod tests {
     use super::*;
     use crate::bench::command::lab::Beginning;
     use crate::bench::command::{Command, Edit, FileCommand, Purpose};
+    use crate::bench::pane::Pane;
     use crate::bench::recovery::Recovery;
     use crate::shell::headless::Headless;
     use crate::tools::import::Import;
@@ -233,7 +234,10 @@ mod tests {
         fs::write(&picture, encode_png(&image, &picture).unwrap()).unwrap();
         let mut first = window(&root);
         first.dispatch(FileCommand::Use(Purpose::ImportFiles, table));
-        first.dispatch(FileCommand::Use(Purpose::OpenPicture, picture));
+        first.dispatch(FileCommand::Use(
+            Purpose::OpenPicture(Pane::Picture),
+            picture,
+        ));
         first.pass(6);
         let import = first.workbench.tools.get_mut::<Import>().unwrap();
         import.draft.looked.sections[1] = Some([1.0, 2.5]);

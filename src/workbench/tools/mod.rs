@@ -9,6 +9,8 @@ pub(crate) mod collection;
 pub(crate) mod compare;
 pub(crate) mod contactors;
 pub(crate) mod experiment;
+#[cfg(feature = "friction")]
+pub(crate) mod friction;
 pub(crate) mod import;
 pub(crate) mod lab;
 pub(crate) mod levels;
@@ -42,6 +44,8 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(why::Why::default()),
         Box::new(stylus::Stylus::default()),
         Box::new(picture::Picture::default()),
+        #[cfg(feature = "friction")]
+        Box::new(friction::Friction::default()),
         Box::new(lab::Lab::default()),
         Box::new(collection::Collection::default()),
         Box::new(library::Library::default()),

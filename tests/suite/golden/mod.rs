@@ -18,7 +18,7 @@ mod windows;
 use std::path::Path;
 
 /// Every folder of references, each with one test that makes them.
-const GROUPS: [&str; 23] = [
+const GROUPS: [&str; 24] = [
     "charts/panes",
     "charts/sheets",
     "commands/devices",
@@ -34,6 +34,7 @@ const GROUPS: [&str; 23] = [
     "pictures/analysis",
     "pictures/armed",
     "pictures/felt",
+    "pictures/friction",
     "pictures/made",
     "pictures/overlays",
     "pictures/perspectives",

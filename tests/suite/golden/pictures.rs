@@ -97,6 +97,26 @@ fn golden_panes_in_which_textiles_are_made() {
     golden.finish();
 }
 
+#[cfg(feature = "friction")]
+#[test]
+fn golden_friction() {
+    let mut golden = Golden::of("pictures/friction");
+    let lab = Lab::named("friction");
+    let mut stage = Stage::alone(None);
+    stage.front("Friction", [1000, 480]);
+    stage.compare_dark(&mut golden, "empty", SLOT);
+    stage.press(Modifiers::NONE, Key::Space);
+    let path = lab.path("Blue twill.png");
+    lit_cloth().save(&path).unwrap();
+    stage.click(Role::Button, "Choose a picture…");
+    stage.type_path(&path);
+    stage.type_into("scale", "5");
+    stage.compare(&mut golden, "felt", ON_CLOTH);
+    stage.front("Friction", [480, 620]);
+    stage.compare_dark(&mut golden, "narrow", ON_CLOTH + SLOT);
+    golden.finish();
+}
+
 #[test]
 fn golden_analysis() {
     let mut golden = Golden::of("pictures/analysis");

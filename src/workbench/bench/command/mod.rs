@@ -6,6 +6,8 @@
 pub(crate) mod array;
 pub(crate) mod device;
 pub(crate) mod edit;
+#[cfg(feature = "friction")]
+pub(crate) mod friction;
 pub(crate) mod lab;
 pub(crate) mod recording;
 
@@ -68,6 +70,9 @@ pub(crate) enum Command {
     Library(LibraryCommand),
     /// Begin a recipe in the textile lab.
     Lab(lab::Beginning),
+    /// Show the friction of a picture.
+    #[cfg(feature = "friction")]
+    Friction(friction::PictureAtHand),
     /// Change what is shown how.
     Show(ShowCommand),
     /// Do something with the chosen textile, if one is.
@@ -129,6 +134,13 @@ impl From<ShowCommand> for Command {
 impl From<lab::Beginning> for Command {
     fn from(beginning: lab::Beginning) -> Self {
         Self::Lab(beginning)
+    }
+}
+
+#[cfg(feature = "friction")]
+impl From<friction::PictureAtHand> for Command {
+    fn from(picture: friction::PictureAtHand) -> Self {
+        Self::Friction(picture)
     }
 }
 
@@ -206,8 +218,8 @@ pub(crate) enum Purpose {
     Clip(ClipKind),
     /// Take files of measurements to those that are imported.
     ImportFiles,
-    /// Make a textile of a picture.
-    OpenPicture,
+    /// Open a picture of cloth in this pane.
+    OpenPicture(Pane),
     /// Look at the textiles of a folder too.
     AddLibrary,
     /// Run an experiment by this design.

@@ -1,4 +1,5 @@
-//! What is kept of what the hand holds: tablets by their names, and the stylus.
+//! What is kept of what the hand holds or feels: tablets by their names, the stylus, what drives an
+//! electrovibration screen.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::settings::stylus::StylusSettings;
 use selvedge_engine::Area;
+use selvedge_render::electrovibration::Electrovibration;
 
-/// Tablets and the stylus.
+/// Tablets, the stylus, the screen.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct HandTools {
@@ -23,6 +25,8 @@ pub(crate) struct HandTools {
     /// What was asked of it and waits, since it cannot be held.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) stylus_waiting: Option<StylusSettings>,
+    /// How friction drives a screen; kept by builds without its pane, too.
+    pub(crate) electrovibration: Electrovibration,
 }
 
 /// Areas by the names of their tablets, as left, bottom, width and height.

@@ -20,6 +20,7 @@ use crate::kit::spectrum_scale::{Handle, SpectrumScale};
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
 use selvedge_render::array::Method;
+use selvedge_render::electrovibration::{Carrier, Electrovibration};
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 
@@ -198,6 +199,11 @@ fn hand_tools() -> HandTools {
             stiffness_n_per_m: 1e5,
             ..StylusSettings::default()
         }),
+        electrovibration: Electrovibration {
+            amplification_v: 216.25,
+            carrier: Carrier::Sine,
+            ..Electrovibration::default()
+        },
         ..HandTools::default()
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! Nothing here paints, and nothing is computed before a pane asks for it.
 
+pub(crate) mod amplitudes;
 pub(crate) mod contact;
 pub(crate) mod drive;
 pub(crate) mod history;

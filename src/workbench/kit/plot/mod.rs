@@ -106,3 +106,23 @@ pub(crate) fn show(ui: &Ui, rect: Rect, chart: &Chart, setting: &Setting<'_>) ->
     hover::show(ui, chart, &shown, setting);
     Some(shown)
 }
+
+/// The least and the largest of so many parts of a line, which are drawn as all of it would be.
+pub(crate) fn thinned(points: &[[f64; 2]], n_parts: usize) -> Vec<[f64; 2]> {
+    if points.len() <= 2 * n_parts {
+        return points.to_vec();
+    }
+    let parts = points.chunks(points.len().div_ceil(n_parts));
+    let ends = parts.flat_map(|part| {
+        let by = |pick: fn(&[f64; 2], &[f64; 2]) -> bool| {
+            let indices = 1..part.len();
+            indices.fold(
+                0,
+                |best, i| if pick(&part[i], &part[best]) { i } else { best },
+            )
+        };
+        let (low, high) = (by(|a, b| a[1] < b[1]), by(|a, b| a[1] > b[1]));
+        [part[low.min(high)], part[low.max(high)]]
+    });
+    ends.collect()
+}

@@ -26,11 +26,13 @@ const PICTURES: [f32; 3] = [0.3, 190.0, 420.0];
 const ROOMY: Vec2 = Vec2::new(1100.0, 560.0);
 
 /// The workspace and what stands behind it.
-const FRONT: [Pane; 9] = [
+const FRONT: &[Pane] = &[
     Pane::Workspace,
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
+    #[cfg(feature = "friction")]
+    Pane::Friction,
     Pane::Collection,
     Pane::Participant,
     Pane::Builder,
@@ -39,10 +41,12 @@ const FRONT: [Pane; 9] = [
 ];
 
 /// What belongs to other perspectives: hidden here until it is asked for.
-const ELSEWHERE: [Pane; 9] = [
+const ELSEWHERE: &[Pane] = &[
     Pane::Lab,
     Pane::Import,
     Pane::Picture,
+    #[cfg(feature = "friction")]
+    Pane::Friction,
     Pane::Collection,
     Pane::Participant,
     Pane::Builder,
@@ -61,7 +65,7 @@ pub(crate) fn default_tree(size: Vec2) -> Tree<Pane> {
     };
     let mut tree = Tree::new(Id::unique("arrangement"), root, tiles);
     for pane in ELSEWHERE {
-        if let Some(tile) = tile_of(&tree, pane) {
+        if let Some(tile) = tile_of(&tree, *pane) {
             tree.set_visible(tile, false);
         }
     }
@@ -83,7 +87,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
     let pictures_height = part_of(size.y, PICTURES);
     let left = (size.x - controls_width).max(controls_width);
     let library = tabs(tiles, &[Pane::Library, Pane::Recordings]);
-    let workspace = tabs(tiles, &FRONT);
+    let workspace = tabs(tiles, FRONT);
     let upper = [(library, library_width), (workspace, left - library_width)];
     let upper = linear(tiles, LinearDir::Horizontal, &upper);
     let heatmaps = tabs(tiles, &[Pane::Heatmaps]);
@@ -113,7 +117,7 @@ fn roomy(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
 
 /// The workspace, with everything else behind two rows of tabs.
 fn stacked(tiles: &mut Tiles<Pane>) -> TileId {
-    let workspace = tabs(tiles, &FRONT);
+    let workspace = tabs(tiles, FRONT);
     let controls = [
         Pane::Tuning,
         Pane::Levels,

@@ -32,7 +32,7 @@ fn every_default_holds_every_pane_and_survives_being_kept() {
 fn what_belongs_to_other_perspectives_is_no_tab_until_it_is_asked_for() {
     for size in SIZES {
         let mut tree = default_tree(size);
-        for pane in ELSEWHERE {
+        for &pane in ELSEWHERE {
             let tile = tile_of(&tree, pane).unwrap();
             assert!(!tree.is_visible(tile), "{pane:?}");
             toggle(&mut tree, pane);

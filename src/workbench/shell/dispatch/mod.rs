@@ -73,7 +73,7 @@ fn is_risky(command: &Command) -> bool {
         Command::Device(command) => *command == DeviceCommand::Arm,
         Command::File(FileCommand::Use(purpose, _)) => matches!(
             purpose,
-            Purpose::ImportFiles | Purpose::OpenPicture | Purpose::OpenDesign
+            Purpose::ImportFiles | Purpose::OpenPicture(_) | Purpose::OpenDesign
         ),
         _ => false,
     }
@@ -139,6 +139,8 @@ impl Bench {
             | Command::File(_)
             | Command::Show(_)
             | Command::Lab(_) => {}
+            #[cfg(feature = "friction")]
+            Command::Friction(_) => {}
         }
     }
 

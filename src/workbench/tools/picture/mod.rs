@@ -45,7 +45,8 @@ impl Tool for Picture {
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
-        if let Command::File(FileCommand::Use(Purpose::OpenPicture, path)) = command {
+        if let Command::File(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path)) = command
+        {
             self.open(path.clone());
             let reveal = ShowCommand::Reveal(Pane::Picture);
             bench.commands.push(reveal.into());
@@ -71,7 +72,7 @@ impl Tool for Picture {
 
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
         let source = self.draft.source.as_ref();
-        let source = source.filter(|_| purpose == Purpose::OpenPicture);
+        let source = source.filter(|_| purpose == Purpose::OpenPicture(Pane::Picture));
         source.map(|file| file.path().to_owned())
     }
 }

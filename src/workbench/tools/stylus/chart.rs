@@ -2,15 +2,16 @@
 //! way, spectra, the tip in its relief, and what can be held.
 
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
 
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Weight};
 use selvedge_engine::TICKS_PER_S;
-use selvedge_foundation::numerics::{RealTransform, extent};
+use selvedge_foundation::numerics::extent;
 use selvedge_foundation::quantity;
 use selvedge_render::contact::{Relief, StylusRow};
 
 use super::follow::{FeltRow, WINDOW};
+use crate::bench::signals::amplitudes::hann_amplitudes;
+use crate::kit::plot::thinned;
 
 /// What a row says.
 type Figure = fn(&StylusRow) -> f64;
@@ -47,14 +48,14 @@ impl Second<'_> {
         let (mut line, mut run, mut before_s) = (Vec::new(), Vec::new(), -1.0);
         for row in self.rows {
             if row.felt.t_s <= before_s {
-                line.extend(thinned(&run));
+                line.extend(thinned(&run, N_PARTS));
                 line.push([f64::NAN; 2]);
                 run.clear();
             }
             before_s = row.felt.t_s;
             run.push([x(row), y(row)]);
         }
-        line.extend(thinned(&run));
+        line.extend(thinned(&run, N_PARTS));
         line
     }
 
@@ -84,26 +85,6 @@ impl Second<'_> {
             columns.with(*name, values)
         })
     }
-}
-
-/// The least and the largest of every part of a line.
-fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    if points.len() <= 2 * N_PARTS {
-        return points.to_vec();
-    }
-    let parts = points.chunks(points.len().div_ceil(N_PARTS));
-    let ends = parts.flat_map(|part| {
-        let by = |pick: fn(&[f64; 2], &[f64; 2]) -> bool| {
-            let indices = 1..part.len();
-            indices.fold(
-                0,
-                |best, i| if pick(&part[i], &part[best]) { i } else { best },
-            )
-        };
-        let (low, high) = (by(|a, b| a[1] < b[1]), by(|a, b| a[1] > b[1]));
-        [part[low.min(high)], part[low.max(high)]]
-    });
-    ends.collect()
 }
 
 fn series(name: &str, points: Vec<[f64; 2]>, (ink, weight): (Ink, Weight)) -> Series {
@@ -210,7 +191,7 @@ pub(crate) fn over_way(second: Second<'_>) -> Chart {
         title: "Contact force along the way".to_owned(),
         x: Axis::linear("way before here, mm"),
         y: Axis::linear("force, N"),
-        series: vec![series("", thinned(&points), THIN)],
+        series: vec![series("", thinned(&points, N_PARTS), THIN)],
         ..Chart::default()
     }
 }
@@ -222,7 +203,7 @@ pub(crate) fn spectra(second: Second<'_>) -> Chart {
     let rows = &run[run.len() % 2..];
     let parts: [Figure; 2] = [slow_n, |row| row.vibration_n];
     let lines = parts.map(|part| amplitudes(rows, part));
-    let [low, high] = lines.map(|line| thinned(&line));
+    let [low, high] = lines.map(|line| thinned(&line, N_PARTS));
     let [least, most] = AMPLITUDES_N;
     let largest = low.iter().chain(&high).map(|point| point[1]);
     let [_, largest] = extent(largest.chain([most]));
@@ -247,22 +228,9 @@ fn amplitudes(rows: &[&FeltRow], part: Figure) -> Vec<[f64; 2]> {
     if n < FEWEST || span_s <= 0.0 {
         return Vec::new();
     }
-    let mean = rows.iter().map(|row| part(&row.felt)).sum::<f64>() / n as f64;
-    let windowed: Vec<f64> = rows
-        .iter()
-        .enumerate()
-        .map(|(i, row)| {
-            let hann = 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos();
-            hann * (part(&row.felt) - mean)
-        })
-        .collect();
-    let spectrum = RealTransform::new(n).forward(&windowed);
-    // The window's mean is a half.
-    let scale = 4.0 / n as f64;
-    let bins = spectrum.iter().enumerate().map(|(bin, x)| {
-        let amplitude = (scale * x.norm()).max(AMPLITUDES_N[0]);
-        [bin as f64 / span_s, amplitude]
-    });
+    let values: Vec<f64> = rows.iter().map(|row| part(&row.felt)).collect();
+    let bins = hann_amplitudes(&values, span_s).into_iter();
+    let bins = bins.map(|[hz, amplitude]| [hz, amplitude.max(AMPLITUDES_N[0])]);
     let [low, high] = FREQUENCIES_HZ;
     bins.filter(|[hz, _]| (low..=high).contains(hz)).collect()
 }

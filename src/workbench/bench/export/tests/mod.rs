@@ -26,7 +26,7 @@ use selvedge_foundation::quantity;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 
-const ALL: [Exportable; 18] = [
+const ALL: &[Exportable] = &[
     Exportable::Pane(Pane::Heatmaps),
     Exportable::Pane(Pane::ContactSpectrum),
     Exportable::Pane(Pane::DriveSpectrum),
@@ -42,6 +42,8 @@ const ALL: [Exportable; 18] = [
     Exportable::Pane(Pane::Lab),
     Exportable::Pane(Pane::Import),
     Exportable::Pane(Pane::Picture),
+    #[cfg(feature = "friction")]
+    Exportable::Pane(Pane::Friction),
     Exportable::Pane(Pane::Workspace),
     Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
@@ -60,6 +62,8 @@ impl Headless {
         let mut desk = Self::fresh();
         desk.import();
         desk.open_picture();
+        #[cfg(feature = "friction")]
+        desk.ask_friction();
         desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
@@ -140,7 +144,7 @@ fn column(exported: &Exported, name: &str) -> Vec<f64> {
 #[test]
 fn every_pane_is_exported_as_every_kind_the_same_twice() {
     let mut desk = Headless::collected(90);
-    for what in ALL {
+    for &what in ALL {
         let exported = desk.exported(what);
         assert!(exported.sheet.n_rows() > 0, "{what:?}");
         assert_eq!(table_of(&exported).n_rows(), exported.sheet.n_rows());
@@ -164,8 +168,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
                 Kind::Svg => {
                     let svg = String::from_utf8(bytes).unwrap();
                     assert!(is_well_formed(&svg), "{name}: {svg}");
-                    let brought = [Pane::Import, Pane::Picture].map(Exportable::Pane);
-                    let is_imported = brought.contains(&what);
+                    let is_imported = matches!(what.title(), "Import" | "Picture" | "Friction");
                     let of = if is_imported {
                         "file = "
                     } else {
@@ -258,7 +261,7 @@ fn the_timeline_holds_speed_and_means_of_every_tick() {
 fn what_was_seen_when_it_was_asked_for_is_what_is_written() {
     let folder = ScratchFolder::made("seen");
     let mut desk = Headless::collected(60);
-    for what in ALL {
+    for &what in ALL {
         let path = folder.join(what.file_name("csv"));
         let seen = desk.exported(what).bytes(Kind::Csv, &path).unwrap();
         desk.file(FileCommand::Ask(Purpose::Export(what)));
@@ -320,7 +323,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
     desk.pass_ticks(2);
     let of_levels = [Pane::Tuning, Pane::Levels].map(Exportable::Pane);
     let has_levels = |what: &Exportable| of_levels.contains(what);
-    for what in ALL.into_iter().filter(|what| !has_levels(what)) {
+    for what in ALL.iter().copied().filter(|what| !has_levels(what)) {
         let is_chosen = what == Exportable::Timeline || what == ALL[0] || what == ALL[1];
         desk.workbench.bench.selection.contactor = is_chosen.then_some(9);
         let words = desk
@@ -342,7 +345,7 @@ fn with_nothing_to_show_it_is_said_what_to_do() {
 
 #[test]
 fn every_export_has_a_name_of_its_own() {
-    let mut names: Vec<String> = ALL.map(|what| what.file_name("png")).to_vec();
+    let mut names: Vec<String> = ALL.iter().map(|what| what.file_name("png")).collect();
     assert_eq!(names[1], "contact-spectrum.png");
     names.sort();
     names.dedup();

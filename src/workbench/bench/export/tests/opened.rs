@@ -16,6 +16,17 @@ impl Headless {
         import.follow(&self.ctx, &Executor::InLine);
     }
 
+    /// Predicts the friction of a cloth of one colour.
+    #[cfg(feature = "friction")]
+    pub(crate) fn ask_friction(&mut self) {
+        let plain = selvedge_foundation::numerics::Grid::filled(600, 120, 0.5);
+        self.dispatch(crate::bench::command::friction::PictureAtHand {
+            name: "plain.png".to_owned(),
+            brightness: std::sync::Arc::new(plain),
+            px_per_mm: 10.0,
+        });
+    }
+
     /// Works out a picture of a cloth.
     pub(crate) fn open_picture(&mut self) {
         let folder = ScratchFolder::made("picture");
@@ -33,7 +44,7 @@ impl Headless {
             texts: Vec::new(),
         };
         fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
-        self.dispatch(FileCommand::Use(Purpose::OpenPicture, path));
+        self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path));
         let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
         picture.follow(&self.ctx, &Executor::InLine);
     }

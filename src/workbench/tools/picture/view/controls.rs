@@ -1,9 +1,13 @@
 //! The steps: what is chosen and typed, and what came of it in words.
 
+#[cfg(feature = "friction")]
+use std::sync::Arc;
+
 use eframe::egui::Ui;
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
 use crate::bench::latest::Standing;
+use crate::bench::pane::Pane;
 use crate::bench::source_file::SourceFile;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
@@ -14,6 +18,8 @@ use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
 use crate::tools::picture::state::Picture;
 use crate::tools::picture::view::hemisphere;
+#[cfg(feature = "friction")]
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{self, with_unit};
 use selvedge_textile::picture::Directions;
 use selvedge_textile::picture::shading::Method;
@@ -63,7 +69,7 @@ fn show_picture(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         if button(ui, "Another…", "Choose another picture", None) {
-            commands.push(FileCommand::Ask(Purpose::OpenPicture).into());
+            commands.push(FileCommand::Ask(Purpose::OpenPicture(Pane::Picture)).into());
         }
         if button(
             ui,
@@ -73,6 +79,8 @@ fn show_picture(
         ) {
             picture.clear();
         }
+        #[cfg(feature = "friction")]
+        show_friction(ui, &picture.draft, found, commands);
     });
     show_failure(ui, found, Step::Picture);
     let draft = &mut picture.draft;
@@ -105,6 +113,27 @@ fn show_picture(
             }
         },
     );
+}
+
+/// Hands what is looked at of the picture to the pane that shows friction.
+#[cfg(feature = "friction")]
+fn show_friction(ui: &mut Ui, draft: &Draft, found: Option<&Found>, commands: &mut Commands) {
+    use crate::bench::command::friction::PictureAtHand;
+
+    let correlated = found.and_then(|found| found.correlated.as_deref());
+    let ready = correlated.zip(draft.px_per_mm());
+    let refusal = ready.is_none().then_some("Type the picture’s scale first");
+    let tip = "Its friction along the middle, felt on an electrovibration screen";
+    let is_pressed = button(ui, "Friction…", tip, refusal);
+    if let Some((correlated, px_per_mm)) = ready.filter(|_| is_pressed) {
+        let brightness = correlated.picture.luminance.map(to_single);
+        let picture = PictureAtHand {
+            name: draft.final_name(),
+            brightness: Arc::new(brightness),
+            px_per_mm,
+        };
+        commands.push(picture.into());
+    }
 }
 
 fn show_part(ui: &mut Ui, draft: &mut Draft, size: [usize; 2]) {

@@ -13,6 +13,7 @@ pub(crate) mod plots;
 use eframe::egui::{Ui, vec2};
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
+use crate::bench::pane::Pane;
 use crate::kit::drop::nothing_yet;
 use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::{Palette, STEP};
@@ -43,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
             "Choose a picture…",
         ];
         if nothing_yet(ui, 260.0, words, EMPTY) {
-            commands.push(FileCommand::Ask(Purpose::OpenPicture).into());
+            commands.push(FileCommand::Ask(Purpose::OpenPicture(Pane::Picture)).into());
         }
         return;
     }
