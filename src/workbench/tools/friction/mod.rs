@@ -152,7 +152,7 @@ impl Friction {
         let trace = Arc::clone(self.trace()?.ok()?);
         let history = &bench.past.history;
         let looked_at = bench.past.look_back.as_ref().map(|back| back.column);
-        let end = looked_at.or(history.newest().map(|entry| entry.column));
+        let end = looked_at.or_else(|| history.newest().map(|entry| entry.column));
         let drive = self.chosen.drive;
         let of: Made = (Same(Arc::clone(&trace)), drive, end, history.n_clears);
         if self.shown.as_ref().is_none_or(|shown| shown.of != of) {

@@ -6,7 +6,9 @@ use crate::bench::signals::history::Entry;
 use crate::tools::friction::source::Trace;
 use selvedge_chart::Columns;
 use selvedge_engine::TICKS_PER_S;
-use selvedge_render::electrovibration::{Driven, Electrovibration, SimulatedScreen, VoltageSink};
+use selvedge_render::electrovibration::{
+    Driven, Electrovibration, SimulatedScreen, VoltageSink as _,
+};
 
 /// Ticks that are shown: one second.
 pub(crate) const WINDOW: u64 = 40;
