@@ -67,6 +67,11 @@ impl PredictedFriction {
         Course::of(felt).log_magnitudes
     }
 
+    /// What is left of a trace without its level and what is slow: phases are found of that alone.
+    pub fn rest_of(felt: &[f64]) -> Vec<f64> {
+        Course::rest_of(felt)
+    }
+
     /// How far it is from the trace that was felt there, by [`Scores::COLUMNS`].
     ///
     /// [`Scores::COLUMNS`]: crate::Scores::COLUMNS

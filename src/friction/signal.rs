@@ -41,15 +41,21 @@ impl Course {
     pub(crate) fn of(trace: &[f64]) -> Self {
         let slow = Slow::of(trace);
         let stft = spectra();
-        let rest: Vec<f64> = (0..trace.len())
-            .map(|at| trace[at] - slow.at(at as f64))
-            .collect();
+        let rest = Self::rest_of(trace);
         let log = |norm: f64| to_single((norm / MAGNITUDE_SCALE).ln_1p());
         Self {
             level: slow.cosines.first().copied().unwrap_or_default(),
             trend: slow.trend(stft.n_frames(trace.len())),
             log_magnitudes: stft.forward(&rest).map(|x| log(x.norm())),
         }
+    }
+
+    /// What is left of a trace without what is slow.
+    pub(crate) fn rest_of(trace: &[f64]) -> Vec<f64> {
+        let slow = Slow::of(trace);
+        (0..trace.len())
+            .map(|at| trace[at] - slow.at(at as f64))
+            .collect()
     }
 
     /// Magnitudes of the rest.
