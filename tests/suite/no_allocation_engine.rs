@@ -154,12 +154,18 @@ fn a_stylus_that_is_felt_through_the_device_allocates_nothing() {
     let start = Instant::now();
     let (mut engine, mut pointer) = engine(start);
     let surface = surface();
-    let law = ContactLaw::default();
+    let law = ContactLaw {
+        damping_n_s_per_m: 5.0,
+        ..ContactLaw::default()
+    };
     let relief = Relief::of_surface(&surface);
     let contact = Contact::new(&relief, Tip::stylus(0.05), law, Friction::none()).unwrap();
     let setup = StylusSetup {
         contact,
-        device: DeviceSpec::default(),
+        device: DeviceSpec {
+            damping_n_s_per_m: 0.5,
+            ..DeviceSpec::default()
+        },
         hand: Hand {
             press_n: 0.3,
             leads: None,
@@ -186,13 +192,12 @@ fn a_stylus_that_is_felt_through_the_device_allocates_nothing() {
             engine.step_uncollected(start + TICK * (n + 1));
         });
         let snapshot = engine.snapshot();
-        assert!(snapshot.stylus.is_some(), "it is felt");
         let felt = &snapshot.displays[0].contactors;
         let is_felt = |amplitudes: [f32; 2]| amplitudes.iter().any(|a| *a > 0.0);
         n_felt += usize::from(felt.iter().any(|one| is_felt(one.amplitude_um)));
     }
     let snapshot = engine.snapshot();
-    assert!(n_felt > 100, "{n_felt} ticks are felt");
+    assert!(n_felt > 100, "{n_felt} ticks are felt, {:?}", snapshot.stylus);
     assert!(snapshot.counters.stylus_steps > 100 * 25);
     assert_eq!(snapshot.recording.n_ticks, 200);
 }
