@@ -1,7 +1,7 @@
 //! Fabrics that somebody photographed and stroked: learnt from like procedural cloth, and what the
 //! simple methods and the shipped networks make of them.
 
-use selvedge_foundation::numerics::{Grid, at_place, in_pieces, n_threads, to_index};
+use selvedge_foundation::numerics::{Grid, at_place, in_pieces, median, n_threads, to_index};
 use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
@@ -63,14 +63,11 @@ impl Fabric {
             Vec::new,
             |room, one, found| {
                 let others = shapes.iter().enumerate().filter(|(other, _)| *other != one);
-                found[0] = median(
-                    others
-                        .map(|(_, shape)| warped(&shapes[one], shape, room))
-                        .collect(),
-                );
+                let distances = others.map(|(_, shape)| warped(&shapes[one], shape, room));
+                found[0] = median(&mut distances.collect::<Vec<_>>());
             },
         );
-        let usual = median(distances.clone());
+        let usual = median(&mut distances.clone());
         let ratios = distances
             .into_iter()
             .map(|distance| distance / usual.max(1e-9));
@@ -156,10 +153,13 @@ impl Fabric {
         fabrics: &[Self],
         progress: &mut Progress<'_>,
     ) -> Result<Vec<LeftOut>, FrictionError> {
-        let examples = Self::examples(fabrics)?;
-        if examples.len() < 3 {
-            return Err(FrictionError::Few { n: examples.len() });
+        let n = fabrics.len();
+        if n < 3 {
+            return Err(FrictionError::Few { n });
         }
+        let examples = Self::examples(fabrics)?;
+        let n_windows: Vec<usize> = examples.iter().map(Vec::len).collect();
+        let mut examples: Vec<Example> = examples.into_iter().flatten().collect();
         let predictor = Predictor::shipped()?;
         let has_spectra = fabrics.iter().all(|fabric| fabric.trace.len() > 1);
         let simple = [
@@ -171,18 +171,16 @@ impl Fabric {
         let mut rows: Vec<_> = simple.map(Baseline::word).to_vec();
         rows.push("shipped networks");
         let mut sums = vec![[0.0; 3]; rows.len()];
-        for (out, of_fabric) in examples.iter().enumerate() {
-            let share = out as f64 / examples.len() as f64;
+        for (out, n_out) in n_windows.into_iter().enumerate() {
+            let share = out as f64 / n as f64;
             progress
                 .step(share, "leaving one out")
                 .map_err(|_stopped| FrictionError::Cancelled)?;
-            let others = examples
-                .iter()
-                .enumerate()
-                .filter(|(other, _)| *other != out);
-            let learnt: Vec<Example> = others.flat_map(|(_, of)| of.iter().cloned()).collect();
+            // The next fabric stands at the front, and goes behind all others.
+            examples.rotate_left(n_out);
+            let (learnt, of_fabric) = examples.split_at(examples.len() - n_out);
             for (method, sum) in sums.iter_mut().enumerate() {
-                let fitted = simple.get(method).map(|simple| simple.fitted(&learnt));
+                let fitted = simple.get(method).map(|simple| simple.fitted(learnt));
                 for example in of_fabric {
                     let found = match &fitted {
                         Some(fitted) => fitted.predict(example),
@@ -232,11 +230,6 @@ impl Taken {
         }
         Ok(taken)
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or_default()
 }
 
 /// Mean difference of two shapes of the same length along the path that makes its sum least, within

@@ -42,8 +42,6 @@ pub struct PredictedFriction {
     pub level_within: f64,
     /// For bands of wavenumbers (from, to, cycles/mm): how far magnitudes may be off, dB.
     pub bands: Vec<[f64; 3]>,
-    /// What stands for the whole cloth in the first network.
-    pub latent: Vec<f32>,
     /// What `mu` was put together from.
     course: Course,
 }
@@ -77,40 +75,6 @@ impl PredictedFriction {
     /// [`Scores::COLUMNS`]: crate::Scores::COLUMNS
     pub fn scores(&self, felt: &[f64]) -> [f64; MEASURES.len()] {
         score(&Prediction::of_course(&self.course), felt)
-    }
-
-    /// Where the latents of some lie in the plane in which they differ most (their first two
-    /// principal components, each with its larger side upward), and each axis' share of their
-    /// variance.
-    pub fn plane(found: &[&Self]) -> (Vec<[f64; 2]>, [f64; 2]) {
-        let n = found.len().max(1) as f64;
-        let width = found.first().map_or(0, |one| one.latent.len());
-        let codes = DMatrix::from_fn(found.len(), width, |row, column| {
-            f64::from(found[row].latent[column])
-        });
-        let means = codes.row_sum() / n;
-        let apart = DMatrix::from_fn(found.len(), width, |row, column| {
-            codes[(row, column)] - means[column]
-        });
-        let axes = (apart.transpose() * &apart / n).symmetric_eigen();
-        let mut order: Vec<usize> = (0..width).collect();
-        order.sort_by(|&a, &b| axes.eigenvalues[b].total_cmp(&axes.eigenvalues[a]));
-        let all = axes.eigenvalues.sum().max(f64::MIN_POSITIVE);
-        let mut places = vec![[0.0; 2]; found.len()];
-        let mut shares = [0.0; 2];
-        for (nth, &axis) in order.iter().take(2).enumerate() {
-            let along = &apart * axes.eigenvectors.column(axis);
-            let sign = if along.map(|x| x.powi(3)).sum() < 0.0 {
-                -1.0
-            } else {
-                1.0
-            };
-            shares[nth] = axes.eigenvalues[axis] / all;
-            for (place, value) in places.iter_mut().zip(along.iter()) {
-                place[nth] = sign * value;
-            }
-        }
-        (places, shares)
     }
 }
 
@@ -158,10 +122,7 @@ impl Predictor {
         px_per_mm: f64,
     ) -> Result<PredictedFriction, FrictionError> {
         let looks = Looks::of(&Self::strip(picture, px_per_mm)?);
-        Ok(together(
-            &self.each(&looks),
-            self.networks[0].latent(&looks),
-        ))
+        Ok(together(&self.each(&looks)))
     }
 
     /// The same where latents are shaken by so much of their own size: what hangs on them.
@@ -181,7 +142,50 @@ impl Predictor {
             network.shaken(&looks, noise)
         };
         let courses: Vec<_> = self.networks.iter().map(&mut course).collect();
-        Ok(together(&courses, self.networks[0].latent(&looks)))
+        Ok(together(&courses))
+    }
+
+    /// Where cloths lie for the first network, seen from where they differ most: the first two
+    /// principal components of what stands for each strip, each with its larger side upward, and
+    /// each axis' share of their variance.
+    ///
+    /// # Errors
+    /// As [`Self::of_picture`].
+    pub fn plane(&self, strips: &[&Grid<f32>]) -> Result<(Vec<[f64; 2]>, [f64; 2]), FrictionError> {
+        let latent = |picture: &&Grid<f32>| {
+            let looks = Looks::of(&Self::strip(picture, PER_MM)?);
+            Ok(self.networks[0].latent(&looks))
+        };
+        let latents: Result<Vec<Vec<f32>>, FrictionError> = strips.iter().map(latent).collect();
+        let latents = latents?;
+        let n = latents.len().max(1) as f64;
+        let width = latents.first().map_or(0, Vec::len);
+        let codes = DMatrix::from_fn(latents.len(), width, |row, column| {
+            f64::from(latents[row][column])
+        });
+        let means = codes.row_sum() / n;
+        let apart = DMatrix::from_fn(latents.len(), width, |row, column| {
+            codes[(row, column)] - means[column]
+        });
+        let axes = (apart.transpose() * &apart / n).symmetric_eigen();
+        let mut order: Vec<usize> = (0..width).collect();
+        order.sort_by(|&a, &b| axes.eigenvalues[b].total_cmp(&axes.eigenvalues[a]));
+        let all = axes.eigenvalues.sum().max(f64::MIN_POSITIVE);
+        let mut places = vec![[0.0; 2]; latents.len()];
+        let mut shares = [0.0; 2];
+        for (nth, &axis) in order.iter().take(2).enumerate() {
+            let along = &apart * axes.eigenvectors.column(axis);
+            let sign = if along.map(|x| x.powi(3)).sum() < 0.0 {
+                -1.0
+            } else {
+                1.0
+            };
+            shares[nth] = axes.eigenvalues[axis] / all;
+            for (place, value) in places.iter_mut().zip(along.iter()) {
+                place[nth] = sign * value;
+            }
+        }
+        Ok((places, shares))
     }
 
     /// What each network says of a strip.
@@ -216,14 +220,12 @@ impl Predictor {
         });
         let between = |network: &OurNetwork| network.between(&from, &to, share);
         let courses: Vec<_> = self.networks.iter().filter_map(between).collect();
-        let [a, b] = [&from, &to].map(|looks| self.networks[0].latent(looks));
-        let latent = |(a, b): (&f32, &f32)| a * to_single(1.0 - share) + b * to_single(share);
-        Ok(together(&courses, a.iter().zip(&b).map(latent).collect()))
+        Ok(together(&courses))
     }
 }
 
 /// What several networks say of one strip.
-fn together(courses: &[Course], latent: Vec<f32>) -> PredictedFriction {
+fn together(courses: &[Course]) -> PredictedFriction {
     let course = mean(courses);
     let n_samples = (course.trend.len() - 1) * HOP;
     let share = 1.0 / courses.len() as f64;
@@ -236,7 +238,6 @@ fn together(courses: &[Course], latent: Vec<f32>) -> PredictedFriction {
         mu: course.trace(n_samples, None),
         level_within: WIDE * (of_level * course.level).hypot(spread.sqrt()),
         bands: bands(courses, &course),
-        latent,
         course,
     }
 }

@@ -15,7 +15,7 @@ use crate::FrictionError;
 use crate::baseline::Baseline;
 use crate::example::{Example, Split, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
-use crate::score::{MEASURES, Prediction, score};
+use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, Prediction, score};
 
 /// What files of scores end in.
 const SCORES: &str = "scores.csv";
@@ -29,6 +29,10 @@ impl Scores {
     pub const N: usize = MEASURES.len();
     /// Their names, with units, as columns of files.
     pub const COLUMNS: [&str; Self::N] = MEASURES;
+    /// The place of the level's error, %.
+    pub const LEVEL: usize = LEVEL;
+    /// The place of the distance of spectra, dB.
+    pub const LOG_SPECTRAL: usize = LOG_SPECTRAL;
 
     fn header() -> Vec<&'static str> {
         let place = ["family", "seed", "column"];

@@ -3,7 +3,7 @@
 use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases};
 
 use crate::baseline::magnitudes_of;
-use crate::picture::band_edges;
+use crate::picture::{band_edges, mean};
 use crate::signal::{Course, HOP, spectra};
 
 /// The first bin that neither the mean nor what is slow reaches.
@@ -94,11 +94,6 @@ pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len(
         (period_mm(&predicted.magnitudes) - period_mm(&truth.magnitudes)).abs(),
         correlation(&predicted.trace, felt),
     ]
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (n, sum) = values.fold((0.0, 0.0), |(n, sum), value| (n + 1.0, sum + value));
-    sum / n
 }
 
 fn rms<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {

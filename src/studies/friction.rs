@@ -271,13 +271,6 @@ fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     let n_cloths = bench.effort.pick(4, 40);
     let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
     let predictor = Predictor::shipped()?;
-    let place = |column: &str| {
-        Scores::COLUMNS
-            .iter()
-            .position(|name| *name == column)
-            .unwrap_or_default()
-    };
-    let [distance, level] = ["log_spectral_distance_db", "level_error_percent"].map(place);
     let mut rows = Vec::new();
     let all = Spoilt::all(bench);
     for (nth, spoilt) in all.iter().enumerate() {
@@ -290,8 +283,8 @@ fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             let (scale, share) = (spoilt.px_per_mm(), spoilt.shaken());
             let found = predictor.shaken(&picture, scale, share, &mut random);
             let scores = found?.scores(felt);
-            distances.push(scores[distance]);
-            levels.push(scores[level]);
+            distances.push(scores[Scores::LOG_SPECTRAL]);
+            levels.push(scores[Scores::LEVEL]);
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         rows.push(Row {

@@ -240,8 +240,8 @@ fn over_seeds(runs: &[[f64; Scores::N]]) -> [[f64; 2]; Scores::N] {
 
 /// What is read first: spectra, level, deviations, the paper's own measures.
 const SHOWN: [(usize, &str, usize); 8] = [
-    (7, "spectrum dB", 2),
-    (5, "level %", 2),
+    (Scores::LOG_SPECTRAL, "spectrum dB", 2),
+    (Scores::LEVEL, "level %", 2),
     (8, "bands dB", 2),
     (6, "deviations", 2),
     (9, "period mm", 2),

@@ -41,7 +41,9 @@ pub(super) fn draw(out: &Path, split: Split, n_threads: usize) -> Result<(), Cli
         });
     }
     write(out, "traces", &traces(&shown, split))?;
-    write(out, "latents", &latents(&shown))
+    let strips: Vec<_> = taken.pictures().map(|(_, strip, _)| strip).collect();
+    let plane = predictor.plane(&strips)?;
+    write(out, "latents", &latents(&shown, plane))
 }
 
 fn write(out: &Path, name: &str, figure: &Figure) -> Result<(), CliError> {
@@ -56,10 +58,7 @@ fn write(out: &Path, name: &str, figure: &Figure) -> Result<(), CliError> {
 
 /// Of every family the cloth whose spectrum is missed as much as its family's usually is.
 fn traces(shown: &[Shown<'_>], split: Split) -> Figure {
-    let distance = Scores::COLUMNS
-        .iter()
-        .position(|name| *name == "log_spectral_distance_db");
-    let missed = |one: &Shown<'_>| one.found.scores(one.felt)[distance.unwrap_or_default()];
+    let missed = |one: &Shown<'_>| one.found.scores(one.felt)[Scores::LOG_SPECTRAL];
     let rows = families(shown).into_iter().filter_map(|family| {
         let mut of_family: Vec<_> = shown.iter().filter(|one| one.family == family).collect();
         of_family.sort_by(|a, b| missed(a).total_cmp(&missed(b)));
@@ -151,9 +150,7 @@ fn raster(log: &Grid<f32>, [low, high]: [f64; 2]) -> Raster {
 }
 
 /// Where cloths lie: the plane in which they differ most.
-fn latents(shown: &[Shown<'_>]) -> Figure {
-    let found: Vec<_> = shown.iter().map(|one| &one.found).collect();
-    let (places, shares) = PredictedFriction::plane(&found);
+fn latents(shown: &[Shown<'_>], (places, shares): (Vec<[f64; 2]>, [f64; 2])) -> Figure {
     let of = |family: &str| {
         let places = shown.iter().zip(&places);
         let of_family = places.filter(|(one, _)| one.family == family);

@@ -87,8 +87,19 @@ pub(crate) fn friction(trace: &Trace, place_mm: Option<f64>) -> Chart {
     }
 }
 
-/// The spectrogram, and the bar of its colours.
-pub(crate) fn spectrogram(trace: &Trace, map: ColourMap) -> (Chart, ColourBar) {
+/// The frame of the spectrogram.
+pub(crate) fn spectrogram_frame(trace: &Trace) -> Chart {
+    let most_per_mm = 0.5 * PredictedFriction::PER_MM;
+    Chart {
+        title: "Spectrogram".to_owned(),
+        x: along(trace),
+        y: Axis::linear("wavenumber, cycles/mm").within([0.0, most_per_mm]),
+        ..Chart::default()
+    }
+}
+
+/// The cells of the spectrogram, and the bar of their colours.
+pub(crate) fn spectrogram_cells(trace: &Trace, map: ColourMap) -> (Raster, ColourBar) {
     let log = trace.predicted.log_magnitudes();
     let (n_bins, n_frames) = (log.width(), log.height());
     let ends = extent(log.values().iter().map(|&log| f64::from(log)));
@@ -96,21 +107,12 @@ pub(crate) fn spectrogram(trace: &Trace, map: ColourMap) -> (Chart, ColourBar) {
     let cells = (0..n_bins)
         .rev()
         .flat_map(|bin| (0..n_frames).map(move |frame| Some(rgb(map, share(log.row(frame)[bin])))));
-    let most_per_mm = 0.5 * PredictedFriction::PER_MM;
-    let chart = Chart {
-        title: "Spectrogram".to_owned(),
-        x: along(trace),
-        y: Axis::linear("wavenumber, cycles/mm").within([0.0, most_per_mm]),
-        raster: Some(Raster {
-            n_columns: n_frames,
-            cells: cells.collect(),
-        }),
-        ..Chart::default()
+    let raster = Raster {
+        n_columns: n_frames,
+        cells: cells.collect(),
     };
-    (
-        chart,
-        bar(map, Axis::linear("ln(1 + m / 0.02)").within(ends)),
-    )
+    let axis = Axis::linear("ln(1 + m / 0.02)").within(ends);
+    (raster, bar(map, axis))
 }
 
 impl Felt {

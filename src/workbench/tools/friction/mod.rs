@@ -252,7 +252,11 @@ impl Tool for Friction {
             return Err("There is nothing to export yet: open a picture in the Friction pane");
         };
         let map = bench.settings.preferences.colour_map;
-        let (spectrogram, colours) = chart::spectrogram(&trace, map);
+        let (cells, colours) = chart::spectrogram_cells(&trace, map);
+        let spectrogram = Chart {
+            raster: Some(cells),
+            ..chart::spectrogram_frame(&trace)
+        };
         let of = |panels: Vec<Chart>| Row {
             panels,
             height_px: CHART_PX,

@@ -8,12 +8,11 @@ use crate::kit::pane::{inside, paint_sentence, scroll_area};
 use crate::kit::plot::{self, Setting};
 use crate::kit::texture::{Same, WHOLE, paint};
 use crate::kit::theme::STEP;
-use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::widgets::text::{paint_line, quiet};
 use crate::tools::friction::chart;
 use crate::tools::friction::source::Trace;
 use crate::tools::friction::{EMPTY, Friction, controls};
-use selvedge_chart::Chart;
+use selvedge_chart::{Chart, Raster};
 use std::sync::Arc;
 
 /// A pane at least this wide has its controls beside its charts, points.
@@ -137,7 +136,7 @@ fn show_spectrogram(
     (trace, context): (&Arc<Trace>, &PaneContext<'_>),
 ) {
     let map = context.bench.settings.preferences.colour_map;
-    let (chart, _) = chart::spectrogram(trace, map);
+    let chart = chart::spectrogram_frame(trace);
     titled(ui, rect, &chart);
     let placed = Setting {
         link: Some(PLACE),
@@ -154,7 +153,7 @@ fn show_spectrogram(
         ui.ctx(),
         ("friction spectrogram", TextureOptions::NEAREST),
         key,
-        || image(&chart, map),
+        || image(&chart::spectrogram_cells(trace, map).0),
     );
     let painter = ui.painter().with_clip_rect(plot.area());
     paint(
@@ -165,11 +164,8 @@ fn show_spectrogram(
     );
 }
 
-/// The cells of a chart as pixels.
-fn image(chart: &Chart, map: ColourMap) -> ColorImage {
-    let Some(raster) = &chart.raster else {
-        return ColorImage::filled([1, 1], map.colour(0.0));
-    };
+/// Cells as pixels.
+fn image(raster: &Raster) -> ColorImage {
     let cells = raster.cells.iter().map(|cell| cell.unwrap_or_default());
     let pixels = cells.map(|[r, g, b]| Color32::from_rgb(r, g, b));
     ColorImage::new([raster.n_columns, raster.n_rows()], pixels.collect())
