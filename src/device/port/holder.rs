@@ -26,8 +26,9 @@ pub(crate) fn holder_of(path: &Path) -> Option<String> {
             .filter_map(|file| fs::read_link(file.path()).ok())
             .collect();
         // Whoever made a pseudo-terminal has it open too, but is the device, not its user.
-        let makes_terminals = files.iter().any(|file| file.ends_with("ptmx"));
-        if id != own && !makes_terminals && files.contains(&node) {
+        let is_its_maker =
+            node.starts_with("/dev/pts") && files.iter().any(|file| file.ends_with("ptmx"));
+        if id != own && !is_its_maker && files.contains(&node) {
             let name = fs::read_to_string(process.path().join("comm")).unwrap_or_default();
             return Some(format!("{}, process {id}", name.trim()));
         }
