@@ -231,6 +231,13 @@ fn slope_share(examples: &[Example]) -> f64 {
     (friction / slope.max(1e-12)).sqrt()
 }
 
+/// The level of friction as the ridge regression has it: a weight a standardised figure, and their
+/// constant.
+pub(crate) fn linear_level(examples: &[Example]) -> Vec<f64> {
+    let ridge = Ridge::fitted(examples, &scales(examples));
+    ridge.weights.column(0).iter().map(|w| 0.01 * w).collect()
+}
+
 /// Linear in figures of the picture: the level, and the log magnitude of bands.
 struct Ridge {
     /// A row a figure and one of constants, a column a target.

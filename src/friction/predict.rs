@@ -20,7 +20,7 @@ const SHIPPED: [&[u8]; 4] = [
 ];
 /// Standard deviation of the level on held-back cloths, a share of it, and of a bin's log magnitude
 /// in dB, as `assets/friction/provenance.toml` has them.
-const HELD_BACK: [f64; 2] = [0.095, 4.0];
+const HELD_BACK: [f64; 2] = [0.097, 4.0];
 /// Standard deviations to either side of an interval of 95 %.
 const WIDE: f64 = 1.96;
 
@@ -90,6 +90,17 @@ impl Predictor {
         Ok(Self {
             networks: networks?,
         })
+    }
+
+    /// A network of so many channels that was taught nothing: for what an answer costs.
+    pub fn untaught(width: usize) -> Self {
+        let size = Size {
+            width,
+            ..Size::default()
+        };
+        Self {
+            networks: vec![OurNetwork::untaught(size)],
+        }
     }
 
     /// The strip in the middle of a picture, [`PredictedFriction::PER_MM`] a millimetre: what is
@@ -294,7 +305,7 @@ mod tests {
 
     /// Mean log-spectral distance, dB, and level error, %, of every fourth held-back window of
     /// split A, as `assets/friction/provenance.toml` has them.
-    const RECORDED: [f64; 2] = [3.944_399, 6.999_205];
+    const RECORDED: [f64; 2] = [3.944_399, 7.547_179];
 
     #[test]
     fn the_shipped_networks_reach_the_score_that_is_recorded_of_them() {

@@ -5,7 +5,7 @@ use super::readable::{largest, number};
 use super::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::Axis;
 use selvedge_foundation::numerics::{
-    Complex, Grid, GriffinLim, Random, StartPhases, Stft, n_threads, to_single,
+    Complex, Grid, GriffinLim, Random, StartPhases, Stft, n_threads, to_index, to_single,
 };
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{PredictedFriction, Predictor, Scores, Split, Taken};
@@ -294,9 +294,12 @@ fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         });
     }
     rows.extend(extreme(bench, &predictor)?);
+    rows.extend(costs(bench)?);
     let notes = [
         "The networks learnt from pictures with the noise of a camera, and of one scale.",
         "A picture without a strip of 40 mm x 10 mm is refused.",
+        "What wider networks and longer learning gain: selvedge friction train --width, --rounds, \
+         --cloths; evaluate lists such runs.",
     ];
     Ok(Findings::new(rows, Vec::new(), notes))
 }
@@ -340,6 +343,32 @@ fn extreme(bench: &mut Bench<'_>, predictor: &Predictor) -> Result<Vec<Row>, Rep
             ],
             ..Row::of("extreme", "four networks", case)
         });
+    }
+    Ok(rows)
+}
+
+/// What loading costs, and an answer of networks of other sizes, to pictures of other lengths: they
+/// are not taught, which no cost hangs on.
+fn costs(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
+    let loading = Row {
+        cost: Some(bench.time(1, Predictor::shipped)),
+        ..Row::of("loading", "four networks", "the shipped weights")
+    };
+    let mut rows = vec![loading];
+    let lengths_mm = bench.effort.pick(&[100][..], &[40, 100, 200]);
+    for &width in bench.effort.pick(&[16][..], &[4, 8, 16, 32]) {
+        let predictor = Predictor::untaught(width);
+        for &mm in lengths_mm {
+            bench.step(1.0, &format!("{width} channels"))?;
+            let n_columns = to_index(f64::from(mm) * PredictedFriction::PER_MM);
+            let picture = Grid::filled(n_columns, 128, 0.5);
+            let answer = || predictor.of_picture(&picture, PredictedFriction::PER_MM);
+            let case = format!("{mm} mm");
+            rows.push(Row {
+                cost: Some(bench.time(1, answer)),
+                ..Row::of("one network, untaught", format!("{width} channels"), case)
+            });
+        }
     }
     Ok(rows)
 }

@@ -4,8 +4,8 @@
 //! What differs: pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024; the
 //! first layer has 4 channels where theirs has 32, and none more than 64 where theirs have 512;
 //! answers start from the mean magnitude of each bin (theirs has to find that the mean is 108);
-//! the rate of learning is ten times theirs, since there is a tenth of their rounds; at inference
-//! batch statistics are those of training and nothing is dropped.
+//! the rate of learning is ten times theirs, since there are as many rounds as ten minutes have room
+//! for; at inference batch statistics are those of training and nothing is dropped.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig, ConvTranspose2d, ConvTranspose2dConfig};
@@ -51,6 +51,13 @@ pub(super) struct Generator {
     decoder_norms: Vec<BatchNorm>,
     widened: Vec<Conv2d>,
     last: Conv2d,
+}
+
+/// What the encoder makes of pictures.
+pub(super) struct Seen {
+    /// Of every layer, for the decoder's stages that see them.
+    maps: Vec<Tensor<4>>,
+    latent: Tensor<2>,
 }
 
 /// Frames after each stage, so that the last has as many as are asked for: doubled as long as that
@@ -127,14 +134,8 @@ impl Generator {
         })
     }
 
-    /// Magnitudes of example × 1 × bin × frame above the mean, from pictures (example × 1 × side ×
-    /// side, −1 to 1) and noise; `masks` says what is dropped while learning.
-    pub(super) fn forward(
-        &self,
-        pictures: Tensor<4>,
-        noise: Tensor<2>,
-        masks: Option<&[Tensor<4>; N_DROPPED]>,
-    ) -> Tensor<4> {
+    /// What is seen in pictures (example × 1 × side × side, −1 to 1): the same whatever the noise.
+    pub(super) fn encode(&self, pictures: Tensor<4>) -> Seen {
         let n = pictures.dims()[0];
         let mut maps = Vec::with_capacity(self.encoder.len());
         let mut x = pictures;
@@ -147,13 +148,26 @@ impl Generator {
             maps.push(x.clone());
         }
         let latent = self.dense.forward(x.reshape([n, 64]));
-        let mixed = self.mixed.forward(Tensor::cat(vec![latent, noise], 1));
+        Seen { maps, latent }
+    }
+
+    /// Magnitudes of example × 1 × bin × frame above the mean, from what is seen and noise; `masks`
+    /// says what is dropped while learning.
+    pub(super) fn decode(
+        &self,
+        seen: &Seen,
+        noise: Tensor<2>,
+        masks: Option<&[Tensor<4>; N_DROPPED]>,
+    ) -> Tensor<4> {
+        let n = noise.dims()[0];
+        let mixed = Tensor::cat(vec![seen.latent.clone(), noise], 1);
+        let mixed = self.mixed.forward(mixed);
         let mut x: Tensor<4> = mixed.reshape([n, 64, 1, 1]);
         let mut widened = self.widened.iter();
         for (stage, conv) in self.decoder.iter().enumerate() {
             let before = x.dims()[3];
             if let Some(layer) = Self::skipped(stage) {
-                x = Tensor::cat(vec![x, middle(maps[layer].clone(), before)], 1);
+                x = Tensor::cat(vec![x, middle(seen.maps[layer].clone(), before)], 1);
             }
             x = conv.forward(x);
             x = self.decoder_norms[stage].forward(x);

@@ -62,14 +62,15 @@ impl Learner for FrictGan {
         let device = Device::flex().autodiff();
         let n = batch.len();
         let shape = [n, 1, N_BINS, self.n_frames];
-        let pictures = pictures(batch, &device);
+        // Once for all steps of this batch: only noise and what is dropped change between them.
+        let seen = self.generator.encode(pictures(batch, &device));
         let crop = |e: &&Example| critic_crop(&e.square(), self.n_frames);
         let crops = tensor(batch.iter().flat_map(crop).collect(), shape, &device);
         let felt = batch
             .iter()
             .flat_map(|e| above_mean(&whole_magnitudes(e), &self.mean));
         let felt = tensor(felt.collect(), shape, &device);
-        let seen = |x: Tensor<4>| Tensor::cat(vec![crops.clone(), x], 1).swap_dims(2, 3);
+        let beside = |x: Tensor<4>| Tensor::cat(vec![crops.clone(), x], 1).swap_dims(2, 3);
         let mut losses = Losses::default();
         let mut drawn = |gan: &Self| {
             let noise = (0..n * N_NOISE)
@@ -81,11 +82,11 @@ impl Learner for FrictGan {
                 tensor(kept.collect(), shape, &device)
             });
             let noise = tensor(noise, [n, N_NOISE], &device);
-            gan.generator.forward(pictures.clone(), noise, Some(&masks))
+            gan.generator.decode(&seen, noise, Some(&masks))
         };
         for _ in 0..N_CRITIC_STEPS {
             let generated = drawn(self).detach();
-            let scores = [felt.clone(), generated].map(|x| self.critic.forward(seen(x)));
+            let scores = [felt.clone(), generated].map(|x| self.critic.forward(beside(x)));
             let [of_felt, of_generated] = scores;
             let lost = loss.of_critic(of_felt, of_generated);
             losses.critic = number(&lost);
@@ -96,7 +97,7 @@ impl Learner for FrictGan {
         let generated = drawn(self);
         let miss = (generated.clone() - felt).abs().mean();
         losses.spectra = number(&miss);
-        let fooled = loss.of_generator(self.critic.forward(seen(generated)));
+        let fooled = loss.of_generator(self.critic.forward(beside(generated)));
         let all = fooled + miss * L1_WEIGHT;
         let gradients = GradientsParams::from_grads(all.backward(), &self.generator);
         self.generator = self.optimizers[0].step(rate, self.generator.clone(), gradients);
@@ -137,10 +138,8 @@ impl Network for Generated {
     fn predict(&self, example: &Example) -> Prediction {
         let device = Device::flex();
         let noise = tensor(vec![0.0; N_NOISE], [1, N_NOISE], &device);
-        let found = values(
-            self.generator
-                .forward(pictures(&[example], &device), noise, None),
-        );
+        let seen = self.generator.encode(pictures(&[example], &device));
+        let found = values(self.generator.decode(&seen, noise, None));
         let magnitude = |bin: usize, frame: usize| {
             f64::from((found[bin * self.n_frames + frame] + self.mean[bin]).max(0.0))
         };

@@ -48,8 +48,9 @@ impl Lesson {
             loss: AdversarialLoss::Entropy,
             size: Size::default(),
             n_rounds: match method {
-                Method::Ours | Method::FrictGan => 8,
+                Method::Ours => 8,
                 Method::OursAdversarial => 6,
+                Method::FrictGan => 4,
             },
             seed,
         }

@@ -129,6 +129,14 @@ impl std::fmt::Debug for OurNetwork {
 }
 
 impl OurNetwork {
+    /// Before it learns, of nothing.
+    pub(crate) fn untaught(size: Size) -> Self {
+        Self {
+            network: drawn(Registered::new(size, &Device::flex()), 0),
+            scales: Scales::of(&[]),
+        }
+    }
+
     /// From weights of a network of a size.
     ///
     /// # Errors
@@ -155,7 +163,8 @@ impl OurNetwork {
         let code = self
             .network
             .encode(self.scales.inputs(looks, &Device::flex()));
-        self.scales.courses(self.network.decode(code))
+        let levels: Vec<f64> = looks.iter().map(|l| self.scales.linear_level(l)).collect();
+        self.scales.courses(self.network.decode(code), &levels)
     }
 
     /// What stands for the cloth of a strip.
@@ -175,8 +184,9 @@ impl OurNetwork {
             .zip(noise)
             .map(|(x, noise)| x + size.sqrt() * noise);
         code.latent = tensor(moved.collect(), [1, latent.len()], &device);
+        let level = self.scales.linear_level(looks);
         self.scales
-            .courses(self.network.decode(code))
+            .courses(self.network.decode(code), &[level])
             .swap_remove(0)
     }
 
@@ -187,10 +197,12 @@ impl OurNetwork {
             return None;
         }
         let device = Device::flex();
+        let [of_from, of_to] = [from, to].map(|looks| self.scales.linear_level(looks));
         let [from, to] =
             [from, to].map(|looks| self.network.encode(self.scales.inputs(&[looks], &device)));
+        let level = (1.0 - share) * of_from + share * of_to;
         self.scales
-            .courses(self.network.decode(from.towards(&to, share)))
+            .courses(self.network.decode(from.towards(&to, share)), &[level])
             .pop()
     }
 }

@@ -8,7 +8,8 @@
 //!
 //! Picture and trace have the same scale and the same frames, so a bin of the strip's spectra
 //! stands for the same wavenumber at the same place as that of the answer: nothing has to be learnt
-//! of where it is. Frames may be any number.
+//! of where it is. Frames may be any number. The level that is told is the mean of the network's and
+//! of a ridge regression's, which knows less and errs less on families that were never seen.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig};
@@ -19,6 +20,7 @@ use burn::tensor::{Device, Tensor};
 use selvedge_foundation::numerics::{Grid, to_single};
 
 use super::weights::{tensor, values};
+use crate::baseline::linear_level;
 use crate::example::Example;
 use crate::picture::{Looks, N_CHANNELS, N_FIGURES};
 use crate::signal::{Course, N_BINS};
@@ -176,6 +178,8 @@ pub(super) struct Scales {
     channels: Vec<Vec<[f32; 2]>>,
     /// Means alone count.
     logs: Vec<[f32; 2]>,
+    /// The level as a ridge regression has it: a weight a figure, and their constant.
+    level: Vec<f32>,
 }
 
 impl Inputs {
@@ -193,32 +197,31 @@ impl Scales {
             figures: figures.map(|scale| scale.map(to_single)).collect(),
             channels: (0..N_CHANNELS).map(channel).collect(),
             logs: of_bins(examples.iter().map(|e| &e.course.log_magnitudes)),
+            level: linear_level(examples).into_iter().map(to_single).collect(),
         }
     }
 
     pub(super) fn numbers(&self) -> Vec<f32> {
         let of_bins = self.channels.iter().flatten().chain(&self.logs);
-        self.figures
-            .iter()
-            .chain(of_bins)
-            .flatten()
-            .copied()
-            .collect()
+        let pairs = self.figures.iter().chain(of_bins).flatten();
+        pairs.chain(&self.level).copied().collect()
     }
 
     /// From as many numbers as [`Self::numbers`] gives; `None` of another count.
     pub(super) fn from_numbers(numbers: &[f32]) -> Option<Self> {
-        let (pairs, rest) = numbers.as_chunks::<2>();
         let n_pairs = N_FIGURES + (N_CHANNELS + 1) * N_BINS;
-        if !rest.is_empty() || pairs.len() != n_pairs {
+        let (pairs, level) = numbers.split_at_checked(2 * n_pairs)?;
+        if level.len() != N_FIGURES + 1 {
             return None;
         }
+        let (pairs, _) = pairs.as_chunks::<2>();
         let (figures, of_bins) = pairs.split_at(N_FIGURES);
         let mut of_bins = of_bins.chunks(N_BINS).map(<[[f32; 2]]>::to_vec);
         Some(Self {
             figures: figures.to_vec(),
             channels: of_bins.by_ref().take(N_CHANNELS).collect(),
             logs: of_bins.next()?,
+            level: level.to_vec(),
         })
     }
 
@@ -243,16 +246,26 @@ impl Scales {
                 }
             }
         }
-        let standardised = |looks: &&Looks| {
-            let figures = looks.figures.iter().zip(&self.figures);
-            let scaled = figures.map(|(&figure, [mean, sd])| (to_single(figure) - mean) / sd);
-            scaled.collect::<Vec<_>>()
-        };
-        let figures = looks.iter().flat_map(standardised).collect();
+        let figures = looks.iter().flat_map(|looks| self.standardised(looks));
+        let figures = figures.collect();
         Inputs {
             channels: tensor(of_bins, shape, device),
             figures: tensor(figures, [looks.len(), N_FIGURES], device),
         }
+    }
+
+    fn standardised<'a>(&'a self, looks: &'a Looks) -> impl Iterator<Item = f32> + 'a {
+        let figures = looks.figures.iter().zip(&self.figures);
+        figures.map(|(&figure, [mean, sd])| (to_single(figure) - mean) / sd)
+    }
+
+    /// The level of a strip as the ridge regression has it.
+    pub(super) fn linear_level(&self, looks: &Looks) -> f64 {
+        let figures = self.standardised(looks).chain([1.0]);
+        let sum = figures
+            .zip(&self.level)
+            .map(|(figure, weight)| figure * weight);
+        f64::from(sum.sum::<f32>())
     }
 
     /// What should be answered of examples.
@@ -281,25 +294,31 @@ impl Scales {
         }
     }
 
-    /// Answers as courses, one an example.
-    pub(super) fn courses(&self, answer: Answer) -> Vec<Course> {
+    /// Answers as courses, one an example. The level is the mean of the network's and of the ridge
+    /// regression's (`linear_levels`), which misses less where the family is unknown.
+    pub(super) fn courses(&self, answer: Answer, linear_levels: &[f64]) -> Vec<Course> {
         let [_, n_frames, _] = answer.log_magnitudes.dims();
         let logs = values(answer.log_magnitudes);
         let trends = values(answer.trend);
         let levels = values(answer.level);
-        let course = |(n, level): (usize, &f32)| {
+        let course = |(n, (level, linear)): (usize, (&f32, &f64))| {
             let logs = &logs[n * n_frames * N_BINS..][..n_frames * N_BINS];
             let trend = &trends[n * n_frames..][..n_frames];
             let log = |bin: usize, frame: usize| {
                 (logs[frame * N_BINS + bin] + self.logs[bin][0]).max(0.0)
             };
             Course {
-                level: (LEVEL[0] + LEVEL[1] * f64::from(*level)).max(0.0),
+                level: (0.5 * (LEVEL[0] + LEVEL[1] * f64::from(*level) + linear)).max(0.0),
                 trend: trend.iter().map(|&t| TREND * f64::from(t)).collect(),
                 log_magnitudes: Grid::from_fn(N_BINS, n_frames, log),
             }
         };
-        levels.iter().enumerate().map(course).collect()
+        levels
+            .iter()
+            .zip(linear_levels)
+            .enumerate()
+            .map(course)
+            .collect()
     }
 }
 
