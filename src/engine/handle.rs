@@ -29,6 +29,7 @@ use array::DrivenArray;
 use body::Body;
 use device::DeviceHandle;
 use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
+use selvedge_render::scene::Pose;
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -261,12 +262,13 @@ impl Engine {
     /// The oldest sample that was not taken yet, of those left since
     /// [`Command::SampleTicks`] asked for them.
     pub fn next_tick_sample(&mut self) -> Option<TickSample> {
-        self.next_felt_tick().map(|(sample, _)| sample)
+        self.next_felt_tick().map(|(sample, ..)| sample)
     }
 
-    /// The same with the amplitudes [A40, A320] of every contactor of the display that is watched,
-    /// after gains and before output limits, µm.
-    pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
+    /// The same with the amplitudes [A40, A320] of the contactors of all displays one after the
+    /// other, after gains and before output limits, µm, and the poses of all displays, none where
+    /// there is one.
+    pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]], &[Pose])> {
         self.samples.next()
     }
 

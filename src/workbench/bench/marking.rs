@@ -13,6 +13,7 @@ use crate::bench::signals::history::Entry;
 use crate::bench::view::Source;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::quantity;
+use selvedge_render::scene::Pose;
 
 /// Why nothing is marked.
 const NO_RECORDING: &str = "Markers stand in recordings: make one, choose one in the list, or \
@@ -101,26 +102,18 @@ impl Bench {
                 .give("This system has no folder for recordings");
         };
         let (about, history) = (self.new_page(), &self.past.history);
-        let places = history.place_of(columns.start)..history.place_of(columns.end);
-        let entries: Vec<Entry> = history.entries().range(places).copied().collect();
-        let felt_um: Vec<Vec<[f32; 2]>> = entries
-            .iter()
-            .map(|entry| {
-                history
-                    .felt_um(entry.column)
-                    .into_iter()
-                    .flatten()
-                    .collect()
-            })
-            .collect();
-        let n_contactors = history.n_contactors;
+        let kept = history.of_all_displays(columns);
+        let kept: Vec<(Entry, Vec<Pose>, Vec<[f32; 2]>)> =
+            kept.map(|(entry, poses, um)| (*entry, poses, um)).collect();
+        let sizes = kept
+            .first()
+            .map(|(_, poses, um)| [poses.len() - 1, um.len()]);
         self.make_recording(about.name.clone(), move || {
-            let mut file = RecordingFile::create(&root, about, [0, n_contactors])?;
-            let ticks = entries.iter().zip(&felt_um);
-            file.append_ticks(ticks.map(|(entry, amplitudes_um)| FeltTick {
+            let mut file = RecordingFile::create(&root, about, sizes.unwrap_or_default())?;
+            file.append_ticks(kept.iter().map(|(entry, poses, amplitudes_um)| FeltTick {
                 tick: entry.tick_sample.tick,
-                pose: entry.tick_sample.pose,
-                others: &[],
+                pose: poses[0],
+                others: &poses[1..],
                 apply_tick: entry.tick_sample.apply_tick,
                 amplitudes_um,
             }))?;

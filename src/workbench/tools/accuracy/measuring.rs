@@ -65,10 +65,12 @@ pub(crate) fn measure(
     effort: Effort,
     progress: &mut Progress<'_>,
 ) -> Result<Measured, ReportError> {
+    let n_displays = wanted.scene.displays.len();
+    let poses = |path: Arc<ExplorationPath>| poses_of(&path, n_displays);
     let study = ThisSceneStudy {
         name: wanted.name,
         scene: wanted.scene,
-        poses: wanted.path.map_or_else(Vec::new, |path| poses_of(&path)),
+        poses: wanted.path.map_or_else(Vec::new, poses),
         running: Running {
             method: wanted.rendering.method,
             accuracy: wanted.rendering.accuracy(),
@@ -78,9 +80,14 @@ pub(crate) fn measure(
     Ok(Measured::of(findings, wanted.n_edits))
 }
 
-/// Ticks spread evenly over an exploration.
-fn poses_of(path: &ExplorationPath) -> Vec<Pose> {
+/// Ticks spread evenly over an exploration: the poses of so many displays.
+fn poses_of(path: &ExplorationPath, n_displays: usize) -> Vec<Vec<Pose>> {
     let step = usize::try_from(path.n_ticks().div_ceil(MOST_TICKS)).unwrap_or(usize::MAX);
     let ticks = path.ticks().step_by(step.max(1));
-    ticks.map(|(_, pose)| pose).collect()
+    let poses = |(_, first)| {
+        let mut poses = vec![Pose::default(); n_displays];
+        path.poses_into(&first, &mut poses);
+        poses
+    };
+    ticks.map(poses).collect()
 }

@@ -30,7 +30,7 @@ fn route(x_mm: f64, y_mm: f64, n_ticks: u64) -> Route {
 }
 
 fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
-    Inputs::of(choice, scene, tunings(), route).unwrap()
+    Inputs::of(choice, scene, tunings(), (route, 0)).unwrap()
 }
 
 fn threads() -> Executor {
@@ -93,10 +93,10 @@ fn a_slot_is_compared_as_it_was_kept_and_an_empty_one_is_refused() {
     assert_eq!(a.scene.textiles[0].gain_db, -4.0);
     assert_eq!(a.scene.tuning, Some(tunings()[1]));
     assert_eq!(b.scene.textiles[0].gain_db, 2.0);
-    let none = Inputs::of(&choice(SlotLetter::E), &scene, tunings(), path.clone());
+    let none = Inputs::of(&choice(SlotLetter::E), &scene, tunings(), (path.clone(), 0));
     assert!(none.unwrap_err().contains("empty"));
     scene.textiles.clear();
-    let none = Inputs::of(&choice(SlotLetter::D), &scene, tunings(), path);
+    let none = Inputs::of(&choice(SlotLetter::D), &scene, tunings(), (path, 0));
     assert!(none.unwrap_err().contains("Place a textile"));
 }
 
@@ -164,8 +164,8 @@ fn a_textile_that_is_not_there_is_a_sentence() {
 fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
     let loaded = LoadedScene::shipped().unwrap();
     let scene = loaded.scene();
-    assert_eq!(route(160.0, 190.0, 40).mostly_on(scene), Some(1));
-    assert_eq!(route(-900.0, 0.0, 40).mostly_on(scene), None);
+    assert_eq!(route(160.0, 190.0, 40).mostly_on(scene, 0), Some(1));
+    assert_eq!(route(-900.0, 0.0, 40).mostly_on(scene, 0), None);
     let row = |t_s, x_mm| PathRow {
         t_s,
         position: Point::new(x_mm, 70.0),
@@ -174,11 +174,11 @@ fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
     let rows = vec![row(0.0, 100.0), row(1.0, 110.0), row(5.0, 230.0)];
     let path = Arc::new(ExplorationPath::new(rows).unwrap());
     let take = Route::Recording(Arc::clone(&path));
-    assert_eq!(take.mostly_on(scene), Some(3), "lower right");
+    assert_eq!(take.mostly_on(scene, 0), Some(3), "lower right");
     assert_eq!(take, Route::Recording(path));
     assert_eq!(take.ticks().count() as u64, take.n_ticks());
     assert_eq!(
-        Route::Recording(take_of(&take)).mostly_on(&Scene::default()),
+        Route::Recording(take_of(&take)).mostly_on(&Scene::default(), 0),
         None
     );
 }
