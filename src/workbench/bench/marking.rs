@@ -175,7 +175,8 @@ mod tests {
     use super::*;
     use crate::bench::command::{PlayCommand, PlaySource};
     use crate::bench::recording::file::read;
-    use crate::bench::recording::{Place, Recordings};
+    use crate::bench::recording::tests::two_apart;
+    use crate::bench::recording::{Place, Recording, Recordings};
     use crate::shell::headless::Headless;
     use selvedge_scratch::ScratchFolder;
 
@@ -197,7 +198,7 @@ mod tests {
         desk
     }
 
-    fn at_hand(desk: &Headless) -> &crate::bench::recording::Recording {
+    fn at_hand(desk: &Headless) -> &Recording {
         desk.workbench.bench.exploration.at_hand.as_ref().unwrap()
     }
 
@@ -261,6 +262,47 @@ mod tests {
         let kept = read(folder).unwrap();
         assert_eq!(kept.about().ticks, Some([30, 0]));
         assert_eq!(kept.amplitudes_um(29), Some(felt.as_slice()));
+    }
+
+    #[test]
+    fn what_was_felt_last_is_kept_of_all_displays_whichever_is_shown() {
+        for shown in [0, 1] {
+            let root = ScratchFolder::made("kept-two");
+            let mut desk = two_apart(&root, shown);
+            let made = at_hand(&desk).clone();
+            let newest = desk.workbench.bench.past.history.newest().unwrap().column;
+            desk.dispatch(RecordingCommand::Keep(newest - 29..newest + 1));
+            desk.pass(3);
+            let entries = desk.workbench.bench.exploration.recordings.entries();
+            let kept = entries.iter().find(|entry| entry.about.name != made.name());
+            let Place::Folder(folder) = &kept.unwrap().place else {
+                panic!("it is on disk")
+            };
+            let kept = read(folder).unwrap();
+            let poses = |of: &Recording| {
+                let displays = |(_, first)| {
+                    [0, 1].map(|display| {
+                        let pose = of.path().pose_of(display, &first);
+                        (pose.position, pose.velocity)
+                    })
+                };
+                of.path().ticks().map(displays).collect::<Vec<_>>()
+            };
+            let (made_at, kept_at) = (poses(&made), poses(&kept));
+            let from = made_at.iter().position(|at| *at == kept_at[0]).unwrap();
+            let n_common = (made_at.len() - from).min(kept_at.len());
+            assert!(n_common > 20, "{n_common}");
+            let mut n_apart = 0;
+            for (nth, tick) in (from..from + n_common).enumerate() {
+                assert_eq!(kept_at[nth], made_at[tick], "tick {tick}");
+                let um = made.amplitudes_um(tick as u64).unwrap();
+                assert_eq!(kept.amplitudes_um(nth as u64), Some(um), "tick {tick}");
+                let sounds =
+                    [&um[..24], &um[24..]].map(|display| display.iter().any(|um| *um != [0.0; 2]));
+                n_apart += u32::from(sounds[0] != sounds[1]);
+            }
+            assert!(n_apart > 0, "the second was lifted");
+        }
     }
 
     #[test]

@@ -91,3 +91,22 @@ fn poses_of(path: &ExplorationPath, n_displays: usize) -> Vec<Vec<Pose>> {
     };
     ticks.map(poses).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::recording::tests::two_apart;
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn an_exploration_is_measured_with_every_display_where_it_was() {
+        let folder = ScratchFolder::made("measured-two");
+        let desk = two_apart(&folder, 0);
+        let made = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+        let poses = poses_of(made.path(), 3);
+        assert_eq!(poses.len() as u64, made.path().n_ticks());
+        let last = &poses[20];
+        let speeds = [0, 1, 2].map(|n: usize| last[n].velocity.speed_mm_per_s().round());
+        assert_eq!(speeds, [80.0, 120.0, 80.0], "the third goes with the first");
+    }
+}

@@ -19,10 +19,11 @@ use crate::kit::spectrum_scale::LevelRange;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::timeline::export::recorded;
 use crate::tools::timeline::figure_map::map;
-use selvedge_chart::{At, Axis, Chart, Extent, Ink, Raster, Row, Rule, Series, Style, Upright};
+use crate::tools::timeline::figure_moment::Moment;
+use selvedge_chart::{At, Axis, Chart, Ink, Raster, Row, Rule, Series, Style, Upright};
 use selvedge_foundation::quantity::fixed;
 use selvedge_render::array::{Accuracy, ContactInspector, DisplayFrame, Method};
-use selvedge_render::scene::{ExplorationPath, LoadedScene, Pose, Scene, TICKS_PER_S};
+use selvedge_render::scene::{ExplorationPath, LoadedScene, Pose, TICKS_PER_S};
 use selvedge_render::{RenderScene, Replay, replay};
 use selvedge_textile::BuildCache;
 use selvedge_textile::tactile::Band;
@@ -144,87 +145,6 @@ fn with_amplitudes(recording: Recording, scene: &RenderScene) -> Result<Recordin
     })?;
     let about = recording.about().clone();
     Ok(Recording::felt(about, path, &[], felt))
-}
-
-/// What stands out: the tick at which most was felt, and one contactor.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Moment {
-    pub(crate) tick: u64,
-    /// Where the first display was.
-    pub(crate) first: Pose,
-    /// A display, and one of its contactors.
-    contactor: [usize; 2],
-    /// What that is called.
-    name: String,
-}
-
-impl Moment {
-    fn of(
-        recording: &Recording,
-        scene: &Scene,
-        contactor: Option<usize>,
-    ) -> Result<Self, AppError> {
-        let n = recording.n_contactors();
-        if let Some(contactor) = contactor.filter(|contactor| *contactor >= n) {
-            let most = n.max(1) - 1;
-            let what = format!("there is no contactor {contactor}; give 0 to {most}");
-            return Err(AppError::Exploration(what));
-        }
-        let mut of_contactors = vec![0.0; n];
-        let mut strongest = (0.0, 0, Pose::default());
-        for (tick, first) in recording.path().ticks() {
-            let amplitudes_um = recording.amplitudes_um(tick).unwrap_or_default();
-            let sums = amplitudes_um
-                .iter()
-                .map(|[low, high]| f64::from(low + high));
-            let sum: f64 = sums.clone().sum();
-            of_contactors
-                .iter_mut()
-                .zip(sums)
-                .for_each(|(all, um)| *all += um);
-            if sum > strongest.0 || tick == 0 {
-                strongest = (sum, tick, first);
-            }
-        }
-        let most = (0..n)
-            .rev()
-            .max_by(|a, b| of_contactors[*a].total_cmp(&of_contactors[*b]));
-        let contactor = contactor.or(most).unwrap_or(0);
-        let displays = 0..scene.displays.len();
-        let mut displays = displays.map(|display| (display, scene.contactors_of(display)));
-        let on = displays.find(|(_, contactors)| contactors.contains(&contactor));
-        let contactor = on.map_or([0; 2], |(display, of)| [display, contactor - of.start]);
-        let mut name = format!("contactor {}", contactor[1]);
-        if scene.displays.len() > 1 {
-            name += &format!(" of display {}", contactor[0] + 1);
-        }
-        let (_, tick, first) = strongest;
-        Ok(Self {
-            tick,
-            first,
-            contactor,
-            name,
-        })
-    }
-
-    /// Where its display is when the first is here.
-    fn pose(&self, path: &ExplorationPath, first: &Pose) -> Pose {
-        path.pose_of(self.contactor[0], first)
-    }
-
-    fn t_s(&self) -> f64 {
-        self.tick as f64 / TICKS_PER_S
-    }
-
-    /// Where it stands in the strips.
-    fn rule(&self) -> Rule {
-        Rule {
-            at: At::X(self.t_s()),
-            ink: Ink::Grey,
-            extent: Extent::Dashed,
-            ..Rule::default()
-        }
-    }
 }
 
 fn exported(
@@ -432,79 +352,4 @@ fn caption(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SCENE: &str = "../../assets/scenes/four-alternatives.scene.toml";
-
-    fn figure(contactor: Option<usize>) -> Result<FigureFiles, AppError> {
-        let scratch = selvedge_scratch::ScratchFolder::made("figure");
-        let row = |n: u32| format!("{},{},60\n", f64::from(n) / 40.0, 30.0 + 4.0 * f64::from(n));
-        let rows: String = (0..=40).map(row).collect();
-        let path = scratch.write("stroke.csv", format!("t_s,x_mm,y_mm\n{rows}"));
-        let of = FigureOf {
-            scene: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE)),
-            exploration: Some(path),
-            contactor,
-        };
-        exploration_figure(&of, None)
-    }
-
-    #[test]
-    fn a_page_is_the_same_twice_and_its_caption_names_what_it_shows() {
-        let [one, other] = [figure(None), figure(None)].map(Result::unwrap);
-        assert_eq!((&one.svg, &one.png), (&other.svg, &other.png));
-        for words in [
-            "\"stroke\"",
-            "as the scene renders the path",
-            "1.00 s",
-            "sha256",
-        ] {
-            assert!(one.caption.contains(words), "{words}: {}", one.caption);
-        }
-        let svg = String::from_utf8(one.svg).unwrap();
-        // Cloth and three strips over time are pictures, all frames of time equally wide.
-        assert_eq!(svg.matches("<image").count(), 4);
-        let chosen = figure(Some(3)).unwrap();
-        assert!(
-            chosen.caption.contains("under contactor 3 "),
-            "{}",
-            chosen.caption
-        );
-        let error = figure(Some(24)).unwrap_err().to_string();
-        assert!(error.ends_with("give 0 to 23"), "{error}");
-    }
-
-    #[test]
-    fn a_recording_alone_is_drawn_in_the_scene_that_it_was_made_in() {
-        let root = selvedge_scratch::ScratchFolder::made("figure-recording");
-        let recorded = |scene: &str, scene_file: Option<PathBuf>| {
-            let made = crate::bench::recording::tests::explored(40);
-            let about = file::About {
-                scene: scene.to_owned(),
-                scene_file,
-                ..crate::bench::recording::tests::page("One")
-            };
-            let mut on_disk =
-                file::RecordingFile::create(&root, about, [0, made.n_contactors()]).unwrap();
-            on_disk.append(&made, 0).unwrap();
-            let of = FigureOf {
-                scene: None,
-                exploration: Some(on_disk.finish().unwrap().0),
-                contactor: None,
-            };
-            exploration_figure(&of, None)
-        };
-        let shipped = LoadedScene::shipped().unwrap().scene().name.clone();
-        let page = recorded(&shipped, None).unwrap();
-        assert!(page.caption.contains("One"), "{}", page.caption);
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE);
-        let same = recorded("any name", Some(file)).unwrap();
-        assert!(!same.png.is_empty());
-        let unknown = recorded("never saved", None).unwrap_err().to_string();
-        assert!(
-            unknown.contains("“never saved”; give a scene first"),
-            "{unknown}"
-        );
-    }
-}
+mod tests;

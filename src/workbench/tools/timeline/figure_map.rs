@@ -2,7 +2,7 @@
 
 use crate::bench::error::AppError;
 use crate::bench::recording::Recording;
-use crate::tools::timeline::figure::Moment;
+use crate::tools::timeline::figure_moment::Moment;
 use selvedge_chart::{Axis, Chart, Ink, Raster, Series, Style, Weight, Words};
 use selvedge_foundation::geometry::{Point, Rotation};
 use selvedge_foundation::numerics::to_index;

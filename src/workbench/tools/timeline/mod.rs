@@ -11,6 +11,7 @@ pub(crate) mod controls;
 pub(crate) mod export;
 pub(crate) mod figure;
 mod figure_map;
+mod figure_moment;
 pub(crate) mod icons;
 pub(crate) mod job;
 pub(crate) mod lanes;

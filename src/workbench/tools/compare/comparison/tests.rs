@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::bench::command::ShowCommand;
 use crate::bench::gain_set::GainSet;
+use crate::bench::recording::tests::two_apart;
 use crate::tools::compare::choice::TuningChoice;
 use crate::tools::compare::export::over_time_chart;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathRow, Scene, SlotLetter, Stroke};
+use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Tuning;
 
 fn tunings() -> [Tuning; 2] {
@@ -188,4 +191,44 @@ fn take_of(route: &Route) -> Arc<ExplorationPath> {
         Route::Recording(path) => Arc::clone(path),
         Route::Stroke(..) | Route::Recorded(_) => panic!("it is a recording"),
     }
+}
+
+#[test]
+fn the_display_that_is_shown_is_compared() {
+    let folder = ScratchFolder::made("compare-two");
+    let mut desk = two_apart(&folder, 0);
+    let made = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+    let mut n_sounding = [0, 1].map(|display| {
+        desk.dispatch(ShowCommand::SelectDisplay(display));
+        desk.pass(1);
+        let bench = &desk.workbench.bench;
+        let scene = bench.document.scene();
+        let um = |tick| made.display_um(tick, (scene, display)).unwrap();
+        let sounding = |tick| um(tick).iter().filter(|um| um[0] >= 1e-3).count() as u64;
+        let expected: u64 = (0..made.path().n_ticks()).map(sounding).sum();
+        let mut compare = Compare::default();
+        compare.choice.what = What::Methods;
+        compare.choice.methods = [Method::Table; 2];
+        compare.run(bench);
+        compare.set_against([made.clone(), made.clone()].map(|one| one.renamed("same")));
+        let rendered = compare.found().unwrap().clone();
+        compare.run(bench);
+        for found in [&rendered, compare.found().unwrap()] {
+            assert_eq!(found.by_contactor.len(), 24);
+            assert_eq!(found.in_all[0].n_both, expected, "display {display}");
+            assert_eq!(found.in_all[0].largest.unwrap().difference_db, 0.0);
+        }
+        expected
+    });
+    n_sounding.sort_unstable();
+    assert!(
+        0 < n_sounding[0] && n_sounding[0] < n_sounding[1],
+        "one was lifted"
+    );
+    let path = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+    let one = Recording::from_path("a.csv".into(), (**path.path()).clone());
+    let mut compare = Compare::default();
+    compare.set_against([one, made]);
+    let asked = compare.inputs(&desk.workbench.bench);
+    assert!(asked.unwrap_err().contains("no levels of this display"));
 }
