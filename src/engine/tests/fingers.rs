@@ -1,6 +1,7 @@
 //! Fingers that hold displays of their own, and displays that follow the first.
 
 use super::*;
+use crate::input::feed;
 use selvedge_render::array::DisplayFrame;
 use selvedge_render::{Counters, Replay, replay};
 use std::ops::ControlFlow;
@@ -245,6 +246,40 @@ fn samples_of_ticks_tell_of_all_displays_and_more_of_the_one_that_is_watched() {
             (1..=2).contains(&n_after),
             "{n_after}: all rest and are silent"
         );
+    }
+}
+
+#[test]
+fn fingers_of_a_touch_frame_that_is_read_directly_hold_displays_of_their_own() {
+    let expected = [alone(0, 30).0, alone(1, 30).0];
+    let (mut engine, _pointer, start) = with_displays(2);
+    let (mut sender, input) = feed(SourceKind::Device);
+    let source = InputSource::Live(Box::new(input));
+    engine.send(Command::SetSource(source)).unwrap();
+    for n in 0..36 {
+        for finger in 0..2 {
+            for k in 0..3 {
+                let since = TICK * n + Duration::from_millis(8) * k;
+                let (stamp, position) = (start + since, at(finger, since.as_secs_f64()));
+                let sample = PointerSample { stamp, position };
+                match n {
+                    0..30 => sender.push_of(finger, Some(sample)),
+                    30 if finger == 1 => sender.push_of(1, None),
+                    _ if finger == 0 => sender.push_of(0, Some(sample)),
+                    _ => {}
+                }
+            }
+        }
+        engine.advance(start + TICK * (n + 1));
+        let snapshot = engine.snapshot();
+        let tick = usize::try_from(n).unwrap();
+        for (finger, expected) in expected.iter().enumerate() {
+            let felt = of_display(snapshot, finger);
+            match expected.get(tick) {
+                Some(expected) => assert_eq!(felt, *expected, "finger {finger}, tick {n}"),
+                None => assert_eq!(sounds(&felt), finger == 0, "the second was lifted"),
+            }
+        }
     }
 }
 
