@@ -55,7 +55,7 @@ fn contactors(kind: ClipKind, path: &ExplorationPath, n_displays: usize) -> Vec<
                 .map(|line| line.split(',').collect())
                 .collect();
             let first = rows[0].iter().position(|name| *name == "code40_0").unwrap();
-            let of = |at: usize| rows[1..].iter().map(|row| row[at..at + 2].join(" "));
+            let of = |at: usize| rows[1..].iter().map(move |row| row[at..at + 2].join(" "));
             let of = |contactor| of(first + 2 * contactor).collect::<Vec<_>>().join(",");
             (0..n).map(of).collect()
         }
