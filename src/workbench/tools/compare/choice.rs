@@ -192,7 +192,7 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// What comes of a choice for a display of a scene whose tuning is `live` and whose library's is
+    /// What comes of a choice for a display of a scene whose tuning is `live`, its library's
     /// `library`.
     ///
     /// # Errors
