@@ -137,8 +137,8 @@ impl History {
         Some(felt_um.copied())
     }
 
-    /// The entries at these columns: each with the poses of all displays and the amplitudes of their
-    /// contactors one after the other.
+    /// The entries at these columns: each with the poses of all displays, and the amplitudes of
+    /// their contactors one after the other.
     pub(crate) fn of_all_displays(
         &self,
         columns: Range<u64>,
