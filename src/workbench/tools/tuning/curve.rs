@@ -364,9 +364,9 @@ mod tests {
         assert_eq!(after.tuning, before.tuning);
         let steps = |window: &Headless| window.workbench.bench.document.steps().n_done;
         assert_eq!(steps(&window), n_steps + 1);
-        // Away from every textile the line itself is taken: to where nothing is left of 10 dB.
-        let level_db = reference_db + 10.0;
-        let free = [level_db, reference_db + 20.0];
+        // Away from every textile the line itself is taken: to where nothing is left of 12 dB.
+        let level_db = reference_db - 12.0;
+        let free = [level_db, reference_db + 6.0];
         let turned = dragged(&mut window, [free, [level_db, reference_db]]);
         let compression = turned.tuning.compression;
         assert!((compression - 1.0).abs() < 0.06, "{compression}");
