@@ -53,10 +53,12 @@ impl Moment {
         let mut displays = displays.map(|display| (display, scene.contactors_of(display)));
         let on = displays.find(|(_, contactors)| contactors.contains(&contactor));
         let contactor = on.map_or([0; 2], |(display, of)| [display, contactor - of.start]);
-        let mut name = format!("contactor {}", contactor[1]);
-        if scene.displays.len() > 1 {
-            name += &format!(" of display {}", contactor[0] + 1);
-        }
+        let [display, nth] = contactor;
+        let name = if scene.displays.len() > 1 {
+            format!("contactor {nth} of display {}", display + 1)
+        } else {
+            format!("contactor {nth}")
+        };
         let (_, tick, first) = strongest;
         Ok(Self {
             tick,
