@@ -98,6 +98,7 @@ pub fn replay(
 pub(crate) type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFlow<()> + 'a;
 
 /// Replays the same ticks in two scenes, each by its method, side by side: for comparing them.
+///
 /// Displays beside the first are where a `path` has them; without one they go with it. Both use
 /// the same `cache` of tables. Says whether every tick was replayed.
 ///
