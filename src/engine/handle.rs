@@ -20,7 +20,7 @@ use super::recording::recording;
 use super::runner::{Channels, Clock, NoticeRing, Runner};
 use super::sequence::Sequence;
 use super::snapshot_summary::Waker;
-use super::tick_sample::{TickSampler, TickSamples};
+use super::tick_sample::{SampledTick, TickSampler, TickSamples};
 use super::{
     Command, EngineCore, EngineError, Notice, PointerSender, PreparedScene, Recording, Snapshot,
     StopSwitch, TickSample,
@@ -29,7 +29,6 @@ use array::DrivenArray;
 use body::Body;
 use device::DeviceHandle;
 use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
-use selvedge_render::scene::Pose;
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -268,7 +267,7 @@ impl Engine {
     /// The same with the amplitudes [A40, A320] of the contactors of all displays one after the
     /// other, after gains and before output limits, µm, and the poses of all displays, none where
     /// there is one.
-    pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]], &[Pose])> {
+    pub fn next_felt_tick(&mut self) -> Option<SampledTick<'_>> {
         self.samples.next()
     }
 

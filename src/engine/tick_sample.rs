@@ -199,6 +199,9 @@ impl TickSampler {
     }
 }
 
+/// A sample, [A40, A320] of the contactors of all displays, µm, and the poses of all displays.
+pub(super) type SampledTick<'a> = (TickSample, &'a [[f32; 2]], &'a [Pose]);
+
 /// The other end of the ring.
 #[derive(Debug)]
 pub(super) struct TickSamples {
@@ -212,7 +215,7 @@ pub(super) struct TickSamples {
 impl TickSamples {
     /// The oldest sample that was not taken yet, [A40, A320] of the contactors of all displays, µm,
     /// and the poses of all displays, none where there is one.
-    pub(super) fn next(&mut self) -> Option<(TickSample, &[[f32; 2]], &[Pose])> {
+    pub(super) fn next(&mut self) -> Option<SampledTick<'_>> {
         let (sample, [n_contactors, n_poses]) = self.ring.pop().ok()?;
         self.newest_um.clear();
         self.newest_poses.clear();
