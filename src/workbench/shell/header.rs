@@ -24,8 +24,6 @@ use selvedge_engine::SoundState;
 /// and what Esc does is always seen.
 const ROOM_FOR_STEPS: f32 = 900.0;
 const ROOM_FOR_PERSPECTIVES: f32 = 720.0;
-/// Less room than this says nothing of the scene's name, points.
-const ROOM_FOR_NAME: f32 = 72.0;
 /// Width of the place that says whether the device is armed, points.
 const ARMED_TAG: f32 = 84.0;
 
@@ -63,11 +61,9 @@ pub(crate) fn show(
             show_sound(ui, bench, commands);
             show_stylus(ui, &bench.live, commands);
             ui.add_space(2.0 * STEP);
-            if ui.available_width() > ROOM_FOR_NAME {
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    show_name(ui, scene);
-                });
-            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                show_name(ui, scene);
+            });
         });
     });
 }

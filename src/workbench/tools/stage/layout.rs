@@ -130,8 +130,7 @@ impl Layout {
         } else {
             (area.height(), area.width())
         };
-        // A gap beside the edges too, where the frame of what was chosen stands.
-        let side = (0.5 * (short - 3.0 * gap)).min((long - 4.0 * gap) / 3.2);
+        let side = (0.5 * (short - gap)).min((long - 4.0 * gap) / 3.2);
         let middle = (1.2 * side).min(short);
         let centre = area.center();
         let from_middle = 0.5 * middle + 2.0 * gap + 0.5 * side;
