@@ -20,7 +20,7 @@ use super::recording::recording;
 use super::runner::{Channels, Clock, NoticeRing, Runner};
 use super::sequence::Sequence;
 use super::snapshot_summary::Waker;
-use super::tick_sample::{TickSampler, TickSamples};
+use super::tick_sample::{SampledTick, TickSampler, TickSamples};
 use super::{
     Command, EngineCore, EngineError, Notice, PointerSender, PreparedScene, Recording, Snapshot,
     StopSwitch, TickSample,
@@ -261,12 +261,13 @@ impl Engine {
     /// The oldest sample that was not taken yet, of those left since
     /// [`Command::SampleTicks`] asked for them.
     pub fn next_tick_sample(&mut self) -> Option<TickSample> {
-        self.next_felt_tick().map(|(sample, _)| sample)
+        self.next_felt_tick().map(|(sample, ..)| sample)
     }
 
-    /// The same with the amplitudes [A40, A320] of every contactor of the display that is watched,
-    /// after gains and before output limits, µm.
-    pub fn next_felt_tick(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
+    /// The same with the amplitudes [A40, A320] of the contactors of all displays one after the
+    /// other, after gains and before output limits, µm, and the poses of all displays, none where
+    /// there is one.
+    pub fn next_felt_tick(&mut self) -> Option<SampledTick<'_>> {
         self.samples.next()
     }
 

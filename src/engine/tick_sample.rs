@@ -4,7 +4,8 @@
 //! A snapshot shows only the latest tick; a spectrogram or a timeline needs all of them. Each tick
 //! that moved or sounded, and the first that did not, leaves one sample in a bounded ring, if
 //! somebody asked for them. When the ring is full the newest is lost and counted. Amplitudes of all
-//! contactors go by a ring of their own, those of a sample before it.
+//! contactors, and the poses of all displays of a scene with several, go by rings of their own,
+//! those of a sample before it.
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
@@ -16,6 +17,8 @@ use selvedge_render::scene::Pose;
 const MAX_TICK_SAMPLES: usize = 512;
 /// Amplitudes on the way: those of as many samples of 64 contactors.
 const MAX_AMPLITUDES: usize = 64 * MAX_TICK_SAMPLES;
+/// Poses on the way: those of as many samples of two displays.
+const MAX_POSES: usize = 2 * MAX_TICK_SAMPLES;
 
 /// One tick, as histories keep it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,9 +31,11 @@ pub struct TickSample {
     pub is_silent: bool,
     /// Whether a stylus was felt in place of the array.
     pub is_stylus: bool,
-    /// The device's tick at which its frame is played; `None` when no armed device got it, as of
-    /// every display but the first.
+    /// The device's tick at which the first display's frame is played; `None` when no armed device
+    /// got it.
     pub apply_tick: Option<u32>,
+    /// The display that is watched: its place in the scene's list.
+    pub display: u32,
     /// Mean amplitudes [A40, A320] over the contactors of that display that lie on a textile,
     /// after gains and before output limits, µm; 0 when none does.
     pub mean_um: [f32; 2],
@@ -38,6 +43,8 @@ pub struct TickSample {
     pub watched: u32,
     /// Its amplitudes [A40, A320] after gains and before output limits, µm.
     pub watched_um: [f32; 2],
+    /// The first of the display's contactors among those of all displays one after the other.
+    pub first_contactor: u32,
     /// Contactors of the display.
     pub n_contactors: u32,
 }
@@ -55,16 +62,20 @@ impl TickSample {
             sum = [sum[0] + low, sum[1] + high];
             n_placed += 1.0;
         }
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let before = (0..display).map(|before| core.felt_um_of(before).len());
         Self {
             tick: core.tick_count(),
             pose: core.shown_pose(display),
             is_silent: core.is_silent(),
             is_stylus: core.stylus().is_some(),
-            apply_tick: apply_tick.filter(|_| display == 0),
+            apply_tick,
+            display: count(display),
             mean_um: sum.map(|sum| sum / f32::max(n_placed, 1.0)),
-            watched: u32::try_from(watched).unwrap_or(u32::MAX),
+            watched: count(watched),
             watched_um: amplitudes_um.get(watched).copied().unwrap_or_default(),
-            n_contactors: u32::try_from(amplitudes_um.len()).unwrap_or(u32::MAX),
+            first_contactor: count(before.sum()),
+            n_contactors: count(amplitudes_um.len()),
         }
     }
 }
@@ -72,13 +83,15 @@ impl TickSample {
 /// The engine's side of the ring: says which ticks leave a sample.
 #[derive(Debug)]
 pub(super) struct TickSampler {
-    ring: Producer<TickSample>,
+    ring: Producer<(TickSample, [usize; 2])>,
     amplitudes: Producer<[f32; 2]>,
+    poses: Producer<Pose>,
     is_heard: bool,
     /// The display that is watched, and its contactor.
     watched: [usize; 2],
-    /// The pose of the last tick that was looked at, and whether that was still and silent.
-    last: Option<Pose>,
+    /// The first display's pose at the last tick that was looked at and how often others had moved,
+    /// and whether that tick was still and silent.
+    last: Option<(Pose, u64)>,
     was_quiet: bool,
     n_lost: u64,
 }
@@ -88,14 +101,18 @@ impl TickSampler {
     pub(super) fn new() -> (Self, TickSamples) {
         let (ring, samples) = RingBuffer::new(MAX_TICK_SAMPLES);
         let (amplitudes, amplitudes_out) = RingBuffer::new(MAX_AMPLITUDES);
+        let (poses, poses_out) = RingBuffer::new(MAX_POSES);
         let heard = TickSamples {
             ring: samples,
             amplitudes: amplitudes_out,
+            poses: poses_out,
             newest_um: Vec::with_capacity(MAX_AMPLITUDES / MAX_TICK_SAMPLES),
+            newest_poses: Vec::new(),
         };
         let sampler = Self {
             ring,
             amplitudes,
+            poses,
             is_heard: false,
             watched: [0; 2],
             last: None,
@@ -139,16 +156,19 @@ impl TickSampler {
             self.was_quiet = false;
             return;
         }
-        let pose = core.shown_pose(self.watched[0]);
-        let is_there = |last: &Pose| {
-            last.position == pose.position && last.angle_deg.to_bits() == pose.angle_deg.to_bits()
+        let (pose, n_moves) = (core.shown_pose(0), core.others_moved());
+        let is_there = |(last, n_before): &(Pose, u64)| {
+            last.position == pose.position
+                && last.angle_deg.to_bits() == pose.angle_deg.to_bits()
+                && *n_before == n_moves
         };
         let is_still = self.last.as_ref().is_none_or(is_there)
             && pose.velocity == Velocity::ZERO
             && pose.angular_rad_per_s == 0.0;
         let is_zero = |[low, high]: &[f32; 2]| *low == 0.0 && *high == 0.0;
-        let is_quiet = is_still && core.felt_um_of(self.watched[0]).iter().all(is_zero);
-        self.last = Some(pose);
+        let mut displays = 0..core.scene().n_displays();
+        let is_quiet = is_still && displays.all(|nth| core.felt_um_of(nth).iter().all(is_zero));
+        self.last = Some((pose, n_moves));
         let was_quiet = std::mem::replace(&mut self.was_quiet, is_quiet);
         let is_left = !(is_quiet && was_quiet);
         if is_left && !self.leave(core, apply_tick) {
@@ -158,34 +178,53 @@ impl TickSampler {
 
     /// Leaves a sample if there is room for all of it.
     fn leave(&mut self, core: &EngineCore, apply_tick: Option<u32>) -> bool {
-        let amplitudes_um = core.felt_um_of(self.watched[0]);
-        if self.ring.slots() == 0 || self.amplitudes.slots() < amplitudes_um.len() {
+        let n_displays = core.scene().n_displays();
+        let n_poses = if n_displays > 1 { n_displays } else { 0 };
+        let n_contactors = core.scene().n_contactors();
+        let is_full = self.ring.slots() == 0
+            || self.amplitudes.slots() < n_contactors
+            || self.poses.slots() < n_poses;
+        if is_full {
             return false;
         }
+        let mut n_left = [0; 2];
+        for um in (0..n_displays).flat_map(|nth| core.felt_um_of(nth)) {
+            n_left[0] += usize::from(self.amplitudes.push(*um).is_ok());
+        }
+        for nth in 0..n_poses {
+            n_left[1] += usize::from(self.poses.push(core.shown_pose(nth)).is_ok());
+        }
         let sample = TickSample::of(core, self.watched, apply_tick);
-        let is_whole = amplitudes_um
-            .iter()
-            .all(|&um| self.amplitudes.push(um).is_ok());
-        is_whole && self.ring.push(sample).is_ok()
+        self.ring.push((sample, n_left)).is_ok()
     }
 }
+
+/// A sample, [A40, A320] of the contactors of all displays, µm, and the poses of all displays.
+pub(super) type SampledTick<'a> = (TickSample, &'a [[f32; 2]], &'a [Pose]);
 
 /// The other end of the ring.
 #[derive(Debug)]
 pub(super) struct TickSamples {
-    ring: Consumer<TickSample>,
+    ring: Consumer<(TickSample, [usize; 2])>,
     amplitudes: Consumer<[f32; 2]>,
+    poses: Consumer<Pose>,
     newest_um: Vec<[f32; 2]>,
+    newest_poses: Vec<Pose>,
 }
 
 impl TickSamples {
-    /// The oldest sample that was not taken yet, and [A40, A320] of its contactors, µm.
-    pub(super) fn next(&mut self) -> Option<(TickSample, &[[f32; 2]])> {
-        let sample = self.ring.pop().ok()?;
+    /// The oldest sample that was not taken yet, [A40, A320] of the contactors of all displays, µm,
+    /// and the poses of all displays, none where there is one.
+    pub(super) fn next(&mut self) -> Option<SampledTick<'_>> {
+        let (sample, [n_contactors, n_poses]) = self.ring.pop().ok()?;
         self.newest_um.clear();
-        for _ in 0..sample.n_contactors {
+        self.newest_poses.clear();
+        for _ in 0..n_contactors {
             self.newest_um.extend(self.amplitudes.pop().ok());
         }
-        Some((sample, &self.newest_um))
+        for _ in 0..n_poses {
+            self.newest_poses.extend(self.poses.pop().ok());
+        }
+        Some((sample, &self.newest_um, &self.newest_poses))
     }
 }

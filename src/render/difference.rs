@@ -47,7 +47,7 @@ pub struct Largest {
     pub difference_db: f64,
     /// The tick.
     pub tick: u64,
-    /// The contactor of the first display.
+    /// The contactor of the display that is compared.
     pub contactor: usize,
 }
 
@@ -136,7 +136,7 @@ pub struct LevelDifference {
     pub n_ticks: u64,
     /// Ticks in each entry of `over_time`.
     pub ticks_per_entry: u64,
-    /// By contactor of the first display.
+    /// By contactor of the display that is compared.
     pub by_contactor: Vec<[Tally; 2]>,
     /// Over time: the level of the mean over all contactors.
     pub over_time: Vec<[Spread; 2]>,
@@ -192,9 +192,9 @@ impl DifferenceMeter {
         }
     }
 
-    /// Takes a tick of both runs: the frames of every display, of which the first counts.
-    pub fn add(&mut self, tick: u64, [a, b]: [&[DisplayFrame]; 2]) {
-        if let (Some(a), Some(b)) = (a.first(), b.first()) {
+    /// Takes a tick of both runs: the frames of every display, of which this one counts.
+    pub fn add(&mut self, tick: u64, display: usize, frames: [&[DisplayFrame]; 2]) {
+        if let [Some(a), Some(b)] = frames.map(|frames| frames.get(display)) {
             let n_contactors = a.n_contactors().min(b.n_contactors());
             let pair = |contactor| [a.amplitude_um(contactor), b.amplitude_um(contactor)];
             self.add_amplitudes(tick, (0..n_contactors).map(pair));
@@ -274,11 +274,11 @@ mod tests {
     fn compared(a: (&RenderScene, Method), b: (&RenderScene, Method)) -> LevelDifference {
         let mut meter = DifferenceMeter::new(N_TICKS);
         let mut sink = |tick, frames: [&[DisplayFrame]; 2]| {
-            meter.add(tick, frames);
+            meter.add(tick, 0, frames);
             ControlFlow::Continue(())
         };
         let cache = &mut TableCache::default();
-        let end = replay_pair([a, b], round(), cache, &mut sink).unwrap();
+        let end = replay_pair([a, b], (round(), None), cache, &mut sink).unwrap();
         assert!(end.is_continue(), "nobody stopped it");
         meter.finish()
     }
@@ -385,7 +385,7 @@ mod tests {
             ControlFlow::Break(())
         };
         let pair = [(&scene, Method::Banded), (&scene, Method::Table)];
-        let end = replay_pair(pair, round(), &mut TableCache::default(), &mut sink);
+        let end = replay_pair(pair, (round(), None), &mut TableCache::default(), &mut sink);
         assert!(end.unwrap().is_break() && n_seen == 1);
     }
 }

@@ -97,14 +97,16 @@ pub fn replay(
 /// Takes a tick's number and the frames of both runs; may stop them.
 pub(crate) type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFlow<()> + 'a;
 
-/// Replays the same ticks in two scenes, each by its method, side by side: for comparing them. Both
-/// use the same `cache` of tables. Says whether every tick was replayed.
+/// Replays the same ticks in two scenes, each by its method, side by side: for comparing them.
+///
+/// Displays beside the first are where a `path` has them; without one they go with it. Both use
+/// the same `cache` of tables. Says whether every tick was replayed.
 ///
 /// # Errors
 /// What [`ArrayRenderer::prepare`] refuses.
 pub fn replay_pair(
     [a, b]: [(&RenderScene, Method); 2],
-    ticks: impl Iterator<Item = (u64, Pose)>,
+    (ticks, path): (impl Iterator<Item = (u64, Pose)>, Option<&ExplorationPath>),
     cache: &mut TableCache,
     sink: &mut PairSink<'_>,
 ) -> Result<ControlFlow<()>, RenderError> {
@@ -116,7 +118,10 @@ pub fn replay_pair(
     let (mut a, mut b) = (prepare(a)?, prepare(b)?);
     for (tick, pose) in ticks {
         let frames = [&mut a, &mut b].map(|(renderer, poses)| {
-            poses.fill(pose);
+            match path {
+                Some(path) => path.poses_into(&pose, poses),
+                None => poses.fill(pose),
+            }
             renderer.tick(poses)
         });
         if sink(tick, frames).is_break() {

@@ -239,6 +239,11 @@ impl EngineCore {
         self.fingers.pose(display).unwrap_or(self.pose)
     }
 
+    /// Times that displays beside the first moved by themselves.
+    pub(super) fn others_moved(&self) -> u64 {
+        self.fingers.n_moves()
+    }
+
     /// The stamp of the newest live sample, if it came for the last tick.
     pub fn fresh_stamp(&self) -> Option<Instant> {
         self.track.fresh_stamp()

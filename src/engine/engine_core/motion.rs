@@ -40,6 +40,7 @@ impl EngineCore {
         // What the mouse did meanwhile is nobody's business.
         self.live.poll(|_| {});
         let reading = playable.poll(now, &mut |sample| hear(Touched::first(sample)));
+        playable.poll_others(&mut |display, sample| hear(Touched { display, sample }));
         track.look(now, restarted);
         if reading == Reading::Lifted {
             track.lift();

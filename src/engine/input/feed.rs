@@ -1,5 +1,5 @@
 //! From a thread that reads a device, a stream or a connection to the engine: a bounded ring of
-//! positions and of lifts.
+//! positions and of lifts, and one more for fingers beside the first.
 //!
 //! A lift ends what came before it: the poll that meets one hands over nothing that follows, so
 //! that no velocity spans the air between two touches.
@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
+use super::live::Touched;
 use super::pointer::{InputLosses, PointerInput, Reading, SourceKind};
 use crate::PointerSample;
 
@@ -37,6 +38,7 @@ struct Shared {
 #[derive(Debug)]
 pub(crate) struct FeedSender {
     ring: Producer<FeedItem>,
+    others: Producer<Touched>,
     shared: Arc<Shared>,
 }
 
@@ -44,6 +46,7 @@ pub(crate) struct FeedSender {
 #[derive(Debug)]
 pub(crate) struct FeedInput {
     ring: Consumer<FeedItem>,
+    others: Consumer<Touched>,
     shared: Arc<Shared>,
     kind: SourceKind,
     angle_deg: Option<f64>,
@@ -53,9 +56,11 @@ pub(crate) struct FeedInput {
 /// Both ends of a feed of this kind.
 pub(crate) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
     let (sender, ring) = RingBuffer::new(CAPACITY);
+    let (to_others, others) = RingBuffer::new(CAPACITY);
     let shared = Arc::new(Shared::default());
     let input = FeedInput {
         ring,
+        others,
         shared: Arc::clone(&shared),
         kind,
         angle_deg: None,
@@ -63,6 +68,7 @@ pub(crate) fn feed(kind: SourceKind) -> (FeedSender, FeedInput) {
     };
     let sender = FeedSender {
         ring: sender,
+        others: to_others,
         shared,
     };
     (sender, input)
@@ -77,6 +83,20 @@ impl FeedSender {
     /// Hands over an item, or drops and counts it when there is no room.
     pub(crate) fn push(&mut self, item: FeedItem) {
         if self.offer(item).is_err() {
+            self.shared.overflowed.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// The finger of this number, of which the first is 0, is here, or left the surface.
+    pub(crate) fn push_of(&mut self, finger: usize, sample: Option<PointerSample>) {
+        if finger == 0 {
+            return self.push(sample.map_or(FeedItem::Lift, |at| FeedItem::Sample(at, None)));
+        }
+        let touched = Touched {
+            display: finger,
+            sample,
+        };
+        if self.others.push(touched).is_err() {
             self.shared.overflowed.fetch_add(1, Ordering::Relaxed);
         }
     }
@@ -130,6 +150,15 @@ impl PointerInput for FeedInput {
             Reading::Lifted
         } else {
             Reading::Samples
+        }
+    }
+
+    fn poll_others(&mut self, take: &mut dyn FnMut(usize, Option<PointerSample>)) {
+        for _ in 0..CAPACITY {
+            let Ok(touched) = self.others.pop() else {
+                break;
+            };
+            take(touched.display, touched.sample);
         }
     }
 

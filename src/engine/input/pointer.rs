@@ -93,6 +93,10 @@ pub trait PointerInput: Send + Debug {
     /// Called once a tick. Samples that arrived since the last go to `take`, oldest first.
     fn poll(&mut self, now: Instant, take: &mut dyn FnMut(PointerSample)) -> Reading;
 
+    /// Hands over what fingers beside the first did since the last tick, oldest first: the display
+    /// that each holds, and where it is, or that it left the surface.
+    fn poll_others(&mut self, _take: &mut dyn FnMut(usize, Option<PointerSample>)) {}
+
     /// Plays, holds or rewinds. A live source does not care.
     fn control(&mut self, _control: Control) {}
 

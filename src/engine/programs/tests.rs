@@ -124,7 +124,7 @@ fn the_first_who_says_a_position_moves_the_display_until_it_goes() {
         (Some(30.0), SourceKind::Program)
     );
     eventually("bad", || input.losses().bad_lines == 1);
-    second.write_all(b"5,6\n7,8\n").unwrap();
+    second.write_all(b"5,6\n7,8\nnonsense\n").unwrap();
     let mut described = String::new();
     // The header of no contactors comes first where nobody taps.
     let mut reader = BufReader::new(&second);
@@ -136,6 +136,8 @@ fn the_first_who_says_a_position_moves_the_display_until_it_goes() {
         described.contains("another program moves the display"),
         "{described}"
     );
+    // All that it said was heard while the first was there: else it would be the next who moves.
+    eventually("heard", || input.losses().bad_lines == 2);
     drop(first);
     eventually("the first is gone", || !link.counts().has_writer);
     let lifted = input.poll(Instant::now(), &mut |sample| panic!("{sample:?}"));

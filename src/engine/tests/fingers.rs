@@ -1,6 +1,7 @@
 //! Fingers that hold displays of their own, and displays that follow the first.
 
 use super::*;
+use crate::input::feed;
 use selvedge_render::array::DisplayFrame;
 use selvedge_render::{Counters, Replay, replay};
 use std::ops::ControlFlow;
@@ -214,22 +215,71 @@ fn all_off_silences_every_finger_and_a_clock_that_jumps_one_of_them() {
 }
 
 #[test]
-fn samples_of_ticks_and_news_are_of_the_display_that_is_watched() {
-    let (mut engine, mut pointer, start) = with_displays(2);
-    engine.send(Command::SampleTicks(true)).unwrap();
-    engine.send(Command::WatchDisplay(1)).unwrap();
-    engine.send(Command::Watch(5)).unwrap();
-    for n in 0..10 {
-        // The first rests; a finger moves the second alone.
-        stroke(&mut pointer, (1, 1), start, n);
+fn samples_of_ticks_tell_of_all_displays_and_more_of_the_one_that_is_watched() {
+    for watched in [0, 1] {
+        let (mut engine, mut pointer, start) = with_displays(2);
+        engine.send(Command::SampleTicks(true)).unwrap();
+        engine.send(Command::WatchDisplay(watched)).unwrap();
+        engine.send(Command::Watch(5)).unwrap();
+        for n in 0..10 {
+            // The first rests; a finger moves the second alone.
+            stroke(&mut pointer, (1, 1), start, n);
+            engine.advance(start + TICK * (n + 1));
+            let (all_poses, all_um) = {
+                let snapshot = engine.snapshot();
+                let poses = [0, 1].map(|nth| snapshot.displays[nth].pose);
+                (poses, [0, 1].map(|nth| of_display(snapshot, nth)))
+            };
+            let (sample, um, poses) = engine.next_felt_tick().unwrap();
+            assert_eq!((um, poses), (&all_um.concat()[..], &all_poses[..]), "{n}");
+            assert_eq!(sample.pose, all_poses[watched], "tick {n}");
+            assert_eq!(sample.watched_um, all_um[watched][5]);
+            let first = usize::try_from(sample.first_contactor).unwrap();
+            let own = first..first + usize::try_from(sample.n_contactors).unwrap();
+            assert_eq!(um[own], all_um[watched]);
+            assert!(n == 0 || sounds(&all_um[1]) && !sounds(&all_um[0]));
+        }
+        pointer.lift(1);
+        (11..20).for_each(|n| engine.advance(start + TICK * n));
+        let n_after = std::iter::from_fn(|| engine.next_tick_sample()).count();
+        assert!(
+            (1..=2).contains(&n_after),
+            "{n_after}: all rest and are silent"
+        );
+    }
+}
+
+#[test]
+fn fingers_of_a_touch_frame_that_is_read_directly_hold_displays_of_their_own() {
+    let expected = [alone(0, 30).0, alone(1, 30).0];
+    let (mut engine, _pointer, start) = with_displays(2);
+    let (mut sender, input) = feed(SourceKind::Device);
+    let source = InputSource::Live(Box::new(input));
+    engine.send(Command::SetSource(source)).unwrap();
+    for n in 0..36 {
+        for finger in 0..2 {
+            for k in 0..3 {
+                let since = TICK * n + Duration::from_millis(8) * k;
+                let (stamp, position) = (start + since, at(finger, since.as_secs_f64()));
+                let sample = PointerSample { stamp, position };
+                match n {
+                    0..30 => sender.push_of(finger, Some(sample)),
+                    30 if finger == 1 => sender.push_of(1, None),
+                    _ if finger == 0 => sender.push_of(0, Some(sample)),
+                    _ => {}
+                }
+            }
+        }
         engine.advance(start + TICK * (n + 1));
-        let (pose, felt_um) = {
-            let snapshot = engine.snapshot();
-            (snapshot.displays[1].pose, of_display(snapshot, 1))
-        };
-        let (sample, of_tick_um) = engine.next_felt_tick().unwrap();
-        assert_eq!((sample.pose, of_tick_um), (pose, &felt_um[..]), "tick {n}");
-        assert_eq!(sample.watched_um, felt_um[5]);
+        let snapshot = engine.snapshot();
+        let tick = usize::try_from(n).unwrap();
+        for (finger, expected) in expected.iter().enumerate() {
+            let felt = of_display(snapshot, finger);
+            match expected.get(tick) {
+                Some(expected) => assert_eq!(felt, *expected, "finger {finger}, tick {n}"),
+                None => assert_eq!(sounds(&felt), finger == 0, "the second was lifted"),
+            }
+        }
     }
 }
 

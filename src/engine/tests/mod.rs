@@ -1,6 +1,7 @@
 //! The engine as its owner sees it, in told time: replays, recordings, stops, limits.
 
 mod array;
+mod clip;
 mod commands;
 mod device;
 mod exact;

@@ -76,8 +76,9 @@ fn a_sample_brings_the_amplitudes_of_every_contactor() {
     for _ in 0..30 {
         engine.advance_ticks(1);
         let expected = amplitudes(engine.snapshot());
-        let (sample, felt_um) = engine.next_felt_tick().unwrap();
+        let (sample, felt_um, poses) = engine.next_felt_tick().unwrap();
         assert_eq!(sample.n_contactors as usize, felt_um.len());
+        assert!(poses.is_empty(), "there is one display");
         assert_eq!(felt_um, expected);
     }
 }

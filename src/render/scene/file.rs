@@ -3,6 +3,7 @@
 //! Reads and writes the text; what makes a value wrong is said in `check.rs`. Loads no textile.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -178,6 +179,13 @@ impl Scene {
         self.textiles
             .iter()
             .rposition(|t| t.contains(t.workspace_from_textile().into_point(point)))
+    }
+
+    /// The contactors of a display among those of all displays one after the other.
+    pub fn contactors_of(&self, display: usize) -> Range<usize> {
+        let mut n_of_each = (self.displays.iter()).map(|placed| placed.geometry.n_contactors());
+        let first = n_of_each.by_ref().take(display).sum();
+        first..first + n_of_each.next().unwrap_or(0)
     }
 
     /// The library's folder as seen from where the program runs, for a scene file at `path`. A

@@ -78,7 +78,8 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
 struct Case {
     name: String,
     scene: RenderScene,
-    poses: Vec<Pose>,
+    /// Tick by tick the pose of every display.
+    poses: Vec<Vec<Pose>>,
     /// Pose by pose, contactor by contactor, µm.
     exact_um: Vec<[f64; 2]>,
     largest_um: [f64; 2],
@@ -98,21 +99,19 @@ fn cases(bench: &Bench<'_>) -> Result<Vec<Case>, ReportError> {
     let n_poses = bench.effort.pick(60, 600);
     let case = |(name, surface): (&str, _)| {
         let poses = poses_between(SPEEDS_MM_PER_S, n_poses, &mut random.branch(name));
+        let poses = poses.into_iter().map(|pose| vec![pose]).collect();
         Case::new(name.to_owned(), scene_with(&surface), poses)
     };
     surfaces.into_iter().map(case).collect()
 }
 
 impl Case {
-    fn new(name: String, scene: RenderScene, poses: Vec<Pose>) -> Result<Self, ReportError> {
+    fn new(name: String, scene: RenderScene, poses: Vec<Vec<Pose>>) -> Result<Self, ReportError> {
         let mut reference = textiles::prepared(&scene, Method::Reference)?;
         let mut exact_um = Vec::new();
         let mut largest_um = [0.0_f64; 2];
-        for pose in &poses {
-            exact_um.extend(amplitudes_um(
-                &mut reference,
-                &vec![*pose; scene.displays.len()],
-            ));
+        for poses in &poses {
+            exact_um.extend(amplitudes_um(&mut reference, poses));
         }
         for amplitudes in &exact_um {
             (0..2).for_each(|b| largest_um[b] = largest_um[b].max(amplitudes[b]));
@@ -131,25 +130,25 @@ impl Case {
         &self,
         bench: &mut Bench<'_>,
         (method, setting): (&str, String),
-        mut tick: impl FnMut(&Pose, &mut Vec<[f64; 2]>),
+        mut tick: impl FnMut(&[Pose], &mut Vec<[f64; 2]>),
     ) -> Row {
         let mut found_um = Vec::new();
         let mut meter = ErrorMeter::new(self.largest_um);
         let mut exact_um = self.exact_um.iter();
-        for pose in &self.poses {
+        for poses in &self.poses {
             found_um.clear();
-            tick(pose, &mut found_um);
+            tick(poses, &mut found_um);
             for (found, exact) in found_um.iter().zip(exact_um.by_ref()) {
                 meter.add(*found, *exact);
             }
         }
         let error = meter.finish();
         let n_step = (self.poses.len() / N_TIMED).max(1);
-        let timed: Vec<Pose> = self.poses.iter().step_by(n_step).copied().collect();
+        let timed: Vec<&Vec<Pose>> = self.poses.iter().step_by(n_step).collect();
         let cost = bench.time(timed.len(), || {
-            for pose in &timed {
+            for poses in &timed {
                 found_um.clear();
-                tick(pose, &mut found_um);
+                tick(poses, &mut found_um);
             }
         });
         Row::of(method, setting, &self.name)
@@ -173,11 +172,9 @@ impl Case {
     ) -> Result<Row, ReportError> {
         let mut renderer = ArrayRenderer::prepare(&self.scene, method, accuracy)?;
         let (n_bytes, bound) = (renderer.n_bytes(), renderer.bound());
-        let mut poses = vec![Pose::default(); self.scene.displays.len()];
         let method_used = renderer.method();
-        let row = self.row(bench, (method_used.name(), setting), |pose, out| {
-            poses.fill(*pose);
-            out.extend(amplitudes_um(&mut renderer, &poses));
+        let row = self.row(bench, (method_used.name(), setting), |poses, out| {
+            out.extend(amplitudes_um(&mut renderer, poses));
         });
         Ok(row
             .bytes(n_bytes)

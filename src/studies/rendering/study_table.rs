@@ -251,9 +251,9 @@ impl<T: Digits> StudyTable<T> {
         let uncut = if self.nodes.is_cut { "" } else { ", uncut" };
         let method = format!("{} {}{uncut}", self.reading.name_and_nodes().0, T::NAME);
         let setting = format!("{per_octave} nodes an octave");
-        let row = case.row(bench, (&method, setting), |pose, out| {
+        let row = case.row(bench, (&method, setting), |poses, out| {
             out.resize(self.offsets.len(), [0.0; 2]);
-            self.tick(pose, out);
+            self.tick(&poses[0], out);
         });
         row.bytes(
             self.tables

@@ -42,14 +42,14 @@ fn a_study_table_reads_its_own_nodes_exactly() {
     let mut random = Random::new(3);
     let surface = textiles::noise(3).unwrap();
     let poses = poses_between([100.0, 400.0], 1, &mut random);
-    let case = Case::new("noise".to_owned(), scene_with(&surface), poses).unwrap();
+    let case = Case::new("noise".to_owned(), scene_with(&surface), vec![poses]).unwrap();
     let mut reference =
         ArrayRenderer::prepare(&case.scene, Method::Reference, &Accuracy::default()).unwrap();
     // At the speed where the 21st bin reaches 1 kHz, 20 sound; a hair below, 21.
     let at_1_khz = 1000.0 / (0.23 * 21.0);
     let table = StudyTable::new(&case.scene, Nodes::new(6, true), Reading::Cubic);
     for speed in [at_1_khz * (1.0 - 1e-9), at_1_khz * (1.0 + 1e-9)] {
-        let mut pose = case.poses[0];
+        let mut pose = case.poses[0][0];
         pose.velocity = selvedge_foundation::geometry::Velocity::new(-speed, 0.0);
         let mut found = vec![[0.0; 2]; 24];
         table.tick(&pose, &mut found);

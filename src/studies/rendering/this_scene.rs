@@ -40,8 +40,9 @@ pub struct ThisSceneStudy {
     pub name: String,
     /// The scene, with its gains.
     pub scene: RenderScene,
-    /// An exploration; where it is empty every textile is crossed at three speeds.
-    pub poses: Vec<Pose>,
+    /// An exploration, tick by tick the pose of every display; where it is empty every textile is
+    /// crossed at three speeds.
+    pub poses: Vec<Vec<Pose>>,
     /// The method that runs on it.
     pub running: Running,
 }
@@ -90,9 +91,11 @@ impl ThisSceneStudy {
 
     /// The poses that are measured: at most as many as the scene's contactors allow, evenly from
     /// the whole exploration.
-    fn poses(&self) -> Vec<Pose> {
+    fn poses(&self) -> Vec<Vec<Pose>> {
+        let n_displays = self.scene.displays.len();
         let poses = if self.poses.is_empty() {
-            crossings(&self.scene.textiles)
+            let crossings = crossings(&self.scene.textiles).into_iter();
+            crossings.map(|pose| vec![pose; n_displays]).collect()
         } else {
             self.poses.clone()
         };
@@ -212,7 +215,7 @@ mod tests {
         let mut large = study(Method::Auto, Accuracy::default());
         let offsets = large.scene.displays[0].offsets.clone();
         large.scene.displays[0].offsets = offsets.into_iter().cycle().take(2400).collect();
-        large.poses = vec![Pose::default(); 1000];
+        large.poses = vec![vec![Pose::default()]; 1000];
         assert_eq!(large.poses().len(), 16);
         let empty = ThisSceneStudy {
             scene: RenderScene::default(),

@@ -13,6 +13,7 @@ use crate::bench::signals::history::Entry;
 use crate::bench::view::Source;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::quantity;
+use selvedge_render::scene::Pose;
 
 /// Why nothing is marked.
 const NO_RECORDING: &str = "Markers stand in recordings: make one, choose one in the list, or \
@@ -101,26 +102,18 @@ impl Bench {
                 .give("This system has no folder for recordings");
         };
         let (about, history) = (self.new_page(), &self.past.history);
-        let places = history.place_of(columns.start)..history.place_of(columns.end);
-        let entries: Vec<Entry> = history.entries().range(places).copied().collect();
-        let felt_um: Vec<Vec<[f32; 2]>> = entries
-            .iter()
-            .map(|entry| {
-                history
-                    .felt_um(entry.column)
-                    .into_iter()
-                    .flatten()
-                    .collect()
-            })
-            .collect();
-        let n_contactors = history.n_contactors;
+        let kept = history.of_all_displays(columns);
+        let kept: Vec<(Entry, Vec<Pose>, Vec<[f32; 2]>)> =
+            kept.map(|(entry, poses, um)| (*entry, poses, um)).collect();
+        let sizes = kept
+            .first()
+            .map(|(_, poses, um)| [poses.len() - 1, um.len()]);
         self.make_recording(about.name.clone(), move || {
-            let mut file = RecordingFile::create(&root, about, [0, n_contactors])?;
-            let ticks = entries.iter().zip(&felt_um);
-            file.append_ticks(ticks.map(|(entry, amplitudes_um)| FeltTick {
+            let mut file = RecordingFile::create(&root, about, sizes.unwrap_or_default())?;
+            file.append_ticks(kept.iter().map(|(entry, poses, amplitudes_um)| FeltTick {
                 tick: entry.tick_sample.tick,
-                pose: entry.tick_sample.pose,
-                others: &[],
+                pose: poses[0],
+                others: &poses[1..],
                 apply_tick: entry.tick_sample.apply_tick,
                 amplitudes_um,
             }))?;
@@ -182,7 +175,8 @@ mod tests {
     use super::*;
     use crate::bench::command::{PlayCommand, PlaySource};
     use crate::bench::recording::file::read;
-    use crate::bench::recording::{Place, Recordings};
+    use crate::bench::recording::tests::two_apart;
+    use crate::bench::recording::{Place, Recording, Recordings};
     use crate::shell::headless::Headless;
     use selvedge_scratch::ScratchFolder;
 
@@ -204,7 +198,7 @@ mod tests {
         desk
     }
 
-    fn at_hand(desk: &Headless) -> &crate::bench::recording::Recording {
+    fn at_hand(desk: &Headless) -> &Recording {
         desk.workbench.bench.exploration.at_hand.as_ref().unwrap()
     }
 
@@ -268,6 +262,47 @@ mod tests {
         let kept = read(folder).unwrap();
         assert_eq!(kept.about().ticks, Some([30, 0]));
         assert_eq!(kept.amplitudes_um(29), Some(felt.as_slice()));
+    }
+
+    #[test]
+    fn what_was_felt_last_is_kept_of_all_displays_whichever_is_shown() {
+        for shown in [0, 1] {
+            let root = ScratchFolder::made("kept-two");
+            let mut desk = two_apart(&root, shown);
+            let made = at_hand(&desk).clone();
+            let newest = desk.workbench.bench.past.history.newest().unwrap().column;
+            desk.dispatch(RecordingCommand::Keep(newest - 29..newest + 1));
+            desk.pass(3);
+            let entries = desk.workbench.bench.exploration.recordings.entries();
+            let kept = entries.iter().find(|entry| entry.about.name != made.name());
+            let Place::Folder(folder) = &kept.unwrap().place else {
+                panic!("it is on disk")
+            };
+            let kept = read(folder).unwrap();
+            let poses = |of: &Recording| {
+                let displays = |(_, first)| {
+                    [0, 1].map(|display| {
+                        let pose = of.path().pose_of(display, &first);
+                        (pose.position, pose.velocity)
+                    })
+                };
+                of.path().ticks().map(displays).collect::<Vec<_>>()
+            };
+            let (made_at, kept_at) = (poses(&made), poses(&kept));
+            let from = made_at.iter().position(|at| *at == kept_at[0]).unwrap();
+            let n_common = (made_at.len() - from).min(kept_at.len());
+            assert!(n_common > 20, "{n_common}");
+            let mut n_apart = 0;
+            for (nth, tick) in (from..from + n_common).enumerate() {
+                assert_eq!(kept_at[nth], made_at[tick], "tick {tick}");
+                let um = made.amplitudes_um(tick as u64).unwrap();
+                assert_eq!(kept.amplitudes_um(nth as u64), Some(um), "tick {tick}");
+                let sounds =
+                    [&um[..24], &um[24..]].map(|display| display.iter().any(|um| *um != [0.0; 2]));
+                n_apart += u32::from(sounds[0] != sounds[1]);
+            }
+            assert!(n_apart > 0, "the second was lifted");
+        }
     }
 
     #[test]

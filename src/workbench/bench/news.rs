@@ -81,8 +81,8 @@ impl Bench {
     }
 
     fn take_snapshot(&mut self, ctx: &egui::Context) {
-        while let Some((tick_sample, felt_um)) = self.engine.next_felt_tick() {
-            self.past.history.take_felt(tick_sample, felt_um);
+        while let Some(felt) = self.engine.next_felt_tick() {
+            self.past.history.take_felt(felt);
         }
         let snapshot = self.engine.snapshot();
         let status = snapshot.link.and_then(|link| link.status);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use eframe::egui::Rect;
+use eframe::egui::{Pos2, Rect};
 
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
@@ -165,6 +165,8 @@ pub(crate) struct PointerState {
     pub(crate) pane_in_use: Option<Pane>,
     /// The part of the screen where it felt last, points.
     pub(crate) ground: Option<Rect>,
+    /// Where fingers were before this frame that feel nothing, because others hold the displays.
+    pub(crate) strays: Vec<Pos2>,
 }
 
 /// The session of an experiment, as far as others need to know of it.

@@ -115,7 +115,7 @@ impl SceneView {
 }
 
 /// A textile that lies in the workspace.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Cloth {
     /// Its textile in the library.
     pub id: String,

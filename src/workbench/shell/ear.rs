@@ -101,7 +101,7 @@ pub(crate) struct Ear {
     /// Where it was last, pixels.
     pixel: [f64; 2],
     /// The fingers that hold displays.
-    fingers: HeldDisplays<u64>,
+    fingers: HeldDisplays,
 }
 
 impl Ear {
@@ -176,6 +176,14 @@ impl Ear {
     /// A finger that comes down on what is felt holds a display; any finger stops.
     fn touched(&mut self, now: Instant, window: Pointed, touch: &Touch) {
         let (finger, pixel) = (touch.id, [touch.location.x, touch.location.y]);
+        self.held(now, window, touch);
+        if self.fingers.is_stray(finger) {
+            self.with_tap(|tap| tap.stray(pixel));
+        }
+    }
+
+    fn held(&mut self, now: Instant, window: Pointed, touch: &Touch) {
+        let (finger, pixel) = (touch.id, [touch.location.x, touch.location.y]);
         match touch.phase {
             TouchPhase::Started => {
                 self.press_stop(pixel);
@@ -248,17 +256,13 @@ mod tests {
 
     use super::*;
     use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+    use crate::bench::recording::tests::TWO_DISPLAYS;
     use crate::shell::headless::Headless;
     use crate::tools::why::explanation::Explanation;
     use selvedge_foundation::geometry::Point;
     use selvedge_scratch::ScratchFolder;
 
-    /// A cloth that fills most of the workspace, under two displays.
-    const SCENE: &str = "name = \"Two fingers\"\nsize_mm = [260.0, 260.0]\n\
-        [[textile]]\nid = \"jute-plain\"\norigin_mm = [10.0, 10.0]\nsize_mm = [240.0, 240.0]\n\
-        [[display]]\ngeometry = \"exeter-24\"\n[[display]]\ngeometry = \"exeter-24\"\n";
-
-    /// A window on that, with the ear that is before the toolkit's.
+    /// A window on two displays, with the ear that is before the toolkit's.
     struct Desk {
         window: Headless,
         ear: Ear,
@@ -268,8 +272,7 @@ mod tests {
     impl Desk {
         fn new() -> Self {
             let folder = ScratchFolder::made("ear");
-            let scene = folder.join("two.scene.toml");
-            std::fs::write(&scene, SCENE).unwrap();
+            let scene = folder.write("two.scene.toml", TWO_DISPLAYS);
             let mut window = Headless::new(Some(&scene), vec2(1400.0, 900.0), 1.0).unwrap();
             window.dispatch(PlayCommand::Source(PlaySource::Pointer));
             window.pass(4);

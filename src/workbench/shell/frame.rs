@@ -284,13 +284,17 @@ impl Workbench {
 }
 
 /// Tells the tap where the pointer feels, and feeds it when nobody else does.
-pub(crate) fn feel(window: &Workbench, ctx: &egui::Context, ground: Option<PointerGround>) {
+pub(crate) fn feel(window: &mut Workbench, ctx: &egui::Context, ground: Option<PointerGround>) {
     // What is asked and told here covers nothing in another window.
     let ground = ground.filter(|ground| {
         ground.feels && (ground.window == Pointed::Participant || !window.shell.is_covered())
     });
     let mut tap = (window.shell.tap.lock()).unwrap_or_else(PoisonError::into_inner);
     tap.set_ground(ground, window.bench.document.scene().displays.len());
+    window.bench.pointer.strays = tap.take_strays();
+    if !window.bench.pointer.strays.is_empty() {
+        ctx.request_repaint();
+    }
     if window.bench.is_stepped() && is_felt(window, ctx) {
         let moved = ctx.input(|input| {
             let is_move = |event: &egui::Event| matches!(event, egui::Event::PointerMoved(_));

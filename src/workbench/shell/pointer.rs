@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use eframe::egui::{Pos2, Rect, pos2};
 
+use crate::kit::fingers::MOST_MARKS;
 use crate::kit::view_transform::{Pointed, PointerGround, is_near};
 use selvedge_engine::{PointerSample, PointerSender};
 use selvedge_foundation::numerics::to_single;
@@ -21,6 +22,8 @@ pub(crate) struct PointerTap {
     n_displays: usize,
     /// Where a press switches everything off, pixels.
     stop: Option<Rect>,
+    /// Where fingers were since the last frame that hold no display, points.
+    strays: Vec<Pos2>,
 }
 
 impl PointerTap {
@@ -31,6 +34,7 @@ impl PointerTap {
             ground: None,
             n_displays: 1,
             stop: None,
+            strays: Vec::new(),
         }
     }
 
@@ -51,6 +55,19 @@ impl PointerTap {
         } else {
             0
         }
+    }
+
+    /// A finger that holds no display is at this pixel.
+    pub(crate) fn stray(&mut self, [x, y]: [f64; 2]) {
+        if let Some(ground) = self.ground.filter(|_| self.strays.len() < MOST_MARKS) {
+            let at = pos2(to_single(x), to_single(y));
+            self.strays.push(at / ground.pixels_per_point);
+        }
+    }
+
+    /// Where such fingers were since this was asked last, points.
+    pub(crate) fn take_strays(&mut self) -> Vec<Pos2> {
+        std::mem::take(&mut self.strays)
     }
 
     /// The finger that held a display left the surface.

@@ -2,8 +2,10 @@
 //!
 //! A report is a run of events that ends in SYN. A pen or single touch is in contact while
 //! `BTN_TOUCH` says so, or by its pressure where it has no such button; several fingers come in
-//! slots, and the first that touches is followed until it lifts. When the kernel had to drop events
-//! nothing more is believed until the state was asked for anew.
+//! slots, and each that touches takes the first number that is free and keeps it until it lifts.
+//! When the kernel had to drop events nothing more is believed until the state was asked for anew.
+
+use crate::MAX_FINGERS;
 
 /// Kinds and codes of events, as `linux/input-event-codes.h` numbers them.
 pub(super) mod code {
@@ -115,15 +117,16 @@ impl State {
 /// What a report says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Report {
-    /// The finger is here, in the device's units.
+    /// The finger of this number is here, in the device's units.
     At {
+        finger: usize,
         /// The kernel's time, µs.
         time_us: i64,
         /// x and y.
         at: [i32; 2],
     },
-    /// The finger left.
-    Lifted,
+    /// The finger of this number left.
+    Lifted(usize),
     /// The kernel dropped events: ask for the state anew.
     Lost,
 }
@@ -133,24 +136,23 @@ pub(super) enum Report {
 pub(super) struct Decoder {
     contact: Contact,
     state: State,
-    /// The slot of the finger that is followed.
-    followed: Option<usize>,
-    was_down: bool,
+    /// The slots of fingers that are followed, by their numbers, and which were down.
+    followed: [Option<usize>; MAX_FINGERS],
+    was_down: [bool; MAX_FINGERS],
     is_lost: bool,
 }
 
 impl Decoder {
     /// A decoder of a device that is in this state.
     pub(super) fn new(contact: Contact, state: State) -> Self {
-        let mut decoder = Self {
+        let mut down = (0..MAX_SLOTS).filter(|slot| state.slots[*slot].id >= 0);
+        Self {
             contact,
             state,
-            followed: None,
-            was_down: false,
+            followed: std::array::from_fn(|_| down.next()),
+            was_down: [false; MAX_FINGERS],
             is_lost: false,
-        };
-        decoder.follow_first();
-        decoder
+        }
     }
 
     /// Takes the state that the device told after a loss; a finger that is down begins anew.
@@ -159,10 +161,10 @@ impl Decoder {
     }
 
     /// Takes an event; the end of a report says what it was about.
-    pub(super) fn take(&mut self, event: Event) -> Option<Report> {
+    pub(super) fn take(&mut self, event: Event, say: &mut dyn FnMut(Report)) {
         match (event.kind, event.code) {
             (code::SYN, code::SYN_DROPPED) => self.is_lost = true,
-            (code::SYN, code::SYN_REPORT) => return self.report(event.time_us),
+            (code::SYN, code::SYN_REPORT) => self.report(event.time_us, say),
             _ if self.is_lost => {}
             (code::KEY, code::TOUCH) => self.state.is_touching = event.value != 0,
             (code::KEY, tool) if code::TOOLS.contains(&tool) => {
@@ -174,7 +176,6 @@ impl Decoder {
             (code::ABS, axis) => self.axis(axis, event.value),
             _ => {}
         }
-        None
     }
 
     fn axis(&mut self, axis: u16, value: i32) {
@@ -196,11 +197,8 @@ impl Decoder {
                     code::MT_ID => {
                         let is_other = value != slot.id;
                         slot.id = value;
-                        // Another finger in its slot is not the one that was followed.
-                        if is_other && self.followed == Some(current) {
-                            self.followed = None;
-                        } else if value >= 0 && self.followed.is_none() && !self.was_down {
-                            self.followed = Some(current);
+                        if is_other {
+                            self.follow(current, value >= 0);
                         }
                     }
                     _ => {}
@@ -209,31 +207,53 @@ impl Decoder {
         }
     }
 
-    fn report(&mut self, time_us: i64) -> Option<Report> {
-        if std::mem::take(&mut self.is_lost) {
-            self.was_down = false;
-            self.followed = None;
-            return Some(Report::Lost);
-        }
-        let at = match self.contact {
-            Contact::Slots => self
-                .followed
-                .and_then(|slot| Some(self.state.slots.get(slot)?.at)),
-            Contact::Button => self.state.is_touching.then_some(self.state.at),
-            Contact::Pressure => (self.state.pressure > 0).then_some(self.state.at),
-            Contact::Always => Some(self.state.at),
-        };
-        let at = at.filter(|_| self.state.tools != Some(0));
-        let was_down = std::mem::replace(&mut self.was_down, at.is_some());
-        match at {
-            Some(at) => Some(Report::At { time_us, at }),
-            None if was_down => Some(Report::Lifted),
-            None => None,
+    /// Another finger is in a slot, or none any more.
+    fn follow(&mut self, slot: usize, is_down: bool) {
+        let known = self.followed.iter().position(|known| *known == Some(slot));
+        if let Some(finger) = known {
+            // Another finger in its slot is not the one that was followed.
+            self.followed[finger] = None;
+        } else if is_down {
+            let mut fingers = self.followed.iter_mut().zip(self.was_down);
+            let free = fingers.find(|(followed, was_down)| followed.is_none() && !was_down);
+            if let Some((followed, _)) = free {
+                *followed = Some(slot);
+            }
         }
     }
 
-    fn follow_first(&mut self) {
-        self.followed = self.state.slots.iter().position(|slot| slot.id >= 0);
+    fn report(&mut self, time_us: i64, say: &mut dyn FnMut(Report)) {
+        if std::mem::take(&mut self.is_lost) {
+            self.was_down = [false; MAX_FINGERS];
+            self.followed = [None; MAX_FINGERS];
+            return say(Report::Lost);
+        }
+        for finger in 0..MAX_FINGERS {
+            let at = self.place_of(finger);
+            let was_down = std::mem::replace(&mut self.was_down[finger], at.is_some());
+            match at {
+                Some(at) => say(Report::At {
+                    finger,
+                    time_us,
+                    at,
+                }),
+                None if was_down => say(Report::Lifted(finger)),
+                None => {}
+            }
+        }
+    }
+
+    /// Where a finger is that touches; a pen is the first.
+    fn place_of(&self, finger: usize) -> Option<[i32; 2]> {
+        let state = &self.state;
+        let of_pen = |touches: bool| (touches && finger == 0).then_some(state.at);
+        let at = match self.contact {
+            Contact::Slots => self.followed[finger].map(|slot| state.slots[slot].at),
+            Contact::Button => of_pen(state.is_touching),
+            Contact::Pressure => of_pen(state.pressure > 0),
+            Contact::Always => of_pen(true),
+        };
+        at.filter(|_| state.tools != Some(0))
     }
 }
 

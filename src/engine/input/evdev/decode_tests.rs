@@ -26,13 +26,14 @@ fn said(contact: Contact, events: &[(u16, u16, i32)]) -> Vec<Report> {
         } else {
             0
         };
-        reports.extend(decoder.take(event));
+        decoder.take(event, &mut |report| reports.push(report));
     }
     reports
 }
 
 fn at(time_us: i64, x: i32, y: i32) -> Report {
     Report::At {
+        finger: 0,
         time_us,
         at: [x, y],
     }
@@ -56,7 +57,7 @@ fn a_pen_is_heard_while_it_touches_and_its_lift_is_told_once() {
         (KEY, PEN, 0),
         END,
     ];
-    let expected = [at(8000, 10, 20), at(16_000, 11, 20), Report::Lifted];
+    let expected = [at(8000, 10, 20), at(16_000, 11, 20), Report::Lifted(0)];
     assert_eq!(said(Contact::Button, &events), expected);
 }
 
@@ -65,7 +66,7 @@ fn a_tool_out_of_range_is_a_lift_whatever_the_button_says() {
     let events = [(KEY, PEN, 1), (KEY, TOUCH, 1), END, (KEY, PEN, 0), END, END];
     assert_eq!(
         said(Contact::Button, &events),
-        [at(0, 0, 0), Report::Lifted]
+        [at(0, 0, 0), Report::Lifted(0)]
     );
 }
 
@@ -81,13 +82,13 @@ fn pressure_above_nothing_is_contact_where_there_is_no_button() {
     ];
     assert_eq!(
         said(Contact::Pressure, &events),
-        [at(8000, 5, 0), Report::Lifted]
+        [at(8000, 5, 0), Report::Lifted(0)]
     );
     assert_eq!(said(Contact::Always, &events).len(), 3);
 }
 
 #[test]
-fn the_first_finger_is_followed_and_no_other_takes_its_place() {
+fn each_finger_keeps_its_number_and_none_takes_another_s() {
     let events = [
         (ABS, MT_SLOT, 0),
         (ABS, MT_ID, 70),
@@ -97,7 +98,7 @@ fn the_first_finger_is_followed_and_no_other_takes_its_place() {
         (ABS, MT_SLOT, 1),
         (ABS, MT_ID, 71),
         (ABS, MT_X, 500),
-        END, // the second finger changes nothing
+        END, // a second finger
         (ABS, MT_SLOT, 0),
         (ABS, MT_ID, -1),
         END, // the first lifts, the second stays
@@ -109,13 +110,25 @@ fn the_first_finger_is_followed_and_no_other_takes_its_place() {
         (ABS, MT_X, 9),
         END, // a new first finger
     ];
+    let reports = said(Contact::Slots, &events);
+    let of_second = |report: &Report| {
+        matches!(report, Report::At { finger: 1, .. }) || *report == Report::Lifted(1)
+    };
+    let (second, first): (Vec<Report>, Vec<Report>) = reports.into_iter().partition(of_second);
     let expected = [
         at(0, 1, 2),
         at(8000, 1, 2),
-        Report::Lifted,
+        Report::Lifted(0),
         at(32_000, 9, 2),
     ];
-    assert_eq!(said(Contact::Slots, &events), expected);
+    assert_eq!(first, expected);
+    let of_second = |(time_us, x)| Report::At {
+        finger: 1,
+        time_us,
+        at: [x, 0],
+    };
+    let expected = [(8000, 500), (16_000, 500), (24_000, 501), (32_000, 501)];
+    assert_eq!(second, expected.map(of_second));
 }
 
 #[test]
@@ -129,44 +142,42 @@ fn a_finger_that_is_replaced_within_a_report_lifts_before_it_touches() {
         END,
     ];
     let reports = said(Contact::Slots, &events);
-    assert_eq!(reports, [at(0, 0, 0), Report::Lifted]);
+    assert_eq!(reports, [at(0, 0, 0), Report::Lifted(0)]);
 }
 
 #[test]
 fn after_a_loss_nothing_is_believed_until_the_state_is_known() {
     let mut decoder = Decoder::new(Contact::Button, State::NOTHING);
-    let mut take = |kind, code, value| {
-        decoder.take(Event {
-            time_us: 1,
+    let take = |decoder: &mut Decoder, kind, code, value| {
+        let (mut said, time_us) = (None, 1);
+        let event = Event {
+            time_us,
             kind,
             code,
             value,
-        })
+        };
+        decoder.take(event, &mut |report| said = Some(report));
+        said
     };
-    take(KEY, TOUCH, 1);
-    assert_eq!(take(SYN, SYN_REPORT, 0), Some(at(1, 0, 0)));
-    take(SYN, SYN_DROPPED, 0);
-    take(ABS, ABS_X, 999);
-    assert_eq!(take(SYN, SYN_REPORT, 0), Some(Report::Lost));
+    take(&mut decoder, KEY, TOUCH, 1);
+    assert_eq!(take(&mut decoder, SYN, SYN_REPORT, 0), Some(at(1, 0, 0)));
+    take(&mut decoder, SYN, SYN_DROPPED, 0);
+    take(&mut decoder, ABS, ABS_X, 999);
+    assert_eq!(take(&mut decoder, SYN, SYN_REPORT, 0), Some(Report::Lost));
     let state = State {
         at: [7, 8],
         is_touching: true,
         ..State::NOTHING
     };
     decoder.resume(state);
-    let end = Event {
-        time_us: 2,
-        kind: SYN,
-        code: SYN_REPORT,
-        value: 0,
-    };
-    assert_eq!(decoder.take(end), Some(at(2, 7, 8)));
+    assert_eq!(take(&mut decoder, SYN, SYN_REPORT, 0), Some(at(1, 7, 8)));
 }
 
 #[test]
-fn a_finger_that_is_down_at_the_start_is_followed() {
+fn fingers_that_are_down_at_the_start_are_followed() {
     let mut state = State::NOTHING;
     state.slots[3] = Slot { id: 9, at: [4, 5] };
+    state.slots[6] = Slot { id: 2, at: [6, 7] };
     let mut decoder = Decoder::new(Contact::Slots, state);
     let end = Event {
         time_us: 0,
@@ -174,7 +185,14 @@ fn a_finger_that_is_down_at_the_start_is_followed() {
         code: SYN_REPORT,
         value: 0,
     };
-    assert_eq!(decoder.take(end), Some(at(0, 4, 5)));
+    let mut said = Vec::new();
+    decoder.take(end, &mut |report| said.push(report));
+    let second = Report::At {
+        finger: 1,
+        time_us: 0,
+        at: [6, 7],
+    };
+    assert_eq!(said, [at(0, 4, 5), second]);
 }
 
 #[test]
@@ -210,7 +228,7 @@ proptest::proptest! {
             // Random codes would hardly ever mean anything.
             event.kind %= 4;
             event.code %= 0x150;
-            decoder.take(event);
+            decoder.take(event, &mut |_| {});
         }
     }
 }

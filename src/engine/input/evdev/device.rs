@@ -15,11 +15,11 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::time::{ClockId, clock_gettime};
 
 use super::super::InputError;
-use super::super::feed::{FeedItem, FeedSender, feed};
+use super::super::feed::{FeedSender, feed};
 use super::super::pointer::{PointerInput, SourceKind};
 use super::decode::{Contact, Decoder, EVENT_BYTES, Event, MAX_SLOTS, Report, Slot, State, code};
 use super::{Area, AxisRange, InputDevice};
-use crate::PointerSample;
+use crate::{MAX_FINGERS, PointerSample};
 
 const FOLDER: &str = "/dev/input";
 /// `CLOCK_MONOTONIC`, which the engine's clock is.
@@ -117,7 +117,7 @@ fn look_at(path: &Path) -> Result<Option<(Handle, InputDevice, Contact)>, InputE
         return Ok(None);
     }
     let (contact, words) = if has_slots {
-        (Contact::Slots, "the first finger")
+        (Contact::Slots, "fingers")
     } else if keys.get(Key::ButtonTouch) {
         (Contact::Button, "touch")
     } else if has(AbsoluteAxis::Pressure) {
@@ -240,7 +240,7 @@ impl Reader {
                 _ => break,
             }
         }
-        self.sender.push(FeedItem::Lift);
+        (0..MAX_FINGERS).for_each(|finger| self.sender.push_of(finger, None));
         self.sender.end();
     }
 
@@ -257,23 +257,29 @@ impl Reader {
 
     fn take(&mut self, bytes: &[u8]) {
         let (now, now_us) = (Instant::now(), monotonic_us());
+        let mut is_lost = false;
         for event in Event::read(bytes) {
-            match self.decoder.take(event) {
-                None => {}
-                Some(Report::Lifted) => self.sender.push(FeedItem::Lift),
-                Some(Report::Lost) => {
-                    self.sender.count_lost_in_system();
-                    self.sender.push(FeedItem::Lift);
-                    self.decoder.resume(state_of(&self.handle, self.contact));
-                }
-                Some(Report::At { time_us, at }) => {
+            let (area, axes, has_clock) = (&self.area, &self.axes, self.has_clock);
+            let sender = &mut self.sender;
+            self.decoder.take(event, &mut |report| match report {
+                Report::Lifted(finger) => sender.push_of(finger, None),
+                Report::Lost => is_lost = true,
+                Report::At {
+                    finger,
+                    time_us,
+                    at,
+                } => {
                     let age_us = u64::try_from(now_us - time_us).unwrap_or(0);
-                    let age = Duration::from_micros(if self.has_clock { age_us } else { 0 });
+                    let age = Duration::from_micros(if has_clock { age_us } else { 0 });
                     let stamp = now.checked_sub(age).unwrap_or(now);
-                    let position = self.area.place(&self.axes, at);
-                    let sample = PointerSample { stamp, position };
-                    self.sender.push(FeedItem::Sample(sample, None));
+                    let position = area.place(axes, at);
+                    sender.push_of(finger, Some(PointerSample { stamp, position }));
                 }
+            });
+            if std::mem::take(&mut is_lost) {
+                self.sender.count_lost_in_system();
+                (0..MAX_FINGERS).for_each(|finger| self.sender.push_of(finger, None));
+                self.decoder.resume(state_of(&self.handle, self.contact));
             }
         }
     }

@@ -116,6 +116,13 @@ impl ExplorationPath {
         }
     }
 
+    /// The pose of a display at a tick at which the first is at `first`.
+    pub fn pose_of(&self, display: usize, first: &Pose) -> Pose {
+        let mut poses = [*first; 1 + MOST_OTHERS];
+        self.poses_into(first, &mut poses);
+        poses.get(display).copied().unwrap_or(*first)
+    }
+
     /// The cells of every row, empty ones where displays are together.
     pub(super) fn others_of(&self, row: usize) -> &[Cells] {
         let n = self.others.n_others;

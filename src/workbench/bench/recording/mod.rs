@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use selvedge_engine::ApplyTicks;
-use selvedge_render::scene::{ExplorationPath, SceneError};
+use selvedge_render::scene::{ExplorationPath, Scene, SceneError};
 
 /// Amplitudes of every contactor at every tick, after gains and before output limits.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -131,6 +131,23 @@ impl Recording {
         let start = usize::try_from(tick).ok()?.checked_mul(n_contactors)?;
         let at = start..start + n_contactors;
         self.felt.amplitudes_um.get(at).filter(|um| !um.is_empty())
+    }
+
+    /// The same of the contactors of a display of the scene; those of the first as far as known.
+    pub(crate) fn display_um(
+        &self,
+        tick: u64,
+        (scene, display): (&Scene, usize),
+    ) -> Option<&[[f32; 2]]> {
+        let all = self.amplitudes_um(tick)?;
+        let of = scene.contactors_of(display);
+        all.get(of.start..of.end.min(all.len()))
+    }
+
+    /// Whether amplitudes of a display of the scene are known.
+    pub(crate) fn has_display(&self, scene: &Scene, display: usize) -> bool {
+        let of = scene.contactors_of(display);
+        of.start < of.end.min(self.n_contactors())
     }
 
     /// Contactors that amplitudes are known of; 0 when none are.

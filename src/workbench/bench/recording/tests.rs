@@ -1,12 +1,17 @@
 //! Recordings against what was felt, and what other tests record.
 
 use super::*;
+use eframe::egui::vec2;
+
 use crate::bench::Drive;
-use crate::bench::command::PlayCommand;
+use crate::bench::command::{PlayCommand, PlaySource, ShowCommand};
+use crate::kit::view_transform::Pointed;
+use crate::shell::headless::Headless;
 use crate::shell::window::Workbench;
 use selvedge_engine::Command;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::PathRow;
+use selvedge_scratch::ScratchFolder;
 
 /// So many ticks of the shipped scene explored by itself, recorded.
 pub(crate) fn explored(n_ticks: u64) -> selvedge_engine::Recording {
@@ -22,6 +27,43 @@ pub(crate) fn explored(n_ticks: u64) -> selvedge_engine::Recording {
     recording.collect();
     assert!(recording.has_ended());
     recording
+}
+
+/// A cloth that fills most of the workspace, under two displays.
+pub(crate) const TWO_DISPLAYS: &str = "name = \"Two fingers\"\nsize_mm = [260.0, 260.0]\n\
+    [[textile]]\nid = \"jute-plain\"\norigin_mm = [10.0, 10.0]\nsize_mm = [240.0, 240.0]\n\
+    [[display]]\ngeometry = \"exeter-24\"\n[[display]]\ngeometry = \"exeter-24\"\n";
+
+/// A window that has shown this display of two while each stroked along a line of its own, the
+/// second faster, beginning later and lifted sooner: 40 ticks, recorded in `folder` and at hand.
+pub(crate) fn two_apart(folder: &ScratchFolder, shown: usize) -> Headless {
+    let scene = folder.write("two.scene.toml", TWO_DISPLAYS);
+    let mut desk = Headless::new(Some(&scene), vec2(1400.0, 900.0), 1.0).unwrap();
+    desk.workbench.bench.exploration.recordings = Recordings::in_folder(folder.join("kept"));
+    desk.dispatch(PlayCommand::Source(PlaySource::Pointer));
+    desk.dispatch(ShowCommand::SelectDisplay(shown));
+    desk.pass(4);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    for n in 0..40 {
+        let mut tap = desk.workbench.shell.tap.lock().unwrap();
+        let stamp = desk.workbench.bench.stamp();
+        let lines = [(60.0, 2.0, 0..40), (150.0, 3.0, 8..30)];
+        for (display, (y_mm, step_mm, within)) in lines.into_iter().enumerate() {
+            let place = Point::new(40.0 + step_mm * f64::from(n), y_mm);
+            let at = tap.screen(place).unwrap();
+            if within.contains(&n) {
+                let pixel = [at.x, at.y].map(f64::from);
+                tap.moved_to_pixel(stamp, Pointed::Workbench, (display, pixel));
+            } else if n == within.end {
+                tap.lift(display);
+            }
+        }
+        drop(tap);
+        desk.pass(1);
+    }
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass(3);
+    desk
 }
 
 /// The page of a recording of this name.

@@ -65,10 +65,12 @@ pub(crate) fn measure(
     effort: Effort,
     progress: &mut Progress<'_>,
 ) -> Result<Measured, ReportError> {
+    let n_displays = wanted.scene.displays.len();
+    let poses = |path: Arc<ExplorationPath>| poses_of(&path, n_displays);
     let study = ThisSceneStudy {
         name: wanted.name,
         scene: wanted.scene,
-        poses: wanted.path.map_or_else(Vec::new, |path| poses_of(&path)),
+        poses: wanted.path.map_or_else(Vec::new, poses),
         running: Running {
             method: wanted.rendering.method,
             accuracy: wanted.rendering.accuracy(),
@@ -78,9 +80,33 @@ pub(crate) fn measure(
     Ok(Measured::of(findings, wanted.n_edits))
 }
 
-/// Ticks spread evenly over an exploration.
-fn poses_of(path: &ExplorationPath) -> Vec<Pose> {
+/// Ticks spread evenly over an exploration: the poses of so many displays.
+fn poses_of(path: &ExplorationPath, n_displays: usize) -> Vec<Vec<Pose>> {
     let step = usize::try_from(path.n_ticks().div_ceil(MOST_TICKS)).unwrap_or(usize::MAX);
     let ticks = path.ticks().step_by(step.max(1));
-    ticks.map(|(_, pose)| pose).collect()
+    let poses = |(_, first)| {
+        let mut poses = vec![Pose::default(); n_displays];
+        path.poses_into(&first, &mut poses);
+        poses
+    };
+    ticks.map(poses).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::recording::tests::two_apart;
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn an_exploration_is_measured_with_every_display_where_it_was() {
+        let folder = ScratchFolder::made("measured-two");
+        let desk = two_apart(&folder, 0);
+        let made = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+        let poses = poses_of(made.path(), 3);
+        assert_eq!(poses.len() as u64, made.path().n_ticks());
+        let last = &poses[20];
+        let speeds = [0, 1, 2].map(|n: usize| last[n].velocity.speed_mm_per_s().round());
+        assert_eq!(speeds, [80.0, 120.0, 80.0], "the third goes with the first");
+    }
 }

@@ -128,22 +128,33 @@ impl Route {
         }
     }
 
-    fn pose_at(&self, tick: u64) -> Option<Pose> {
+    /// The path that tells where displays beside the first are.
+    pub(crate) fn path(&self) -> Option<&ExplorationPath> {
         match self {
-            Self::Recording(path) => PathCursor::at(path, tick).step(path).map(|(_, pose)| pose),
+            Self::Recording(path) => Some(path),
+            Self::Stroke(..) | Self::Recorded(_) => None,
+        }
+    }
+
+    fn pose_at(&self, tick: u64, display: usize) -> Option<Pose> {
+        match self {
+            Self::Recording(path) => {
+                let (_, first) = PathCursor::at(path, tick).step(path)?;
+                Some(path.pose_of(display, &first))
+            }
             Self::Stroke(stroke, _) => Some(pose_of(stroke, tick)),
             Self::Recorded(_) => None,
         }
     }
 
-    /// The place in the scene's list of the textile that the path is on mostly; of equals the one
+    /// The place in the scene's list of the textile that a display is on mostly; of equals the one
     /// on top. `None` when it is on none.
-    pub(crate) fn mostly_on(&self, scene: &Scene) -> Option<usize> {
+    pub(crate) fn mostly_on(&self, scene: &Scene, display: usize) -> Option<usize> {
         let n_ticks = self.n_ticks();
         let n_looks = n_ticks.min(N_LOOKS);
         let mut n_on = vec![0_u64; scene.textiles.len()];
         for look in 0..n_looks {
-            let pose = self.pose_at(look * n_ticks / n_looks);
+            let pose = self.pose_at(look * n_ticks / n_looks, display);
             let on = pose.and_then(|pose| scene.textile_at(pose.position));
             if let Some(n) = on.and_then(|index| n_on.get_mut(index)) {
                 *n += 1;
@@ -176,10 +187,13 @@ pub(crate) struct Inputs {
     pub sides: [Side; 2],
     /// The path that both follow.
     pub route: Route,
+    /// The display whose contactors are compared.
+    pub(crate) display: usize,
 }
 
 impl Inputs {
-    /// What comes of a choice in a scene whose tuning is `live` and whose library's is `library`.
+    /// What comes of a choice for a display of a scene whose tuning is `live`, its library's
+    /// `library`.
     ///
     /// # Errors
     /// A sentence that says what is missing and what to do.
@@ -187,12 +201,12 @@ impl Inputs {
         choice: &Choice,
         scene: &Scene,
         [live, library]: [Tuning; 2],
-        route: Route,
+        (route, display): (Route, usize),
     ) -> Result<Self, &'static str> {
         if scene.textiles.is_empty() {
             return Err("Place a textile first: there is nothing to feel in this scene");
         }
-        let place = choice.place_in(scene, &route);
+        let place = choice.place_in(scene, (&route, display));
         let mut sides = [0, 1].map(|_| Side {
             scene: Scene {
                 tuning: Some(live),
@@ -221,6 +235,11 @@ impl Inputs {
                 }
                 What::Methods => side.method = choice.methods[index],
                 What::Recordings => match &route {
+                    Route::Recorded(two) if !two[index].has_display(scene, display) => {
+                        return Err(
+                            "A recording has no levels of this display: press D for the next",
+                        );
+                    }
                     Route::Recorded(two) => side.recording = Some(two[index].name().to_owned()),
                     _ => {
                         return Err(
@@ -230,14 +249,20 @@ impl Inputs {
                 },
             }
         }
-        Ok(Self { sides, route })
+        Ok(Self {
+            sides,
+            route,
+            display,
+        })
     }
 }
 
 impl Choice {
     /// The place whose textile is exchanged.
-    pub(crate) fn place_in(&self, scene: &Scene, route: &Route) -> usize {
+    pub(crate) fn place_in(&self, scene: &Scene, (route, display): (&Route, usize)) -> usize {
         let chosen = self.place.filter(|place| *place < scene.textiles.len());
-        chosen.or_else(|| route.mostly_on(scene)).unwrap_or(0)
+        chosen
+            .or_else(|| route.mostly_on(scene, display))
+            .unwrap_or(0)
     }
 }

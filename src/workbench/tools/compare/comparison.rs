@@ -15,7 +15,7 @@ use crate::tools::compare::choice::{Choice, Inputs, Route, Side, What};
 use selvedge_chart::Chart;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::array::TableCache;
-use selvedge_render::scene::LoadedScene;
+use selvedge_render::scene::{LoadedScene, Scene};
 use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, replay_pair};
 
 /// A path of at most so many ticks (ten minutes) is compared as soon as something has changed; a
@@ -190,7 +190,8 @@ impl Compare {
         let document = &bench.document;
         let tunings = [document.tuning(), document.default_tuning()];
         let route = self.route_now(bench);
-        Inputs::of(&self.choice, document.scene(), tunings, route)
+        let scene = document.scene();
+        Inputs::of(&self.choice, scene, tunings, (route, bench.display()))
     }
 
     /// The path that is followed now.
@@ -234,15 +235,16 @@ impl Compare {
     }
 }
 
-/// Sets two recordings against each other as they were, as long as both last.
-fn compare_recorded(two: &[Recording; 2]) -> LevelDifference {
+/// Sets a display's contactors of two recordings against each other as they were, as long as both
+/// last.
+fn compare_recorded(two: &[Recording; 2], (scene, display): (&Scene, usize)) -> LevelDifference {
     let [n_a, n_b] = two.each_ref().map(|one| one.path().n_ticks());
     let n_ticks = n_a.min(n_b);
     let mut meter = DifferenceMeter::new(n_ticks);
     for tick in 0..n_ticks {
         let [a, b] = two
             .each_ref()
-            .map(|one| one.amplitudes_um(tick).unwrap_or_default());
+            .map(|one| one.display_um(tick, (scene, display)).unwrap_or_default());
         let pairs = a.iter().zip(b);
         meter.add_amplitudes(tick, pairs.map(|(a, b)| [a, b].map(|um| um.map(f64::from))));
     }
@@ -257,7 +259,8 @@ fn compare(
     progress: &mut Progress<'_>,
 ) -> Result<Option<LevelDifference>, AppError> {
     if let Route::Recorded(two) = &inputs.route {
-        return Ok(Some(compare_recorded(two)));
+        let found = compare_recorded(two, (loaded.scene(), inputs.display));
+        return Ok(Some(found));
     }
     let mut scenes = Vec::with_capacity(2);
     for side in &inputs.sides {
@@ -267,8 +270,9 @@ fn compare(
     let mut meter = DifferenceMeter::new(n_ticks);
     let pair = [0, 1].map(|index| (&scenes[index], inputs.sides[index].method));
     let mut n_done = 0_u64;
-    let end = replay_pair(pair, inputs.route.ticks(), cache, &mut |tick, frames| {
-        meter.add(tick, frames);
+    let route = (inputs.route.ticks(), inputs.route.path());
+    let end = replay_pair(pair, route, cache, &mut |tick, frames| {
+        meter.add(tick, inputs.display, frames);
         n_done += 1;
         let is_due = n_done.is_multiple_of(N_TICKS_A_STEP) || n_done == 1;
         let share = n_done as f64 / n_ticks.max(1) as f64;

@@ -1,6 +1,6 @@
 //! What the public may do with pointer, fingers and keys: everything else never reaches the stage.
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, TouchPhase, Ui};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, TouchPhase, Ui};
 
 use crate::kit::fingers::FingerRings;
 use crate::tools::stage::pin::Access;
@@ -68,7 +68,7 @@ fn may_press(key: Key, modifiers: Modifiers, access: Access, types: bool) -> boo
 /// Fingers and keys as they were seen last.
 #[derive(Debug, Default)]
 pub(crate) struct Senses {
-    /// Fingers, and rings at those that hold no display.
+    /// Rings at fingers that hold no display.
     pub(crate) rings: FingerRings,
     /// What was used last.
     input: Option<&'static str>,
@@ -89,10 +89,10 @@ pub(crate) struct Heard {
 }
 
 impl Senses {
-    /// Takes in the events of a frame, where a scene of so many displays is felt.
-    pub(crate) fn take(&mut self, ui: &Ui, ground: (Rect, usize), now_s: f64) -> Heard {
+    /// Takes in the events of a frame, and where fingers are that hold no display.
+    pub(crate) fn take(&mut self, ui: &Ui, strays: &[Pos2], now_s: f64) -> Heard {
         let mut heard = Heard::default();
-        self.rings.take(ui, ground, now_s);
+        self.rings.take(strays, now_s);
         ui.input(|input| {
             for event in &input.events {
                 match event {

@@ -310,9 +310,7 @@ impl PublicFace for Stage {
 
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
         let now_s = self.machine.now_s();
-        let n_displays = context.bench.document.scene().displays.len();
-        let felt = (self.ground_of(ui).unwrap_or(Rect::NOTHING), n_displays);
-        let heard = self.senses.take(ui, felt, now_s);
+        let heard = self.senses.take(ui, &context.bench.pointer.strays, now_s);
         if heard.asks_operator {
             self.open_lock(context.bench);
         } else if heard.escapes && self.lock.access() == Access::Closed && self.machine.is_armed() {

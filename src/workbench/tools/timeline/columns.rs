@@ -1,6 +1,8 @@
 //! What a tick leaves in the tiles: speed, levels and limits of all contactors, or the spectrum
 //! that arrives at one.
 
+use std::ops::Range;
+
 use crate::bench::on_finger::OnFinger;
 use crate::bench::recording::Recording;
 use crate::bench::signals::contact::ContactColumns;
@@ -11,7 +13,7 @@ use crate::tools::timeline::code::{
 use selvedge_device::Coder;
 use selvedge_engine::ApplyTicks;
 use selvedge_render::array::{ArrayRenderer, ContactInspector};
-use selvedge_render::scene::Pose;
+use selvedge_render::scene::{ExplorationPath, Pose};
 use selvedge_textile::tactile::vibrating_mean_um;
 
 /// Rows before those of the contactors: from the highest to the lowest (mirrored) of speed and of
@@ -30,8 +32,8 @@ pub(crate) trait TickColumns: Send {
     /// Bytes in a column.
     fn n_rows(&self) -> usize;
 
-    /// Writes the column of a tick.
-    fn write(&mut self, tick: u64, pose: &Pose, rows: &mut [u8]);
+    /// Writes the column of a tick of a path at which the first display is at `first`.
+    fn write(&mut self, path: &ExplorationPath, at: (u64, &Pose), rows: &mut [u8]);
 }
 
 /// Bytes in a column of what is felt with so many contactors.
@@ -98,8 +100,8 @@ pub(crate) fn write_felt(
 pub(crate) enum Amplitudes {
     /// Rendered.
     Rendered(Box<Rendered>),
-    /// As they were.
-    Recorded(Recording),
+    /// As they were: of these contactors among those of all displays.
+    Recorded(Recording, Range<usize>),
 }
 
 /// A scene that renders one pose after the other.
@@ -113,17 +115,18 @@ pub(crate) struct Rendered {
 }
 
 impl Rendered {
-    fn tick(&mut self, pose: &Pose) -> &[[f32; 2]] {
-        self.poses.fill(*pose);
+    fn tick(&mut self, display: usize) -> &[[f32; 2]] {
         self.renderer.tick(&self.poses);
         self.renderer.mask_display(0, &self.mask);
-        let first = self.renderer.frames().first();
-        first.map_or(&[], |frame| frame.amplitudes_um())
+        let shown = self.renderer.frames().get(display);
+        shown.map_or(&[], |frame| frame.amplitudes_um())
     }
 }
 
 /// Columns of what is felt.
 pub(crate) struct FeltColumns {
+    /// The display that is shown.
+    pub(crate) display: usize,
     pub(crate) amplitudes: Amplitudes,
     pub(crate) n_contactors: usize,
     pub(crate) limits: Limits,
@@ -138,15 +141,23 @@ impl TickColumns for FeltColumns {
         n_felt_rows(self.n_contactors)
     }
 
-    fn write(&mut self, tick: u64, pose: &Pose, rows: &mut [u8]) {
+    fn write(&mut self, path: &ExplorationPath, (tick, first): (u64, &Pose), rows: &mut [u8]) {
         let amplitudes_um = match &mut self.amplitudes {
-            Amplitudes::Rendered(rendered) => rendered.tick(pose),
-            Amplitudes::Recorded(recording) => recording.amplitudes_um(tick).unwrap_or_default(),
+            Amplitudes::Rendered(rendered) => {
+                path.poses_into(first, &mut rendered.poses);
+                rendered.tick(self.display)
+            }
+            Amplitudes::Recorded(recording, shown) => {
+                let all_um = recording.amplitudes_um(tick).unwrap_or_default();
+                all_um.get(shown.clone()).unwrap_or_default()
+            }
         };
         let amplitudes_um = &amplitudes_um[..amplitudes_um.len().min(self.n_contactors)];
-        let speed = pose.velocity.speed_mm_per_s();
+        let velocity = path.pose_of(self.display, first).velocity;
+        let speed = velocity.speed_mm_per_s();
         let nth = usize::try_from(tick).unwrap_or(usize::MAX);
-        let is_sent = self.apply_ticks.get(nth).is_some_and(Option::is_some);
+        // A device plays the first display.
+        let is_sent = self.display == 0 && self.apply_ticks.get(nth).is_some_and(Option::is_some);
         let on_finger = OnFinger::sent(is_sent);
         write_felt((speed, on_finger), amplitudes_um, &mut self.limits, rows);
         rows[MISSING] = 1 + u8::from(self.missing.binary_search(&tick).is_ok());
@@ -156,7 +167,8 @@ impl TickColumns for FeltColumns {
 /// Columns of the vibration that arrives at a contactor.
 pub(crate) struct SpectrumColumns {
     pub(crate) inspector: ContactInspector,
-    pub(crate) contactor: usize,
+    /// The display that is shown, and its contactor.
+    pub(crate) contactor: [usize; 2],
     pub(crate) columns: ContactColumns,
 }
 
@@ -165,10 +177,11 @@ impl TickColumns for SpectrumColumns {
         N_ROWS
     }
 
-    fn write(&mut self, _tick: u64, pose: &Pose, rows: &mut [u8]) {
+    fn write(&mut self, path: &ExplorationPath, (_, first): (u64, &Pose), rows: &mut [u8]) {
         let mut levels_db: Rows = [0.0; N_ROWS];
-        let at = (&mut self.inspector, [0, self.contactor]);
-        self.columns.levels_db(at.0, at.1, pose, &mut levels_db);
+        let pose = path.pose_of(self.contactor[0], first);
+        let at = (&mut self.inspector, self.contactor);
+        self.columns.levels_db(at.0, at.1, &pose, &mut levels_db);
         write_levels(&levels_db, rows);
     }
 }

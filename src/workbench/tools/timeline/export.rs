@@ -10,7 +10,7 @@ use crate::tools::timeline::span::Span;
 use crate::tools::timeline::transport::TransportView;
 use selvedge_chart::{Axis, Chart, Ink, Series, Style};
 use selvedge_foundation::quantity;
-use selvedge_render::scene::{PathCursor, TICKS_PER_S};
+use selvedge_render::scene::{PathCursor, Pose, Scene, TICKS_PER_S};
 use selvedge_textile::tactile::{Band, vibrating_mean_um};
 
 /// More points than this of a line are drawn as the least and the most of what falls together.
@@ -52,10 +52,10 @@ struct TimelineTicks {
 pub(crate) fn timeline(
     view: &TransportView<'_>,
     span: Span,
-    origin: Origin,
+    (display, origin): ((&Scene, usize), Origin),
 ) -> Result<Exported, &'static str> {
     let timeline = match view.shown_take() {
-        Some(take) => of_take(take, span),
+        Some(take) => of_take(take, span, display),
         None => of_history(view.live, span),
     };
     let mut ticks = timeline.ticks.iter();
@@ -66,11 +66,16 @@ pub(crate) fn timeline(
 }
 
 /// The same of a whole recording.
-pub(crate) fn recorded(recording: &Recording, n_ticks: u64, origin: Origin) -> Exported {
-    exported(&of_take(recording, Span::of(&(0..n_ticks))), origin)
+pub(crate) fn recorded(
+    recording: &Recording,
+    display: (&Scene, usize),
+    origin: Origin,
+) -> Exported {
+    let all = Span::of(&(0..recording.path().n_ticks()));
+    exported(&of_take(recording, all, display), origin)
 }
 
-fn of_take(take: &Recording, span: Span) -> TimelineTicks {
+fn of_take(take: &Recording, span: Span, (scene, display): (&Scene, usize)) -> TimelineTicks {
     let ticks = span.ticks();
     let mut cursor = PathCursor::at(take.path(), ticks.start);
     let next = || {
@@ -78,20 +83,23 @@ fn of_take(take: &Recording, span: Span) -> TimelineTicks {
             .step(take.path())
             .filter(|(tick, _)| *tick < ticks.end)
     };
-    let of = |(tick, pose): (u64, selvedge_render::scene::Pose)| TimelineTick {
+    let speed = |first: &Pose| take.path().pose_of(display, first).velocity;
+    let of = |(tick, first): (u64, Pose)| TimelineTick {
         tick,
         t_s: tick as f64 / TICKS_PER_S,
         goes_on: tick > ticks.start && take.missing().binary_search(&tick).is_err(),
-        speed_mm_per_s: finite(pose.velocity.speed_mm_per_s()),
-        mean_um: take.amplitudes_um(tick).map(|amplitudes_um| {
-            let exact = amplitudes_um.iter().map(|um| um.map(f64::from));
-            vibrating_mean_um(exact).1
-        }),
+        speed_mm_per_s: finite(speed(&first).speed_mm_per_s()),
+        mean_um: take
+            .display_um(tick, (scene, display))
+            .map(|amplitudes_um| {
+                let exact = amplitudes_um.iter().map(|um| um.map(f64::from));
+                vibrating_mean_um(exact).1
+            }),
     };
     TimelineTicks {
         name: take.name().to_owned(),
         time_label: "time, s",
-        has_levels: take.n_contactors() > 0,
+        has_levels: take.has_display(scene, display),
         which: "vibrate",
         ticks: std::iter::from_fn(next).map(of).collect(),
     }

@@ -1,5 +1,5 @@
-//! A whole exploration on one page: where the display went, what vibrated under it, how strong
-//! every contactor was, speed and mean levels; with a caption.
+//! A whole exploration on one page: where displays went, what vibrated under one, how strong every
+//! contactor was, speed and mean levels; with a caption.
 //!
 //! A recording is drawn as it was felt, a path as the scene makes it felt. The same exploration
 //! gives the same bytes.
@@ -19,9 +19,10 @@ use crate::kit::spectrum_scale::LevelRange;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::timeline::export::recorded;
 use crate::tools::timeline::figure_map::map;
-use selvedge_chart::{At, Axis, Chart, Extent, Ink, Raster, Row, Rule, Series, Style, Upright};
+use crate::tools::timeline::figure_moment::Moment;
+use selvedge_chart::{At, Axis, Chart, Ink, Raster, Row, Rule, Series, Style, Upright};
 use selvedge_foundation::quantity::fixed;
-use selvedge_render::array::{Accuracy, ContactInspector, Method};
+use selvedge_render::array::{Accuracy, ContactInspector, DisplayFrame, Method};
 use selvedge_render::scene::{ExplorationPath, LoadedScene, Pose, TICKS_PER_S};
 use selvedge_render::{RenderScene, Replay, replay};
 use selvedge_textile::BuildCache;
@@ -40,7 +41,8 @@ pub struct FigureOf {
     pub scene: Option<PathBuf>,
     /// A recording's folder or a path file; `None`: the first recording that the scene names.
     pub exploration: Option<PathBuf>,
-    /// The contactor whose spectrum is drawn; `None`: the one that vibrated most.
+    /// The contactor whose spectrum is drawn, among those of all displays one after the other;
+    /// `None`: the one that vibrated most.
     pub contactor: Option<usize>,
 }
 
@@ -68,7 +70,7 @@ pub fn exploration_figure(
     let found = read(of, &loaded)?;
     let was_felt = found.n_contactors() > 0;
     let recording = with_amplitudes(found, &scene)?;
-    let moment = Moment::of(&recording, of.contactor)?;
+    let moment = Moment::of(&recording, loaded.scene(), of.contactor)?;
     let caption = caption(&loaded, (&recording, was_felt), &moment);
     let drawn = exported((&loaded, &scene), &recording, &moment, &caption)?;
     let bytes = |kind: Kind| {
@@ -136,74 +138,13 @@ fn with_amplitudes(recording: Recording, scene: &RenderScene) -> Result<Recordin
     };
     let mut felt = Felt::default();
     replay(&what, &path, &mut || 0, &mut |_, _, frames| {
-        if let Some(frame) = frames.first() {
-            felt.n_contactors = frame.n_contactors();
-            felt.amplitudes_um.extend_from_slice(frame.amplitudes_um());
-        }
+        felt.n_contactors = frames.iter().map(DisplayFrame::n_contactors).sum();
+        let displays = frames.iter().map(DisplayFrame::amplitudes_um);
+        displays.for_each(|um| felt.amplitudes_um.extend_from_slice(um));
         ControlFlow::Continue(())
     })?;
     let about = recording.about().clone();
     Ok(Recording::felt(about, path, &[], felt))
-}
-
-/// What stands out: the tick at which most was felt, and one contactor.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Moment {
-    pub(crate) tick: u64,
-    pub(crate) pose: Pose,
-    pub(crate) contactor: usize,
-}
-
-impl Moment {
-    fn of(recording: &Recording, contactor: Option<usize>) -> Result<Self, AppError> {
-        let n = recording.n_contactors();
-        if let Some(contactor) = contactor.filter(|contactor| *contactor >= n) {
-            let what = format!(
-                "there is no contactor {contactor}; give 0 to {}",
-                n.max(1) - 1
-            );
-            return Err(AppError::Exploration(what));
-        }
-        let mut of_contactors = vec![0.0; n];
-        let mut strongest = (0.0, 0, Pose::default());
-        for (tick, pose) in recording.path().ticks() {
-            let amplitudes_um = recording.amplitudes_um(tick).unwrap_or_default();
-            let sums = amplitudes_um
-                .iter()
-                .map(|[low, high]| f64::from(low + high));
-            let sum: f64 = sums.clone().sum();
-            of_contactors
-                .iter_mut()
-                .zip(sums)
-                .for_each(|(all, um)| *all += um);
-            if sum > strongest.0 || tick == 0 {
-                strongest = (sum, tick, pose);
-            }
-        }
-        let most = (0..n)
-            .rev()
-            .max_by(|a, b| of_contactors[*a].total_cmp(&of_contactors[*b]));
-        let (_, tick, pose) = strongest;
-        Ok(Self {
-            tick,
-            pose,
-            contactor: contactor.or(most).unwrap_or(0),
-        })
-    }
-
-    fn t_s(&self) -> f64 {
-        self.tick as f64 / TICKS_PER_S
-    }
-
-    /// Where it stands in the strips.
-    fn rule(&self) -> Rule {
-        Rule {
-            at: At::X(self.t_s()),
-            ink: Ink::Grey,
-            extent: Extent::Dashed,
-            ..Rule::default()
-        }
-    }
 }
 
 fn exported(
@@ -212,10 +153,15 @@ fn exported(
     moment: &Moment,
     caption: &str,
 ) -> Result<Exported, AppError> {
-    let n_ticks = recording.path().n_ticks();
     let scene_file = loaded.scene();
     let origin = Origin::of(scene_file, &loaded.tuning(), loaded.library_reference_db());
-    let lines = recorded(recording, n_ticks, origin.of_contactor(moment.contactor));
+    let [display, contactor] = moment.contactor;
+    let mut origin = origin.of_contactor(contactor);
+    if scene_file.displays.len() > 1 {
+        let number = (display + 1).to_string();
+        origin = origin.and("display", &number, &format!("of display {number}"));
+    }
+    let lines = recorded(recording, (scene_file, display), origin);
     let mut inspector = ContactInspector::new(scene);
     let [height_px, room_px, most_px] = MAP_PX;
     let [width_mm, height_mm] = scene_file.size_mm;
@@ -226,7 +172,7 @@ fn exported(
     };
     let spectrum = Chart {
         width: room_px - width,
-        ..spectrum_at(&mut inspector, moment)
+        ..spectrum_at(&mut inspector, recording.path(), moment)
     };
     let mut rows = vec![Row {
         panels: vec![map, spectrum],
@@ -247,11 +193,11 @@ fn exported(
 }
 
 /// What vibrates under the contactor at the moment that stands out.
-fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
+fn spectrum_at(inspector: &mut ContactInspector, path: &ExplorationPath, moment: &Moment) -> Chart {
     let mut levels_db = [0.0; N_ROWS];
     let mut columns = ContactColumns::default();
-    let contactor = [0, moment.contactor];
-    columns.levels_db(inspector, contactor, &moment.pose, &mut levels_db);
+    let pose = moment.pose(path, &moment.first);
+    columns.levels_db(inspector, moment.contactor, &pose, &mut levels_db);
     let points = levels_db.iter().enumerate();
     let points = points.map(|(row, db)| [row_centre_hz(row), f64::from(*db)]);
     let carrier = |band: Band| Rule {
@@ -260,11 +206,7 @@ fn spectrum_at(inspector: &mut ContactInspector, moment: &Moment) -> Chart {
         ..Rule::default()
     };
     Chart {
-        title: format!(
-            "under contactor {} at {} s",
-            moment.contactor,
-            fixed(moment.t_s(), 2)
-        ),
+        title: format!("under {} at {} s", moment.name, fixed(moment.t_s(), 2)),
         x: Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]),
         y: Axis::linear("level, dB re 1 µm").within(LevelRange::default().ends_db()),
         rules: Band::ALL.map(carrier).to_vec(),
@@ -347,8 +289,9 @@ fn strip(recording: &Recording, band: Band, moment: &Moment) -> Row {
 fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: &Moment) -> Row {
     let levels = LevelRange::default();
     let (mut columns, mut levels_db) = (ContactColumns::default(), [0.0; N_ROWS]);
-    let raster = raster(recording, N_ROWS, |_, pose, shares| {
-        columns.levels_db(inspector, [0, moment.contactor], pose, &mut levels_db);
+    let raster = raster(recording, N_ROWS, |_, first, shares| {
+        let pose = moment.pose(recording.path(), first);
+        columns.levels_db(inspector, moment.contactor, &pose, &mut levels_db);
         for (share, db) in shares.iter_mut().zip(levels_db.iter().rev()) {
             let db = f64::from(*db);
             *share = if db.is_finite() {
@@ -361,7 +304,7 @@ fn spectrogram(inspector: &mut ContactInspector, recording: &Recording, moment: 
     let y = Axis::log("frequency, Hz").within([LEAST_HZ, MOST_HZ]);
     Row {
         panels: vec![Chart {
-            title: format!("under contactor {}", moment.contactor),
+            title: format!("under {}", moment.name),
             ..over_time(recording.path().n_ticks(), raster, y, moment)
         }],
         height_px: 130.0,
@@ -378,98 +321,35 @@ fn caption(
     moment: &Moment,
 ) -> String {
     let (name, scene) = (recording.name(), &loaded.scene().name);
-    let (contactor, t_s) = (moment.contactor, fixed(moment.t_s(), 2));
+    let (contactor, t_s) = (&moment.name, fixed(moment.t_s(), 2));
     let end_s = fixed(recording.path().duration_s(), 2);
     let amplitudes = if was_felt {
         "as they were recorded"
     } else {
         "as the scene renders the path"
     };
+    let nth = moment.contactor[0] + 1;
+    let (ways, all, whose) = if loaded.scene().displays.len() > 1 {
+        let whose = [format!("display {nth}'s"), "its".to_owned()];
+        (
+            ["the displays' ways", "their"],
+            ", displays one after the other,",
+            whose,
+        )
+    } else {
+        let whose = ["the display's", "the"].map(str::to_owned);
+        (["the display's way", "its"], "", whose)
+    };
+    let ([way, their], [whose, its]) = (ways, whose);
     format!(
-        "Exploration \"{name}\" of the scene \"{scene}\", {end_s} s. Above, left: the display's \
-         way over the textiles, with its contactors at {t_s} s, when most was felt (dashed below); \
-         right: spectrum of the surface under contactor {contactor} at that moment, before filters \
-         and gains. Below, over time: peak amplitudes of every contactor at 40 Hz and 320 Hz \
+        "Exploration \"{name}\" of the scene \"{scene}\", {end_s} s. Above, left: {way} over the \
+         textiles, with {their} contactors at {t_s} s, when most was felt (dashed below); right: \
+         spectrum of the surface under {contactor} at that moment, before filters and gains. \
+         Below, over time: peak amplitudes of every contactor{all} at 40 Hz and 320 Hz \
          {amplitudes}, after gains and before output limits, white where silent; spectrum under \
-         contactor {contactor}; speed of the display's middle; mean level of the contactors that \
-         vibrate."
+         {contactor}; speed of {whose} middle; mean level of {its} contactors that vibrate."
     )
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SCENE: &str = "../../assets/scenes/four-alternatives.scene.toml";
-
-    fn figure(contactor: Option<usize>) -> Result<FigureFiles, AppError> {
-        let scratch = selvedge_scratch::ScratchFolder::made("figure");
-        let row = |n: u32| format!("{},{},60\n", f64::from(n) / 40.0, 30.0 + 4.0 * f64::from(n));
-        let rows: String = (0..=40).map(row).collect();
-        let path = scratch.write("stroke.csv", format!("t_s,x_mm,y_mm\n{rows}"));
-        let of = FigureOf {
-            scene: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE)),
-            exploration: Some(path),
-            contactor,
-        };
-        exploration_figure(&of, None)
-    }
-
-    #[test]
-    fn a_page_is_the_same_twice_and_its_caption_names_what_it_shows() {
-        let [one, other] = [figure(None), figure(None)].map(Result::unwrap);
-        assert_eq!((&one.svg, &one.png), (&other.svg, &other.png));
-        for words in [
-            "\"stroke\"",
-            "as the scene renders the path",
-            "1.00 s",
-            "sha256",
-        ] {
-            assert!(one.caption.contains(words), "{words}: {}", one.caption);
-        }
-        let svg = String::from_utf8(one.svg).unwrap();
-        // Cloth and three strips over time are pictures, all frames of time equally wide.
-        assert_eq!(svg.matches("<image").count(), 4);
-        let chosen = figure(Some(3)).unwrap();
-        assert!(
-            chosen.caption.contains("under contactor 3 "),
-            "{}",
-            chosen.caption
-        );
-        let error = figure(Some(24)).unwrap_err().to_string();
-        assert!(error.ends_with("give 0 to 23"), "{error}");
-    }
-
-    #[test]
-    fn a_recording_alone_is_drawn_in_the_scene_that_it_was_made_in() {
-        let root = selvedge_scratch::ScratchFolder::made("figure-recording");
-        let recorded = |scene: &str, scene_file: Option<PathBuf>| {
-            let made = crate::bench::recording::tests::explored(40);
-            let about = file::About {
-                scene: scene.to_owned(),
-                scene_file,
-                ..crate::bench::recording::tests::page("One")
-            };
-            let mut on_disk =
-                file::RecordingFile::create(&root, about, [0, made.n_contactors()]).unwrap();
-            on_disk.append(&made, 0).unwrap();
-            let of = FigureOf {
-                scene: None,
-                exploration: Some(on_disk.finish().unwrap().0),
-                contactor: None,
-            };
-            exploration_figure(&of, None)
-        };
-        let shipped = LoadedScene::shipped().unwrap().scene().name.clone();
-        let page = recorded(&shipped, None).unwrap();
-        assert!(page.caption.contains("One"), "{}", page.caption);
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE);
-        let same = recorded("any name", Some(file)).unwrap();
-        assert!(!same.png.is_empty());
-        let unknown = recorded("never saved", None).unwrap_err().to_string();
-        assert!(
-            unknown.contains("“never saved”; give a scene first"),
-            "{unknown}"
-        );
-    }
-}
+mod tests;

@@ -1,8 +1,8 @@
-//! The workspace seen from above on a page: cloth, the display's way, its contactors.
+//! The workspace seen from above on a page: cloth, the ways of displays, their contactors.
 
 use crate::bench::error::AppError;
 use crate::bench::recording::Recording;
-use crate::tools::timeline::figure::Moment;
+use crate::tools::timeline::figure_moment::Moment;
 use selvedge_chart::{Axis, Chart, Ink, Raster, Series, Style, Weight, Words};
 use selvedge_foundation::geometry::{Point, Rotation};
 use selvedge_foundation::numerics::to_index;
@@ -26,17 +26,32 @@ pub(crate) fn map(
     let scene = loaded.scene();
     let [width_mm, height_mm] = scene.size_mm;
     let each = recording.path().n_ticks().div_ceil(MOST_POINTS).max(1);
-    let ticks = recording.path().ticks();
-    let some = ticks.filter(|(tick, _)| tick.is_multiple_of(each));
-    let way = some.map(|(_, pose)| [pose.position.x_mm, pose.position.y_mm]);
-    let display = scene.displays.first();
-    let contactors = display.map_or_else(Vec::new, |display| {
-        let turn = Rotation::from_degrees(display.rotation_deg + moment.pose.angle_deg);
-        let offsets = display.geometry.contactors().into_iter();
-        let middle = moment.pose.position;
-        offsets.map(|offset| middle + turn.turn(offset)).collect()
-    });
-    let contactors = contactors.iter().map(|at: &Point| [at.x_mm, at.y_mm]);
+    let path = recording.path();
+    let series = scene
+        .displays
+        .iter()
+        .enumerate()
+        .flat_map(|(nth, display)| {
+            let some = path.ticks().filter(|(tick, _)| tick.is_multiple_of(each));
+            let way = some.map(|(_, first)| path.pose_of(nth, &first).position);
+            let way = way.map(|at| [at.x_mm, at.y_mm]);
+            let pose = path.pose_of(nth, &moment.first);
+            let turn = Rotation::from_degrees(display.rotation_deg + pose.angle_deg);
+            let offsets = display.geometry.contactors().into_iter();
+            let contactors = offsets.map(|offset| pose.position + turn.turn(offset));
+            let contactors = contactors.map(|at: Point| [at.x_mm, at.y_mm]);
+            [
+                Series {
+                    ink: Ink::Violet,
+                    weight: Weight::Bold,
+                    ..Series::of("", Style::Line, way)
+                },
+                Series {
+                    ink: Ink::Black,
+                    ..Series::of("", Style::Dots, contactors)
+                },
+            ]
+        });
     let label = |placed: &selvedge_render::scene::PlacedTextile| {
         let [u_mm, w_mm] = placed.size_mm.map(|side_mm| 0.5 * side_mm);
         let at = placed
@@ -54,17 +69,7 @@ pub(crate) fn map(
         y: Axis::linear("y, mm").within([0.0, height_mm]),
         raster: Some(cloth(loaded)?),
         words: scene.textiles.iter().map(label).collect(),
-        series: vec![
-            Series {
-                ink: Ink::Violet,
-                weight: Weight::Bold,
-                ..Series::of("", Style::Line, way)
-            },
-            Series {
-                ink: Ink::Black,
-                ..Series::of("", Style::Dots, contactors)
-            },
-        ],
+        series: series.collect(),
         ..Chart::default()
     })
 }

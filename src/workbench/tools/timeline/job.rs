@@ -120,7 +120,7 @@ impl Work<'_> {
             let Some((tick, pose)) = cursor.step(self.path) else {
                 break;
             };
-            self.columns.write(tick, &pose, &mut rows);
+            self.columns.write(self.path, (tick, &pose), &mut rows);
             let column = within * TILE / self.ticks_per_tile;
             tile.put(usize::try_from(column).unwrap_or(0), &rows);
         }
@@ -154,7 +154,7 @@ mod tests {
             1
         }
 
-        fn write(&mut self, tick: u64, _pose: &Pose, rows: &mut [u8]) {
+        fn write(&mut self, _: &ExplorationPath, (tick, _): (u64, &Pose), rows: &mut [u8]) {
             rows[0] = u8::try_from(tick % 255 + 1).unwrap();
         }
     }

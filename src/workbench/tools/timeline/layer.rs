@@ -1,6 +1,7 @@
 //! What is drawn of a recording: tiles that are made anew in the background when what they show has
 //! changed. The old ones stay until the new are there.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::bench::Bench;
@@ -18,9 +19,10 @@ use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_render::array::{ArrayRenderer, TableCache};
 use selvedge_render::scene::{ExplorationPath, Pose};
 
-/// What decides how strong a recording is on every contactor.
+/// What decides how strong a recording is on every contactor of the display that is shown.
 #[derive(Debug, Clone, PartialEq)]
 struct FeltKey {
+    display: usize,
     is_as_recorded: bool,
     scenes: [u64; 2],
     gains: AppliedGains,
@@ -28,8 +30,8 @@ struct FeltKey {
     limits: (ArrayProfile, Option<LinkScale>),
 }
 
-/// What decides which vibration arrives: the scene and the contactor.
-type SpectrumKey = ([u64; 2], usize);
+/// What decides which vibration arrives: the scene, the display that is shown and its contactor.
+type SpectrumKey = ([u64; 2], [usize; 2]);
 
 /// Tiles of one kind.
 struct Layer<K> {
@@ -138,53 +140,48 @@ impl RecordedTiles {
     ) -> Option<String> {
         let scenes = [bench.inspection.n_scenes, bench.inspection.n_edits];
         let scale = bench.live.bridge.as_ref().and_then(|bridge| bridge.scale);
-        let is_as_recorded = is_as_recorded && recording.n_contactors() > 0;
+        let display = bench.display();
+        let (scene, path) = (bench.document.scene(), recording.path());
         let key = FeltKey {
-            is_as_recorded,
+            display,
+            is_as_recorded: is_as_recorded && recording.has_display(scene, display),
             scenes,
             gains: bench.engine_scene.applied_gains.clone(),
             rendering: bench.engine_scene.rendering,
             limits: (bench.array(), scale),
         };
-        let n_contactors = n_shown(bench, recording, is_as_recorded);
-        let (path, cache) = (recording.path(), &self.cache);
-        let felt = self.felt.follow(
-            bench,
-            (path, focus),
-            (key, n_felt_rows(n_contactors)),
-            |key| felt_columns(bench, recording, (key, n_contactors), cache),
-        );
-        let spectrum =
-            self.spectrum
-                .follow(bench, (path, focus), ((scenes, contactor), N_ROWS), |_| {
-                    spectrum_columns(bench, contactor)
-                });
+        let mut shown = scene.contactors_of(display);
+        if key.is_as_recorded {
+            shown.end = shown.end.min(recording.n_contactors());
+        }
+        let (n_rows, cache) = (n_felt_rows(shown.len()), &self.cache);
+        let felt = self
+            .felt
+            .follow(bench, (path, focus), (key, n_rows), |key| {
+                felt_columns(bench, recording, (key, shown), cache)
+            });
+        let key = (scenes, [display, contactor]);
+        let spectrum = self
+            .spectrum
+            .follow(bench, (path, focus), (key, N_ROWS), |key| {
+                spectrum_columns(bench, key.1)
+            });
         felt.or(spectrum)
-    }
-}
-
-/// Contactors of the first display that are shown.
-fn n_shown(bench: &Bench, recording: &Recording, is_as_recorded: bool) -> usize {
-    let first = bench.inspection.scene.displays.first();
-    let n = first.map_or(0, |display| display.offsets.len());
-    if is_as_recorded {
-        n.min(recording.n_contactors())
-    } else {
-        n
     }
 }
 
 fn felt_columns(
     bench: &Bench,
     recording: &Recording,
-    (key, n_contactors): (&FeltKey, usize),
+    (key, shown): (&FeltKey, Range<usize>),
     cache: &Arc<Mutex<TableCache>>,
 ) -> MakeColumns {
     let (key, recording) = (key.clone(), recording.clone());
     let (scene, cache) = (bench.inspection.scene.clone(), Arc::clone(cache));
+    let n_contactors = shown.len();
     Box::new(move || {
         let amplitudes = if key.is_as_recorded {
-            Amplitudes::Recorded(recording.clone())
+            Amplitudes::Recorded(recording.clone(), shown)
         } else {
             let (method, accuracy) = (key.rendering.method, key.rendering.accuracy());
             let mut cache = cache.lock().unwrap_or_else(PoisonError::into_inner);
@@ -196,6 +193,7 @@ fn felt_columns(
             }))
         };
         let columns: Box<dyn TickColumns> = Box::new(FeltColumns {
+            display: key.display,
             amplitudes,
             n_contactors,
             limits: limits(&key.limits, n_contactors),
@@ -216,7 +214,7 @@ pub(crate) fn limits(
     Limits::of(coder, n_contactors)
 }
 
-fn spectrum_columns(bench: &Bench, contactor: usize) -> MakeColumns {
+fn spectrum_columns(bench: &Bench, contactor: [usize; 2]) -> MakeColumns {
     let inspector = bench.inspection.inspector.clone();
     Box::new(move || {
         let columns: Box<dyn TickColumns> = Box::new(SpectrumColumns {

@@ -50,7 +50,7 @@ impl LiveTiles {
     /// one frame may. Whether more are due.
     pub(crate) fn follow(&mut self, bench: &mut Bench, contactor: usize, in_sight: Span) -> bool {
         let history = &bench.past.history;
-        let of = (history.n_clears, history.n_contactors);
+        let of = (history.n_clears, history.n_contactors());
         if self.of != of || self.felt.n_rows == 0 {
             self.of = of;
             self.felt = Tiles::new(n_felt_rows(of.1), 0);
@@ -152,7 +152,7 @@ fn motion(entry: &Entry) -> (f64, OnFinger) {
     let on_finger = if sample.is_silent {
         OnFinger::Held
     } else {
-        OnFinger::sent(sample.apply_tick.is_some())
+        OnFinger::sent(sample.display == 0 && sample.apply_tick.is_some())
     };
     (sample.pose.velocity.speed_mm_per_s(), on_finger)
 }

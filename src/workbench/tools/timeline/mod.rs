@@ -11,6 +11,7 @@ pub(crate) mod controls;
 pub(crate) mod export;
 pub(crate) mod figure;
 mod figure_map;
+mod figure_moment;
 pub(crate) mod icons;
 pub(crate) mod job;
 pub(crate) mod lanes;
@@ -84,7 +85,8 @@ impl Bar for Timeline {
         let view = TransportView::of(bench);
         let span = self.selected.as_ref().map(Span::of);
         let span = span.unwrap_or_else(|| self.sight.span(extent(&view)));
-        export::timeline(&view, span, bench.rendered_origin())
+        let display = (bench.document.scene(), bench.display());
+        export::timeline(&view, span, (display, bench.rendered_origin()))
     }
 }
 

@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 
 use super::*;
 use crate::bench::command::PlaySource;
-use crate::bench::command::{Command, Edit, PlayCommand};
+use crate::bench::command::{Command, Edit, PlayCommand, ShowCommand};
 use crate::bench::recording::Recording;
+use crate::bench::recording::tests::two_apart;
 use crate::bench::signals::history::History;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::SpectrumScale;
@@ -24,6 +25,7 @@ use eframe::egui::{
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::single;
 use selvedge_render::scene::{ExplorationPath, PathRow};
+use selvedge_scratch::ScratchFolder;
 
 /// A stroke of ten seconds: ticks 0…400.
 fn recorded() -> Recording {
@@ -305,6 +307,49 @@ fn a_gain_that_changes_renders_a_recording_anew_as_it_is_replayed() {
             }
         }
     }
+}
+
+#[test]
+fn lanes_and_their_export_are_of_the_display_that_is_shown() {
+    let folder = ScratchFolder::made("lanes-two");
+    let mut desk = two_apart(&folder, 0);
+    let take = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+    let all = Span::of(&(0..take.path().n_ticks()));
+    let sheets = [0, 1].map(|display| {
+        desk.dispatch(ShowCommand::SelectDisplay(display));
+        desk.pass(1);
+        let bench = &desk.workbench.bench;
+        let scene = bench.document.scene();
+        for is_as_recorded in [true, false] {
+            let mut tiles = RecordedTiles::default();
+            let failure = tiles.follow(bench, &take, (9, is_as_recorded), 0);
+            assert_eq!((failure, tiles.share()), (None, None), "done in line");
+            for tick in all.ticks() {
+                let mut rows = vec![0; tiles.felt().n_rows];
+                tiles.felt().strongest_into(tick..tick + 1, &mut rows);
+                let felt_um = take.display_um(tick, (scene, display)).unwrap();
+                for (contactor, um) in felt_um.iter().enumerate() {
+                    let codes = [0, 1].map(|band| rows[N_LINES + band * 24 + contactor]);
+                    assert_eq!(
+                        codes,
+                        um.map(amplitude_code),
+                        "display {display}, tick {tick}"
+                    );
+                }
+            }
+        }
+        let replay = TransportView {
+            source: PlaySource::Recording,
+            ..view(Some(&take))
+        };
+        let origin = bench.rendered_origin();
+        let exported = export::timeline(&replay, all, ((scene, display), origin)).unwrap();
+        format!("{:?}", exported.sheet)
+    });
+    assert!(
+        sheets[0].contains("80.0") && sheets[1].contains("120.0"),
+        "{sheets:?}"
+    );
 }
 
 #[test]

@@ -264,7 +264,12 @@ fn drag(
 
 #[cfg(test)]
 mod tests {
+    use eframe::egui::{Event, PointerButton, vec2};
+
     use super::*;
+    use crate::bench::gain_set::GainSet;
+    use crate::shell::headless::Headless;
+    use selvedge_foundation::numerics::to_single;
 
     fn library() -> Vec<LibraryDot> {
         let dot = |low_um: f64, high_um: f64| LibraryDot {
@@ -301,5 +306,71 @@ mod tests {
     #[test]
     fn a_library_without_textiles_has_no_range() {
         assert_eq!(ranges_db(&[], &Tuning::default(), 0.0), [0.0, 0.0]);
+    }
+
+    /// A press at a place of the curve, a drag to another, and what came of it.
+    fn dragged(window: &mut Headless, [from, to]: [[f64; 2]; 2]) -> GainSet {
+        let scene = window.workbench.bench.plain_scene_view();
+        let [x, y] = chart(&scene, scene.reference_db.unwrap())
+            .rulers()
+            .map(|ruler| ruler.ends());
+        let id = Id::unique(("chart", "Compression curve"));
+        let rect = window.ctx.read_response(id).unwrap().rect;
+        let area = Rect::from_min_max(rect.min + vec2(30.0, 6.0), rect.max - vec2(6.0, 18.0));
+        let place = |at: [f64; 2]| {
+            let share = |db: f64, ends: [f64; 2]| to_single((db - ends[0]) / (ends[1] - ends[0]));
+            let [across, up] = [share(at[0], x), share(at[1], y)];
+            area.left_bottom() + vec2(across * area.width(), -up * area.height())
+        };
+        let [from, to] = [from, to].map(place);
+        let button = |pos: Pos2, pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: eframe::egui::Modifiers::NONE,
+        };
+        window.events = vec![Event::PointerMoved(from), button(from, true)];
+        window.pass(2);
+        for share in [0.3, 0.6, 1.0] {
+            let at = from + share * (to - from);
+            window.events = vec![Event::PointerMoved(at)];
+            window.pass(2);
+        }
+        window.events = vec![button(to, false)];
+        window.pass(2);
+        window.workbench.bench.gain_set()
+    }
+
+    #[test]
+    fn a_textile_is_dragged_to_its_gain_and_the_line_to_its_compression_in_a_step_each() {
+        let mut window = Headless::drawn();
+        window.pass(3);
+        let bench = &window.workbench.bench;
+        let (scene, before) = (bench.plain_scene_view(), bench.gain_set());
+        let n_steps = bench.document.steps().n_done;
+        let reference_db = scene.reference_db.unwrap();
+        // The one that is farthest from what compression leaves alone has nothing beside it.
+        let far = |dot: &&LibraryDot| (dot.level_db - reference_db).abs();
+        let placed = scene.library.iter().filter(|dot| dot.is_placed);
+        let dot = placed.max_by(|a, b| far(a).total_cmp(&far(b))).unwrap();
+        let index = scene.placed(&dot.id).unwrap();
+        let at = [
+            dot.level_db,
+            out_db(&scene.tuning, reference_db, dot.level_db) + scene_gain_db(&scene, dot),
+        ];
+        let after = dragged(&mut window, [at, [at[0], at[1] + 4.0]]);
+        let by_db = after.gains_db[index] - before.gains_db[index];
+        assert!((by_db - 4.0).abs() < 0.6, "{by_db} dB");
+        assert_eq!(after.tuning, before.tuning);
+        let steps = |window: &Headless| window.workbench.bench.document.steps().n_done;
+        assert_eq!(steps(&window), n_steps + 1);
+        // Away from every textile the line itself is taken: to where nothing is left of 12 dB.
+        let level_db = reference_db - 12.0;
+        let free = [level_db, reference_db + 6.0];
+        let turned = dragged(&mut window, [free, [level_db, reference_db]]);
+        let compression = turned.tuning.compression;
+        assert!((compression - 1.0).abs() < 0.06, "{compression}");
+        assert_eq!(turned.gains_db, after.gains_db);
+        assert_eq!(steps(&window), n_steps + 2);
     }
 }

@@ -276,7 +276,6 @@ mod tests {
     fn cloth(origin: [f64; 2], size_mm: [f64; 2], rotation_deg: f64) -> Cloth {
         Cloth {
             id: "felt".to_owned(),
-            label: String::new(),
             name: "Felt".to_owned(),
             workspace_from_textile: Frame {
                 origin: origin.into(),
@@ -284,11 +283,7 @@ mod tests {
             },
             size_mm,
             rotation_deg,
-            is_muted: false,
-            band_gains_db: [0.0; 2],
-            within_mm: None,
-            gain_db: 0.0,
-            picture: None,
+            ..Cloth::default()
         }
     }
 

@@ -135,17 +135,10 @@ mod tests {
 
     fn cloth(name: &str, side_mm: f64) -> Cloth {
         Cloth {
-            id: String::new(),
             label: "1".to_owned(),
             name: name.to_owned(),
-            workspace_from_textile: selvedge_foundation::geometry::Frame::default(),
             size_mm: [side_mm; 2],
-            rotation_deg: 0.0,
-            is_muted: false,
-            band_gains_db: [0.0; 2],
-            within_mm: None,
-            gain_db: 0.0,
-            picture: None,
+            ..Cloth::default()
         }
     }
 

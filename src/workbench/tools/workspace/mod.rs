@@ -28,7 +28,7 @@ pub(crate) mod tools;
 
 use std::cell::Cell;
 
-use eframe::egui::{self, CursorIcon, DragAndDrop, Popup, Rect, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{self, CursorIcon, DragAndDrop, Popup, Pos2, Rect, Sense, Ui, WidgetInfo, vec2};
 
 use crate::bench::command::{Command, Commands, Part, ShowCommand, Tool};
 use crate::bench::export::Exported;
@@ -93,7 +93,7 @@ impl tool::Tool for Workspace {
             next: &next,
         };
         let ground = show(ui, sight, context.commands);
-        self.show_rings(ui, &ground, bench.document.scene().displays.len());
+        self.show_rings(ui, &ground, &bench.pointer.strays);
         *context.ground = Some(ground);
         self.take_up(ui, next.get());
     }
@@ -178,14 +178,9 @@ impl Workspace {
     }
 
     /// Shows which fingers feel nothing, because others hold the displays of the scene.
-    fn show_rings(&mut self, ui: &Ui, ground: &PointerGround, n_displays: usize) {
+    fn show_rings(&mut self, ui: &Ui, ground: &PointerGround, strays: &[Pos2]) {
         let now_s = ui.input(|input| input.time);
-        let felt = if ground.feels {
-            ground.rect
-        } else {
-            Rect::NOTHING
-        };
-        self.rings.take(ui, (felt, n_displays), now_s);
+        self.rings.take(strays, now_s);
         if self.rings.is_any() {
             let ring = (Palette::in_ui(ui).dim, RING);
             self.rings.paint(&ui.painter_at(ground.rect), now_s, ring);

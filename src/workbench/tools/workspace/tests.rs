@@ -174,12 +174,7 @@ fn cloth(origin: [f64; 2], size_mm: [f64; 2]) -> Cloth {
             rotation: Rotation::NONE,
         },
         size_mm,
-        rotation_deg: 0.0,
-        is_muted: false,
-        band_gains_db: [0.0; 2],
-        within_mm: None,
-        gain_db: 0.0,
-        picture: None,
+        ..Cloth::default()
     }
 }
 

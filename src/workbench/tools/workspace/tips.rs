@@ -119,10 +119,8 @@ mod tests {
             size_mm: [100.0, 50.0],
             rotation_deg: -15.0,
             is_muted: true,
-            band_gains_db: [0.0; 2],
-            within_mm: None,
             gain_db: -3.0,
-            picture: None,
+            ..Cloth::default()
         };
         let expected = "2  Wool felt\nfelt\n100.0 × 50.0 mm, turned by −15.0°\nGain −3.0 dB\nMuted";
         assert_eq!(of_cloth(&cloth), expected);

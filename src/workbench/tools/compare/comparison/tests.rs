@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::bench::command::ShowCommand;
 use crate::bench::gain_set::GainSet;
+use crate::bench::recording::tests::two_apart;
 use crate::tools::compare::choice::TuningChoice;
 use crate::tools::compare::export::over_time_chart;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, PathRow, Scene, SlotLetter, Stroke};
+use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Tuning;
 
 fn tunings() -> [Tuning; 2] {
@@ -30,7 +33,7 @@ fn route(x_mm: f64, y_mm: f64, n_ticks: u64) -> Route {
 }
 
 fn asked(choice: &Choice, scene: &Scene, route: Route) -> Inputs {
-    Inputs::of(choice, scene, tunings(), route).unwrap()
+    Inputs::of(choice, scene, tunings(), (route, 0)).unwrap()
 }
 
 fn threads() -> Executor {
@@ -93,10 +96,10 @@ fn a_slot_is_compared_as_it_was_kept_and_an_empty_one_is_refused() {
     assert_eq!(a.scene.textiles[0].gain_db, -4.0);
     assert_eq!(a.scene.tuning, Some(tunings()[1]));
     assert_eq!(b.scene.textiles[0].gain_db, 2.0);
-    let none = Inputs::of(&choice(SlotLetter::E), &scene, tunings(), path.clone());
+    let none = Inputs::of(&choice(SlotLetter::E), &scene, tunings(), (path.clone(), 0));
     assert!(none.unwrap_err().contains("empty"));
     scene.textiles.clear();
-    let none = Inputs::of(&choice(SlotLetter::D), &scene, tunings(), path);
+    let none = Inputs::of(&choice(SlotLetter::D), &scene, tunings(), (path, 0));
     assert!(none.unwrap_err().contains("Place a textile"));
 }
 
@@ -164,8 +167,8 @@ fn a_textile_that_is_not_there_is_a_sentence() {
 fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
     let loaded = LoadedScene::shipped().unwrap();
     let scene = loaded.scene();
-    assert_eq!(route(160.0, 190.0, 40).mostly_on(scene), Some(1));
-    assert_eq!(route(-900.0, 0.0, 40).mostly_on(scene), None);
+    assert_eq!(route(160.0, 190.0, 40).mostly_on(scene, 0), Some(1));
+    assert_eq!(route(-900.0, 0.0, 40).mostly_on(scene, 0), None);
     let row = |t_s, x_mm| PathRow {
         t_s,
         position: Point::new(x_mm, 70.0),
@@ -174,11 +177,11 @@ fn the_textile_under_a_path_is_found_on_recordings_and_strokes() {
     let rows = vec![row(0.0, 100.0), row(1.0, 110.0), row(5.0, 230.0)];
     let path = Arc::new(ExplorationPath::new(rows).unwrap());
     let take = Route::Recording(Arc::clone(&path));
-    assert_eq!(take.mostly_on(scene), Some(3), "lower right");
+    assert_eq!(take.mostly_on(scene, 0), Some(3), "lower right");
     assert_eq!(take, Route::Recording(path));
     assert_eq!(take.ticks().count() as u64, take.n_ticks());
     assert_eq!(
-        Route::Recording(take_of(&take)).mostly_on(&Scene::default()),
+        Route::Recording(take_of(&take)).mostly_on(&Scene::default(), 0),
         None
     );
 }
@@ -188,4 +191,44 @@ fn take_of(route: &Route) -> Arc<ExplorationPath> {
         Route::Recording(path) => Arc::clone(path),
         Route::Stroke(..) | Route::Recorded(_) => panic!("it is a recording"),
     }
+}
+
+#[test]
+fn the_display_that_is_shown_is_compared() {
+    let folder = ScratchFolder::made("compare-two");
+    let mut desk = two_apart(&folder, 0);
+    let made = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+    let mut n_sounding = [0, 1].map(|display| {
+        desk.dispatch(ShowCommand::SelectDisplay(display));
+        desk.pass(1);
+        let bench = &desk.workbench.bench;
+        let scene = bench.document.scene();
+        let um = |tick| made.display_um(tick, (scene, display)).unwrap();
+        let sounding = |tick| um(tick).iter().filter(|um| um[0] >= 1e-3).count() as u64;
+        let expected: u64 = (0..made.path().n_ticks()).map(sounding).sum();
+        let mut compare = Compare::default();
+        compare.choice.what = What::Methods;
+        compare.choice.methods = [Method::Table; 2];
+        compare.run(bench);
+        compare.set_against([made.clone(), made.clone()].map(|one| one.renamed("same")));
+        let rendered = compare.found().unwrap().clone();
+        compare.run(bench);
+        for found in [&rendered, compare.found().unwrap()] {
+            assert_eq!(found.by_contactor.len(), 24);
+            assert_eq!(found.in_all[0].n_both, expected, "display {display}");
+            assert_eq!(found.in_all[0].largest.unwrap().difference_db, 0.0);
+        }
+        expected
+    });
+    n_sounding.sort_unstable();
+    assert!(
+        0 < n_sounding[0] && n_sounding[0] < n_sounding[1],
+        "one was lifted"
+    );
+    let path = desk.workbench.bench.exploration.at_hand.clone().unwrap();
+    let one = Recording::from_path("a.csv".into(), (**path.path()).clone());
+    let mut compare = Compare::default();
+    compare.set_against([one, made]);
+    let asked = compare.inputs(&desk.workbench.bench);
+    assert!(asked.unwrap_err().contains("no levels of this display"));
 }

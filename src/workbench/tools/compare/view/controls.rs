@@ -93,7 +93,8 @@ pub(crate) fn show(
         match before.what {
             What::Tunings => show_tunings(ui, choice, context.bench.document.scene()),
             What::Textiles => {
-                let place = before.place_in(context.bench.document.scene(), route);
+                let on = (route, context.bench.display());
+                let place = before.place_in(context.bench.document.scene(), on);
                 show_textiles(ui, choice, place, context);
             }
             What::Methods => show_methods(ui, choice),

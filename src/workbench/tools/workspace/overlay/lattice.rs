@@ -114,17 +114,8 @@ mod tests {
         let ctx = Context::default();
         let sight = Rect::from_min_size(pos2(0.0, 0.0), egui::vec2(400.0, 400.0));
         let cloth = Cloth {
-            id: String::new(),
-            label: String::new(),
-            name: String::new(),
-            workspace_from_textile: selvedge_foundation::geometry::Frame::default(),
             size_mm: [300.0; 2],
-            rotation_deg: 0.0,
-            is_muted: false,
-            band_gains_db: [0.0; 2],
-            within_mm: None,
-            gain_db: 0.0,
-            picture: None,
+            ..Cloth::default()
         };
         let mut lattice = Lattice::default();
         let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
