@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::adaptation::Adaptation;
 use super::parameter::{Scale, TunedParameter};
 use crate::named::named;
+use selvedge_render::stylus::StylusSettings;
 
 /// What a session asks.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,9 @@ pub struct Presentation {
     pub(crate) interval_ms: u32,
     /// A vibration of the other band under all intervals, dB re 1 µm.
     pub(crate) masker_db: Option<f64>,
+    /// The stylus that textiles are felt with in place of the array: its vibration drives all
+    /// contactors, its force is for a device beside it.
+    pub stylus: Option<StylusSettings>,
 }
 
 named! { "kind",

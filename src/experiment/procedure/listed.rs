@@ -2,7 +2,7 @@
 
 use crate::ExperimentError;
 use crate::design::{
-    Adaptation, Composition, Design, Form, Order, Right, Sequence, Sets, Subject, Track,
+    Adaptation, Composition, Design, Form, Order, Right, Sequence, Sets, Standard, Subject, Track,
     TunedParameter,
 };
 use crate::schedule::{RankingSchedule, Triad, balanced_sets, rounds, square_rounds, triads};
@@ -216,7 +216,7 @@ fn pairs(design: &Design, subject: &Subject, random: &Random) -> Vec<Vec<Task>> 
             };
             Task {
                 right: right_of(composition, items, at),
-                reference: composition.presentation.standard,
+                reference: cloth_of(composition, first).or(composition.presentation.standard),
                 ..of_items(items.to_vec())
             }
         };
@@ -234,6 +234,12 @@ fn pairs(design: &Design, subject: &Subject, random: &Random) -> Vec<Vec<Task>> 
         tasks
     };
     rounds.into_iter().enumerate().map(block).collect()
+}
+
+/// The real cloth that two of one material are compared with, by the one of them that is right.
+fn cloth_of(composition: &Composition, right: usize) -> Option<usize> {
+    let is_cloth = composition.presentation.reference == Standard::RealCloth;
+    (is_cloth && composition.order.sets == Sets::Opposed).then_some(right)
 }
 
 /// Which of two positions, or words, is right; `first_at` is where the pair's first stands.
