@@ -244,6 +244,18 @@ impl Composition {
         }
     }
 
+    /// Whether a trial has a stimulus that its items are compared with.
+    pub(crate) fn has_reference(&self) -> bool {
+        let has_standard = self.presentation.standard.is_some();
+        self.order.sets == Sets::Targets || has_standard || self.is_beside_cloth()
+    }
+
+    /// Whether two of one material lie beside its real cloth.
+    pub(crate) fn is_beside_cloth(&self) -> bool {
+        let is_cloth = self.presentation.reference == Standard::RealCloth;
+        is_cloth && self.order.sets == Sets::Opposed
+    }
+
     /// The words that are chosen from; none where positions are.
     pub fn words(&self) -> Option<[&str; 2]> {
         match &self.response.form {

@@ -2,7 +2,7 @@
 
 use crate::ExperimentError;
 use crate::design::{
-    Adaptation, Composition, Design, Form, Order, Right, Sequence, Sets, Standard, Subject, Track,
+    Adaptation, Composition, Design, Form, Order, Right, Sequence, Sets, Subject, Track,
     TunedParameter,
 };
 use crate::schedule::{RankingSchedule, Triad, balanced_sets, rounds, square_rounds, triads};
@@ -216,7 +216,9 @@ fn pairs(design: &Design, subject: &Subject, random: &Random) -> Vec<Vec<Task>> 
             };
             Task {
                 right: right_of(composition, items, at),
-                reference: cloth_of(composition, first).or(composition.presentation.standard),
+                // The cloth is that of the one that is right, which is of the pair's material.
+                reference: (composition.is_beside_cloth().then_some(first))
+                    .or(composition.presentation.standard),
                 ..of_items(items.to_vec())
             }
         };
@@ -234,12 +236,6 @@ fn pairs(design: &Design, subject: &Subject, random: &Random) -> Vec<Vec<Task>> 
         tasks
     };
     rounds.into_iter().enumerate().map(block).collect()
-}
-
-/// The real cloth that two of one material are compared with, by the one of them that is right.
-fn cloth_of(composition: &Composition, right: usize) -> Option<usize> {
-    let is_cloth = composition.presentation.reference == Standard::RealCloth;
-    (is_cloth && composition.order.sets == Sets::Opposed).then_some(right)
 }
 
 /// Which of two positions, or words, is right; `first_at` is where the pair's first stands.

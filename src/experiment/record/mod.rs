@@ -177,7 +177,7 @@ fn blank_task(design: &Design) -> Task {
     let has_items = !design.stimuli.is_empty();
     Task {
         items: vec![0; if has_items { n } else { 0 }],
-        reference: (is_target || composition.presentation.standard.is_some()).then_some(0),
+        reference: composition.has_reference().then_some(0),
         right: composition.has_right().then_some(0),
         adapted: composition.adaptation.as_ref().map(|_| Adapted::default()),
         starts: vec![0.0; composition.parameters().len()],
