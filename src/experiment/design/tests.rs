@@ -446,7 +446,7 @@ fn a_stylus_feels_textiles_that_lie_still_by_force_alone_or_with_vibration() {
     let shipped = Design::shipped_text("force-or-vibration").unwrap();
     let design = Design::from_toml(shipped, Path::new("a.toml")).unwrap();
     let stylus = design.composition.presentation.stylus.unwrap();
-    assert_eq!((stylus.rate_hz, stylus.radius_mm), (4000.0, 0.5));
+    assert_eq!((stylus.rate_hz, stylus.radius_mm), (4000.0, 0.25));
     let is_force = |one: &Stimulus| match &one.source {
         Source::Textile { variant, .. } => variant.is_force_alone,
         _ => false,

@@ -49,6 +49,11 @@ fn falling(
     StylusRun::new(setup, [0.0; 2], StylusStart::Above(1.0))
 }
 
+/// Of 350 cases 256 are bounded. Refused are explicit steps that are too long, what is sampled too
+/// slowly, and the trapezoid's step of 1 s on a wall of 1e9 N/m, where rounding weighs (ωh)² =
+/// 1.3e10 times as much. Implicit Euler's steps of 1 s on walls of 1e6 and 1e9 N/m and the
+/// trapezoid's on 1e6 N/m were refused as long as their equation was solved by the chord alone,
+/// which did not arrive in its looks; by halves where it is slow it does.
 fn every_stiffness() -> Verdict {
     let (mut n_bounded, mut n_refused) = (0, 0);
     for method in Stepper::ALL {
