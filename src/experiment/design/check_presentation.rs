@@ -59,7 +59,7 @@ fn check_stylus(design: &Design) -> Checked {
             "{:?} is to be felt by force alone",
             lone.map_or("", |one| &one.id)
         );
-        let mend = "add [presentation.stylus], or take vibration = false away";
+        let mend = "add [presentation.stylus], or take force_alone away";
         return need(lone.is_none(), ("presentation", 0, "kind"), what, mend);
     };
     let place = ("presentation", 0, "stylus");
