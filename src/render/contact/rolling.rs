@@ -7,8 +7,8 @@
 //! by each quarter of it, down to a single place, which takes the highest of the few that remain.
 //!
 //! Where few samples lie below the sphere it is quicker to look at them all, for a run of places in
-//! a row together: a sample beside each place lies in a row, too, and what cannot lift any is passed
-//! over for the whole run.
+//! a row together: a sample beside each place lies in a row, too, and what cannot lift any is
+//! passed over for the whole run.
 #![expect(
     clippy::cast_possible_wrap,
     clippy::cast_sign_loss,

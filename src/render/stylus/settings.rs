@@ -1,4 +1,5 @@
-//! What holds a stylus and how it is computed: chosen in a window, kept per user, stated by a design.
+//! What holds a stylus and how it is computed: chosen in a window, kept per user, or stated by a
+//! design.
 
 use serde::{Deserialize, Serialize};
 
