@@ -423,7 +423,7 @@ fn under_a_stylus_force_alone_is_silent_and_vibration_is_felt_within_the_arrays_
     let felt_um: Vec<[f64; 2]> = (0..6).map(|item| stimuli.felt_um(item)).collect();
     for (nth, um) in felt_um.iter().enumerate() {
         let is_force = nth % 2 == 1;
-        let is_felt = um.iter().any(|um| *um > 1.0) && um.iter().all(|um| *um < 50.0);
+        let is_felt = um[0] > 0.5 && um.iter().all(|um| *um < 20.0);
         assert!(
             if is_force { *um == [0.0; 2] } else { is_felt },
             "{felt_um:?}"
@@ -433,7 +433,7 @@ fn under_a_stylus_force_alone_is_silent_and_vibration_is_felt_within_the_arrays_
     assert!(felt_um[2][1] > 2.0 * felt_um[4][1], "{felt_um:?}");
     let (right, n) = share(&records_of(&design, &stimuli, &Observer::default(), 4));
     assert!(
-        n == 72.0 && right > 0.8,
+        n == 72.0 && right > 0.7,
         "{right}: what is felt is told from silence"
     );
 }
