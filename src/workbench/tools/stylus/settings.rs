@@ -1,4 +1,5 @@
-//! What is chosen of a stylus with sliders, and whether that can be held: asked before it is applied.
+//! What is chosen of a stylus with sliders, and whether that can be held: asked before it is
+//! applied.
 
 use crate::kit::widgets::scale::{Curve, Scale};
 pub(crate) use selvedge_render::stylus::StylusSettings;
