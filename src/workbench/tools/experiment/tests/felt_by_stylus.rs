@@ -1,5 +1,5 @@
-//! Sessions that a stylus feels: its vibration is played by all contactors, force alone by none, and
-//! a trial counts only while the stylus is felt.
+//! Sessions that a stylus feels: its vibration is played by all contactors, force alone by none, a
+//! trial counts only while the stylus is felt.
 
 use super::presented::{arm, begun_on_array, present, rows, strongest_um};
 use super::*;
