@@ -67,7 +67,8 @@ impl StimulusHashes {
                     let [(_, gain_db, _), others @ ..] = variant.numbers();
                     let others = others.into_iter().filter(|(_, value, _)| *value != 0.0);
                     let others = others.map(|(key, value, _)| format!(" {key} {value}"));
-                    format!("{content} {gain_db}{}", others.collect::<String>())
+                    let force = if variant.is_force_alone { " force" } else { "" };
+                    format!("{content} {gain_db}{}{force}", others.collect::<String>())
                 }
                 Source::RealCloth(cloth) => format!("cloth {cloth}"),
                 Source::Vibration { .. } => String::new(),
@@ -76,6 +77,8 @@ impl StimulusHashes {
             // What is adapted of this place alone.
             parts.extend(place.adapted.map(|value| format!("{value}\n")));
         }
+        let stylus = design.composition.presentation.stylus.as_ref();
+        parts.extend(stylus.map(|stylus| format!("{}\n", stylus.words())));
         let alone = task
             .adapted
             .filter(|_| design.composition.presentation.n == 1);

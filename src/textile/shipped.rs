@@ -14,6 +14,9 @@ pub(crate) const INDEX: &str = include_str!("../../textiles/library.toml");
 /// The recipes of the seventy-four.
 pub(crate) const RECIPES: &str = include_str!("../../textiles/seventy-four.toml");
 
+/// The recipes of the materials of Wall & Harwin (1999).
+pub(crate) const WALL_HARWIN: &str = include_str!("../../textiles/wall-harwin.toml");
+
 /// What was measured on the seventy-four, as a `library.toml`.
 pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four.library.toml");
 

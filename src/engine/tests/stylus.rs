@@ -4,9 +4,9 @@
 use super::*;
 use selvedge_device::{BridgeState, Coder, Target};
 use selvedge_render::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, StylusSetup, Tip,
+    ContactLaw, FeltSurface, Relief, Sampling, Stepper, StylusSetup, Tip,
 };
-use selvedge_render::stylus::{StylusDrive, StylusState};
+use selvedge_render::stylus::{StylusDrive, StylusSettings, StylusState};
 
 /// Steps of a tick.
 const N_STEPS: u64 = 25;
@@ -16,31 +16,15 @@ const STROKE: Stroke = Stroke::Circle {
     speed_mm_per_s: 60.0,
 };
 
-/// A setup on a surface: a fine tip on a wall of 1 N/mm unless changed.
+/// A setup on a surface: the usual one with a fine tip unless changed.
 fn setup_on(
     surface: &Surface,
     change: impl FnOnce(&mut StylusSetup, &mut ContactLaw),
 ) -> StylusSetup {
-    let mut law = ContactLaw {
-        damping_n_s_per_m: 5.0,
-        ..ContactLaw::default()
-    };
-    let relief = Relief::of_surface(surface);
-    let contact = Contact::new(&relief, Tip::stylus(0.05), law, Friction::none()).unwrap();
-    let mut setup = StylusSetup {
-        contact,
-        device: DeviceSpec {
-            damping_n_s_per_m: 0.5,
-            ..DeviceSpec::default()
-        },
-        hand: Hand {
-            press_n: 0.3,
-            leads: None,
-        },
-        method: Stepper::Auto,
-        rate_hz: 1000.0,
-        sampling: None,
-    };
+    let felt = FeltSurface::rigid(Relief::of_surface(surface));
+    let contact = felt.contact(Tip::stylus(0.05)).unwrap();
+    let mut setup = StylusSettings::default().setup(contact);
+    let mut law = *setup.contact.law();
     change(&mut setup, &mut law);
     setup.contact.set_law(law).unwrap();
     setup
@@ -356,9 +340,8 @@ fn whatever_the_setting_amplitudes_are_numbers() {
         profiles[0] = Some(profile.clone());
         profiles[2] = Some(profile);
         let surface = Surface::from_profiles(profiles, 0.0).unwrap();
-        let relief = Relief::of_surface(&surface);
-        let (tip, law) = (Tip::stylus(0.0), ContactLaw::default());
-        setup.contact = Contact::new(&relief, tip, law, Friction::none()).unwrap();
+        let felt = FeltSurface::rigid(Relief::of_surface(&surface));
+        setup.contact = felt.contact(Tip::stylus(0.0)).unwrap();
     };
     let mut n_broken_off = 0;
     for change in [stiff, explicit, sampled, broken] {

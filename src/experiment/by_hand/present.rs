@@ -156,10 +156,9 @@ fn named(design: &Design, item: usize) -> String {
                     _ => format!("with {key} = {value}"),
                 }
             };
-            let parts: Vec<String> = std::iter::once(id.clone())
-                .chain(differs.map(words))
-                .collect();
-            parts.join(" ")
+            let force = variant.is_force_alone.then(|| "by force alone".to_owned());
+            let parts = std::iter::once(id.clone()).chain(differs.map(words));
+            parts.chain(force).collect::<Vec<_>>().join(" ")
         }
         Source::Vibration { band, level_db } => {
             let level = with_unit(*level_db, 2, "dB re 1 µm");

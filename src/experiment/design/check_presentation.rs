@@ -2,7 +2,7 @@
 
 use super::check_adaptation::check_level;
 use super::needs::{need, need_within};
-use super::{Design, Medium, Shown, Source, Standard};
+use super::{Design, Medium, Shown, Source, Standard, Stimulus};
 use selvedge_foundation::files::Flaw;
 
 /// Most places of a trial.
@@ -33,6 +33,7 @@ pub(super) fn check_presentation(design: &Design) -> Checked {
     let are_played = design.plays_vibrations();
     let is_in_time = presentation.shown == Shown::Intervals;
     check_intervals(design)?;
+    check_stylus(design)?;
     let is_felt_alone = is_in_time || presentation.shown == Shown::Single;
     let what = "vibrations do not lie at places";
     let mend = "give kind = \"intervals\" or \"single\"";
@@ -43,6 +44,36 @@ pub(super) fn check_presentation(design: &Design) -> Checked {
     let (what, mend) = ("a masker without intervals", "take masker_db away");
     need(is_in_time, place("masker_db"), what, mend)?;
     check_level(place("masker_db"), masker_db)
+}
+
+/// A stylus is led over textiles that lie there; without one nothing is given as force.
+fn check_stylus(design: &Design) -> Checked {
+    let presentation = &design.composition.presentation;
+    let Some(stylus) = &presentation.stylus else {
+        let is_force = |one: &Stimulus| match &one.source {
+            Source::Textile { variant, .. } => variant.is_force_alone,
+            Source::RealCloth(_) | Source::Vibration { .. } => false,
+        };
+        let lone = design.stimuli.iter().find(|one| is_force(one));
+        let what = format!(
+            "{:?} is to be felt by force alone",
+            lone.map_or("", |one| &one.id)
+        );
+        let mend = "add [presentation.stylus], or take force_alone away";
+        return need(lone.is_none(), ("presentation", 0, "kind"), what, mend);
+    };
+    let place = ("presentation", 0, "stylus");
+    if let Err(error) = stylus.check() {
+        return Err(Flaw::described(place, &error.to_string(), "give less"));
+    }
+    let is_cloth = |one: &Stimulus| matches!(one.source, Source::Textile { .. });
+    let is_led = presentation.shown != Shown::Intervals
+        && !design.plays_vibrations()
+        && design.stimuli.iter().all(is_cloth);
+    let what = "a stylus feels what lies still, and textiles of a library alone";
+    let mend =
+        "give kind = \"single\", \"pair\", \"places\" or \"set\" of textiles, or take it away";
+    need(is_led, place, what, mend)
 }
 
 /// Intervals are of vibrations, or of textiles, which a finger takes time to feel.

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::named::named;
 use selvedge_foundation::files::Flaw;
+use selvedge_render::stylus::StylusSettings;
 
 /// What makes the later stimulus of the design the right one.
 const LATER: &str = "later";
@@ -33,6 +34,7 @@ pub(super) struct PresentationKeys {
     standard: Option<String>,
     interval_ms: Option<u32>,
     masker_db: Option<f64>,
+    stylus: Option<StylusSettings>,
 }
 
 fn nothing() -> Standard {
@@ -191,6 +193,7 @@ impl PresentationKeys {
             standard: self.standard.map(numbered).transpose()?,
             interval_ms: self.interval_ms.unwrap_or(usual_ms),
             masker_db: self.masker_db,
+            stylus: self.stylus,
         })
     }
 }

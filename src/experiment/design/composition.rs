@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::adaptation::Adaptation;
 use super::parameter::{Scale, TunedParameter};
 use crate::named::named;
+use selvedge_render::stylus::StylusSettings;
 
 /// What a session asks.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,9 @@ pub struct Presentation {
     pub(crate) interval_ms: u32,
     /// A vibration of the other band under all intervals, dB re 1 µm.
     pub(crate) masker_db: Option<f64>,
+    /// The stylus that textiles are felt with in place of the array: its vibration drives all
+    /// contactors, its force is for a device beside it.
+    pub stylus: Option<StylusSettings>,
 }
 
 named! { "kind",
@@ -238,6 +242,18 @@ impl Composition {
             Form::Scales(scales) => scales,
             _ => &[],
         }
+    }
+
+    /// Whether a trial has a stimulus that its items are compared with.
+    pub(crate) fn has_reference(&self) -> bool {
+        let has_standard = self.presentation.standard.is_some();
+        self.order.sets == Sets::Targets || has_standard || self.is_beside_cloth()
+    }
+
+    /// Whether two of one material lie beside its real cloth.
+    pub(crate) fn is_beside_cloth(&self) -> bool {
+        let is_cloth = self.presentation.reference == Standard::RealCloth;
+        is_cloth && self.order.sets == Sets::Opposed
     }
 
     /// The words that are chosen from; none where positions are.

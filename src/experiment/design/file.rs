@@ -72,6 +72,8 @@ struct StimulusKeys {
     gain_320_db: f64,
     #[serde(default)]
     rotation_deg: f64,
+    #[serde(default)]
+    force_alone: bool,
     band_hz: Option<f64>,
     level_db: Option<f64>,
 }
@@ -183,6 +185,7 @@ impl StimulusKeys {
                     gain_40_db: self.gain_40_db,
                     gain_320_db: self.gain_320_db,
                     rotation_deg: self.rotation_deg,
+                    is_force_alone: self.force_alone,
                 },
             },
             _ => {

@@ -48,7 +48,7 @@ macro_rules! shipped {
 }
 
 /// The designs that are part of the program: the papers' sessions and the usual measurements.
-const SHIPPED: [(&str, &str); 14] = [
+const SHIPPED: [(&str, &str); 15] = [
     shipped!("ranking-real-target"),
     shipped!("ranking-virtual-target"),
     shipped!("odd-one-out"),
@@ -63,6 +63,7 @@ const SHIPPED: [(&str, &str); 14] = [
     shipped!("jnd-320"),
     shipped!("magnitude"),
     shipped!("rating"),
+    shipped!("force-or-vibration"),
 ];
 
 /// A study.
@@ -213,6 +214,8 @@ pub struct Variant {
     pub gain_320_db: f64,
     /// How it is turned, degrees counter-clockwise.
     pub rotation_deg: f64,
+    /// All that a stylus feels of it is given as force: nothing vibrates.
+    pub is_force_alone: bool,
 }
 
 impl Variant {

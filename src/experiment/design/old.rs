@@ -199,6 +199,7 @@ fn composed(shown: Shown, n: usize, form: Form, (sets, repeats): (Sets, usize)) 
             standard: None,
             interval_ms: interval_ms(),
             masker_db: None,
+            stylus: None,
         },
         question: Question::default(),
         response: Response {

@@ -440,3 +440,49 @@ fn a_misspelt_key_is_named_with_its_line() {
         "{described}"
     );
 }
+
+#[test]
+fn a_stylus_feels_textiles_that_lie_still_by_force_alone_or_with_vibration() {
+    let shipped = Design::shipped_text("force-or-vibration").unwrap();
+    let design = Design::from_toml(shipped, Path::new("a.toml")).unwrap();
+    let stylus = design.composition.presentation.stylus.unwrap();
+    assert_eq!((stylus.rate_hz, stylus.radius_mm), (4000.0, 0.25));
+    let is_force = |one: &Stimulus| match &one.source {
+        Source::Textile { variant, .. } => variant.is_force_alone,
+        _ => false,
+    };
+    for one in &design.stimuli {
+        assert_eq!(is_force(one), one.condition == "force", "{}", one.id);
+    }
+    let k = "stiffness_n_per_m = 1000.0";
+    for (before, after, why) in [
+        (
+            k,
+            "stiffness_n_per_m = -1.0",
+            "the stiffness is -1 N/m; give",
+        ),
+        (k, "stiffness = 1000.0", "unknown field `stiffness`"),
+        (
+            k,
+            "stiffness_n_per_m = 1e5\nsampled = true",
+            "cannot be held; ",
+        ),
+        (k, "delay_ticks = 0.5", "a whole number of ticks"),
+        (
+            "kind = \"pair\"\nreference = \"real-cloth\"",
+            "kind = \"intervals\"",
+            "what lies still",
+        ),
+    ] {
+        assert!(shipped.contains(before), "{before}");
+        let said = described(&shipped.replace(before, after));
+        assert!(said.contains(why), "{said}");
+    }
+    let first = shipped.find("[presentation.stylus]").unwrap();
+    let last = shipped.find("[question]").unwrap();
+    let without = described(&format!("{}{}", &shipped[..first], &shipped[last..]));
+    assert!(
+        without.contains("\"mouse-mat-force\" is to be felt by force alone; add"),
+        "{without}"
+    );
+}

@@ -1,12 +1,14 @@
 //! What a design's stimuli are physically: amplitudes of both bands, how they vary from place to
 //! place and differ from direction to direction.
 //!
-//! Textiles are measured at 100 mm/s ([`Levels::of`]) and felt through the tuning of the session.
+//! Textiles are measured at 100 mm/s ([`Levels::of`]), under a stylus where the design has one, and
+//! felt through the tuning of the session. What is given as force alone is silent.
 //! A cloth on the table is taken to feel as its namesake of the library does through the library's
 //! own tuning, which is what that tuning is for, but for an error of the model.
 
 use std::collections::BTreeMap;
 
+use super::led;
 use crate::ExperimentError;
 use crate::design::{Design, Source, Stimulus};
 use crate::stimulus_hash::StimulusHashes;
@@ -67,7 +69,10 @@ impl Stimuli {
         let mut known = BTreeMap::new();
         let mut hashes = Vec::new();
         for textile in library.load_all(&ids, progress)? {
-            let levels = Levels::of(textile.surface(), &Filters::default());
+            let levels = match &design.composition.presentation.stylus {
+                Some(stylus) => led::levels(&textile, stylus)?,
+                None => Levels::of(textile.surface(), &Filters::default()),
+            };
             hashes.push((textile.id().to_owned(), textile.content_hash()?));
             let gain_db = textile.manifest().gain_db;
             known.insert(textile.id().to_owned(), (levels, gain_db));
@@ -182,7 +187,11 @@ fn measure(
             Measure {
                 presented: Presented::Textile,
                 name: id.clone(),
-                levels,
+                levels: if variant.is_force_alone {
+                    steady([0.0; 2])
+                } else {
+                    levels
+                },
                 gains_db: variant.gains_db().map(|db| own_db + db),
             }
         }
@@ -201,14 +210,19 @@ fn measure(
             Measure {
                 presented: Presented::Vibration,
                 name: stimulus.id.clone(),
-                levels: Levels {
-                    mean_um,
-                    cv: [0.0; 2],
-                    anisotropy_db: [0.0; 2],
-                    direction_mean_um: [mean_um; 4],
-                },
+                levels: steady(mean_um),
                 gains_db: [0.0; 2],
             }
         }
     })
+}
+
+/// Amplitudes in µm that are the same everywhere.
+fn steady(mean_um: [f64; 2]) -> Levels {
+    Levels {
+        mean_um,
+        cv: [0.0; 2],
+        anisotropy_db: [0.0; 2],
+        direction_mean_um: [mean_um; 4],
+    }
 }

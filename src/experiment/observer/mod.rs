@@ -17,6 +17,7 @@
 mod adjust;
 mod amount;
 mod answer;
+mod led;
 mod measure;
 mod percept;
 mod scale;

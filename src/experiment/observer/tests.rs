@@ -7,6 +7,7 @@ use std::path::Path;
 use super::*;
 use crate::design::{Design, Source, Stimulus};
 use crate::{AnswerValue, Record, Simulation, simulated_subject};
+use selvedge_foundation::progress::unheard;
 use selvedge_foundation::quantity::{factor_of_gain, level_db};
 use selvedge_statistics::{mean, spearman};
 use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
@@ -412,4 +413,27 @@ fn what_no_observer_can_have_is_refused() {
         assert!(wrong.check().is_err(), "{wrong:?}");
     }
     assert!(plain.check().is_ok(), "the default is fine");
+}
+
+#[test]
+fn under_a_stylus_force_alone_is_silent_and_vibration_is_felt_within_the_arrays_limits() {
+    let design = shipped("force-or-vibration");
+    let library = design.open_library(Path::new(""), None).unwrap();
+    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    let felt_um: Vec<[f64; 2]> = (0..6).map(|item| stimuli.felt_um(item)).collect();
+    for (nth, um) in felt_um.iter().enumerate() {
+        let is_force = nth % 2 == 1;
+        let is_felt = um[0] > 0.5 && um.iter().all(|um| *um < 20.0);
+        assert!(
+            if is_force { *um == [0.0; 2] } else { is_felt },
+            "{felt_um:?}"
+        );
+    }
+    // The rougher of them vibrates more: sandpaper of 59 µm, cardboard of 11 µm.
+    assert!(felt_um[2][1] > 2.0 * felt_um[4][1], "{felt_um:?}");
+    let (right, n) = share(&records_of(&design, &stimuli, &Observer::default(), 4));
+    assert!(
+        n == 72.0 && right > 0.7,
+        "{right}: what is felt is told from silence"
+    );
 }

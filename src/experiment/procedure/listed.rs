@@ -216,7 +216,9 @@ fn pairs(design: &Design, subject: &Subject, random: &Random) -> Vec<Vec<Task>> 
             };
             Task {
                 right: right_of(composition, items, at),
-                reference: composition.presentation.standard,
+                // The cloth is that of the one that is right, which is of the pair's material.
+                reference: (composition.is_beside_cloth().then_some(first))
+                    .or(composition.presentation.standard),
                 ..of_items(items.to_vec())
             }
         };

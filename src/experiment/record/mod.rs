@@ -19,7 +19,7 @@ pub(crate) use columns::{
 pub(crate) use mark::{Mark, MarkKind, read_marks};
 pub(crate) use read::{read_records, trials};
 
-use super::design::{Composition, Design, Form, Sets, Subject};
+use super::design::{Composition, Design, Form, Subject};
 use super::presentation::Presentation;
 use super::trial::{Adapted, Answer, AnswerValue, Task, Trial};
 use columns::{Column, Visit, visit};
@@ -173,11 +173,10 @@ fn blank(design: &Design) -> Record {
 fn blank_task(design: &Design) -> Task {
     let composition = &design.composition;
     let n = composition.presentation.n;
-    let is_target = composition.order.sets == Sets::Targets;
     let has_items = !design.stimuli.is_empty();
     Task {
         items: vec![0; if has_items { n } else { 0 }],
-        reference: (is_target || composition.presentation.standard.is_some()).then_some(0),
+        reference: composition.has_reference().then_some(0),
         right: composition.has_right().then_some(0),
         adapted: composition.adaptation.as_ref().map(|_| Adapted::default()),
         starts: vec![0.0; composition.parameters().len()],

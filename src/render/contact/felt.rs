@@ -1,9 +1,11 @@
 //! What a textile is to a tip: its relief, its friction, and how soft it is.
 
 use super::friction::Friction;
-use super::law::Compression;
+use super::law::{Compression, ContactLaw};
+use super::patch::Contact;
 use super::relief::Relief;
 use super::tip::Tip;
+use crate::RenderError;
 use selvedge_textile::{Textile, TextileError};
 
 /// A surface, and what is known of how it rubs and yields.
@@ -57,5 +59,17 @@ impl FeltSurface {
             }),
             cloth: Compression::of_figures(figure, n_contacts * area_mm2),
         })
+    }
+
+    /// A tip on it, by the usual law.
+    ///
+    /// # Errors
+    /// What [`Contact::new`] refuses.
+    pub fn contact(&self, tip: Tip) -> Result<Contact, RenderError> {
+        let law = ContactLaw {
+            cloth: self.cloth,
+            ..ContactLaw::default()
+        };
+        Contact::new(&self.relief, tip, law, self.friction.clone())
     }
 }

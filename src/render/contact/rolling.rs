@@ -5,6 +5,10 @@
 //! square, and at least so far from its other side: what cannot reach, at its nearest, as high as
 //! another reaches at its farthest is passed over for the whole square. What is left is asked again
 //! by each quarter of it, down to a single place, which takes the highest of the few that remain.
+//!
+//! Where few samples lie below the sphere it is quicker to look at them all, for a run of places in
+//! a row together: a sample beside each place lies in a row, too, and what cannot lift any is
+//! passed over for the whole run.
 #![expect(
     clippy::cast_possible_wrap,
     clippy::cast_sign_loss,
@@ -18,6 +22,10 @@ use selvedge_foundation::numerics::{Grid, extent, in_pieces, n_threads, to_whole
 const SIDES: [usize; 2] = [4, 256];
 /// Most samples below the sphere anywhere over such a square: 100 MB of them.
 const MAX_BELOW: usize = 4_000_000;
+/// Most samples that a sphere looked at sample by sample reaches to one side.
+const NEAR: usize = 32;
+/// Places of a row that are asked together then, and rows of a strip.
+const RUN: usize = 64;
 /// What rounding may make of two drops that are the same, mm.
 const ROUNDING_MM: f64 = 1e-12;
 
@@ -70,6 +78,11 @@ impl Sphere {
         Self(Grid::from_fn(reach_u + 1, reach_w + 1, |du, dw| {
             drop_mm(radius_mm, step_mm, [du, dw])
         }))
+    }
+
+    /// How many samples it reaches to one side, along both axes.
+    fn reach(&self) -> [usize; 2] {
+        [self.0.width() - 1, self.0.height() - 1]
     }
 
     /// How high a summit lifts it that is so many samples away, mm.
@@ -135,6 +148,68 @@ impl Strip<'_> {
     }
 }
 
+/// Heights of a strip of rows and as far around it as a sphere reaches, mm.
+#[derive(Default)]
+struct Around {
+    rows: Vec<Vec<f64>>,
+    /// The highest that may lift each run of places, by row.
+    highest: Vec<Vec<f64>>,
+}
+
+impl Around {
+    /// Looks at `n_rows` of `width` places from row `first` on.
+    fn look(
+        &mut self,
+        sphere: &Sphere,
+        (width, first, n_rows): (usize, usize, usize),
+        at: impl Fn([isize; 2]) -> f64,
+    ) {
+        let [reach_u, reach_w] = sphere.reach().map(|reach| reach as isize);
+        let first = first as isize;
+        let places = || -reach_u..width as isize + reach_u;
+        self.rows.clear();
+        for w in first - reach_w..first + n_rows as isize + reach_w {
+            self.rows.push(places().map(|u| at([u, w])).collect());
+        }
+        let n_below = RUN + 2 * sphere.reach()[0];
+        let of_row = |row: &Vec<f64>| {
+            let below = |begin: usize| &row[begin..row.len().min(begin + n_below)];
+            let runs = (0..width).step_by(RUN);
+            runs.map(|begin| extent(below(begin).iter().copied())[1])
+                .collect()
+        };
+        self.highest = self.rows.iter().map(of_row).collect();
+    }
+
+    /// Where the sphere rests on the places of row `w` of the strip.
+    fn rest(&self, sphere: &Sphere, w: usize, out: &mut [f64]) {
+        let [reach_u, reach_w] = sphere.reach();
+        let middle = w + reach_w;
+        for (nth, out) in out.chunks_mut(RUN).enumerate() {
+            let begin = nth * RUN;
+            for (out, height_mm) in out.iter_mut().zip(&self.rows[middle][begin + reach_u..]) {
+                *out = height_mm - sphere.0.row(0)[0];
+            }
+            for dw in 0..=reach_w {
+                for row in [middle - dw, middle + dw] {
+                    let below = &self.rows[row][begin..];
+                    let sure_mm = extent(out.iter().copied())[0] - ROUNDING_MM;
+                    for (du, drop_mm) in sphere.0.row(dw).iter().enumerate() {
+                        if self.highest[row][nth] - drop_mm < sure_mm {
+                            break;
+                        }
+                        let (left, right) = (&below[reach_u - du..], &below[reach_u + du..]);
+                        for (out, (left, right)) in out.iter_mut().zip(left.iter().zip(right)) {
+                            let lifted = if left > right { left } else { right } - drop_mm;
+                            *out = if lifted > *out { lifted } else { *out };
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Where the lowest point of a sphere rests on heights of such steps, which go on as `at` says.
 ///
 /// # Errors
@@ -155,6 +230,25 @@ pub(super) fn dilated(
         1 => 0,
         _ => to_whole::<usize>((half_mm / step_mm[axis]).min(1e6)) + 1,
     });
+    let mut rested = heights_mm.clone();
+    if reach.iter().all(|reach| *reach <= NEAR) {
+        let sphere = Sphere::new(radius_mm, step_mm, reach);
+        let work = |around: &mut Around, nth: usize, rows: &mut [f64]| {
+            around.look(&sphere, (n[0], nth * RUN, rows.len() / n[0]), &at);
+            for (w, out) in rows.chunks_mut(n[0]).enumerate() {
+                around.rest(&sphere, w, out);
+            }
+        };
+        let pieces = (n[0] * RUN, n_threads());
+        in_pieces(
+            rested.values_mut(),
+            pieces.0,
+            pieces.1,
+            Around::default,
+            work,
+        );
+        return Ok(rested);
+    }
     let [least, most] = SIDES;
     let side = reach[0]
         .max(reach[1])
@@ -168,7 +262,6 @@ pub(super) fn dilated(
         ));
     }
     let sphere = Sphere::new(radius_mm, step_mm, reach);
-    let mut rested = heights_mm.clone();
     let work = |room: &mut Vec<Summit>, nth: usize, rows: &mut [f64]| {
         let first = nth * side;
         let mut strip = Strip {

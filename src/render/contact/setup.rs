@@ -38,6 +38,14 @@ impl StylusSetup {
         }
     }
 
+    /// The same with all of it given as force: no vibration is left for an end effector.
+    #[must_use]
+    pub fn by_force_alone(mut self) -> Self {
+        // From half the rate on the crossover leaves nothing.
+        self.device.bandwidth_hz = self.rate_hz;
+        self
+    }
+
     /// The case of a wall that this is, for limits and maps.
     pub fn case(&self) -> WallCase {
         let law = self.contact.law();

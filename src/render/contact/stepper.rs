@@ -22,8 +22,7 @@ use selvedge_foundation::named;
 
 /// Looks at a solution of an implicit step, or at the end of a contact.
 const MAX_LOOKS: u32 = 100;
-/// Looks that move the same end, after which halves are tried.
-const SLOW: i32 = 3;
+
 named! {
     /// A way to step a stylus.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, Serialize, Deserialize)]
@@ -191,43 +190,48 @@ impl Column<'_> {
 }
 
 /// The ends, nearer than `near` or to rounding, between which a function crosses 0, from two places
-/// where its values have different signs: by the chord, the value of an end that stays too long
-/// halved (Illinois), and by halves where that is slow, as from an end that all but crosses.
+/// where its values have different signs: by the parabola through the last three places where it
+/// rises or falls throughout, else by halves (Chandrupatla 1997).
 pub(super) fn crossing(
-    [mut low, mut high]: [(f64, f64); 2],
+    [mut near_end, mut far_end]: [(f64, f64); 2],
     near: f64,
     value: impl Fn(f64) -> f64,
 ) -> [f64; 2] {
-    let mut kept: i32 = 0;
+    let chord = near_end.1 / (near_end.1 - far_end.1);
+    let mut share = if chord.is_finite() { chord } else { 0.5 };
     for _ in 0..MAX_LOOKS {
-        let chord = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-        let is_between = chord > low.0 && chord < high.0 && kept.abs() < SLOW;
-        let middle = if is_between {
-            chord
-        } else {
-            0.5 * (low.0 + high.0)
-        };
-        let at = value(middle);
-        if at == 0.0 {
-            return [middle; 2];
-        }
-        let moved = if (at < 0.0) == (low.1 < 0.0) { -1 } else { 1 };
-        let is_again = kept.signum() == moved;
-        kept = if !is_again || kept.abs() >= SLOW {
-            moved
-        } else {
-            kept + moved
-        };
-        let (end, other) = if moved < 0 {
-            (&mut low, &mut high)
-        } else {
-            (&mut high, &mut low)
-        };
-        *end = (middle, at);
-        other.1 *= if is_again { 0.5 } else { 1.0 };
-        if high.0 - low.0 <= near + 4.0 * f64::EPSILON * (low.0.abs() + high.0.abs()) {
+        let width = far_end.0 - near_end.0;
+        let least = near + 4.0 * f64::EPSILON * (near_end.0.abs() + far_end.0.abs());
+        if width.abs() <= least {
             break;
         }
+        let edge = (least / width.abs()).min(0.5);
+        let place = near_end.0 + share.clamp(edge, 1.0 - edge) * width;
+        let at = value(place);
+        if at == 0.0 {
+            return [place; 2];
+        }
+        // The end of the same sign gives way.
+        let gone = if (at < 0.0) == (near_end.1 < 0.0) {
+            near_end
+        } else {
+            std::mem::replace(&mut far_end, near_end)
+        };
+        near_end = (place, at);
+        let [of_places, of_values] = [
+            (near_end.0 - far_end.0) / (gone.0 - far_end.0),
+            (near_end.1 - far_end.1) / (gone.1 - far_end.1),
+        ];
+        let is_even = of_values * of_values < of_places
+            && (1.0 - of_values) * (1.0 - of_values) < 1.0 - of_places;
+        share = if is_even {
+            let (a, b, c) = (near_end, far_end, gone);
+            let by_chord = a.1 / (b.1 - a.1) * (c.1 / (b.1 - c.1));
+            let bent = (c.0 - a.0) / (b.0 - a.0) * (a.1 / (c.1 - a.1)) * (b.1 / (c.1 - b.1));
+            by_chord + bent
+        } else {
+            0.5
+        };
     }
-    [low.0, high.0]
+    [near_end.0.min(far_end.0), near_end.0.max(far_end.0)]
 }

@@ -13,6 +13,7 @@
 //!
 //! A tick makes the same number of steps whatever happens, and allocates nothing.
 
+mod settings;
 mod spectrum;
 mod tick_path;
 
@@ -26,6 +27,7 @@ use selvedge_textile::surface::Surface;
 use selvedge_textile::tactile::Filters;
 use spectrum::Spectrum;
 
+pub use settings::StylusSettings;
 pub use tick_path::TickPath;
 
 /// Most steps of a tick: 10 kHz, half a millisecond of work.

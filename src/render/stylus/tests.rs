@@ -3,8 +3,9 @@
 use super::spectrum::Spectrum;
 use super::*;
 use crate::contact::{
-    Contact, ContactLaw, DeviceSpec, Friction, Hand, Relief, Sampling, Stepper, Tip,
+    Contact, ContactLaw, DeviceSpec, FeltSurface, Friction, Hand, Relief, Sampling, Stepper, Tip,
 };
+use selvedge_textile::surface::{Profile, ProfileSet};
 use selvedge_textile::tactile::Band;
 use std::f64::consts::TAU;
 
@@ -88,4 +89,30 @@ fn a_run_that_begins_anew_is_as_a_new_one() {
         assert_eq!(rows(&mut run), first);
         assert!(!run.begin([f64::NAN, 0.0], start) && run.begin([0.0; 2], start));
     }
+}
+
+#[test]
+fn what_is_given_as_force_alone_vibrates_not_at_all() {
+    let waves = |i: u32| 20.0 * (TAU * f64::from(i) / 100.0).sin();
+    let profile = Profile::new(1.0 / 125.0, (0..5000).map(waves).collect()).unwrap();
+    let mut profiles = ProfileSet::default();
+    profiles[0] = Some(profile);
+    let surface = Arc::new(Surface::from_profiles(profiles, 0.0).unwrap());
+    let felt = FeltSurface::rigid(Relief::of_surface(&surface));
+    let contact = felt.contact(Tip::stylus(0.1)).unwrap();
+    let settings = StylusSettings::default();
+    let led_um = |setup: StylusSetup| {
+        let on = vec![(Arc::clone(&surface), Some(setup))];
+        let drive = (settings.rate_hz, settings.um_per_n);
+        let mut drive = StylusDrive::prepare(on, drive, &Filters::default()).unwrap();
+        let mut n_steps = 0;
+        for nth in 0..8 {
+            n_steps += drive.follow(Some((0, [2.5 * f64::from(nth), 0.0])));
+        }
+        assert_eq!((drive.state(), n_steps), (StylusState::Led, 7 * 25));
+        drive.driven().1
+    };
+    let setup = settings.setup(contact);
+    assert!(led_um(setup.clone()).iter().any(|um| *um > 0.1));
+    assert_eq!(led_um(setup.by_force_alone()), [0.0; 2]);
 }

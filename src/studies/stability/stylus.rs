@@ -49,6 +49,10 @@ fn falling(
     StylusRun::new(setup, [0.0; 2], StylusStart::Above(1.0))
 }
 
+/// Of 350 cases 257 are bounded; refused are explicit steps that are too long, and what is sampled
+/// too slowly. Steps of 1 s by implicit Euler and by the trapezoid on walls of 1e6 and 1e9 N/m give
+/// no energy, and are bounded as long as their equation is solved to rounding: by the chord alone
+/// it was not within its looks, and four such cases were refused.
 fn every_stiffness() -> Verdict {
     let (mut n_bounded, mut n_refused) = (0, 0);
     for method in Stepper::ALL {

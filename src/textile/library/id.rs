@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::recipe_file::SEVENTY_FOUR;
+use super::recipe_file::is_of_the_program;
 
 /// What the library of the sixteen is called in the id of a textile.
 pub(crate) const SIXTEEN: &str = "sixteen";
@@ -25,7 +25,7 @@ pub fn nth_id(id: &str, nth: usize, n: usize) -> String {
 /// libraries here; a colon in any other id means nothing.
 pub fn elsewhere(id: &str) -> Option<(&Path, &str)> {
     let (library, id) = id.rsplit_once(':')?;
-    let is_named = [SIXTEEN, SEVENTY_FOUR].contains(&library);
+    let is_named = library == SIXTEEN || is_of_the_program(Path::new(library));
     (is_named || library.contains(['/', '\\'])).then_some((Path::new(library), id))
 }
 

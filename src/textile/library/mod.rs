@@ -72,15 +72,15 @@ impl Library {
         Ok(Self::with_index(Store::Shipped, index))
     }
 
-    /// The library that a scene or a person names: `sixteen` and `seventy-four` are those of the
-    /// program, others a file of recipes or a folder of textiles.
+    /// The library that a scene or a person names: `sixteen`, `seventy-four` and `wall-harwin` are
+    /// those of the program, others a file of recipes or a folder of textiles.
     ///
     /// What is built from recipes is kept in `cache`; without one it is built anew
     /// every time. A folder or file that is called like a library of the program is named
     /// `./seventy-four`.
     pub fn named(name: &Path, cache: Option<&BuildCache>) -> Result<Self, TextileError> {
         let library = if is_of_the_program(name) {
-            Self::of_recipes(Recipes::seventy_four(cache.cloned())?)
+            Self::of_recipes(Recipes::of_the_program(name, cache.cloned())?)
         } else if name == Path::new(SIXTEEN) {
             Self::shipped()?
         } else if name.is_file() {

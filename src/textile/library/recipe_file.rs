@@ -22,6 +22,8 @@ use selvedge_foundation::files::{
 
 /// What the library of all textiles is called where a folder or a file is.
 pub(crate) const SEVENTY_FOUR: &str = "seventy-four";
+/// The same of the materials of Wall & Harwin (1999).
+pub(crate) const WALL_HARWIN: &str = "wall-harwin";
 /// What stands after the id of a textile's other side.
 const BACK: &str = "-back";
 
@@ -60,8 +62,14 @@ struct File {
 }
 
 impl Recipes {
-    /// The recipes of the seventy-four, which are part of the program.
-    pub(crate) fn seventy_four(cache: Option<BuildCache>) -> Result<Self, TextileError> {
+    /// The recipes of a library that is part of the program, by its name.
+    pub(crate) fn of_the_program(
+        name: &Path,
+        cache: Option<BuildCache>,
+    ) -> Result<Self, TextileError> {
+        if name == Path::new(WALL_HARWIN) {
+            return Self::parse(shipped::WALL_HARWIN, name, cache);
+        }
         let mut recipes = Self::parse(shipped::RECIPES, Path::new(SEVENTY_FOUR), cache)?;
         let path = index_path(Path::new("seventy-four.toml"));
         recipes.index = Some(Index::from_toml(shipped::RECIPES_INDEX, &path)?);
@@ -247,5 +255,5 @@ fn index_path(recipes: &Path) -> PathBuf {
 
 /// Whether a library of this name is part of the program.
 pub fn is_of_the_program(name: &Path) -> bool {
-    name == Path::new(SEVENTY_FOUR)
+    [SEVENTY_FOUR, WALL_HARWIN].map(Path::new).contains(&name)
 }

@@ -1,4 +1,4 @@
-//! What moves the display, and recording it.
+//! What moves the display, recording it, and the stylus that may be felt through it.
 
 use std::ops::Range;
 
@@ -9,6 +9,7 @@ use crate::bench::view::Source;
 use selvedge_engine::InputSource;
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{Scene, Stroke};
+use selvedge_render::stylus::StylusDrive;
 
 /// How fast the display explores by itself, mm/s.
 const STROKE_MM_PER_S: f64 = 120.0;
@@ -89,6 +90,17 @@ impl Bench {
             self.send(selvedge_engine::Command::Play);
         }
         self.exploration.loop_within = ticks;
+    }
+
+    /// Lets the engine feel a stylus, told in a line, or the array; the log of links hears which.
+    pub(crate) fn feel_stylus(&mut self, stylus: Option<(StylusDrive, String)>) {
+        let (drive, words) = stylus.unzip();
+        self.send(selvedge_engine::Command::SetStylus(drive.map(Box::new)));
+        if words != self.device.stylus {
+            let said = words.clone().unwrap_or_else(|| "off".to_owned());
+            self.engine.say_what("stylus", said);
+        }
+        self.device.stylus = words;
     }
 
     fn explore_alone(&mut self) {

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::bench::settings::stylus::StylusSettings;
 use selvedge_engine::Area;
 use selvedge_render::electrovibration::Electrovibration;
+use selvedge_render::stylus::StylusSettings;
 
 /// Tablets, the stylus, the screen.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

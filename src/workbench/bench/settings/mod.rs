@@ -7,7 +7,6 @@
 pub(crate) mod hand;
 mod own_files;
 pub(crate) mod preferences;
-pub(crate) mod stylus;
 #[cfg(test)]
 mod tests;
 

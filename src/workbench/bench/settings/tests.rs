@@ -14,13 +14,13 @@ use crate::bench::settings::hand::HandTools;
 use crate::bench::settings::preferences::{
     KnownFolders, Loudness, Preferences, Scales, SoundPreferences,
 };
-use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::spectrum_scale::{Handle, SpectrumScale};
 use crate::kit::theme::colour_map::ColourMap;
 use selvedge_engine::Area;
 use selvedge_render::array::Method;
 use selvedge_render::electrovibration::{Carrier, Electrovibration};
+use selvedge_render::stylus::StylusSettings;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::tactile::Band;
 

@@ -1,6 +1,7 @@
 //! Everything that a session presents, made before its first trial so that no trial waits longer
 //! than another.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,8 +14,11 @@ use selvedge_experiment::StimulusHashes;
 use selvedge_experiment::design::{Design, Source};
 use selvedge_experiment::layout::Layout;
 use selvedge_foundation::files::sha256_hex;
+use selvedge_render::RenderError;
 use selvedge_render::array::TableCache;
+use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
+use selvedge_render::stylus::{StylusDrive, StylusSettings};
 use selvedge_textile::Library;
 use selvedge_textile::tactile::Tuning;
 
@@ -29,6 +33,8 @@ pub(crate) struct Materials {
     tuning: Tuning,
     /// What the textiles were made from.
     pub(crate) hashes: StimulusHashes,
+    /// The tip of a stylus on each textile, where one feels them.
+    tips: BTreeMap<String, Contact>,
     /// Their pictures.
     pub(crate) library_view: LibraryView,
 }
@@ -52,18 +58,26 @@ impl Materials {
         let accuracy = rendering.accuracy();
         PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
         let hashes = hashes_of(&loaded)?;
-        Ok(Self {
+        let stylus = design.composition.presentation.stylus;
+        let tips =
+            stylus.map_or_else(|| Ok(BTreeMap::new()), |stylus| tips_of(&stylus, &loaded))?;
+        let materials = Self {
             tuning: tuning(design, &loaded),
             loaded,
             cache,
             rendering,
             display,
             hashes,
+            tips,
             library_view,
-        })
+        };
+        // What cannot be led is said before the first trial.
+        drop(materials.stylus(design, &Layout::to_practise(0), &materials.loaded)?);
+        Ok(materials)
     }
 
     /// SHA-256 of what is felt through: display, gains and compression, how it is rendered.
+    /// A stylus stands in the design.
     pub(crate) fn scene_sha256(&self) -> String {
         let through = format!("{:?} {:?} {:?}", self.display, self.tuning, self.rendering);
         sha256_hex([through.as_bytes()])
@@ -75,13 +89,13 @@ impl Materials {
         self.tuning
     }
 
-    /// What lies in a layout, ready for the engine.
+    /// What lies in a layout, ready for the engine, and the stylus that feels it, if one does.
     pub(crate) fn prepare(
         &mut self,
         design: &Design,
         layout: &Layout,
         tuning: Tuning,
-    ) -> Result<PreparedScene, AppError> {
+    ) -> Result<(PreparedScene, Option<StylusDrive>), AppError> {
         let all = self.loaded.textiles().iter().zip(self.loaded.levels_db());
         let levels_db: Vec<(&str, Option<f64>)> = all
             .map(|(textile, level_db)| (textile.id(), *level_db))
@@ -91,7 +105,35 @@ impl Materials {
         let loaded = self.loaded.with_scene(scene)?;
         let (method, accuracy) = (self.rendering.method, self.rendering.accuracy());
         let prepared = PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;
-        Ok(prepared)
+        Ok((prepared, self.stylus(design, layout, &loaded)?))
+    }
+
+    /// The stylus of a design over what lies in a layout, which is loaded.
+    fn stylus(
+        &self,
+        design: &Design,
+        layout: &Layout,
+        loaded: &LoadedScene,
+    ) -> Result<Option<StylusDrive>, RenderError> {
+        let Some(stylus) = design.composition.presentation.stylus else {
+            return Ok(None);
+        };
+        // Whatever a stylus feels is a textile: there are as many as places.
+        let placed = layout.places.iter().zip(loaded.textiles());
+        let led = placed.map(|(place, textile)| {
+            let setup = self.tips.get(textile.id()).map(|tip| {
+                let setup = stylus.setup(tip.clone());
+                match design.stimuli.get(place.stimulus).map(|one| &one.source) {
+                    Some(Source::Textile { variant, .. }) if variant.is_force_alone => {
+                        setup.by_force_alone()
+                    }
+                    _ => setup,
+                }
+            });
+            (Arc::clone(textile.surface()), setup)
+        });
+        let drive = (stylus.rate_hz, stylus.um_per_n);
+        StylusDrive::prepare(led.collect(), drive, &loaded.scene().filters).map(Some)
     }
 }
 
@@ -118,6 +160,20 @@ fn all_at_once(design: &Design, display: &Display) -> Scene {
         displays: vec![display.clone()],
         ..Scene::default()
     }
+}
+
+/// A tip on each textile: rolling it there may take a second each.
+fn tips_of(
+    stylus: &StylusSettings,
+    loaded: &LoadedScene,
+) -> Result<BTreeMap<String, Contact>, AppError> {
+    let tip = Tip::stylus(stylus.radius_mm);
+    let mut tips = BTreeMap::new();
+    for textile in loaded.textiles() {
+        let felt = FeltSurface::of_textile(textile, &tip)?;
+        tips.insert(textile.id().to_owned(), felt.contact(tip.clone())?);
+    }
+    Ok(tips)
 }
 
 fn tuning(design: &Design, loaded: &LoadedScene) -> Tuning {

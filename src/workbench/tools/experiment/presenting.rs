@@ -12,6 +12,7 @@ use crate::tools::experiment::played_noise::HeardNoise;
 use selvedge_engine::{RecordedTick, Recording};
 use selvedge_experiment::layout::on_the_table;
 use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};
+use selvedge_render::stylus::StylusState;
 
 /// Presentations of one trial that may be voided before the experimenter is asked.
 const MOST_VOID: u32 = 3;
@@ -83,6 +84,8 @@ pub(crate) struct ArrayNow {
     pub(crate) proof: Proof,
     /// Why it presents nothing now; `None` where it does.
     pub(crate) why_not: Option<&'static str>,
+    /// What the stylus does that is felt through it, if one is.
+    pub(crate) stylus: Option<StylusState>,
 }
 
 impl ArrayNow {
@@ -105,6 +108,18 @@ impl ArrayNow {
                 Proof::Array
             },
             why_not,
+            stylus: live.stylus,
+        }
+    }
+
+    /// Why no stylus feels anything now; `None` where one does, or rests.
+    fn why_no_stylus(self) -> Option<&'static str> {
+        match self.stylus {
+            None => Some("the stylus is not felt"),
+            Some(StylusState::BrokenOff) => {
+                Some("the stylus broke off: its motion grew without end")
+            }
+            Some(StylusState::Led | StylusState::AtRest | StylusState::Away) => None,
         }
     }
 }
@@ -161,6 +176,13 @@ impl ActiveSession {
         selvedge_experiment::by_hand::needs_array(&self.design)
     }
 
+    /// Why what the design asks about is not presented now. A pilot needs no array.
+    fn why_not(&self, array: ArrayNow) -> Option<&'static str> {
+        let is_led = self.design.composition.presentation.stylus.is_some();
+        let no_stylus = if is_led { array.why_no_stylus() } else { None };
+        array.why_not.filter(|_| !self.is_pilot).or(no_stylus)
+    }
+
     /// What the trial waits for, in words.
     pub(crate) fn waits_for(&self, array: ArrayNow) -> Option<&'static str> {
         if !self.is_waiting() {
@@ -169,8 +191,7 @@ impl ActiveSession {
         if self.awaits_cloth() {
             return Some("Lay the cloth, then say so: the trial begins");
         }
-        let is_needed = self.needs_array() && !self.is_pilot;
-        is_needed.then_some(array.why_not).flatten()
+        self.why_not(array).filter(|_| self.needs_array())
     }
 
     /// What is to be done about the presentation now.
@@ -185,7 +206,7 @@ impl ActiveSession {
         let Presenting::Watched(watch) = &self.presented.presenting else {
             return Due::Nothing;
         };
-        self.presented.ended_by = array.why_not.filter(|_| !self.is_pilot);
+        self.presented.ended_by = self.why_not(array);
         // Ticks that the engine still holds say better what came first.
         let is_over = self.presented.ended_by.is_some();
         if is_over || matches!(watch.standing(), Standing::Void(_)) {

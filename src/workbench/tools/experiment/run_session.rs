@@ -180,7 +180,7 @@ impl Experiment {
             bench.send(Command::StopRecording);
         }
         bench.send(Command::SetAngle(0.0));
-        bench.send(Command::SetStylus(None));
+        bench.feel_stylus(None);
         bench.send(Command::SetContactorMask(Vec::new()));
         let perspective = ShowCommand::Perspective(Perspective::Experiment);
         bench.commands.push(perspective.into());
@@ -205,7 +205,10 @@ impl Experiment {
         };
         let prepared = session.materials.prepare(&session.design, layout, tuning);
         match prepared {
-            Ok(prepared) => {
+            Ok((prepared, stylus)) => {
+                // It feels the scene that it is made for alone: until that comes all is silent.
+                let words = session.design.composition.presentation.stylus;
+                bench.feel_stylus(stylus.zip(words.map(|stylus| stylus.words())));
                 let steps = if session.is_waiting() {
                     Vec::new()
                 } else {
@@ -255,6 +258,7 @@ impl Experiment {
         self.asked = None;
         bench.session.active = None;
         bench.send(Command::PlaySequence(Vec::new()));
+        bench.feel_stylus(None);
         let n_contactors = bench.n_contactors();
         let mask = bench.selection.mute_solo.contactor_mask(n_contactors);
         bench.send(Command::SetContactorMask(mask));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::bench::Bench;
 use crate::bench::latest::{Computed, Latest};
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_render::contact::{Contact, ContactLaw, FeltSurface, Tip};
+use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_textile::Textile;
 
 /// So many prepared textiles are kept at least.
@@ -53,17 +53,11 @@ impl Computed<GroundKey> for Prepared {
             None => FeltSurface::of_textile(&key.textile, &tip),
         };
         progress.step(0.5, "rolling the tip over it")?;
-        Ok(Self(felt.map_err(|error| error.to_string()).and_then(
-            |felt| {
-                let law = ContactLaw {
-                    cloth: felt.cloth,
-                    ..ContactLaw::default()
-                };
-                let contact = Contact::new(&felt.relief, tip, law, felt.friction.clone())
-                    .map_err(|error| error.to_string())?;
-                Ok(Arc::new(Ground { felt, contact }))
-            },
-        )))
+        let ground = felt.map_err(|error| error.to_string()).and_then(|felt| {
+            let contact = felt.contact(tip).map_err(|error| error.to_string())?;
+            Ok(Arc::new(Ground { felt, contact }))
+        });
+        Ok(Self(ground))
     }
 
     fn broken(_: &GroundKey, why: &str) -> Self {

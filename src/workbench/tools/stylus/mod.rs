@@ -154,7 +154,7 @@ impl Stylus {
             grounds.follow(bench, &wanted);
         }
         let setup = |textile: usize| match &grounds.get(&key(textile)?)?.0 {
-            Ok(ground) => Some(Ok(settings.setup(ground))),
+            Ok(ground) => Some(Ok(settings.setup(ground.contact.clone()))),
             Err(why) => Some(Err(why.clone())),
         };
         let way = Way {

@@ -1,13 +1,8 @@
-//! What holds the stylus and how it is computed, and whether that can be held: asked before it is
+//! What is chosen of a stylus with sliders, and whether that can be held: asked before it is
 //! applied.
 
-pub(crate) use crate::bench::settings::stylus::StylusSettings;
 use crate::kit::widgets::scale::{Curve, Scale};
-use selvedge_render::contact::{
-    ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, StylusSetup, WallCase,
-};
-
-use super::ground::Ground;
+pub(crate) use selvedge_render::stylus::StylusSettings;
 
 /// A number that is chosen with a slider.
 pub(crate) struct Dial {
@@ -113,77 +108,17 @@ pub(crate) const DIALS: [Dial; 9] = [
     ),
 ];
 
-impl StylusSettings {
-    /// The case of a wall that this is.
-    pub(crate) fn case(&self) -> WallCase {
-        WallCase {
-            mass_kg: self.mass_kg,
-            damping_n_s_per_m: self.own_damping_n_s_per_m,
-            stiffness_n_per_m: self.stiffness_n_per_m,
-            wall_damping_n_s_per_m: self.damping_n_s_per_m,
-            period_s: 1.0 / self.rate_hz,
-            delay_ticks: self.sampling().map(|sampling| sampling.delay_ticks),
-            method: self.method,
+/// The same within the ends of every slider; what is no number is as at first.
+fn within(mut settings: StylusSettings) -> StylusSettings {
+    for dial in &DIALS {
+        let value = (dial.field)(&mut settings);
+        if value.is_nan() {
+            *value = dial.scale.resting;
         }
+        *value = value.clamp(dial.scale.least, dial.scale.most);
     }
-
-    fn sampling(&self) -> Option<Sampling> {
-        self.is_sampled.then(|| Sampling {
-            delay_ticks: selvedge_foundation::numerics::to_index(self.delay_ticks),
-            is_kept_passive: false,
-        })
-    }
-
-    /// The same within the ends of every slider; what is no number is as at first.
-    fn within(mut self) -> Self {
-        for dial in &DIALS {
-            let value = (dial.field)(&mut self);
-            if value.is_nan() {
-                *value = dial.scale.resting;
-            }
-            *value = value.clamp(dial.scale.least, dial.scale.most);
-        }
-        self.delay_ticks = self.delay_ticks.round();
-        self
-    }
-
-    /// Why it should not be applied unasked: a line with the limit; `None` if it can be held.
-    pub(crate) fn warning(&self) -> Option<String> {
-        let case = self.case();
-        (case.standing() == Standing::Unstable).then(|| case.advice())
-    }
-
-    /// All of a run on a surface.
-    pub(crate) fn setup(&self, ground: &Ground) -> StylusSetup {
-        let mut contact = ground.contact.clone();
-        // Numbers from the sliders are a law; any other leaves the default, which holds.
-        let law = ContactLaw {
-            stiffness_n_per_m: self.stiffness_n_per_m,
-            damping_n_s_per_m: self.damping_n_s_per_m,
-            parts: if self.is_lateral {
-                ForceParts::Both
-            } else {
-                ForceParts::Normal
-            },
-            ..*contact.law()
-        };
-        drop(contact.set_law(law));
-        StylusSetup {
-            contact,
-            device: DeviceSpec {
-                mass_kg: self.mass_kg,
-                damping_n_s_per_m: self.own_damping_n_s_per_m,
-                ..DeviceSpec::default()
-            },
-            hand: Hand {
-                press_n: self.press_n,
-                leads: None,
-            },
-            method: self.method,
-            rate_hz: self.rate_hz,
-            sampling: self.sampling(),
-        }
-    }
+    settings.delay_ticks = settings.delay_ticks.round();
+    settings
 }
 
 /// The settings in force, and those that nobody has confirmed.
@@ -205,7 +140,7 @@ impl Chosen {
     /// Takes up what was kept: what cannot be held waits, whether it was applied or asked for.
     pub(crate) fn take_up(&mut self, applied: StylusSettings, asked: Option<StylusSettings>) {
         for settings in [Some(applied), asked].into_iter().flatten() {
-            self.ask(settings.within());
+            self.ask(within(settings));
         }
     }
 

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use crate::bench::Bench;
 use crate::tools::stylus::ground::{GroundKey, Grounds};
 use crate::tools::stylus::settings::StylusSettings;
-use selvedge_engine::Command;
 use selvedge_foundation::quantity;
 use selvedge_render::stylus::{StylusDrive, StylusState};
 use selvedge_textile::Textile;
@@ -53,8 +52,11 @@ impl ThroughDevice {
         grounds: &mut Grounds,
         bench: &mut Bench,
     ) {
-        self.is_on &= !bench.has_session();
         self.notes.clear();
+        if bench.has_session() {
+            // It gave the array back, or feels a stylus of its own.
+            (self.is_on, self.given) = (false, None);
+        }
         if self.is_on && settings.warning().is_some() {
             let words = "The array is felt: this setting cannot be held and reaches no device";
             self.notes.push(words.to_owned());
@@ -63,7 +65,7 @@ impl ThroughDevice {
             return;
         }
         if self.given.take().is_some() {
-            feel(None, bench);
+            bench.feel_stylus(None);
         }
     }
 
@@ -79,7 +81,7 @@ impl ThroughDevice {
                 radius_mm: settings.radius_mm,
             };
             let setup = match grounds.get(&key).map(|prepared| &prepared.0) {
-                Some(Ok(ground)) => Some(settings.setup(ground)),
+                Some(Ok(ground)) => Some(settings.setup(ground.contact.clone())),
                 Some(Err(why)) => {
                     self.notes.push(why.clone());
                     None
@@ -104,10 +106,10 @@ impl ThroughDevice {
         if !is_given {
             let drive = (settings.rate_hz, settings.um_per_n);
             match StylusDrive::prepare(setups, drive, &filters) {
-                Ok(drive) => feel(Some((drive, settings.words())), bench),
+                Ok(drive) => bench.feel_stylus(Some((drive, settings.words()))),
                 Err(error) => {
                     self.notes.push(error.to_string());
-                    feel(None, bench);
+                    bench.feel_stylus(None);
                 }
             }
             self.given = Some(Given {
@@ -137,13 +139,4 @@ impl ThroughDevice {
             ));
         }
     }
-}
-
-/// Lets the engine feel a stylus, told in a line, or the array; the log of links hears which.
-fn feel(stylus: Option<(StylusDrive, String)>, bench: &mut Bench) {
-    let (drive, words) = stylus.unzip();
-    bench.send(Command::SetStylus(drive.map(Box::new)));
-    let said = words.clone().unwrap_or_else(|| "off".to_owned());
-    bench.engine.say_what("stylus", said);
-    bench.device.stylus = words;
 }

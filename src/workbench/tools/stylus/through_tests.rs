@@ -5,13 +5,11 @@ use super::tests::{FINE_MM, explored, fine, stylus};
 use super::*;
 use crate::bench::command::{FileCommand, PlayCommand, PlaySource, ShowCommand};
 use crate::bench::recording::Recordings;
-use crate::bench::session::SessionInSight;
-use crate::bench::settings::stylus::StylusSettings;
 use crate::shell::headless::Headless;
 use crate::tools::why::Why;
 use crate::tools::why::text::to_text;
 use selvedge_render::contact::Stepper;
-use selvedge_render::stylus::StylusState;
+use selvedge_render::stylus::{StylusSettings, StylusState};
 use selvedge_scratch::ScratchFolder;
 
 /// A window whose display explores by itself, felt by the stylus.
@@ -85,17 +83,9 @@ fn the_switch_lets_the_display_vibrate_as_the_stylus_and_gives_the_array_back() 
 }
 
 #[test]
-fn another_scene_and_a_session_switch_it_off() {
+fn another_scene_switches_it_off() {
     let mut desk = felt();
     desk.dispatch(FileCommand::OpenShipped);
-    settle(&mut desk);
-    assert!(!stylus(&mut desk).through.is_on && desk.workbench.bench.live.stylus.is_none());
-
-    let mut desk = felt();
-    desk.workbench.bench.session.active = Some(SessionInSight {
-        pseudonym: "p01".to_owned(),
-        log: std::path::PathBuf::new(),
-    });
     settle(&mut desk);
     assert!(!stylus(&mut desk).through.is_on && desk.workbench.bench.live.stylus.is_none());
 }

@@ -62,6 +62,12 @@ pub(crate) const STIMULUS: Rows = Rows {
             Holds::Number,
         ),
         Field::new(
+            ("stimulus", "force_alone"),
+            ("force alone", ""),
+            Holds::Flag,
+        )
+        .when(|keys| keys.n_tables("presentation.stylus") > 0),
+        Field::new(
             ("stimulus", "band_hz"),
             ("vibration", "40 or 320 Hz"),
             Holds::Number,
@@ -187,7 +193,9 @@ fn show_stimulus(ui: &mut Ui, editing: &mut Editing, (nth, open): (usize, &mut O
     });
     if is_open {
         for one in STIMULUS.fields {
-            field(ui, editing, (one, nth));
+            if one.applies(&editing.keys) {
+                field(ui, editing, (one, nth));
+            }
         }
     }
     if is_gone {

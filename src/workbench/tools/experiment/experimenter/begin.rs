@@ -96,6 +96,11 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         let words = "The device is an emulator: its rows will say that nobody felt anything.";
         note(ui, words, Tone::Wrong);
     }
+    if plan.design.composition.presentation.stylus.is_some() {
+        let words = "Force is what a device of your own gives: none is driven from here. Without \
+                     one, what is given by force alone is silent.";
+        note(ui, words, Tone::Wrong);
+    }
     let over = over_limits(&plan.design, bench.engine.profile().limit_um);
     if !over.is_empty() {
         let words = "The array may not play all of it: trials with it would not count. Lower it in \

@@ -4,6 +4,7 @@
 pub(crate) mod apart;
 pub(crate) mod before;
 pub(crate) mod drawn;
+mod felt_by_stylus;
 mod finger;
 mod in_turn;
 pub(crate) mod presented;
