@@ -11,7 +11,7 @@ use selvedge_foundation::progress::{Progress, unheard};
 use selvedge_foundation::quantity::level_db;
 use selvedge_statistics::mds::{Dissimilarities, Loss, Map, Mds, Null, NullKind, Ties};
 use selvedge_statistics::procrustes::Procrustes;
-use selvedge_statistics::properties::{BestTurn, bootstrap_ellipses};
+use selvedge_statistics::properties::{BestTurn, Ellipse};
 use selvedge_statistics::ranking::{MeanRanks, RankTrial};
 use selvedge_statistics::{Computed, Undefined, mean};
 use selvedge_textile::tactile::Band;
@@ -232,7 +232,7 @@ fn figure_3b(found: &[Mapped], laid: &DesignWithStimuli) -> Computed<Drawn> {
         .map(|item| Ok(vec![middle(item, 0)?, middle(item, 1)?]))
         .collect();
     let points = points?;
-    let ellipses = bootstrap_ellipses(&points, &maps, 0.95)?;
+    let ellipses = Ellipse::of_bootstrap(&points, &maps, 0.95)?;
     let drawing = MapDrawing {
         names: &names,
         points: &points,

@@ -76,7 +76,7 @@ fn mean_of(subjects: &[&Vec<Option<f64>>], n: usize) -> Vec<Option<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::properties::bootstrap_ellipses;
+    use crate::properties::Ellipse;
     use selvedge_foundation::progress::unheard;
 
     /// Subjects who feel the same points of a plane, each with noise of their own.
@@ -110,7 +110,7 @@ mod tests {
             let again = unheard(|p| mds.resampled(&names, &subjects, draws, p)).unwrap();
             assert_eq!((found.maps.len(), found.n_unmapped), (30, 0));
             assert_eq!(found, again, "the same draws");
-            let ellipses = bootstrap_ellipses(&found.maps[0], &found.maps, 0.95).unwrap();
+            let ellipses = Ellipse::of_bootstrap(&found.maps[0], &found.maps, 0.95).unwrap();
             ellipses.iter().map(|e| e.half_axes[0]).sum::<f64>() / 9.0
         };
         let [little, much] = [0.02, 0.3].map(size);

@@ -6,7 +6,7 @@ use crate::observer::{Jnd, Observer, Stimuli, tests::stimuli};
 use crate::simulate::{Simulation, simulated_subject};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::factor_of_gain;
-use selvedge_statistics::detection::{Answers, Correction, yes_no};
+use selvedge_statistics::detection::{Answers, Correction, YesNo};
 use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
 
 /// Observers of a study.
@@ -315,7 +315,7 @@ fn sensitivity_of_a_hundred_observers_is_found_and_held() {
             answers.false_alarms += u64::from(is_real);
         }
     }
-    let d_prime = yes_no(answers, Correction::LogLinear).unwrap().d_prime;
+    let d_prime = YesNo::of(answers, Correction::LogLinear).unwrap().d_prime;
     let known = Known {
         group: ("single-judgements-sensitivity", "d′"),
         subjects: ("subjects", ["d_prime_ci_low", "d_prime_ci_high"]),
