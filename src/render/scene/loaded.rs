@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::{PlacedTextile, Scene, SceneError};
 use selvedge_foundation::files::{self, FileError};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::tactile::{Filters, Levels, Tuning};
 use selvedge_textile::{BuildCache, Library, Textile, TextileError, elsewhere, is_of_the_program};
 
@@ -100,7 +100,7 @@ impl LoadedScene {
                 fresh.push(id.clone());
             }
         }
-        let fresh = unheard(|progress| self.library.load_all(&fresh, progress))?;
+        let fresh = Progress::unheard(|progress| self.library.load_all(&fresh, progress))?;
         let find = |placed: &PlacedTextile| {
             let mut known = fresh.iter().chain(&self.textiles);
             known

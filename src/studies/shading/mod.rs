@@ -11,7 +11,7 @@ use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use reliefs::{Relief, Truth};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::shading::{
     Light, Method, ShadingOptions, Shape, estimate_light, shape_from_shading,
 };
@@ -133,7 +133,7 @@ fn promised_percent() -> f64 {
 }
 
 fn found(picture: &Grid<f64>, light: Light, options: &ShadingOptions) -> Option<Shape> {
-    unheard(|progress| shape_from_shading(picture, light, options, progress)).ok()
+    Progress::unheard(|progress| shape_from_shading(picture, light, options, progress)).ok()
 }
 
 fn options(method: Method, iterations: Option<usize>) -> ShadingOptions {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use crate::picture::analysed;
-use selvedge_foundation::files::{FileError, Rgb8Image, encode_png};
+use selvedge_foundation::files::{FileError, Rgb8Image};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::{NoLattice, Picture, load};
 
@@ -106,6 +106,6 @@ fn cut_off() -> Verdict {
             .map(|i| [i, u8::MAX - i, i / 3])
             .collect(),
     };
-    let bytes = encode_png(&picture, Path::new("a.png")).map_err(failed)?;
+    let bytes = picture.to_png(Path::new("a.png")).map_err(failed)?;
     refused(loaded(&bytes[..bytes.len() / 2]), &["cut short"])
 }

@@ -2,7 +2,7 @@
 
 use super::case::{Case, Verdict, cases, failed};
 use selvedge_foundation::numerics::Grid;
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::shading::{
     Light, Method, ShadingOptions, Shape, shape_from_shading,
 };
@@ -59,7 +59,7 @@ fn found(
         ..ShadingOptions::default()
     };
     let run = |progress: &mut Progress<'_>| shape_from_shading(tile, light, &options, progress);
-    unheard(run).map_err(failed)
+    Progress::unheard(run).map_err(failed)
 }
 
 /// That it was refused, with these words.

@@ -18,7 +18,7 @@ use crate::sources::Source;
 use crate::sources::picture::PictureSource;
 use crate::surface::{HeightMap, Probe, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
-use selvedge_foundation::files::{encode_png_small, sha256_hex};
+use selvedge_foundation::files::sha256_hex;
 
 /// The name of the map in the textile's folder.
 const MAP: &str = "heights.png";
@@ -77,7 +77,7 @@ pub(crate) fn to_textile(
     let mut files = vec![BuiltFile::new(MAP, bytes)];
     files.extend(profile_files(&profiles)?);
     let image = shaded(&kept).map_err(no_surface)?;
-    let bytes = encode_png_small(&image, Path::new(PICTURE))?;
+    let bytes = image.to_small_png(Path::new(PICTURE))?;
     files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));

@@ -12,7 +12,7 @@ use crate::manifest::MANIFEST;
 use crate::surface::Surface;
 use crate::tactile::{Filters, Levels, Tuning};
 use selvedge_foundation::files::{sha256_hex, write_atomic};
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::progress::Progress;
 
 /// Builds every textile of the library `from` into the folder `to`.
 ///
@@ -55,7 +55,8 @@ pub(crate) fn index_of(
         let textile = Textile::load(&store, id)?;
         Ok((entry_of(id, textile.surface()), content_of(&store, id)?))
     };
-    let measured = unheard(|progress| for_each(library.ids(), n_threads, progress, measure));
+    let measured =
+        Progress::unheard(|progress| for_each(library.ids(), n_threads, progress, measure));
     let (textiles, content): (Vec<IndexEntry>, Vec<_>) = measured?.into_iter().unzip();
     let levels: Vec<f64> = textiles.iter().filter_map(IndexEntry::level_db).collect();
     let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;

@@ -8,7 +8,7 @@ use crate::manifest::{MANIFEST, Manifest};
 use crate::profile_file;
 use crate::recipe::profiles_of_files;
 use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
-use selvedge_foundation::files::{Rgb8Image, decode_png, sha256_hex};
+use selvedge_foundation::files::{Rgb8Image, sha256_hex};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -153,7 +153,7 @@ pub(crate) fn read_appearance(
         return Ok(None);
     };
     let bytes = store.read(id, &keys.image)?;
-    let image = decode_png(&bytes, &store.path(id, &keys.image))?;
+    let image = Rgb8Image::from_png(&bytes, &store.path(id, &keys.image))?;
     Ok(Some(Appearance {
         image,
         px_per_mm: keys.px_per_mm,

@@ -34,7 +34,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use reading::{Reading, n_points};
-use selvedge_foundation::files::{FileError, NPY_MAGIC, encode_gray_png, encode_gray_tiff};
+use selvedge_foundation::files::{FileError, NumberArray};
 
 /// What can be read, for people.
 const READABLE: &str =
@@ -60,7 +60,7 @@ const FORMATS: [(&[u8], Reader); 11] = [
     (b"DSCOMPRESSED", |bytes, path, _| sur::read(bytes, path)),
     (b"GWYP", gwy::read),
     (gsf::MAGIC, |bytes, path, _| gsf::read(bytes, path)),
-    (NPY_MAGIC, |bytes, path, _| npy::read(bytes, path)),
+    (NumberArray::MAGIC, |bytes, path, _| npy::read(bytes, path)),
     (image16::PNG_MAGIC, image16::read),
     (b"II*\0", image16::read),
     (b"MM\0*", image16::read),
@@ -104,8 +104,8 @@ pub fn write(measured: &Measured, path: &Path) -> Result<Vec<u8>, TextileError> 
         "x3p" => x3p::write(measured, Coding::default(), path)?,
         "gsf" => gsf::write(measured),
         "npy" => npy::write(measured),
-        "png" => encode_gray_png(&image16::picture(measured, path)?, path)?,
-        "tif" | "tiff" => encode_gray_tiff(&image16::picture(measured, path)?, path)?,
+        "png" => image16::picture(measured, path)?.to_png(path)?,
+        "tif" | "tiff" => image16::picture(measured, path)?.to_tiff(path)?,
         _ => {
             let what = "heights are not written in this format";
             let mend = "name a file that ends in .x3p, .gsf, .npy, .png or .tif";

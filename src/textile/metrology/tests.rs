@@ -113,14 +113,14 @@ fn x3p_comes_back_from_every_number_type_binary_and_listed() {
 
 #[test]
 fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
-    use selvedge_foundation::files::{Archive, pack};
+    use selvedge_foundation::files::Archive;
     let path = Path::new("a.x3p");
     let bytes = write_x3p(&map(0), Coding::default(), path).unwrap();
     let mut archive = Archive::open(&bytes, path).unwrap();
     let xml = archive.member("main.xml", 1 << 20).unwrap();
     let mut data = archive.member("bindata/data.bin", 1 << 20).unwrap();
     data[7] ^= 1;
-    let changed = pack(&[("main.xml", &xml), ("bindata/data.bin", &data)], path).unwrap();
+    let changed = Archive::pack(&[("main.xml", &xml), ("bindata/data.bin", &data)], path).unwrap();
     let read = open(&changed, path, &HeightOptions::default()).unwrap();
     assert_eq!(read.warnings.len(), 2, "{:?}", read.warnings);
     assert!(read.warnings[1].contains("does not fit bindata/data.bin"));
@@ -128,7 +128,7 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
         (&data[..80], "holds 80 bytes"),
         (&[0; 9999], "more than 672"),
     ] {
-        let bytes = pack(&[("main.xml", &xml), ("bindata/data.bin", data)], path).unwrap();
+        let bytes = Archive::pack(&[("main.xml", &xml), ("bindata/data.bin", data)], path).unwrap();
         let error = open(&bytes, path, &HeightOptions::default())
             .unwrap_err()
             .to_string();
@@ -136,7 +136,7 @@ fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
     }
     let giant = String::from_utf8(xml).unwrap().replace(">12<", ">9999999<");
     let giant = giant.replace("<SizeY>7<", "<SizeY>9999999999<");
-    let bytes = pack(&[("main.xml", giant.as_bytes())], path).unwrap();
+    let bytes = Archive::pack(&[("main.xml", giant.as_bytes())], path).unwrap();
     let error = open(&bytes, path, &HeightOptions::default())
         .unwrap_err()
         .to_string();

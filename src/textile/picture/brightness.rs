@@ -166,7 +166,7 @@ mod tests {
     use super::super::{AnalysisOptions, DirectionOptions, EvenLight, Picture, analyse};
     use super::*;
     use selvedge_foundation::numerics::Random;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
 
     /// Of the picture, px.
     const SIDE: usize = 300;
@@ -221,7 +221,7 @@ mod tests {
             n_threads: 2,
         };
         let picture = picture(basis);
-        let found = unheard(|progress| analyse(&picture, &options, progress)).unwrap();
+        let found = Progress::unheard(|progress| analyse(&picture, &options, progress)).unwrap();
         found.found.unwrap().tile
     }
 
@@ -263,7 +263,7 @@ mod tests {
 
     fn shape(cut: &Brightness) -> Shape {
         let options = ShadingOptions::default();
-        unheard(|progress| shape_of(cut, LIGHT, &options, progress)).unwrap()
+        Progress::unheard(|progress| shape_of(cut, LIGHT, &options, progress)).unwrap()
     }
 
     #[test]

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::brightness::{Brightness, Extent, brightness_of, shape_of};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
-use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png};
+use selvedge_foundation::files::{FileError, GrayImage};
 use selvedge_foundation::progress::Progress;
 
 /// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
@@ -165,7 +165,7 @@ impl Relief {
             texts: texts.to_vec(),
             ..GrayImage::of_shares([heights.width(), heights.height()], shares)
         };
-        encode_gray_png(&picture, Path::new("height.png"))
+        picture.to_png(Path::new("height.png"))
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::PictureError;
 use super::basis::{Place, length, mix};
-use selvedge_foundation::files::{FileError, decode_picture};
+use selvedge_foundation::files::{FileError, Rgb16Image};
 use selvedge_foundation::numerics::{Grid, to_index};
 
 /// Channels that differ by more than this share of white are coloured.
@@ -30,7 +30,7 @@ pub struct Picture {
 /// # Errors
 /// What is no picture, is damaged, or has more than 64 million pixels.
 pub fn load(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
-    let decoded = decode_picture(bytes, path)?;
+    let decoded = Rgb16Image::decode(bytes, path)?;
     let white = f64::from(u16::MAX);
     let luminance = |&[r, g, b]: &[u16; 3]| {
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / white

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::*;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder;
 
 fn brownian(name: &str, hurst: f64) -> Vec<BuiltFile> {
@@ -77,8 +77,10 @@ fn the_index_of_a_folder_follows_and_its_reference_stays() {
         write(&files_of(&shipped, id).unwrap(), &scratch.join(id)).unwrap();
     }
     let there = Library::open(&scratch).unwrap();
-    unheard(|progress| build_library(&there, &scratch, there.default_tuning(), 2, progress))
-        .unwrap();
+    Progress::unheard(|progress| {
+        build_library(&there, &scratch, there.default_tuning(), 2, progress)
+    })
+    .unwrap();
     let before = Library::open(&scratch).unwrap().index().unwrap().clone();
     let folder = LibraryFolder::at(&scratch);
     folder.put("own", &brownian("One", 0.5), false).unwrap();

@@ -11,7 +11,7 @@ use crate::recipe::Side;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder;
 
 fn seventy_four() -> Library {
@@ -209,7 +209,7 @@ fn one_thread_and_two_make_the_same_bytes() {
     let built = [1, 2].map(|n_threads| {
         let to = scratch.0.join(n_threads.to_string());
         let tuning = library.default_tuning();
-        unheard(|p| build_library(&library, &to, tuning, n_threads, p)).unwrap();
+        Progress::unheard(|p| build_library(&library, &to, tuning, n_threads, p)).unwrap();
         to
     });
     for id in library.ids() {

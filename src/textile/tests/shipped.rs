@@ -200,7 +200,7 @@ fn rebuild_the_shipped_library() {
         .unwrap();
     let library = Library::shipped().unwrap();
     let tuning = library.index().unwrap().tuning;
-    let index = selvedge_foundation::progress::unheard(|progress| {
+    let index = selvedge_foundation::progress::Progress::unheard(|progress| {
         build_library(&library, &out, tuning, 2, progress)
     });
     assert_eq!(index.unwrap().textiles.len(), 16);

@@ -40,7 +40,7 @@ fn on_disk(folder: &Scratch, n_trials: &[usize]) -> Vec<PathBuf> {
 }
 
 fn of_folder(folder: &Scratch) -> Result<Analysis, ExperimentError> {
-    unheard(|progress| analyse_folder(&folder.0, &few(), progress))
+    Progress::unheard(|progress| analyse_folder(&folder.0, &few(), progress))
 }
 
 fn made_newer(log: &Path) {
@@ -159,7 +159,7 @@ fn random_data_are_on_unless_refused_and_found_once_a_size() {
         n_random_data: 10,
         ..few()
     };
-    let analysed = || unheard(|progress| analyse(&found, &options, progress)).unwrap();
+    let analysed = || Progress::unheard(|progress| analyse(&found, &options, progress)).unwrap();
     let first = analysed();
     let stress = table(&first, "odd-one-out-map", "stress");
     let (mean, five) = (

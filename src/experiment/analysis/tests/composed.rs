@@ -71,7 +71,8 @@ fn every_composition_is_held_read_back_and_analysed() {
             observer: &observer,
             seed: 3,
         };
-        unheard(|progress| simulation.write(&folder.0, (N_OBSERVERS, 1), progress)).unwrap();
+        Progress::unheard(|progress| simulation.write(&folder.0, (N_OBSERVERS, 1), progress))
+            .unwrap();
         let (found, unread) = find_sessions(&folder.0).unwrap();
         assert!(unread.is_empty(), "{}: {unread:?}", one.name);
         for session in &found {

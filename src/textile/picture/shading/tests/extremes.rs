@@ -139,7 +139,7 @@ fn noise_steps_and_wild_options_stay_finite() {
                 let run = |progress: &mut Progress<'_>| {
                     shape_from_shading(&steps, light(slant, 30.0), &options, progress)
                 };
-                let found = unheard(run).unwrap();
+                let found = Progress::unheard(run).unwrap();
                 assert!(is_finite(&found), "{options:?} {slant}");
             }
         }
@@ -160,7 +160,7 @@ fn noise_steps_and_wild_options_stay_finite() {
             let run = |progress: &mut Progress<'_>| {
                 shape_from_shading(&steps, light(45.0, 30.0), &options, progress)
             };
-            let error = unheard(run).unwrap_err();
+            let error = Progress::unheard(run).unwrap_err();
             assert!(matches!(error, ShadingError::Option { .. }), "{error}");
         }
     }
