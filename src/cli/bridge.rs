@@ -11,7 +11,7 @@ use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
 use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, terminal};
-use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
+use selvedge_device::{ArrayProfile, PortEntry, UDEV_RULE};
 use selvedge_engine::{AudioEntry, AudioError, AudioOutput};
 
 /// What to do with devices.
@@ -69,7 +69,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test(args) => certify::test(args),
-        BridgeCommand::Certify(args) => certify::certify(args),
+        BridgeCommand::Certify(args) => certify::Certificate::of(args),
         BridgeCommand::Replay(args) => replay::run(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
@@ -77,7 +77,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
 }
 
 fn list() -> Result<(), CliError> {
-    let ports = list_ports()?;
+    let ports = PortEntry::list()?;
     if ports.is_empty() {
         terminal::notice(
             "no serial ports; connect a device, or make one: \"selvedge bridge emulate\"",

@@ -60,7 +60,6 @@ pub use actuator_model::{
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use certify::{
     Certificate, CertificateFolder, CheckOutcome, CheckResult, Extent, Line, Trial, VirtualLine,
-    certify,
 };
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
@@ -85,12 +84,9 @@ pub use message::{
     LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable,
     fault_bit, frame, kind,
 };
-pub use port::{
-    FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, check_permission,
-    list_ports, pair,
-};
+pub use port::{FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE};
 pub use port::{PairPort, SerialLink, UsbIdentity};
-pub use replay::{ReplayedLink, ReplayedTick, replay_log};
+pub use replay::{ReplayedLink, ReplayedTick};
 pub use session_log::LogFeed;
 pub use session_log::{LogBound, SessionLog};
 pub use wav::{SampleFormat, WavSpec};

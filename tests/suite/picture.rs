@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use selvedge_foundation::files::{GrayImage, Rgb8Image};
 use selvedge_textile::picture::{
-    AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
+    Analysis, AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Picture, Place,
 };
 
 use crate::program::Lab;
@@ -440,10 +440,11 @@ fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
             println!("skipped: no {}", path.display());
             continue;
         };
-        let picture = load(&bytes, &path).unwrap();
-        let analysis =
-            selvedge_foundation::progress::Progress::unheard(|p| analyse(&picture, &options, p))
-                .unwrap();
+        let picture = Picture::load(&bytes, &path).unwrap();
+        let analysis = selvedge_foundation::progress::Progress::unheard(|p| {
+            Analysis::of(&picture, &options, p)
+        })
+        .unwrap();
         match (analysis.found, expected) {
             (Err(NoLattice::NotResolved { .. } | NoLattice::Weak { .. }), None) => {}
             (Ok(found), Some([p1, p2])) => {

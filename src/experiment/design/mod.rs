@@ -32,7 +32,7 @@ pub use composition::{
 pub use kind::Kind;
 pub(crate) use parameter::Tunable;
 pub use parameter::{Scale, TunedParameter};
-pub use vocabulary::names_of;
+pub use vocabulary::Design;
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};
@@ -362,10 +362,12 @@ pub struct Subject {
     pub session: u32,
 }
 
-/// Whether a text may name a study, an experiment or a subject in names of files.
-pub fn is_name(text: &str) -> bool {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    !text.is_empty() && text.len() <= 64 && text.chars().all(is_plain)
+impl Design {
+    /// Whether a text may name a study, an experiment or a subject in names of files.
+    pub fn is_name(text: &str) -> bool {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        !text.is_empty() && text.len() <= 64 && text.chars().all(is_plain)
+    }
 }
 
 #[cfg(test)]

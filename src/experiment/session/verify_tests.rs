@@ -5,7 +5,7 @@ use std::fs;
 use super::tests::{Folder, any_answer, circumstances};
 use super::*;
 use crate::StimulusHashes;
-use crate::analysis::{Options, analyse_folder};
+use crate::analysis::{Analysis, Options};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::PathRow;
@@ -368,7 +368,7 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
         );
         assert!(found.breaks.iter().all(|one| one.log == logs[0]), "{name}");
         let analysis =
-            Progress::unheard(|progress| analyse_folder(&folder.0, &few, progress)).unwrap();
+            Progress::unheard(|progress| Analysis::of_folder(&folder.0, &few, progress)).unwrap();
         let page = analysis.page();
         let counted = page.lines().filter(|line| line.starts_with("| p01 | 1 |"));
         let is_counted = counted.clone().any(|line| line.contains("complete"));

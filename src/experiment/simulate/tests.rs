@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::observer::{Strategy, Weighting, tests::stimuli};
-use crate::session::{Circumstances, Session, find_sessions, tests::Folder};
+use crate::session::{Circumstances, Found, Session, tests::Folder};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::Library;
 
@@ -37,7 +37,7 @@ fn every_shipped_design_is_simulated_to_its_end_and_read_back() {
         let logs =
             Progress::unheard(|progress| simulation.write(&place, (2, 2), progress)).unwrap();
         assert_eq!(logs.len(), 4, "{name}");
-        for found in find_sessions(&place).unwrap().0 {
+        for found in Found::in_folder(&place).unwrap().0 {
             let records = simulation.records(&found.subject).unwrap();
             assert_eq!(
                 found.records, records,

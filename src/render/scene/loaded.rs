@@ -350,7 +350,7 @@ mod tests {
     fn a_scene_places_textiles_of_several_libraries_and_moves_with_the_folder_beside_it() {
         let scratch = selvedge_scratch::ScratchFolder::made("several");
         let folder = scratch.join("own");
-        let files = selvedge_textile::files_of(&Library::shipped().unwrap(), "denim").unwrap();
+        let files = Library::shipped().unwrap().files_of("denim").unwrap();
         selvedge_textile::write(&files, &folder.join("mine")).unwrap();
         let path = scratch.join("a.scene.toml");
         let place = |id: &str| {

@@ -6,7 +6,7 @@ use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use crate::picture::analysed;
 use selvedge_foundation::files::{FileError, Rgb8Image};
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_textile::picture::{NoLattice, Picture, load};
+use selvedge_textile::picture::{NoLattice, Picture};
 
 /// A side of the pictures, px.
 const N: usize = 96;
@@ -85,7 +85,7 @@ fn nearly_parallel() -> Verdict {
 }
 
 fn loaded(bytes: &[u8]) -> Result<Picture, FileError> {
-    load(bytes, Path::new("a picture"))
+    Picture::load(bytes, Path::new("a picture"))
 }
 
 /// A bitmap that only says how large it is.

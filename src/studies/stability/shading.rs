@@ -3,9 +3,7 @@
 use super::case::{Case, Verdict, cases, failed};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
-use selvedge_textile::picture::shading::{
-    Light, Method, ShadingOptions, Shape, shape_from_shading,
-};
+use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, Shape};
 
 /// A side of the tiles, px.
 const N: usize = 24;
@@ -58,7 +56,7 @@ fn found(
         method,
         ..ShadingOptions::default()
     };
-    let run = |progress: &mut Progress<'_>| shape_from_shading(tile, light, &options, progress);
+    let run = |progress: &mut Progress<'_>| Shape::from_shading(tile, light, &options, progress);
     Progress::unheard(run).map_err(failed)
 }
 

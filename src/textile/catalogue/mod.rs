@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_catalogue_has_a_sheet_for_every_textile_and_stops_when_asked() {
-        let store = Library::shipped().unwrap().files_of("silk-crepe").unwrap();
+        let store = Library::shipped().unwrap().store_of("silk-crepe").unwrap();
         let root = ScratchFolder::new("sheets");
         let folder = root.join("cloths").join("silk");
         for name in [

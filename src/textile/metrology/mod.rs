@@ -78,19 +78,21 @@ pub(crate) fn is_known(head: &[u8]) -> bool {
     reader_of(head).is_some()
 }
 
-/// Reads measured heights. `path` only names the file in errors.
-///
-/// # Errors
-/// One line: a format that is not read, a damaged file, a size beyond
-/// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
-/// be given, no height at all.
-pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
-    let of_text = || is_text(bytes).then_some(text::read as Reader);
-    let Some(reader) = reader_of(bytes).or_else(of_text) else {
-        let what = "this is no file of measured heights that is known here";
-        return Err(FileError::whole(path, what, READABLE).into());
-    };
-    reader(bytes, path, asked)?.finish(path, asked)
+impl Measured {
+    /// Reads measured heights. `path` only names the file in errors.
+    ///
+    /// # Errors
+    /// One line: a format that is not read, a damaged file, a size beyond
+    /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
+    /// be given, no height at all.
+    pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Self, TextileError> {
+        let of_text = || is_text(bytes).then_some(text::read as Reader);
+        let Some(reader) = reader_of(bytes).or_else(of_text) else {
+            let what = "this is no file of measured heights that is known here";
+            return Err(FileError::whole(path, what, READABLE).into());
+        };
+        reader(bytes, path, asked)?.finish(path, asked)
+    }
 }
 
 /// Writes a map in the format that the ending of `path` names: `.x3p`, `.gsf`, `.npy`, `.png` or

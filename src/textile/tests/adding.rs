@@ -74,11 +74,11 @@ fn the_index_of_a_folder_follows_and_its_reference_stays() {
     let shipped = Library::shipped().unwrap();
     let two = Library::of_folder(Path::new(""), &shipped.ids()[..2]);
     for id in two.ids() {
-        write(&files_of(&shipped, id).unwrap(), &scratch.join(id)).unwrap();
+        write(&shipped.files_of(id).unwrap(), &scratch.join(id)).unwrap();
     }
     let there = Library::open(&scratch).unwrap();
     Progress::unheard(|progress| {
-        build_library(&there, &scratch, there.default_tuning(), 2, progress)
+        Index::build(&there, &scratch, there.default_tuning(), 2, progress)
     })
     .unwrap();
     let before = Library::open(&scratch).unwrap().index().unwrap().clone();

@@ -7,7 +7,7 @@ use crate::simulate::{Simulation, simulated_subject};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_statistics::detection::{Answers, Correction, YesNo};
-use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
+use selvedge_textile::tactile::{Band, Levels, Tuning};
 
 /// Observers of a study.
 const N: usize = 100;
@@ -107,7 +107,7 @@ fn thresholds_of_a_hundred_observers_are_found_and_held() {
         };
         let truth_db = |noise: f64| match band {
             None => JND_DB * noise,
-            Some(band) => detection_threshold_db(band, 24) + (TWO_THIRDS * noise - 1.0) * JND_DB,
+            Some(band) => band.detection_threshold_db(24) + (TWO_THIRDS * noise - 1.0) * JND_DB,
         };
         let design = Design::shipped(name).unwrap();
         let analysis = analysed(&sessions(&design, &observer, 0..N));

@@ -35,7 +35,7 @@ fn few() -> Options {
 }
 
 fn analysed(found: &[Found]) -> Analysis {
-    Progress::unheard(|progress| analyse(found, &few(), progress)).unwrap()
+    Progress::unheard(|progress| Analysis::of(found, &few(), progress)).unwrap()
 }
 
 fn record(trial: Trial, answer: Answer, is_correct: Option<bool>) -> Record {

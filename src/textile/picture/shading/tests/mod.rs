@@ -116,5 +116,5 @@ fn with(method: Method) -> ShadingOptions {
 }
 
 fn shape(brightness: &Grid<f64>, from: Light, method: Method) -> Result<Shape, ShadingError> {
-    Progress::unheard(|progress| shape_from_shading(brightness, from, &with(method), progress))
+    Progress::unheard(|progress| Shape::from_shading(brightness, from, &with(method), progress))
 }

@@ -116,7 +116,7 @@ fn the_running_average_brings_the_residual_down_and_the_shape_nearer() {
     };
     let of = |n: usize| {
         let run = |progress: &mut Progress<'_>| {
-            shape_from_shading(&e, light(45.0, 0.0), &options(n), progress)
+            Shape::from_shading(&e, light(45.0, 0.0), &options(n), progress)
         };
         Progress::unheard(run).unwrap()
     };

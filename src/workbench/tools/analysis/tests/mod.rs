@@ -20,7 +20,7 @@ use crate::shell::headless::Headless;
 use crate::tools::analysis::asked::{Asked, Choice, Effort};
 use crate::tools::analysis::findings::find_out;
 use selvedge_experiment::Simulation;
-use selvedge_experiment::analysis::{Section, analyse_folder};
+use selvedge_experiment::analysis::{Analysis, Section};
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;
@@ -100,7 +100,7 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     open(&mut window, &folder.0);
     window.pass(3);
     let expected =
-        Progress::unheard(|progress| analyse_folder(&folder.0, &asked.options(), progress))
+        Progress::unheard(|progress| Analysis::of_folder(&folder.0, &asked.options(), progress))
             .unwrap();
     let found = analysis(&window).found.as_ref().unwrap();
     assert_eq!(found.analysis, expected);

@@ -15,7 +15,7 @@ use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{Participant, over_limits};
+use selvedge_experiment::{Design, Participant};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -96,7 +96,7 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
         let words = "The device is an emulator: its rows will say that nobody felt anything.";
         note(ui, words, Tone::Wrong);
     }
-    let over = over_limits(&plan.design, bench.engine.profile().limit_um);
+    let over = plan.design.over_limits(bench.engine.profile().limit_um);
     if !over.is_empty() {
         let words = "The array may not play all of it: trials with it would not count. Lower it in \
                      the design, or choose an array that may.";

@@ -5,7 +5,7 @@ use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
 use selvedge_device::FaultWords;
 use selvedge_engine::SequenceStep;
-use selvedge_experiment::analysis::{Cell, Options, analyse_folder};
+use selvedge_experiment::analysis::{Analysis, Cell, Options};
 use selvedge_experiment::{Proof, Record, Validity};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::tactile::Band;
@@ -395,7 +395,8 @@ fn what_counts_is_every_tick_to_the_answer() {
 fn counted(folder: &Folder) -> [Cell; 2] {
     let logs = folder.0.join("logs");
     let options = Options::default();
-    let analysis = Progress::unheard(|progress| analyse_folder(&logs, &options, progress)).unwrap();
+    let analysis =
+        Progress::unheard(|progress| Analysis::of_folder(&logs, &options, progress)).unwrap();
     let mut tables = analysis.sections.iter().flat_map(|section| &section.tables);
     let held = tables.find(|table| table.key == "held").unwrap();
     ["trials", "void"].map(|name| {
