@@ -45,7 +45,6 @@ pub mod visits;
 pub use bids::write_bids;
 pub use course::{Course, Step};
 pub use error::ExperimentError;
-pub use limits::Design;
 pub use noise::{Colour, MaskingNoise, NoiseSound};
 pub use participants::{Participant, Participants, Particulars};
 pub use plan::{FrozenPlan, Hypothesis, Plan};

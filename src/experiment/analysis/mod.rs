@@ -65,7 +65,7 @@ pub use random_data::RandomData;
 
 use super::ExperimentError;
 use super::design::Kind;
-use super::session::{self, Found, Unread};
+use super::session::{Found, Unread};
 use first_page::first_page;
 use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
@@ -99,9 +99,9 @@ pub fn sessions(
     folder: &Path,
     progress: &mut Progress<'_>,
 ) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
-    let (mut found, unread) = session::Found::in_folder(folder)?;
+    let (mut found, unread) = Found::in_folder(folder)?;
     if !found.is_empty() {
-        session::Found::verify_stimuli(&mut found, progress)?;
+        Found::verify_stimuli(&mut found, progress)?;
         return Ok((found, unread));
     }
     let none = || {

@@ -5,4 +5,4 @@ mod present;
 mod typed;
 
 pub use present::{Placed, needs_array};
-pub use typed::{Answer, form};
+pub use typed::form;

@@ -32,7 +32,6 @@ pub use composition::{
 pub use kind::Kind;
 pub(crate) use parameter::Tunable;
 pub use parameter::{Scale, TunedParameter};
-pub use vocabulary::Design;
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};

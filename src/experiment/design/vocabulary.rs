@@ -2,7 +2,7 @@
 
 use super::adaptation::{Needs, Seeks};
 use super::composing::FormName;
-use super::{Medium, Movement, Sequence, Sets, Shown, Standard, Tunable};
+use super::{Design, Medium, Movement, Sequence, Sets, Shown, Standard, Tunable};
 use crate::named::Named;
 
 impl Design {

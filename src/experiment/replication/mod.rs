@@ -145,7 +145,7 @@ fn in_full(
         cache: options.cache.clone(),
         ..analysis::Options::default()
     };
-    let mut sections = analysis::Analysis::of(&found, &how, progress)?.sections;
+    let mut sections = Analysis::of(&found, &how, progress)?.sections;
     for section in &mut sections {
         section.title = format!("One study in full. {}", section.title);
     }

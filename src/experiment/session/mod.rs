@@ -27,7 +27,6 @@ pub use files::{log_path, path_file, samples_file};
 pub use found::{Found, Unread};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
-pub use verify::Found;
 pub use verify::{Break, Verified};
 pub(crate) use whole::{unwritten, write_whole};
 

@@ -343,7 +343,7 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
     for (name, spoil) in WAYS {
         let folder = Folder::new("spoilt");
         let logs = held(&folder);
-        let whole = Progress::unheard(|progress| verify_folder(&folder.0, progress)).unwrap();
+        let whole = Progress::unheard(|progress| Verified::of_folder(&folder.0, progress)).unwrap();
         assert_eq!(
             (whole.breaks, whole.n_broken, whole.n_open),
             (Vec::new(), 0, 0)
@@ -359,7 +359,7 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
             Spoil::Sidecar(how) => edit(&logs[0].with_extension("json"), how),
             Spoil::Files(how) => how(&logs[0]),
         }
-        let found = Progress::unheard(|progress| verify_folder(&folder.0, progress)).unwrap();
+        let found = Progress::unheard(|progress| Verified::of_folder(&folder.0, progress)).unwrap();
         assert_eq!(
             (found.n_logs, found.n_broken),
             (3, 1),
