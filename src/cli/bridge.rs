@@ -69,7 +69,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
         BridgeCommand::List { udev_rule: false } => list(),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test(args) => certify::test(args),
-        BridgeCommand::Certify(args) => certify::Certificate::of(args),
+        BridgeCommand::Certify(args) => certify::certify(args),
         BridgeCommand::Replay(args) => replay::run(args),
         BridgeCommand::Emulate(args) => emulate(args),
         BridgeCommand::Identify(args) => identify::run(args),
@@ -84,9 +84,7 @@ fn list() -> Result<(), CliError> {
         );
     }
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
-    let line = |port: &selvedge_device::PortEntry| {
-        format!("{:widest$}  {}\n", port.path, port.description)
-    };
+    let line = |port: &PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
     let mut text: String = ports.iter().map(line).collect();
     match AudioOutput::list() {
         Ok(cards) => text.extend(cards.iter().map(card_line)),

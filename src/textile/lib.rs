@@ -54,9 +54,8 @@ pub use library::{
 };
 pub use manifest::{
     AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,
-    Provenance, Uncertainty, all_known as known_figures, figures as measured_figures,
+    Provenance, Uncertainty,
 };
-pub use profile_file::read as read_profile;
 pub use recipe::{Group, Parameter, ParameterKind, Place, lit};
 pub use sources::brownian::{Brownian, Generator, Hurst};
 pub use sources::fourier::{
@@ -67,7 +66,7 @@ pub use sources::knit::Knit;
 pub use sources::picture::PictureSource;
 pub use sources::profiles::Profiles;
 pub use sources::restoration::{Reduced, Restoration};
-pub use sources::weave::{NAMES as INTERLACINGS, Weave};
+pub use sources::weave::Weave;
 pub use sources::{RECIPES, Source, groups};
 pub use surface::smd_um;
 pub use unit::{LengthUnit, Unit};

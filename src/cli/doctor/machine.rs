@@ -181,7 +181,7 @@ pub(super) fn place(name: &'static str, path: &Path) -> Finding {
 }
 
 pub(super) fn ports() -> Vec<Finding> {
-    ports_of(PortEntry::list(), check_permission)
+    ports_of(PortEntry::list(), PortEntry::check_permission)
 }
 
 pub(super) fn ports_of(

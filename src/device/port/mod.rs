@@ -19,7 +19,7 @@ pub use listing::PortEntry;
 pub use listing::UsbIdentity;
 pub use pair::PairPort;
 pub use replug::{FoundPort, PortIdentity, RecognisedBy};
-pub use serial::SerialLink;
+pub(crate) use serial::SerialLink;
 
 /// The udev rule that gives access to arrays, keeps modem managers away and names them; for
 /// `/etc/udev/rules.d/99-selvedge.rules`.

@@ -23,7 +23,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use adaptation::Needs;
-pub use adaptation::{Adaptation, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track};
+pub(crate) use adaptation::QuestPlusTrack;
+pub(crate) use adaptation::StaircaseTrack;
+pub(crate) use adaptation::Track;
+pub use adaptation::{Adaptation, Seeks, Stopping};
 pub(crate) use composition::Sequence;
 pub use composition::{
     Composition, Confidence, Form, Order, Presentation, Question, Response, Right, Sets, Shown,

@@ -1,9 +1,9 @@
 //! What trials present: where it lies, what is told of it, and what is played.
 
 use super::*;
-use crate::Adapted;
 use crate::Procedure;
 use crate::design::{Medium, Subject};
+use crate::trial::Adapted;
 use selvedge_engine::{Played, SequenceStep};
 use selvedge_render::RenderScene;
 use selvedge_render::scene::LoadedScene;

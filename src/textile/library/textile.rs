@@ -7,7 +7,9 @@ use crate::error::TextileError;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::profile_file;
 use crate::recipe::profiles_of_files;
-use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
+use crate::surface::{
+    Direction, FrictionTrace, HeightMap, Profile, ProfileSet, Representation, Surface,
+};
 use selvedge_foundation::files::{Rgb8Image, sha256_hex};
 
 /// A textile, ready to be felt.
@@ -208,7 +210,7 @@ fn read_profiles(store: &Store, id: &str, manifest: &Manifest) -> Result<Profile
         let Some(name) = files.of(direction) else {
             continue;
         };
-        let profile = profile_file::read(&store.text(id, name)?, &store.path(id, name))?;
+        let profile = Profile::read(&store.text(id, name)?, &store.path(id, name))?;
         profiles[direction.index()] = Some(profile);
     }
     Ok(profiles)

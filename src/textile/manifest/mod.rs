@@ -7,7 +7,7 @@ mod measured;
 mod provenance;
 mod uncertainty;
 
-pub use measured::{Figure, KnownFigure, all_known, figures};
+pub use measured::{Figure, KnownFigure};
 pub use provenance::{Parent, Provenance};
 pub use uncertainty::Uncertainty;
 

@@ -24,7 +24,7 @@ const LOOK_FURTHER: isize = 12;
 
 /// What was cut from a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// The smallest rectangle that repeats, sheared by this to close, radians.
     Repeat {
         /// The shear.
@@ -48,7 +48,7 @@ pub struct Brightness {
     /// Direction of its rows in the picture, radians clockwise from x to the right.
     pub angle_rad: f64,
     /// What it is.
-    pub extent: Extent,
+    pub(crate) extent: Extent,
 }
 
 impl Brightness {

@@ -5,7 +5,7 @@
 use std::io::{self, BufRead, Write};
 use std::time::SystemTime;
 
-use selvedge_experiment::by_hand::{Answer, Placed, form};
+use selvedge_experiment::by_hand::{Placed, form};
 use selvedge_experiment::design::{Familiarisation, Movement};
 use selvedge_experiment::session::{Circumstances, Session};
 use selvedge_experiment::{

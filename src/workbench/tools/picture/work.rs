@@ -20,9 +20,7 @@ use selvedge_textile::picture::{
     Picture, SignificantMaxima, even_light,
 };
 use selvedge_textile::surface::{Direction, HeightMap};
-use selvedge_textile::{
-    Construction, Manifest, PictureTextile, Source, TextileError, n_threads, read_profile,
-};
+use selvedge_textile::{Construction, Manifest, PictureTextile, Source, TextileError, n_threads};
 
 /// Why a run ended early.
 enum End {
@@ -294,7 +292,8 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
     for direction in Direction::ALL {
         let name = format!("{}.csv", direction.key());
         if let Some(text) = text(&name) {
-            let profile = read_profile(&text, Path::new(&name)).map_err(failed)?;
+            let profile = selvedge_textile::surface::Profile::read(&text, Path::new(&name))
+                .map_err(failed)?;
             profiles.push((direction, profile.heights_um().to_vec(), profile.step_mm()));
         }
     }

@@ -20,7 +20,7 @@ use crate::shell::headless::Headless;
 use crate::tools::analysis::asked::{Asked, Choice, Effort};
 use crate::tools::analysis::findings::find_out;
 use selvedge_experiment::Simulation;
-use selvedge_experiment::analysis::{Analysis, Section};
+use selvedge_experiment::analysis::{self as study, Section};
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;
@@ -99,9 +99,10 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     let mut window = window(&asked);
     open(&mut window, &folder.0);
     window.pass(3);
-    let expected =
-        Progress::unheard(|progress| Analysis::of_folder(&folder.0, &asked.options(), progress))
-            .unwrap();
+    let expected = Progress::unheard(|progress| {
+        study::Analysis::of_folder(&folder.0, &asked.options(), progress)
+    })
+    .unwrap();
     let found = analysis(&window).found.as_ref().unwrap();
     assert_eq!(found.analysis, expected);
     assert_eq!((&found.asked, found.n_sessions), (&asked, 3));

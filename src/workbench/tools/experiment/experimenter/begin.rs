@@ -14,8 +14,8 @@ use crate::tools::experiment::builder::show_designs;
 use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
+use selvedge_experiment::Participant;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{Design, Participant};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";

@@ -87,7 +87,7 @@ fn an_answer_waits_until_everything_was_felt() {
     feel(&mut window);
     say(&mut window);
     assert_eq!(session(&window).progress.0, 1);
-    let found = find_sessions(&folder.0).unwrap().0;
+    let found = Found::in_folder(&folder.0).unwrap().0;
     let presentation = &found[0].records[0].presentation;
     assert_eq!(
         (presentation.validity(), presentation.proof),
@@ -264,7 +264,7 @@ fn go_on(window: &mut Headless, marks: &[Mark]) {
 
 /// The rows of the only session, which are as they were written.
 pub(super) fn rows(folder: &Folder) -> Vec<Record> {
-    let [found] = &find_sessions(&folder.0.join("logs")).unwrap().0[..] else {
+    let [found] = &Found::in_folder(&folder.0.join("logs")).unwrap().0[..] else {
         panic!("one session")
     };
     assert_eq!(found.breaks, []);
