@@ -45,9 +45,7 @@ impl OnPanic {
         acts().push(Arc::clone(&act));
         Self(Some(act))
     }
-}
 
-impl OnPanic {
     /// Leaves the act to the rest of the process.
     pub fn for_good(mut self) {
         self.0 = None;

@@ -196,9 +196,7 @@ impl Mapping<'_> {
             }
         }
     }
-}
 
-impl Mapping<'_> {
     /// How well subjects agree on the order of the pairs that all of them met: Kendall's W.
     pub(super) fn agreement(&self) -> Computed<Outcome> {
         let n = self.names.len();

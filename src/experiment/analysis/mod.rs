@@ -86,7 +86,7 @@ impl Analysis {
         progress: &mut Progress<'_>,
     ) -> Result<Self, ExperimentError> {
         let (found, unread) = sessions(folder, progress)?;
-        Analysis::with_unread(&found, &unread, options, progress)
+        Self::with_unread(&found, &unread, options, progress)
     }
 }
 
@@ -125,7 +125,7 @@ impl Analysis {
         options: &Options,
         progress: &mut Progress<'_>,
     ) -> Result<Self, ExperimentError> {
-        let mut analysis = Analysis::of(found, options, progress)?;
+        let mut analysis = Self::of(found, options, progress)?;
         if !unread.is_empty() {
             analysis.sections.insert(0, left_out(unread));
         }

@@ -32,7 +32,7 @@ impl GrayImage {
         Self {
             width,
             height,
-            values: GrayImage::values_of(shares),
+            values: Self::values_of(shares),
             white: u16::MAX,
             texts: Vec::new(),
         }

@@ -104,7 +104,7 @@ impl Journal {
     /// The number of cells is not that of the columns.
     pub fn append(&mut self, cells: &[&str]) -> Result<(), FileError> {
         assert_eq!(cells.len(), self.n_columns, "cells of a row");
-        let line = Journal::row_line(cells, &self.path)?;
+        let line = Self::row_line(cells, &self.path)?;
         self.append_lines(&line)
     }
 

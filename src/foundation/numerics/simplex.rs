@@ -21,7 +21,7 @@ impl<const N: usize> Lowest<N> {
         mut function: impl FnMut(&[f64; N]) -> f64,
         start: [f64; N],
         steps: [f64; N],
-    ) -> Lowest<N> {
+    ) -> Self {
         let mut at = |place: [f64; N]| {
             let value = function(&place);
             let value = if value.is_nan() { f64::INFINITY } else { value };

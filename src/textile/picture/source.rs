@@ -56,9 +56,7 @@ impl Picture {
             colour: colour.flatten(),
         })
     }
-}
 
-impl Picture {
     /// A grey picture.
     pub fn grey(luminance: Grid<f64>) -> Self {
         Self {

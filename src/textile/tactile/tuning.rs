@@ -73,9 +73,9 @@ impl Default for Tuning {
 impl Tuning {
     /// Refuses gains that are NaN or +∞, compression outside 0…1, a reference that is not finite.
     pub fn check(&self) -> Result<(), TuningError> {
-        Tuning::check_gain("gain_db", self.gain_db)?;
-        Tuning::check_gain("gain_40_db", self.gain_40_db)?;
-        Tuning::check_gain("gain_320_db", self.gain_320_db)?;
+        Self::check_gain("gain_db", self.gain_db)?;
+        Self::check_gain("gain_40_db", self.gain_40_db)?;
+        Self::check_gain("gain_320_db", self.gain_320_db)?;
         if !(0.0..=1.0).contains(&self.compression) {
             return Err(TuningError::Compression {
                 value: self.compression,
