@@ -11,7 +11,7 @@ use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
 use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, terminal};
-use selvedge_device::{ArrayProfile, UDEV_RULE, list_ports};
+use selvedge_device::{ArrayProfile, PortEntry, UDEV_RULE};
 use selvedge_engine::{AudioEntry, AudioError, AudioOutput};
 
 /// What to do with devices.
@@ -77,16 +77,14 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
 }
 
 fn list() -> Result<(), CliError> {
-    let ports = list_ports()?;
+    let ports = PortEntry::list()?;
     if ports.is_empty() {
         terminal::notice(
             "no serial ports; connect a device, or make one: \"selvedge bridge emulate\"",
         );
     }
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
-    let line = |port: &selvedge_device::PortEntry| {
-        format!("{:widest$}  {}\n", port.path, port.description)
-    };
+    let line = |port: &PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
     let mut text: String = ports.iter().map(line).collect();
     match AudioOutput::list() {
         Ok(cards) => text.extend(cards.iter().map(card_line)),

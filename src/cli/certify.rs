@@ -94,7 +94,7 @@ impl LineArgs {
         };
         let mut line = DirectLine::open(target, &profile, feed)?;
         let mut progress = |section: &str| terminal::notice(section);
-        let certificate = selvedge_device::certify(&mut line, trial, &stop, &mut progress);
+        let certificate = Certificate::of(&mut line, trial, &stop, &mut progress);
         line.close();
         log.map_or(Ok(()), SessionLog::finish)?;
         Ok(certificate)

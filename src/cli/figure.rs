@@ -95,7 +95,7 @@ fn of_sessions(args: &FigureArgs) -> Result<FigureFiles, CliError> {
         {
             return Err(why.error);
         }
-        analysis::analyse(&found, &options, progress)
+        analysis::Analysis::of(&found, &options, progress)
     })?;
     let analysed = analysed.map_err(|error: ExperimentError| match error {
         ExperimentError::Cancelled(stopped) => CliError::from(stopped),

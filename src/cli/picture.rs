@@ -116,7 +116,7 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     let px_per_mm = args.px_per_mm();
     args.relief.check(px_per_mm)?;
     let bytes = selvedge_textile::read_measurement(&args.image)?;
-    let loaded = picture::load(&bytes, &args.image)?;
+    let loaded = Picture::load(&bytes, &args.image)?;
     let origin = Origin::of(&args.image, &bytes);
     drop(bytes);
     let chosen = choose(loaded, args)?;
@@ -129,7 +129,7 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         n_threads,
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
-        let analysis = picture::analyse(&chosen, &options, progress)?;
+        let analysis = Analysis::of(&chosen, &options, progress)?;
         let of = (&origin, px_per_mm);
         let felt = analysis.found.as_ref().ok();
         let felt = felt.map(|found| args.relief.felt(&found.tile, of, n_threads, progress));

@@ -14,9 +14,7 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
 use selvedge_textile::picture::{Relief, Tile};
 use selvedge_textile::surface::Representation;
-use selvedge_textile::{
-    BuiltFile, Construction, Description, HeightScale, PictureTextile, relief_um_of, textile_of,
-};
+use selvedge_textile::{BuiltFile, Construction, Description, HeightScale, PictureTextile};
 
 /// How heights are found on the cell, and what becomes of them.
 #[derive(Debug, Args)]
@@ -183,10 +181,11 @@ impl ReliefArgs {
         let relief_um = match (about.scale, px_per_mm) {
             (HeightScale::Unscaled, _) => None,
             (HeightScale::ReliefUm(um), None) => Some(um),
-            _ => Some(relief_um_of(&relief.shape, &about)?),
+            _ => Some(PictureTextile::relief_um_of(&relief.shape, &about)?),
         };
         let wants = self.textile.as_ref();
-        let files = wants.map(|_| textile_of(&relief.shape, &relief.brightness, tile, &about));
+        let files = wants
+            .map(|_| PictureTextile::files_of(&relief.shape, &relief.brightness, tile, &about));
         Ok(Ok(Felt {
             relief,
             relief_um,

@@ -12,7 +12,7 @@ use super::play_source::Moving;
 use super::{CliError, output};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{AudioOutput, CardChannels, EngineError, Notice, Silencer};
-use selvedge_foundation::panics::on_panic;
+use selvedge_foundation::panics::OnPanic;
 use selvedge_foundation::quantity::fixed;
 
 const NAP: Duration = Duration::from_millis(20);
@@ -36,7 +36,7 @@ pub(super) fn play(
     let opened = AudioOutput::open(name, profile, &channels);
     let mut card = opened.map_err(EngineError::from)?;
     let silencer = card.silencer();
-    let last_act = on_panic(move || fall_silent(&silencer));
+    let last_act = OnPanic::new(move || fall_silent(&silencer));
     let started = Instant::now();
     let played = serve(&mut card, &mut moving, stop);
     fall_silent(&card.silencer());

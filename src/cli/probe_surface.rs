@@ -48,7 +48,8 @@ pub(super) fn felt(name: &str, args: &FeltArgs, tip: &Tip) -> Result<FeltSurface
     }
     let path = Path::new(name);
     if path.is_file() {
-        let heights = metrology::open(&read_measurement(path)?, path, &args.asked.asked())?;
+        let heights =
+            metrology::Measured::open(&read_measurement(path)?, path, &args.asked.asked())?;
         let map = HeightMap::new(heights.heights_um, heights.step_mm);
         let map = map.map_err(|source| TextileError::Surface {
             path: path.to_owned(),

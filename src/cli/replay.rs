@@ -8,7 +8,7 @@ use clap::Args;
 use super::bridge_show::ContactorArgs;
 use super::output::TableOut;
 use super::{CliError, output, terminal};
-use selvedge_device::{ReplayedTick, replay_log};
+use selvedge_device::{ReplayedLink, ReplayedTick};
 use selvedge_foundation::files::TableWriter;
 
 /// What to replay.
@@ -31,7 +31,7 @@ pub(super) fn run(args: &ReplayArgs) -> Result<(), CliError> {
         table: None,
         n_channels: 0,
     };
-    let links = replay_log(&args.log, &contactors, |tick| rows.add(tick))?;
+    let links = ReplayedLink::of_log(&args.log, &contactors, |tick| rows.add(tick))?;
     rows.finish()?;
     let report: String = links.iter().map(ToString::to_string).collect();
     if output::named_file(args.out.as_deref()).is_some() {

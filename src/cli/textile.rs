@@ -14,9 +14,9 @@ use super::textile_models::{self, LearnArgs};
 use super::{CliError, output};
 
 use selvedge_foundation::quantity::fixed;
+use selvedge_textile::Library;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
 use selvedge_textile::tactile::{Filters, Levels};
-use selvedge_textile::{Library, most_typical};
 
 /// What to do with textiles.
 #[derive(Debug, Subcommand)]
@@ -146,7 +146,7 @@ fn list(library: &Library) -> Result<(), CliError> {
 }
 
 fn select(library: &Library) -> Result<(), CliError> {
-    let chosen = most_typical(library)?;
+    let chosen = library.most_typical()?;
     let width = chosen.iter().map(|(_, id)| id.chars().count()).max();
     let width = width.unwrap_or(0);
     let lines: Vec<String> = chosen

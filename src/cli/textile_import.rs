@@ -166,7 +166,7 @@ fn nth_folder(out: &Path, nth: usize, n: usize) -> PathBuf {
 /// Writes the file.
 pub(super) fn convert(args: &ConvertArgs) -> Result<(), CliError> {
     let bytes = selvedge_textile::read_measurement(&args.file)?;
-    let mut measured = metrology::open(&bytes, &args.file, &args.asked.asked())?;
+    let mut measured = metrology::Measured::open(&bytes, &args.file, &args.asked.asked())?;
     for warning in &measured.warnings {
         terminal::notice(&format!("{}: {warning}", args.file.display()));
     }

@@ -11,7 +11,7 @@ use super::{CliError, output, terminal};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::{
     ColumnRole, Construction, DecimalSign, KesFile, KesImport, KesOptions, KesPlace, KesReading,
-    LengthUnit, ReturnOrder, TextileAxis, Unit, measured_figures,
+    LengthUnit, MeasuredFigure, ReturnOrder, TextileAxis, Unit,
 };
 
 /// Files of the tester, what they do not say, and where the textile goes.
@@ -232,12 +232,15 @@ fn report(import: &KesImport, out: &Path) -> Result<String, CliError> {
 
 /// Measured figures, one line each.
 pub(super) fn figures(measured: &std::collections::BTreeMap<String, f64>) -> String {
-    let line = |figure: selvedge_textile::MeasuredFigure| {
+    let line = |figure: MeasuredFigure| {
         let value = format!("{} {}", figure.value, figure.unit).replace('-', "−");
         let (name, what) = (figure.name, figure.what);
         format!("{name:14}{value:16}{what}").trim_end().to_owned() + "\n"
     };
-    measured_figures(measured).into_iter().map(line).collect()
+    MeasuredFigure::all_of(measured)
+        .into_iter()
+        .map(line)
+        .collect()
 }
 
 #[cfg(test)]

@@ -109,7 +109,7 @@ fn build_into(library: &Library, to: &Path, n_threads: Option<u8>) -> Result<(),
     tuning.compression_reference_db = None;
     let n_threads = n_threads.map_or_else(selvedge_textile::n_threads, usize::from);
     let build = |progress: &mut Progress<'_>| {
-        selvedge_textile::build_library(library, to, tuning, n_threads, progress)
+        selvedge_textile::Index::build(library, to, tuning, n_threads, progress)
     };
     let index = with_meter("making", build)??;
     let n_made = index.textiles.len();

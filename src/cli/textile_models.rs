@@ -223,7 +223,7 @@ pub(super) fn learn(args: &LearnArgs) -> Result<(), CliError> {
     }
     let learnt = FourierTemplate::learn(&args.name, &profiles, args.harmonics)?;
     let n_harmonics = learnt.mean_cos_um.len();
-    let text = selvedge_textile::templates_to_toml(&[learnt], &args.out)?;
+    let text = FourierTemplate::list_to_toml(&[learnt], &args.out)?;
     files::write_atomic(&args.out, text.as_bytes())?;
     let out = args.out.display();
     let n = profiles.len();
@@ -231,15 +231,12 @@ pub(super) fn learn(args: &LearnArgs) -> Result<(), CliError> {
 }
 
 fn profile(path: &Path) -> Result<Profile, CliError> {
-    Ok(selvedge_textile::read_profile(
-        &files::read_text(path)?,
-        path,
-    )?)
+    Ok(Profile::read(&files::read_text(path)?, path)?)
 }
 
 /// An example by its name, or the first template of a file.
 fn template(which: &str) -> Result<FourierTemplate, CliError> {
-    let examples = selvedge_textile::example_templates()?;
+    let examples = FourierTemplate::examples()?;
     let path = Path::new(which);
     if let Some(found) = examples.iter().find(|template| template.name == which) {
         return Ok(found.clone());
@@ -253,7 +250,7 @@ fn template(which: &str) -> Result<FourierTemplate, CliError> {
         let what = format!("no file and no example template is called \"{which}\"");
         return Err(CliError::Input(format!("{what}; the examples are {known}")));
     }
-    let found = selvedge_textile::templates_from_toml(&files::read_text(path)?, path)?;
+    let found = FourierTemplate::list_from_toml(&files::read_text(path)?, path)?;
     let none = || FileError::content(path, 1, "no template", "add [[template]]");
     Ok(found.into_iter().next().ok_or_else(none)?)
 }

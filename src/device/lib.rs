@@ -52,15 +52,13 @@ mod wav;
 mod wav_parts;
 mod wire;
 
-pub use actuator_model::Amplifier;
 pub use actuator_model::{
-    ActuatorModel, ActuatorReading, ActuatorWatch, Bimorph, ContactorModel, ContactorReading,
-    SAMPLES_PER_S, Skin,
+    ActuatorModel, ActuatorReading, ActuatorWatch, Amplifier, Bimorph, ContactorModel,
+    ContactorReading, SAMPLES_PER_S, Skin,
 };
 pub use array::{ArrayProfile, Calibration, DeviceUid, ProfileFolder, Wiring, wiring};
 pub use certify::{
     Certificate, CertificateFolder, CheckOutcome, CheckResult, Extent, Line, Trial, VirtualLine,
-    certify,
 };
 pub use codes::{CodeCounters, Coder, FULL_CODE, Limit, LimiterState, LinkScale};
 pub use device::{
@@ -75,31 +73,24 @@ pub use frames::FrameTable;
 pub use framing::{Decoder, LARGEST_BODY, Packet, Received};
 pub use handle::{Bridge, Target};
 pub use hjif::{HjifSpec, HjifWriter};
-pub use host::HostSession;
 pub use host::{
-    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DisarmedBy, SentFrame,
+    ArrayChange, BridgeCounters, BridgeEvent, BridgeState, ClockFit, DisarmedBy, HostSession,
+    SentFrame,
 };
 pub use link::{Distribution, DistributionBar, Spread, StopHandle, Timings};
 pub use message::{
     Ack, Arm, Caps, Clear, Config, DeviceCounters, DeviceMessage, DeviceState, Fault, Hello, Ident,
-    LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, TICK_US, Unreadable,
-    fault_bit, frame, kind,
+    LARGEST_CHANNELS, LogText, Message, Ping, Pong, Status, Stop, StopHow, Unreadable, fault_bit,
+    frame, kind,
 };
 pub use port::{
-    FoundPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, check_permission,
-    list_ports, pair,
+    FoundPort, PairPort, Port, PortEntry, PortIdentity, RecognisedBy, UDEV_RULE, UsbIdentity,
 };
-pub use port::{PairPort, SerialLink, UsbIdentity};
-pub use replay::{ReplayedLink, ReplayedTick, replay_log};
-pub use session_log::LogFeed;
-pub use session_log::{LogBound, SessionLog};
+pub use replay::{ReplayedLink, ReplayedTick};
+pub use session_log::{LogBound, LogFeed, SessionLog};
 pub use wav::{SampleFormat, WavSpec};
 pub use wav_parts::WavParts;
-pub use wire::Injection;
-pub use wire::Simulation;
-pub use wire::SimulationLog;
-pub use wire::WiredDevice;
 pub use wire::{
-    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, InjectionKind, Latency,
-    LinkFaults, OneOff, OneOffKind,
+    Direction, FaultGroup, FaultKind, FaultOption, FaultWords, Faults, Injection, InjectionKind,
+    Latency, LinkFaults, OneOff, OneOffKind, Simulation, SimulationLog, WiredDevice,
 };

@@ -253,7 +253,7 @@ pub fn write_clip(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_foundation::progress::{CancelFlag, Progress};
     use selvedge_scratch::ScratchFolder;
 
     fn clip(path: &Path, kind: ClipKind) -> ClipWriter {
@@ -274,7 +274,7 @@ mod tests {
             for tick in 0..3 {
                 writer.take(tick, &[[1.0, 2.0]; 2]).unwrap();
             }
-            unheard(|progress| writer.finish(progress)).unwrap();
+            Progress::unheard(|progress| writer.finish(progress)).unwrap();
             let text = folder.read("a.csv");
             let rows = text.lines().filter(|line| !line.starts_with('#'));
             let start = |row: &str| row.split(',').take(3).map(str::to_owned).collect();
@@ -298,7 +298,7 @@ mod tests {
             for tick in 0..40 {
                 writer.take(tick, &[[25.0, 10.0]; 24]).unwrap();
             }
-            let written = unheard(|progress| writer.finish(progress)).unwrap();
+            let written = Progress::unheard(|progress| writer.finish(progress)).unwrap();
             assert_eq!(written.paths, std::slice::from_ref(&path));
             assert!(
                 written.peak.is_some_and(|peak| (0.6..0.71).contains(&peak)),

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::Thread;
 
 use selvedge_device::{StopHandle, StopHow};
-use selvedge_foundation::panics::on_panic;
+use selvedge_foundation::panics::OnPanic;
 
 /// Switches everything off. Clones are the same switch.
 ///
@@ -55,7 +55,7 @@ impl StopSwitch {
                 device.last_word();
             }
         };
-        on_panic(press).for_good();
+        OnPanic::new(press).for_good();
     }
 
     /// How often it was pressed in either way.

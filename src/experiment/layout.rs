@@ -263,28 +263,30 @@ fn grid(items: &[usize], n_columns: usize, gap_mm: f64) -> Layout {
     }
 }
 
-/// What the experimenter lays on the table for a task: the position, `None` for what is compared
-/// with, and the cloth.
-pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)> {
-    let composition = &design.composition;
-    let is_adjusted = matches!(composition.response.form, Form::Adjustment(_));
-    let compared = task
-        .reference
-        .or_else(|| task.item().filter(|_| is_adjusted));
-    let is_real = composition.presentation.reference == Standard::RealCloth;
-    let standard = compared.filter(|_| is_real).map(|item| {
-        let found = design.stimuli.get(item);
-        found.map_or_else(String::new, |stimulus| stimulus.material.clone())
-    });
-    let mut cloths: Vec<(Option<usize>, String)> =
-        standard.into_iter().map(|cloth| (None, cloth)).collect();
-    for place in Layout::of(design, task).places {
-        let found = design.stimuli.get(place.stimulus);
-        if let Some(Source::RealCloth(name)) = found.map(|stimulus| &stimulus.source) {
-            cloths.push((place.number, name.clone()));
+impl Layout {
+    /// What the experimenter lays on the table for a task: the position, `None` for what is compared
+    /// with, and the cloth.
+    pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)> {
+        let composition = &design.composition;
+        let is_adjusted = matches!(composition.response.form, Form::Adjustment(_));
+        let compared = task
+            .reference
+            .or_else(|| task.item().filter(|_| is_adjusted));
+        let is_real = composition.presentation.reference == Standard::RealCloth;
+        let standard = compared.filter(|_| is_real).map(|item| {
+            let found = design.stimuli.get(item);
+            found.map_or_else(String::new, |stimulus| stimulus.material.clone())
+        });
+        let mut cloths: Vec<(Option<usize>, String)> =
+            standard.into_iter().map(|cloth| (None, cloth)).collect();
+        for place in Self::of(design, task).places {
+            let found = design.stimuli.get(place.stimulus);
+            if let Some(Source::RealCloth(name)) = found.map(|stimulus| &stimulus.source) {
+                cloths.push((place.number, name.clone()));
+            }
         }
+        cloths
     }
-    cloths
 }
 
 /// The tuning of a trial: what is felt alone has the adapted value, and an adjustment the values

@@ -31,22 +31,14 @@ macro_rules! named {
     ($key:literal, $(#[$meta:meta])* $vis:vis enum $enum:ident {
         $($(#[$doc:meta])* $variant:ident = $name:literal,)+
     }) => {
-        $(#[$meta])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        $vis enum $enum {
-            $($(#[$doc])* $variant,)+
-        }
-
-        impl $enum {
-            /// All of them, in order.
-            $vis const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
-
-            /// As files and people call it.
-            $vis fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name,)+
-                }
+        selvedge_foundation::named! {
+            $(#[$meta])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+            $vis enum $enum {
+                $($(#[$doc])* $variant = $name,)+
             }
+            /// As files and people call it.
+            $vis fn name;
         }
 
         impl $crate::named::Named for $enum {

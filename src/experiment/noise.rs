@@ -224,12 +224,12 @@ fn header(n_samples: u64) -> Vec<u8> {
 mod tests {
     use super::*;
     use crate::session::tests::Folder;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
 
     fn written(folder: &Folder, noise: MaskingNoise) -> Vec<f64> {
         std::fs::create_dir_all(&folder.0).unwrap();
         let path = folder.0.join("noise.wav");
-        unheard(|progress| noise.write(&path, progress)).unwrap();
+        Progress::unheard(|progress| noise.write(&path, progress)).unwrap();
         let mut reader = hound::WavReader::open(&path).unwrap();
         let spec = reader.spec();
         assert_eq!(
@@ -327,7 +327,7 @@ mod tests {
                 fade_s,
                 ..MaskingNoise::default()
             };
-            let error = unheard(|progress| noise.write(&path, progress)).unwrap_err();
+            let error = Progress::unheard(|progress| noise.write(&path, progress)).unwrap_err();
             assert!(error.to_string().contains("give"), "{error}");
         }
         assert!(!path.exists());

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use super::ExperimentError;
-use super::design::is_name;
+use super::design::Design;
 use selvedge_foundation::files::{self, FileError, Journal, Table};
 use selvedge_foundation::quantity::rfc3339;
 
@@ -95,7 +95,7 @@ impl Participant {
     /// What is wrong, and how to mend it.
     fn flaw(&self) -> Option<(String, String)> {
         let described = |name: &str, value: &str| format!("{name} is {value:?}");
-        if !is_name(&self.pseudonym) {
+        if !Design::is_name(&self.pseudonym) {
             let mend = "give 1 to 64 letters, digits, - and _, and no real name";
             return Some((described("pseudonym", &self.pseudonym), mend.to_owned()));
         }
@@ -116,7 +116,8 @@ impl Participant {
             }
         }
         let mut words = [("experience", experience), ("room", room)].into_iter();
-        let (name, value) = words.find(|(_, value)| !value.is_empty() && !is_name(value))?;
+        let (name, value) =
+            words.find(|(_, value)| !value.is_empty() && !Design::is_name(value))?;
         let mend = "give one word of letters, digits, - and _, or leave it out";
         Some((described(name, value), mend.to_owned()))
     }

@@ -32,13 +32,13 @@ pub struct Plan {
     pub exclusions: Rules,
     /// What is asked of the data.
     #[serde(rename = "hypothesis", default)]
-    pub hypotheses: Vec<Hypothesis>,
+    pub(crate) hypotheses: Vec<Hypothesis>,
 }
 
 /// Something that is expected, and how it is tested.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Hypothesis {
+pub(crate) struct Hypothesis {
     /// What is expected, in a sentence.
     pub expected: String,
     /// The test.
@@ -47,7 +47,7 @@ pub struct Hypothesis {
 
 /// A plan and the hash of its file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FrozenPlan {
+pub(crate) struct FrozenPlan {
     /// The plan.
     pub plan: Plan,
     /// SHA-256 of its file.
@@ -113,7 +113,7 @@ impl FrozenPlan {
     ///
     /// # Errors
     /// It cannot be read, or is none.
-    pub fn find(folder: &Path, design: &Design) -> Result<Option<Self>, ExperimentError> {
+    pub(crate) fn find(folder: &Path, design: &Design) -> Result<Option<Self>, ExperimentError> {
         let path = Plan::path(folder, design);
         if !path.exists() {
             return Ok(None);

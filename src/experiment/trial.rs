@@ -29,7 +29,7 @@ pub struct Task {
     /// adapted.
     pub right: Option<usize>,
     /// The number that is adapted.
-    pub adapted: Option<Adapted>,
+    pub(crate) adapted: Option<Adapted>,
     /// Where the parameters of an adjustment begin, in the design's order.
     pub starts: Vec<f64>,
     /// Whether all stimuli are the same, to catch who does not attend.
@@ -38,7 +38,7 @@ pub struct Task {
 
 /// A number that is adapted.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Adapted {
+pub(crate) struct Adapted {
     /// Which of the interleaved series, from 0.
     pub track: usize,
     /// Its value.

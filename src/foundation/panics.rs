@@ -23,29 +23,29 @@ impl std::fmt::Debug for OnPanic {
     }
 }
 
-/// Does `act` whenever any thread of this process panics, on that thread and before the panic is
-/// reported, until what this returns is dropped.
-///
-/// Several acts are done in the order in which they were asked for. An act must not panic, must
-/// not take what the panicking thread may hold, and should be done within a moment.
-pub fn on_panic(act: impl Fn() + Send + Sync + 'static) -> OnPanic {
-    HOOK.call_once(|| {
-        let report = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
-            // Not while the list is locked: an act may take its time.
-            let due = acts().clone();
-            for act in due {
-                act();
-            }
-            report(info);
-        }));
-    });
-    let act: Act = Arc::new(act);
-    acts().push(Arc::clone(&act));
-    OnPanic(Some(act))
-}
-
 impl OnPanic {
+    /// Does `act` whenever any thread of this process panics, on that thread and before the panic is
+    /// reported, until what this returns is dropped.
+    ///
+    /// Several acts are done in the order in which they were asked for. An act must not panic, must
+    /// not take what the panicking thread may hold, and should be done within a moment.
+    pub fn new(act: impl Fn() + Send + Sync + 'static) -> Self {
+        HOOK.call_once(|| {
+            let report = panic::take_hook();
+            panic::set_hook(Box::new(move |info| {
+                // Not while the list is locked: an act may take its time.
+                let due = acts().clone();
+                for act in due {
+                    act();
+                }
+                report(info);
+            }));
+        });
+        let act: Act = Arc::new(act);
+        acts().push(Arc::clone(&act));
+        Self(Some(act))
+    }
+
     /// Leaves the act to the rest of the process.
     pub fn for_good(mut self) {
         self.0 = None;
@@ -70,7 +70,7 @@ mod tests {
         let count = Arc::new(AtomicU32::new(0));
         let add = |n: u32| {
             let count = Arc::clone(&count);
-            on_panic(move || {
+            OnPanic::new(move || {
                 count.fetch_add(n, Ordering::SeqCst);
             })
         };

@@ -84,26 +84,28 @@ impl std::fmt::Debug for Progress<'_> {
     }
 }
 
-/// Runs `work` with progress that nobody hears and that never cancels.
-pub fn unheard<T>(work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
-    work(&mut Progress::new(&mut |_, _| {}, CancelFlag::new()))
+impl Progress<'_> {
+    /// Runs `work` with progress that nobody hears and that never cancels.
+    pub fn unheard<T>(work: impl FnOnce(&mut Progress<'_>) -> T) -> T {
+        let mut report = |_: f64, _: &str| {};
+        work(&mut Progress::new(&mut report, CancelFlag::new()))
+    }
 }
 
-/// CPU time that the calling thread has used, s, from an arbitrary origin.
-#[cfg(unix)]
+/// CPU time that the calling thread has used, s, from an arbitrary origin; wall time on a system
+/// without a clock of that.
 pub fn thread_cpu_seconds() -> f64 {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-}
-
-/// Wall time, s, from an arbitrary origin: this system has no clock of a thread's CPU time.
-#[cfg(not(unix))]
-pub fn thread_cpu_seconds() -> f64 {
-    use std::sync::OnceLock;
-    use std::time::Instant;
-
-    static ORIGIN: OnceLock<Instant> = OnceLock::new();
-    ORIGIN.get_or_init(Instant::now).elapsed().as_secs_f64()
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+    }
+    #[cfg(not(unix))]
+    {
+        static ORIGIN: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+        let origin = ORIGIN.get_or_init(std::time::Instant::now);
+        origin.elapsed().as_secs_f64()
+    }
 }
 
 #[cfg(test)]

@@ -262,7 +262,7 @@ mod tests {
     use super::*;
     use crate::example::Split;
     use crate::score::MEASURES;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
 
     fn fabrics() -> Vec<Fabric> {
         let window = |n: usize| Split::Cloths.windows(4)[1][n].taken();
@@ -339,7 +339,7 @@ mod tests {
         for (nth, fabric) in fabrics.iter_mut().enumerate() {
             fabric.trace = vec![0.3 + 0.01 * nth as f64];
         }
-        let rows = unheard(|progress| Fabric::left_out(&fabrics, progress)).unwrap();
+        let rows = Progress::unheard(|progress| Fabric::left_out(&fabrics, progress)).unwrap();
         // Each is off by 6/5 of what it differs from the mean of all.
         let expected = 1.2 * 0.01 * (35.0_f64 / 12.0).sqrt();
         assert!((rows[0].level_rmse - expected).abs() < 1e-9, "{rows:?}");
@@ -350,6 +350,6 @@ mod tests {
         assert_eq!(rows.len(), 5);
         assert_eq!(MEASURES[LEVEL], "level_error_percent");
         assert_eq!(MEASURES[LOG_SPECTRAL], "log_spectral_distance_db");
-        assert!(unheard(|progress| Fabric::left_out(&fabrics[..2], progress)).is_err());
+        assert!(Progress::unheard(|progress| Fabric::left_out(&fabrics[..2], progress)).is_err());
     }
 }

@@ -304,7 +304,7 @@ fn scored(
 mod tests {
     use super::*;
     use crate::network::Size;
-    use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_foundation::progress::{CancelFlag, Progress};
 
     #[test]
     fn a_run_that_was_broken_off_ends_as_one_that_was_not_and_is_read_afterwards() {
@@ -337,7 +337,8 @@ mod tests {
                 assert!(matches!(ended, Err(FrictionError::Cancelled)), "{ended:?}");
                 assert!(run.file("checkpoint").exists());
             }
-            let scores = unheard(|progress| run.run(&taken, progress, &mut |_| {})).unwrap();
+            let scores =
+                Progress::unheard(|progress| run.run(&taken, progress, &mut |_| {})).unwrap();
             assert_eq!(run.finished().unwrap(), Some(scores));
             assert!(!run.file("checkpoint").exists());
             ["scores.csv", "rounds.csv", "weights"]

@@ -6,7 +6,7 @@
 
 use super::{PlacedLevel, RenderError, RenderScene};
 use selvedge_foundation::quantity::factor_of_gain;
-use selvedge_textile::tactile::{Band, Tuning, check_gain};
+use selvedge_textile::tactile::{Band, Tuning};
 
 /// Total gains above this count as this, so that every product stays finite, dB.
 pub(crate) const MAX_TOTAL_GAIN_DB: f64 = 300.0;
@@ -85,7 +85,7 @@ impl Gains {
         tuning.check()?;
         let n_textiles = self.textiles.len();
         for &(index, gain_db) in textiles_db {
-            check_gain("gain_db", gain_db)?;
+            Tuning::check_gain("gain_db", gain_db)?;
             if index >= n_textiles {
                 return Err(RenderError::NoTextile { index, n_textiles });
             }

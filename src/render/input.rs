@@ -8,7 +8,7 @@ use super::RenderError;
 use crate::scene::LoadedScene;
 use selvedge_foundation::geometry::{Displacement, Frame, Point};
 use selvedge_textile::surface::Surface;
-use selvedge_textile::tactile::{Band, Filters, Tuning, check_gain};
+use selvedge_textile::tactile::{Band, Filters, Tuning};
 
 /// Most textiles that a scene to render may hold.
 const MAX_TEXTILES: usize = 65_000;
@@ -129,11 +129,11 @@ impl RenderScene {
             });
         }
         for (index, textile) in self.textiles.iter().enumerate() {
-            check_gain("gain_db", textile.manifest_gain_db)?;
-            check_gain("gain_db", textile.scene_gain_db)?;
+            Tuning::check_gain("gain_db", textile.manifest_gain_db)?;
+            Tuning::check_gain("gain_db", textile.scene_gain_db)?;
             let [low_db, high_db] = textile.scene_band_gains_db;
-            check_gain("gain_40_db", low_db)?;
-            check_gain("gain_320_db", high_db)?;
+            Tuning::check_gain("gain_40_db", low_db)?;
+            Tuning::check_gain("gain_320_db", high_db)?;
             if !textile.is_finite() {
                 return Err(RenderError::NotFinite {
                     what: "textile",

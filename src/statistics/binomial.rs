@@ -1,8 +1,8 @@
 //! The exact binomial test.
 
 use super::distribution::{binomial_at_least, binomial_at_most, binomial_mass};
-use super::interval::wilson;
-use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
+
+use super::{Computed, Freedom, Interval, Named, Outcome, Sides, undefined};
 use selvedge_foundation::numerics::to_whole;
 
 /// Masses this much above that of what was seen still count as equally rare: rounding.
@@ -36,7 +36,7 @@ pub fn exact_binomial(hits: u64, trials: u64, expected: f64, sides: Sides) -> Co
         sides,
         effect: Ok(Named::of("h", angle(share) - angle(expected))),
         estimate: Ok(Named::of("share", share)),
-        interval: wilson(hits, trials, 0.95),
+        interval: Interval::wilson(hits, trials, 0.95),
         notes: Vec::new(),
     })
 }

@@ -1,10 +1,10 @@
 //! Correlations of Pearson and Spearman, with p and interval.
 
 use super::distribution::t_two_sided;
-use super::interval::{fisher_z, fisher_z_with};
+use super::interval::fisher_z_with;
 use super::summary::{at_least, centred, dot, is_rounding, largest, sum_of_squares};
 use super::wilcoxon::Ranks;
-use super::{Computed, Freedom, Named, Outcome, Sides, undefined};
+use super::{Computed, Freedom, Interval, Named, Outcome, Sides, undefined};
 
 /// Up to so many pairs Spearman's p is exact: 8! orders.
 const MOST_EXACT: usize = 8;
@@ -19,7 +19,7 @@ const LEVEL: f64 = 0.95;
 pub fn pearson(x: &[f64], y: &[f64]) -> Computed<Outcome> {
     let r = pearson_r(x, y)?;
     let mut outcome = with_t("Pearson correlation", "r", r, x.len())?;
-    outcome.interval = fisher_z(r, x.len(), LEVEL);
+    outcome.interval = Interval::fisher_z(r, x.len(), LEVEL);
     Ok(outcome)
 }
 

@@ -4,19 +4,19 @@
 use selvedge_foundation::numerics::Random;
 
 use crate::adaptive::{Procedure as _, QuestGrid, QuestPlus, Stop};
-use crate::detection::{Answers, Correction, Relation, choice_share, yes_no};
-use crate::procrustes::protest;
+use crate::detection::{Answers, Correction, Relation, YesNo, choice_share};
+use crate::procrustes::Procrustes;
 use crate::properties::{BestTurn, PropertyVector};
-use crate::psychometric::stevens::{Estimate, stevens};
+use crate::psychometric::stevens::{Estimate, Stevens};
 use crate::psychometric::{Block, Family, Guess, Model, Psychometric};
 use crate::variance::{
-    Answer, Crossed, Effect, Sphericity, every_pair, friedman, kruskal_wallis, one_way,
-    repeated_one_way, repeated_two_way, welch,
+    Answer, Comparison, Crossed, Effect, Repeated, Sphericity, friedman, kruskal_wallis, one_way,
+    welch,
 };
 use crate::{
-    Computed, Outcome, Resampling, Sides, Summary, bootstrap, exact_binomial, f_upper, fisher_z,
-    mean, normal_lower, one_sample_t, paired_t, pearson, pearson_r, sign_flip, spearman, tost,
-    two_sample_t, wilcoxon_signed_rank, wilson,
+    Bootstrap, Computed, Equivalence, Interval, Outcome, Resampling, Sides, Summary, TwoSamples,
+    exact_binomial, f_upper, mean, normal_lower, one_sample_t, paired_t, pearson, pearson_r,
+    sign_flip, spearman, wilcoxon_signed_rank,
 };
 
 const LEVEL: f64 = 0.95;
@@ -77,7 +77,7 @@ fn intervals_of_means_shares_and_correlations_hold_the_truth() {
         }),
         ("share, Wilson", 1000, |random| {
             let hits = successes(random, 40, 0.413);
-            Ok(wilson(u64::from(hits), 40, LEVEL)?.holds(0.413))
+            Ok(Interval::wilson(u64::from(hits), 40, LEVEL)?.holds(0.413))
         }),
         ("median, Wilcoxon", 1000, |random| {
             let outcome = wilcoxon_signed_rank(&normals::<N>(random, 3.0, 1.0), 0.0)?;
@@ -87,18 +87,18 @@ fn intervals_of_means_shares_and_correlations_hold_the_truth() {
             let x = normals::<16>(random, 0.0, 1.0);
             let rest = (1.0 - 0.55_f64 * 0.55).sqrt();
             let y = x.map(|x| 0.55 * x + rest * random.normal());
-            Ok(fisher_z(pearson_r(&x, &y)?, 16, LEVEL)?.holds(0.55))
+            Ok(Interval::fisher_z(pearson_r(&x, &y)?, 16, LEVEL)?.holds(0.55))
         }),
         ("mean of 24 subjects, bootstrap BCa", 150, |random| {
             let values = normals::<24>(random, 41.3, 4.5);
             let of_drawn =
                 |drawn: &[usize]| mean(&drawn.iter().map(|&i| values[i]).collect::<Vec<_>>());
-            Ok(bootstrap(24, of_drawn, resampling(random))?
+            Ok(Bootstrap::of(24, of_drawn, resampling(random))?
                 .bca?
                 .holds(41.3))
         }),
         ("exponent, t over subjects", 300, |random| {
-            let found = stevens(&magnitudes(random), LEVEL)?;
+            let found = Stevens::fit(&magnitudes(random), LEVEL)?;
             Ok(found.interval?.holds(0.7))
         }),
     ];
@@ -116,7 +116,9 @@ fn intervals_of_d_primes_and_of_thresholds_hold_the_truth() {
                 false_alarms: u64::from(successes(random, 100, false_alarms)),
                 n_noise: 100,
             };
-            Ok(yes_no(answers, Correction::LogLinear)?.interval.holds(1.5))
+            Ok(YesNo::of(answers, Correction::LogLinear)?
+                .interval
+                .holds(1.5))
         }),
         ("d′ of four alternatives", 60, |random| {
             let correct = successes(random, 80, choice_share(1.0, 4)?);
@@ -147,15 +149,15 @@ const TESTS: &[Null] = &[
     ("t, Welch, spreads 1 : 3", ALPHA, |random| {
         let a = Summary::of(&normals::<N>(random, 0.0, 1.0))?;
         let b = Summary::of(&normals::<N>(random, 0.0, 3.0))?;
-        rejects(two_sample_t(&a, &b).map(|tests| tests.welch))
+        rejects(TwoSamples::of(&a, &b).map(|tests| tests.welch))
     }),
     ("t, Student, two samples", ALPHA, |random| {
         let [a, b] = [(); 2].map(|()| Summary::of(&normals::<N>(random, 0.0, 1.0)));
-        rejects(two_sample_t(&a?, &b?).map(|tests| tests.student))
+        rejects(TwoSamples::of(&a?, &b?).map(|tests| tests.student))
     }),
     ("equivalence, at its bound", ALPHA, |random| {
         let sample = Summary::of(&normals::<12>(random, 1.0, 0.5))?;
-        Ok(tost(&sample, [-1.0, 1.0], ALPHA)?.p < ALPHA)
+        Ok(Equivalence::of(&sample, [-1.0, 1.0], ALPHA)?.p < ALPHA)
     }),
     ("Wilcoxon, differences of pairs", 10.0 / 256.0, |random| {
         let [a, b] = correlated(random);
@@ -169,7 +171,7 @@ const TESTS: &[Null] = &[
     }),
     ("PROTEST", ALPHA, |random| {
         let [a, b] = [(); 2].map(|()| clouds(random));
-        Ok(protest(&a, &b, 39, random)? <= ALPHA)
+        Ok(Procrustes::protest(&a, &b, 39, random)? <= ALPHA)
     }),
     ("sign flips", 12.0 / 256.0, |random| {
         rejects(sign_flip(&normals::<N>(random, 0.0, 1.0), 0, 0))
@@ -233,17 +235,17 @@ const ANALYSES_OF_VARIANCE: &[Null] = &[
         |random| {
             let table = table(random, &[("material", 4)], true)?;
             let p = |s: &Sphericity| s.p_greenhouse_geisser.clone();
-            Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
+            Ok(corrected(&Repeated::one_way(&table)?.effects[0], p)? < ALPHA)
         },
     ),
     ("within subjects, one way, Huynh–Feldt", ALPHA, |random| {
         let table = table(random, &[("material", 4)], false)?;
         let p = |s: &Sphericity| s.p_huynh_feldt.clone();
-        Ok(corrected(&repeated_one_way(&table)?.effects[0], p)? < ALPHA)
+        Ok(corrected(&Repeated::one_way(&table)?.effects[0], p)? < ALPHA)
     }),
     ("Holm, any of six pairs", ALPHA, |random| {
         let rows: Vec<Vec<f64>> = groups(random);
-        let any = every_pair(&rows)?
+        let any = Comparison::every_pair(&rows)?
             .into_iter()
             .any(|pair| pair.p_holm.is_ok_and(|p| p < ALPHA));
         Ok(any)
@@ -368,7 +370,7 @@ fn two_way(
     p: fn(&Sphericity) -> Computed,
 ) -> Computed<bool> {
     let table = table(random, &[("signal", 2), ("material", 4)], is_uneven)?;
-    Ok(corrected(&repeated_two_way(&table)?.effects[effect], p)? < ALPHA)
+    Ok(corrected(&Repeated::two_way(&table)?.effects[effect], p)? < ALPHA)
 }
 
 /// Subjects who differ, cells that do not but, if uneven, in how much they vary.

@@ -122,8 +122,8 @@ fn of_rank_biserial(effect: f64, n: f64) -> Computed<Interval> {
 mod tests {
     use crate::variance::{friedman, kruskal_wallis, one_way, welch};
     use crate::{
-        Computed, Outcome, Sides, Summary, exact_binomial, one_sample_t, pearson, sign_flip,
-        two_sample_t, wilcoxon_signed_rank,
+        Computed, Outcome, Sides, Summary, TwoSamples, exact_binomial, one_sample_t, pearson,
+        sign_flip, wilcoxon_signed_rank,
     };
 
     #[test]
@@ -135,8 +135,8 @@ mod tests {
         let rows: Vec<Vec<f64>> = (0..8).map(|i| vec![a[i], b[i], a[i] + 3.0]).collect();
         let all: Vec<Outcome> = vec![
             one_sample_t(&of_a, 2.5)?,
-            two_sample_t(&of_a, &of_b)?.welch,
-            two_sample_t(&of_a, &of_b)?.student,
+            TwoSamples::of(&of_a, &of_b)?.welch,
+            TwoSamples::of(&of_a, &of_b)?.student,
             wilcoxon_signed_rank(&a, 2.5)?,
             wilcoxon_signed_rank(&a, 0.0)?,
             sign_flip(&a.map(|x| x - 3.0), 99, 1)?,

@@ -30,35 +30,37 @@ pub struct Equivalence {
     pub power: Computed,
 }
 
-/// Whether the mean of a sample lies between `low` and `high`, at `alpha` (0.05).
-///
-/// # Errors
-/// Bounds in disorder, α outside (0, 0.5), a sample without spread.
-pub fn tost(sample: &Summary, [low, high]: [f64; 2], alpha: f64) -> Computed<Equivalence> {
-    let is_ordered = low < high && low.is_finite() && high.is_finite();
-    if !(is_ordered && alpha > 0.0 && alpha < 0.5) {
-        let reason = format!("bounds {low} and {high} at α = {alpha} leave nothing to test");
-        return undefined(reason);
+impl Equivalence {
+    /// Whether the mean of a sample lies between `low` and `high`, at `alpha` (0.05).
+    ///
+    /// # Errors
+    /// Bounds in disorder, α outside (0, 0.5), a sample without spread.
+    pub fn of(sample: &Summary, [low, high]: [f64; 2], alpha: f64) -> Computed<Self> {
+        let is_ordered = low < high && low.is_finite() && high.is_finite();
+        if !(is_ordered && alpha > 0.0 && alpha < 0.5) {
+            let reason = format!("bounds {low} and {high} at α = {alpha} leave nothing to test");
+            return undefined(reason);
+        }
+        let interval = sample.interval(1.0 - 2.0 * alpha)?;
+        let df = sample.n as f64 - 1.0;
+        let t = [
+            (sample.mean - low) / sample.se,
+            (sample.mean - high) / sample.se,
+        ];
+        let p_each = [t_upper(t[0], df)?, t_upper(-t[1], df)?];
+        let half_width = 0.5 * (high - low) / sample.se;
+        Ok(Self {
+            n: sample.n,
+            mean: sample.mean,
+            bounds: [low, high],
+            t,
+            df,
+            p_each,
+            p: p_each[0].max(p_each[1]),
+            interval,
+            power: power_of_tost([-half_width, half_width], df, alpha),
+        })
     }
-    let interval = sample.interval(1.0 - 2.0 * alpha)?;
-    let df = sample.n as f64 - 1.0;
-    let t = [
-        (sample.mean - low) / sample.se,
-        (sample.mean - high) / sample.se,
-    ];
-    let p_each = [t_upper(t[0], df)?, t_upper(-t[1], df)?];
-    let half_width = 0.5 * (high - low) / sample.se;
-    Ok(Equivalence {
-        n: sample.n,
-        mean: sample.mean,
-        bounds: [low, high],
-        t,
-        df,
-        p_each,
-        p: p_each[0].max(p_each[1]),
-        interval,
-        power: power_of_tost([-half_width, half_width], df, alpha),
-    })
 }
 
 /// The probability that both one-sided tests reject. `bounds` are the distances of low and high
@@ -169,13 +171,16 @@ mod tests {
     fn equivalence_and_the_interval_say_the_same() -> Computed<()> {
         let sample = Summary::of_mean_and_se(12, 0.02, 0.01)?;
         for bounds in [[-0.05, 0.05], [-0.05, 0.035], [0.0, 0.1], [-0.002, 0.1]] {
-            let found = tost(&sample, bounds, 0.05)?;
+            let found = Equivalence::of(&sample, bounds, 0.05)?;
             let is_inside = found.interval.low > bounds[0] && found.interval.high < bounds[1];
             assert_eq!(is_inside, found.p < 0.05, "{found:?}");
         }
-        assert!(tost(&sample, [0.1, -0.1], 0.05).is_err(), "disorder");
         assert!(
-            tost(&Summary::of(&[0.5; 4])?, [-1.0, 1.0], 0.05).is_err(),
+            Equivalence::of(&sample, [0.1, -0.1], 0.05).is_err(),
+            "disorder"
+        );
+        assert!(
+            Equivalence::of(&Summary::of(&[0.5; 4])?, [-1.0, 1.0], 0.05).is_err(),
             "no spread"
         );
         Ok(())

@@ -31,17 +31,16 @@ pub mod variance;
 mod wilcoxon;
 
 pub use binomial::exact_binomial;
-pub use bootstrap::{Bootstrap, Resampling, bootstrap, bootstrap_errors, jackknife_errors};
+pub use bootstrap::{Bootstrap, Resampling};
 pub use correlation::{pearson, pearson_r, rank_correlation, spearman};
 pub(crate) use distribution::{chi_squared_upper, normal_density};
 pub use distribution::{f_upper, normal_lower, normal_quantile, t_quantile_upper};
-pub use equivalence::{Equivalence, power_of_t, tost};
-pub use interval::{fisher_z, wilson};
+pub use equivalence::{Equivalence, power_of_t};
 pub use outcome::{Computed, Freedom, Interval, Named, Outcome, Sides, Undefined};
 pub(crate) use outcome::{by_chi_squared, undefined};
 pub use permutation::sign_flip;
 pub use summary::{Summary, mean};
-pub use t_test::{TwoSamples, one_sample_t, paired_t, two_sample_t};
+pub use t_test::{TwoSamples, one_sample_t, paired_t};
 pub use wilcoxon::{Ranks, wilcoxon_signed_rank};
 
 pub mod adaptive;

@@ -54,29 +54,29 @@ impl Procrustes {
             moved: rows(&moved),
         })
     }
-}
 
-/// How often chance lays the points as well (PROTEST, Jackson 1995): rows of `source` are dealt
-/// anew `n_permutations` times; (b + 1)/(N + 1).
-///
-/// # Errors
-/// As [`Procrustes::of`].
-pub fn protest(
-    source: &[Vec<f64>],
-    target: &[Vec<f64>],
-    n_permutations: usize,
-    random: &mut Random,
-) -> Result<f64, Undefined> {
-    let own = Procrustes::of(source, target)?.m2;
-    let mut dealt = source.to_vec();
-    let mut n_as_good = 0;
-    for _ in 0..n_permutations {
-        random.shuffle(&mut dealt);
-        if Procrustes::of(&dealt, target)?.m2 <= own + 1e-12 {
-            n_as_good += 1;
+    /// How often chance lays the points as well (PROTEST, Jackson 1995): rows of `source` are dealt
+    /// anew `n_permutations` times; (b + 1)/(N + 1).
+    ///
+    /// # Errors
+    /// As [`Procrustes::of`].
+    pub fn protest(
+        source: &[Vec<f64>],
+        target: &[Vec<f64>],
+        n_permutations: usize,
+        random: &mut Random,
+    ) -> Result<f64, Undefined> {
+        let own = Self::of(source, target)?.m2;
+        let mut dealt = source.to_vec();
+        let mut n_as_good = 0;
+        for _ in 0..n_permutations {
+            random.shuffle(&mut dealt);
+            if Self::of(&dealt, target)?.m2 <= own + 1e-12 {
+                n_as_good += 1;
+            }
         }
+        Ok(f64::from(n_as_good + 1) / (n_permutations + 1) as f64)
     }
-    Ok(f64::from(n_as_good + 1) / (n_permutations + 1) as f64)
 }
 
 fn width(points: &[Vec<f64>]) -> usize {
@@ -184,10 +184,13 @@ mod tests {
             .iter()
             .map(|p| p.iter().map(|x| x + 0.2 * random.normal()).collect())
             .collect();
-        let p = protest(&noisy, &target, 199, &mut random).unwrap();
+        let p = Procrustes::protest(&noisy, &target, 199, &mut random).unwrap();
         assert!((p - 1.0 / 200.0).abs() < 1e-12, "{p}");
         let n_low = (0..40)
-            .filter(|i| protest(&thrown(8, 100 + i), &target[..8], 39, &mut random).unwrap() <= 0.1)
+            .filter(|i| {
+                Procrustes::protest(&thrown(8, 100 + i), &target[..8], 39, &mut random).unwrap()
+                    <= 0.1
+            })
             .count();
         assert!((1..=9).contains(&n_low), "{n_low} of 40 at the 10 % level");
     }

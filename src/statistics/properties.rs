@@ -229,48 +229,50 @@ pub struct Ellipse {
     pub angle_rad: f64,
 }
 
-/// Ellipses of `share` (0…1) of normal scatter around the points of a plane map.
-///
-/// `maps` are of resampled subjects; each is laid over `reference` by Procrustes first, so that
-/// only what moves within the map counts. Half axes: √(−2 ln(1 − share)) standard deviations.
-///
-/// # Errors
-/// Fewer than three maps, other numbers of points or dimensions, maps on one place.
-pub fn bootstrap_ellipses(
-    reference: &[Vec<f64>],
-    maps: &[Vec<Vec<f64>>],
-    share: f64,
-) -> Result<Vec<Ellipse>, Undefined> {
-    if maps.len() < 3 || !(share > 0.0 && share < 1.0) {
-        return undefined("ellipses need three maps and a share between 0 and 1");
-    }
-    if reference
-        .iter()
-        .chain(maps.iter().flatten())
-        .any(|p| p.len() != 2)
-    {
-        return undefined("ellipses are for plane maps");
-    }
-    let aligned: Result<Vec<_>, _> = maps
-        .iter()
-        .map(|map| Procrustes::of(map, reference).map(|found| found.moved))
-        .collect();
-    let aligned = aligned?;
-    let factor = (-2.0 * (1.0 - share).ln()).sqrt();
-    let around = |i: usize| {
-        let n = aligned.len() as f64;
-        let x = [0, 1].map(|axis| centred(aligned.iter().map(|map| map[i][axis])));
-        let middle = [0, 1].map(|axis| aligned.iter().map(|map| map[i][axis]).sum::<f64>() / n);
-        let [xx, xy, yy] =
-            [dot(&x[0], &x[0]), dot(&x[0], &x[1]), dot(&x[1], &x[1])].map(|sum| sum / (n - 1.0));
-        let (half, apart) = (0.5 * (xx + yy), (0.25 * (xx - yy).powi(2) + xy * xy).sqrt());
-        Ellipse {
-            middle,
-            half_axes: [half + apart, half - apart].map(|v| factor * v.max(0.0).sqrt()),
-            angle_rad: 0.5 * (2.0 * xy).atan2(xx - yy),
+impl Ellipse {
+    /// Ellipses of `share` (0…1) of normal scatter around the points of a plane map.
+    ///
+    /// `maps` are of resampled subjects; each is laid over `reference` by Procrustes first, so that
+    /// only what moves within the map counts. Half axes: √(−2 ln(1 − share)) standard deviations.
+    ///
+    /// # Errors
+    /// Fewer than three maps, other numbers of points or dimensions, maps on one place.
+    pub fn of_bootstrap(
+        reference: &[Vec<f64>],
+        maps: &[Vec<Vec<f64>>],
+        share: f64,
+    ) -> Result<Vec<Self>, Undefined> {
+        if maps.len() < 3 || !(share > 0.0 && share < 1.0) {
+            return undefined("ellipses need three maps and a share between 0 and 1");
         }
-    };
-    Ok((0..reference.len()).map(around).collect())
+        if reference
+            .iter()
+            .chain(maps.iter().flatten())
+            .any(|p| p.len() != 2)
+        {
+            return undefined("ellipses are for plane maps");
+        }
+        let aligned: Result<Vec<_>, _> = maps
+            .iter()
+            .map(|map| Procrustes::of(map, reference).map(|found| found.moved))
+            .collect();
+        let aligned = aligned?;
+        let factor = (-2.0 * (1.0 - share).ln()).sqrt();
+        let around = |i: usize| {
+            let n = aligned.len() as f64;
+            let x = [0, 1].map(|axis| centred(aligned.iter().map(|map| map[i][axis])));
+            let middle = [0, 1].map(|axis| aligned.iter().map(|map| map[i][axis]).sum::<f64>() / n);
+            let [xx, xy, yy] = [dot(&x[0], &x[0]), dot(&x[0], &x[1]), dot(&x[1], &x[1])]
+                .map(|sum| sum / (n - 1.0));
+            let (half, apart) = (0.5 * (xx + yy), (0.25 * (xx - yy).powi(2) + xy * xy).sqrt());
+            Self {
+                middle,
+                half_axes: [half + apart, half - apart].map(|v| factor * v.max(0.0).sqrt()),
+                angle_rad: 0.5 * (2.0 * xy).atan2(xx - yy),
+            }
+        };
+        Ok((0..reference.len()).map(around).collect())
+    }
 }
 
 #[cfg(test)]

@@ -56,37 +56,39 @@ pub fn paired_t(a: &[f64], b: &[f64]) -> Computed<Outcome> {
     Ok(outcome)
 }
 
-/// Whether the means of two samples differ (a − b), two-sided.
-///
-/// # Errors
-/// Both samples without spread.
-pub fn two_sample_t(a: &Summary, b: &Summary) -> Computed<TwoSamples> {
-    if a.sd <= 0.0 && b.sd <= 0.0 {
-        return undefined("neither sample has any spread");
+impl TwoSamples {
+    /// Whether the means of two samples differ (a − b), two-sided.
+    ///
+    /// # Errors
+    /// Both samples without spread.
+    pub fn of(a: &Summary, b: &Summary) -> Computed<Self> {
+        if a.sd <= 0.0 && b.sd <= 0.0 {
+            return undefined("neither sample has any spread");
+        }
+        let n = vec![a.n, b.n];
+        let (n_a, n_b) = (a.n as f64, b.n as f64);
+        let mean = a.mean - b.mean;
+        let (of_a, of_b) = (a.se * a.se, b.se * b.se);
+        let sum = of_a + of_b;
+        let unequal = Difference {
+            mean,
+            se: sum.sqrt(),
+            df: sum * sum / (of_a * of_a / (n_a - 1.0) + of_b * of_b / (n_b - 1.0)),
+        };
+        let df = n_a + n_b - 2.0;
+        let pooled = ((n_a - 1.0) * a.sd * a.sd + (n_b - 1.0) * b.sd * b.sd) / df;
+        let equal = Difference {
+            mean,
+            se: (pooled * (1.0 / n_a + 1.0 / n_b)).sqrt(),
+            df,
+        };
+        let d = |variance: f64| Named::of("d", mean / variance.sqrt());
+        let halved = 0.5 * (a.sd * a.sd + b.sd * b.sd);
+        Ok(Self {
+            welch: unequal.outcome("Welch t, two samples", n.clone(), d(halved))?,
+            student: equal.outcome("Student t, two samples", n, d(pooled))?,
+        })
     }
-    let n = vec![a.n, b.n];
-    let (n_a, n_b) = (a.n as f64, b.n as f64);
-    let mean = a.mean - b.mean;
-    let (of_a, of_b) = (a.se * a.se, b.se * b.se);
-    let sum = of_a + of_b;
-    let unequal = Difference {
-        mean,
-        se: sum.sqrt(),
-        df: sum * sum / (of_a * of_a / (n_a - 1.0) + of_b * of_b / (n_b - 1.0)),
-    };
-    let df = n_a + n_b - 2.0;
-    let pooled = ((n_a - 1.0) * a.sd * a.sd + (n_b - 1.0) * b.sd * b.sd) / df;
-    let equal = Difference {
-        mean,
-        se: (pooled * (1.0 / n_a + 1.0 / n_b)).sqrt(),
-        df,
-    };
-    let d = |variance: f64| Named::of("d", mean / variance.sqrt());
-    let halved = 0.5 * (a.sd * a.sd + b.sd * b.sd);
-    Ok(TwoSamples {
-        welch: unequal.outcome("Welch t, two samples", n.clone(), d(halved))?,
-        student: equal.outcome("Student t, two samples", n, d(pooled))?,
-    })
 }
 
 /// A difference, its standard error and the degrees of freedom of that error.
@@ -139,7 +141,7 @@ mod tests {
         let chance = one_sample_t(&second, 25.0)?;
         assert_about(chance.statistic.value, 7.11, 5e-3);
         assert_about(chance.p, 1.9e-4, 5e-6);
-        let both = two_sample_t(&second, &first)?;
+        let both = TwoSamples::of(&second, &first)?;
         assert_about(both.student.statistic.value, 3.98, 5e-3);
         assert_eq!(both.student.df, Freedom::One(14.0));
         assert_about(both.student.p, 0.0014, 5e-5);
@@ -177,7 +179,7 @@ mod tests {
             Summary::of(&[1.0, 2.0, 3.0])?,
             Summary::of(&[4.0, 5.0, 6.0])?,
         );
-        let both = two_sample_t(&a, &b)?;
+        let both = TwoSamples::of(&a, &b)?;
         assert_about(both.welch.p, both.student.p, 1e-14);
         assert_about(
             both.student.statistic.value,
@@ -198,7 +200,7 @@ mod tests {
         for _ in 0..4000 {
             let (a, b) = (sample(1.0)?, sample(3.0)?);
             one += i32::from(one_sample_t(&a, 0.0)?.p < 0.05);
-            welch += i32::from(two_sample_t(&a, &b)?.welch.p < 0.05);
+            welch += i32::from(TwoSamples::of(&a, &b)?.welch.p < 0.05);
             holds += i32::from(a.interval(0.95)?.holds(0.0));
         }
         for found in [one, welch, 4000 - holds] {
@@ -213,7 +215,7 @@ mod tests {
         let same = Summary::of(&[25.0; 8])?;
         assert!(one_sample_t(&same, 25.0).is_err(), "0/0");
         assert!(one_sample_t(&same, 20.0).is_err(), "5/0");
-        assert!(two_sample_t(&same, &same).is_err(), "0/0");
+        assert!(TwoSamples::of(&same, &same).is_err(), "0/0");
         assert!(
             paired_t(&[0.3, 0.4], &[0.2, 0.3]).is_err(),
             "rounding alone"

@@ -377,12 +377,14 @@ fn costs(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
 mod tests {
     use super::*;
     use crate::Effort;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
 
     #[test]
     fn phases_by_chance_fail_on_a_whole_trace_and_not_on_what_is_not_slow() {
-        let findings =
-            unheard(|progress| (SPECTRA.run)(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
+        let findings = Progress::unheard(|progress| {
+            (SPECTRA.run)(&mut Bench::new(Effort::Quick, 1, progress))
+        })
+        .unwrap();
         let error = |method: &str| {
             let is_it = |row: &&Row| row.method == method && row.size == Some(32.0);
             findings
@@ -398,9 +400,10 @@ mod tests {
 
     #[test]
     fn noise_costs_and_extreme_pictures_give_friction() {
-        let findings =
-            unheard(|progress| (PICTURES.run)(&mut Bench::new(Effort::Quick, 1, progress)))
-                .unwrap();
+        let findings = Progress::unheard(|progress| {
+            (PICTURES.run)(&mut Bench::new(Effort::Quick, 1, progress))
+        })
+        .unwrap();
         let error = |method: &str, setting: &str| {
             let is_it = |row: &&Row| row.method == method && row.setting == setting;
             findings

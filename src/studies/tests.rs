@@ -7,12 +7,13 @@ use super::pareto::tests::row;
 use super::*;
 use selvedge_chart::{Chart, Series};
 use selvedge_foundation::files::Table;
-use selvedge_foundation::progress::{CancelFlag, unheard};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 use selvedge_scratch::ScratchFolder;
 
 /// What a study finds in quick mode.
 pub(super) fn quick(study: &Study, seed: u64) -> Findings {
-    unheard(|progress| (study.run)(&mut Bench::new(Effort::Quick, seed, progress))).unwrap()
+    Progress::unheard(|progress| (study.run)(&mut Bench::new(Effort::Quick, seed, progress)))
+        .unwrap()
 }
 
 /// Two runs found the same, and no row lacks an error or a cost.
@@ -156,7 +157,7 @@ fn the_table_holds_what_the_plot_shows() {
     )
     .unwrap();
     let findings =
-        unheard(|progress| (studies[0].run)(&mut Bench::new(Effort::Quick, 7, progress)));
+        Progress::unheard(|progress| (studies[0].run)(&mut Bench::new(Effort::Quick, 7, progress)));
     let plot = chart::error_against_time(&studies[0], &findings.unwrap()).unwrap();
     let (methods, fronts) = (table.text("method").unwrap(), table.text("pareto").unwrap());
     let errors = table.required_numbers("error_db").unwrap();

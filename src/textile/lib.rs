@@ -37,11 +37,11 @@ mod yarns;
 
 pub use build::{BuiltFile, RecipePreview, build, make, write};
 pub use catalogue::{write_catalogue, write_figure};
-pub use draft::{Draft, Fault, example, restored};
+pub use draft::{Draft, Fault};
 pub use error::{KesAsk, TextileError};
 pub use import::{
     Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures, KesImport,
-    Measurement, PictureTextile, ScaledRelief, read_measurement, relief_um_of, scaled, textile_of,
+    Measurement, PictureTextile, ScaledRelief, read_measurement,
 };
 pub use kes::{
     ColumnRole, DecimalSign, KesColumn, KesFile, KesFriction, KesKnown, KesLine, KesLook,
@@ -50,26 +50,23 @@ pub use kes::{
 };
 pub use library::{
     Appearance, BuildCache, Change, Index, IndexEntry, Library, LibraryFolder, Textile, Version,
-    build_library, called, elsewhere, files_of, id_in, id_of, is_of_the_program, kind_of,
-    most_typical, n_threads, nth_id,
+    called, elsewhere, id_in, id_of, is_of_the_program, kind_of, n_threads, nth_id,
 };
 pub use manifest::{
     AppearanceKeys, Construction, Figure as MeasuredFigure, KnownFigure, Manifest, Parent,
-    Provenance, Uncertainty, all_known as known_figures, figures as measured_figures,
+    Provenance, Uncertainty,
 };
-pub use profile_file::read as read_profile;
 pub use recipe::{Group, Parameter, ParameterKind, Place, lit};
 pub use sources::brownian::{Brownian, Generator, Hurst};
 pub use sources::fourier::{
-    Fourier, FourierSeries, FourierTemplate, ImportedProfile, Reading, Readings, example_templates,
-    import, templates_from_toml, templates_to_toml,
+    Fourier, FourierSeries, FourierTemplate, ImportedProfile, Reading, Readings, import,
 };
 pub use sources::heightmap::Heightmap;
 pub use sources::knit::Knit;
 pub use sources::picture::PictureSource;
 pub use sources::profiles::Profiles;
 pub use sources::restoration::{Reduced, Restoration};
-pub use sources::weave::{NAMES as INTERLACINGS, Weave};
+pub use sources::weave::Weave;
 pub use sources::{RECIPES, Source, groups};
 pub use surface::smd_um;
 pub use unit::{LengthUnit, Unit};

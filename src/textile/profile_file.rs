@@ -9,13 +9,15 @@ use selvedge_foundation::files::{FileError, Table, TableWriter};
 const COLUMNS: [&str; 2] = ["x_mm", "height_um"];
 const FRICTION_COLUMNS: [&str; 2] = ["x_mm", "mu"];
 
-/// Reads a profile. `path` only names it in errors.
-pub fn read(text: &str, path: &Path) -> Result<Profile, TextileError> {
-    let (x_mm, heights_um) = match plain(text) {
-        Some(columns) => columns,
-        None => columns(text, path, COLUMNS)?,
-    };
-    Profile::from_positions(&x_mm, heights_um).map_err(TextileError::surface(path))
+impl Profile {
+    /// Reads a profile file. `path` only names it in errors.
+    pub fn read(text: &str, path: &Path) -> Result<Self, TextileError> {
+        let (x_mm, heights_um) = match plain(text) {
+            Some(columns) => columns,
+            None => columns(text, path, COLUMNS)?,
+        };
+        Self::from_positions(&x_mm, heights_um).map_err(TextileError::surface(path))
+    }
 }
 
 /// The columns of a file as this program writes it: no quotes, comments or odd headers. Reading
@@ -82,7 +84,7 @@ mod tests {
         let heights: Vec<f64> = (0..4600).map(|i| f64::from(i).sin() * 10.0).collect();
         let path = Path::new("warp_forward.csv");
         let text = write(&heights, 1.0 / 230.0, path).unwrap();
-        let profile = read(&text, path).unwrap();
+        let profile = Profile::read(&text, path).unwrap();
         assert_eq!(profile.step_mm(), 1.0 / 230.0);
         for (read, given) in profile.heights_um().iter().zip(&heights) {
             assert!((read - given).abs() <= 5.001e-4, "{read} against {given}");
@@ -97,7 +99,10 @@ mod tests {
             .replace("x_mm,", "\u{feff}x_mm, ")
             .replace("0.01,", "# aside\n0.01, ");
         assert!(plain(&text).is_some() && plain(&other).is_none(), "{other}");
-        assert_eq!(read(&text, path).unwrap(), read(&other, path).unwrap());
+        assert_eq!(
+            Profile::read(&text, path).unwrap(),
+            Profile::read(&other, path).unwrap()
+        );
     }
 
     #[test]
@@ -115,7 +120,7 @@ mod tests {
             ("x_mm,height_um\n0,1\n1,1\n", "a.csv: the step is 1 mm"),
             ("x_mm,height\n0,1\n", "a.csv:1: unknown column"),
         ] {
-            let error = read(text, path).unwrap_err().to_string();
+            let error = Profile::read(text, path).unwrap_err().to_string();
             assert!(error.starts_with(expected), "{error}");
         }
     }
@@ -124,8 +129,8 @@ mod tests {
         #[test]
         fn no_rows_make_the_reader_panic(rows in "[-0-9.,enaif#\"\n]{0,80}") {
             let path = Path::new("a.csv");
-            drop(read(&rows, path));
-            if let Ok(profile) = read(&format!("x_mm,height_um\n{rows}"), path) {
+            drop(Profile::read(&rows, path));
+            if let Ok(profile) = Profile::read(&format!("x_mm,height_um\n{rows}"), path) {
                 let is_finite = profile.heights_um().iter().all(|height| height.is_finite());
                 proptest::prop_assert!(is_finite && profile.step_mm() > 0.0);
             }

@@ -5,7 +5,6 @@
 use std::path::Path;
 
 use crate::error::TextileError;
-use crate::profile_file;
 use crate::surface::{Direction, Profile};
 
 /// `library.toml`.
@@ -24,7 +23,7 @@ pub(crate) const RECIPES_INDEX: &str = include_str!("../../textiles/seventy-four
 pub(crate) fn profile(id: &str, direction: Direction) -> Result<Profile, TextileError> {
     let name = format!("{}.csv", direction.key());
     let bytes = file(id, &name).unwrap_or_default();
-    profile_file::read(&String::from_utf8_lossy(bytes), &Path::new(id).join(&name))
+    Profile::read(&String::from_utf8_lossy(bytes), &Path::new(id).join(&name))
 }
 
 /// One embedded file of a textile.

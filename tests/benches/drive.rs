@@ -10,7 +10,7 @@ use std::time::Instant;
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{ClipKind, ClipWriter, EngineError};
 use selvedge_foundation::numerics::{median, quantile};
-use selvedge_foundation::progress::{thread_cpu_seconds, unheard};
+use selvedge_foundation::progress::{Progress, thread_cpu_seconds};
 use selvedge_render::array::DriveSynth;
 
 const ROUNDS: usize = 15;
@@ -89,7 +89,7 @@ fn write_clip(place: &Path, kind: ClipKind, length_s: u64) -> Result<(), EngineE
         }
         clip.take(tick, &amplitudes_um)?;
     }
-    unheard(|progress| clip.finish(progress))?;
+    Progress::unheard(|progress| clip.finish(progress))?;
     Ok(())
 }
 

@@ -7,9 +7,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use selvedge_foundation::numerics::{Grid, Random, median};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::{
-    AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture, analyse,
+    Analysis, AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture,
 };
 
 const ROUNDS: usize = 5;
@@ -31,7 +31,8 @@ fn main() {
                 n_threads,
             };
             let seconds = timed(|| {
-                let analysis = unheard(|progress| analyse(&picture, &options, progress));
+                let analysis =
+                    Progress::unheard(|progress| Analysis::of(&picture, &options, progress));
                 let is_found = analysis.is_ok_and(|analysis| analysis.found.is_ok());
                 assert!(black_box(is_found), "the bench's weave has a lattice");
             });

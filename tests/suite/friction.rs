@@ -1,6 +1,6 @@
 //! `selvedge friction`, run as a user runs it.
 
-use selvedge_foundation::files::{GrayImage, encode_gray_png, gray_values};
+use selvedge_foundation::files::GrayImage;
 
 use crate::program::Lab;
 
@@ -14,11 +14,11 @@ fn cloth() -> Vec<u8> {
     let picture = GrayImage {
         width: 600,
         height: 120,
-        values: gray_values(values),
+        values: GrayImage::values_of(values),
         white: u16::MAX,
         texts: Vec::new(),
     };
-    encode_gray_png(&picture, "cloth.png".as_ref()).unwrap()
+    picture.to_png("cloth.png".as_ref()).unwrap()
 }
 
 #[test]

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use selvedge_experiment::analysis::{Options, analyse_folder};
+use selvedge_experiment::analysis::{Analysis, Options};
 use selvedge_experiment::design::Design;
-use selvedge_experiment::session::find_sessions;
+use selvedge_experiment::session::Found;
 use selvedge_experiment::{Course, Step};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/old_logs");
 
@@ -23,7 +23,7 @@ fn shipped_then(name: &str) -> Design {
 
 #[test]
 fn old_logs_are_read_by_the_compositions_that_their_tables_were() {
-    let (found, unread) = find_sessions(Path::new(FOLDER)).unwrap();
+    let (found, unread) = Found::in_folder(Path::new(FOLDER)).unwrap();
     assert!(unread.is_empty(), "{unread:?}");
     let names = [
         "real-or-generated",
@@ -58,7 +58,8 @@ fn old_logs_are_analysed_as_what_they_were() {
         n_resamples: 20,
         ..Options::default()
     };
-    let analysis = unheard(|progress| analyse_folder(Path::new(FOLDER), &options, progress));
+    let analysis =
+        Progress::unheard(|progress| Analysis::of_folder(Path::new(FOLDER), &options, progress));
     let analysis = analysis.unwrap();
     let keys: Vec<&str> = analysis.sections.iter().map(|s| s.key.as_str()).collect();
     for expected in [

@@ -2,11 +2,9 @@
 
 use std::path::PathBuf;
 
-use selvedge_foundation::files::{
-    GrayImage, Rgb8Image, decode_gray_png, encode_gray_png, encode_png, gray_values,
-};
+use selvedge_foundation::files::{GrayImage, Rgb8Image};
 use selvedge_textile::picture::{
-    AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Place, analyse, load,
+    Analysis, AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Picture, Place,
 };
 
 use crate::program::Lab;
@@ -22,11 +20,11 @@ fn cloth() -> Vec<u8> {
     let picture = GrayImage {
         width: 160,
         height: 140,
-        values: gray_values(values),
+        values: GrayImage::values_of(values),
         white: u16::MAX,
         texts: Vec::new(),
     };
-    encode_gray_png(&picture, "cloth.png".as_ref()).unwrap()
+    picture.to_png("cloth.png".as_ref()).unwrap()
 }
 
 fn vector(value: &serde_json::Value) -> Place {
@@ -176,7 +174,7 @@ fn no_lattice_is_an_answer_with_its_reason() {
     };
     lab.write("made/tile.png", "of an earlier picture");
     for (side, what) in [(1, "too small to hold repeats"), (100, "of one colour")] {
-        lab.write("a.png", encode_png(&one(side), "a.png".as_ref()).unwrap());
+        lab.write("a.png", one(side).to_png("a.png".as_ref()).unwrap());
         let line = lab.print(&["picture", "a.png", "--out", "made"]);
         assert!(
             line.starts_with("made: no lattice: ") && line.contains(what),
@@ -204,11 +202,11 @@ fn lit_weave() -> Vec<u8> {
     let picture = GrayImage {
         width: 168,
         height: 168,
-        values: gray_values(values),
+        values: GrayImage::values_of(values),
         white: u16::MAX,
         texts: Vec::new(),
     };
-    encode_gray_png(&picture, "weave.png".as_ref()).unwrap()
+    picture.to_png("weave.png".as_ref()).unwrap()
 }
 
 const FELT: [&str; 14] = [
@@ -311,7 +309,7 @@ fn all_bytes_are_the_same_whatever_the_threads_and_old_heights_go() {
         height: 50,
         pixels: vec![[90, 80, 70]; 2500],
     };
-    lab.write("a.png", encode_png(&one, "a.png".as_ref()).unwrap());
+    lab.write("a.png", one.to_png("a.png".as_ref()).unwrap());
     lab.print(&["picture", "a.png", "--out", "made"]);
     assert!(!lab.path("made/height.png").exists(), "what is old is gone");
 }
@@ -329,13 +327,13 @@ fn a_picture_alone_gives_heights_without_a_scale_and_says_so() {
     assert_eq!(json["shading"]["light_estimated"], true);
     assert!(json["shading"]["height_um"].is_null(), "{json}");
     let bytes = std::fs::read(lab.path("made/height.png")).unwrap();
-    let height = decode_gray_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
+    let height = GrayImage::from_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
     assert_eq!(height.text("Gwy::ZUnit"), Some("px"));
     assert_eq!(height.text("Gwy::XYUnit"), Some("px"));
     let scaled = ["--dpi", "600", "--relief-um", "100"];
     lab.print(&[&["picture", "weave.png", "--out", "made"], &scaled[..]].concat());
     let bytes = std::fs::read(lab.path("made/height.png")).unwrap();
-    let height = decode_gray_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
+    let height = GrayImage::from_png(&bytes, "height.png".as_ref(), 1 << 20).unwrap();
     let number = |key: &str| height.text(key).unwrap().parse::<f64>().unwrap();
     assert!((number("Gwy::ZMax") - number("Gwy::ZMin") - 1e-4).abs() < 1e-12);
     assert_eq!(height.text("Gwy::ZUnit"), Some("m"));
@@ -442,9 +440,11 @@ fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
             println!("skipped: no {}", path.display());
             continue;
         };
-        let picture = load(&bytes, &path).unwrap();
-        let analysis =
-            selvedge_foundation::progress::unheard(|p| analyse(&picture, &options, p)).unwrap();
+        let picture = Picture::load(&bytes, &path).unwrap();
+        let analysis = selvedge_foundation::progress::Progress::unheard(|p| {
+            Analysis::of(&picture, &options, p)
+        })
+        .unwrap();
         match (analysis.found, expected) {
             (Err(NoLattice::NotResolved { .. } | NoLattice::Weak { .. }), None) => {}
             (Ok(found), Some([p1, p2])) => {

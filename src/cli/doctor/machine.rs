@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{Finding, State};
-use selvedge_device::{BridgeError, PortEntry, ProfileFolder, check_permission, list_ports};
+use selvedge_device::{BridgeError, PortEntry, ProfileFolder};
 use selvedge_engine::TICK;
 use selvedge_foundation::files::free_bytes;
 use selvedge_foundation::quantity::{fixed, with_unit};
@@ -181,7 +181,7 @@ pub(super) fn place(name: &'static str, path: &Path) -> Finding {
 }
 
 pub(super) fn ports() -> Vec<Finding> {
-    ports_of(list_ports(), check_permission)
+    ports_of(PortEntry::list(), PortEntry::check_permission)
 }
 
 pub(super) fn ports_of(

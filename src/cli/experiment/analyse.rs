@@ -7,7 +7,7 @@ use clap::Args;
 use super::super::terminal::{self, with_meter};
 use super::super::{CliError, output};
 
-use selvedge_experiment::analysis::{self, Analysis, Cell, Options, UNREAD, analyse_with_unread};
+use selvedge_experiment::analysis::{self, Analysis, Cell, Options, UNREAD};
 use selvedge_experiment::{ExperimentError, Participants, write_bids};
 
 /// Logs, and how they are analysed.
@@ -57,7 +57,7 @@ pub(super) fn run(args: &AnalyseArgs) -> Result<(), CliError> {
     };
     let analysed = with_meter("analysing", |progress| {
         let (found, unread) = analysis::sessions(&args.logs, progress)?;
-        let analysis = analyse_with_unread(&found, &unread, &options, progress)?;
+        let analysis = Analysis::with_unread(&found, &unread, &options, progress)?;
         Ok((analysis, found))
     })?;
     let (analysis, found) = analysed.map_err(|error: ExperimentError| match error {

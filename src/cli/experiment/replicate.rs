@@ -8,7 +8,7 @@ use clap::Args;
 use super::super::terminal::with_meter;
 use super::super::{CliError, output};
 
-use selvedge_experiment::replication::{Comparison, Options, Replication, replicate};
+use selvedge_experiment::replication::{Comparison, Options, Replication};
 use selvedge_foundation::quantity::fixed;
 
 /// How much is simulated, and where it goes.
@@ -41,7 +41,9 @@ pub(super) fn run(args: &ReplicateArgs) -> Result<(), CliError> {
         is_detailed: args.full,
         cache: selvedge_workbench::build_cache(),
     };
-    let found = with_meter("replicating", |progress| replicate(&options, progress))??;
+    let found = with_meter("replicating", |progress| {
+        Replication::simulate(&options, progress)
+    })??;
     found.analysis.write(&args.out)?;
     output::print(&summary(&found, args))
 }

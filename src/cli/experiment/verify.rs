@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::super::terminal::with_meter;
 use super::super::{CliError, output};
-use selvedge_experiment::session::verify_folder;
+use selvedge_experiment::session::Verified;
 
 /// Which logs to look at.
 #[derive(Debug, Args)]
@@ -17,7 +17,9 @@ pub(crate) struct VerifyArgs {
 
 /// Prints a line for everything that is not as it was written.
 pub(super) fn run(args: &VerifyArgs) -> Result<(), CliError> {
-    let verified = with_meter("verifying", |progress| verify_folder(&args.logs, progress))??;
+    let verified = with_meter("verifying", |progress| {
+        Verified::of_folder(&args.logs, progress)
+    })??;
     let lines: Vec<String> = verified
         .breaks
         .iter()

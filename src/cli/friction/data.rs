@@ -169,6 +169,6 @@ fn pictures(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
 /// A picture's brightness, 0 to 1.
 pub(super) fn brightness(image: &Path) -> Result<Grid<f32>, CliError> {
     let bytes = selvedge_textile::read_measurement(image)?;
-    let picture = selvedge_textile::picture::load(&bytes, image)?;
+    let picture = selvedge_textile::picture::Picture::load(&bytes, image)?;
     Ok(picture.luminance.map(to_single))
 }

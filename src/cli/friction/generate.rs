@@ -9,9 +9,7 @@ use crate::CliError;
 use crate::output::{TableOut, write_bytes};
 use crate::picture::positive;
 use crate::terminal;
-use selvedge_foundation::files::{
-    EditedKeys, KeyValue, Rgb8Image, encode_png, read_text, write_atomic,
-};
+use selvedge_foundation::files::{EditedKeys, KeyValue, Rgb8Image, read_text, write_atomic};
 use selvedge_foundation::numerics::{extent, to_byte};
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{PredictedFriction, Predictor};
@@ -62,7 +60,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<(), CliError> {
         write_trace(&found, args.out.as_deref())?;
     }
     if let Some(path) = &args.spectrogram {
-        write_bytes(path, &encode_png(&spectrogram(&found), path)?)?;
+        write_bytes(path, &spectrogram(&found).to_png(path)?)?;
     }
     terminal::notice(&describe(&found));
     Ok(())

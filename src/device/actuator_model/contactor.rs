@@ -222,9 +222,7 @@ impl ContactorModel {
         let by_moving = 1e-6 * self.bimorph.force_n_per_v() * self.bimorph.free_um_per_v();
         self.bimorph.capacitance_f() - by_moving
     }
-}
 
-impl ContactorModel {
     /// The current for each carrier's codes while they stay, skin on the pin and no limit of the
     /// amplifier reached.
     pub(crate) fn load(&self) -> Load {

@@ -62,54 +62,56 @@ pub struct Trial {
     pub nonce: u32,
 }
 
-/// Tries the device at the end of a line. `progress` hears the name of each section as it begins.
-/// Whatever happens, the last thing that the device hears is a STOP.
-pub fn certify(
-    line: &mut dyn Line,
-    trial: Trial,
-    stop: &AtomicBool,
-    progress: &mut dyn FnMut(&str),
-) -> Certificate {
-    let end_us = line.now_us() + LONGEST_US;
-    let mut client = Client::new(line, trial.nonce, end_us, stop);
-    let opened = client.open(HANDSHAKE_US);
-    let hello = [
-        "handshake",
-        "HELLO",
-        "CAPS with the session of HELLO within 5 s",
-    ];
-    let mut results = vec![result(hello, &opened, 0)];
-    let mut over = opened.err().map(|trouble| reason_of(&trouble));
-    let mut section = "";
-    for check in
-        checks::all().filter(|check| check.when != When::Full || trial.extent == Extent::Full)
-    {
-        if section != check.section && over.is_none() {
-            section = check.section;
-            progress(section);
-        }
-        let (verdict, device_ms) = match &over {
-            None => try_check(&mut client, check),
-            Some(reason) => (Err(Trouble::Untested(reason.clone())), 0),
-        };
-        // No host would go on with a device that is refused by its CAPS.
-        if matches!(verdict, Err(Trouble::Over(_)))
-            || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_))))
+impl Certificate {
+    /// Tries the device at the end of a line. `progress` hears the name of each section as it begins.
+    /// Whatever happens, the last thing that the device hears is a STOP.
+    pub fn of(
+        line: &mut dyn Line,
+        trial: Trial,
+        stop: &AtomicBool,
+        progress: &mut dyn FnMut(&str),
+    ) -> Self {
+        let end_us = line.now_us() + LONGEST_US;
+        let mut client = Client::new(line, trial.nonce, end_us, stop);
+        let opened = client.open(HANDSHAKE_US);
+        let hello = [
+            "handshake",
+            "HELLO",
+            "CAPS with the session of HELLO within 5 s",
+        ];
+        let mut results = vec![result(hello, &opened, 0)];
+        let mut over = opened.err().map(|trouble| reason_of(&trouble));
+        let mut section = "";
+        for check in
+            checks::all().filter(|check| check.when != When::Full || trial.extent == Extent::Full)
         {
-            over = Some(format!("nothing more was tried: {}", came_of(&verdict)));
+            if section != check.section && over.is_none() {
+                section = check.section;
+                progress(section);
+            }
+            let (verdict, device_ms) = match &over {
+                None => try_check(&mut client, check),
+                Some(reason) => (Err(Trouble::Untested(reason.clone())), 0),
+            };
+            // No host would go on with a device that is refused by its CAPS.
+            if matches!(verdict, Err(Trouble::Over(_)))
+                || (check.when == When::First && matches!(verdict, Err(Trouble::Wrong(_))))
+            {
+                over = Some(format!("nothing more was tried: {}", came_of(&verdict)));
+            }
+            let names = [check.section, check.name, check.expects];
+            results.push(result(names, &verdict, device_ms));
         }
-        let names = [check.section, check.name, check.expects];
-        results.push(result(names, &verdict, device_ms));
+        let ended = match over {
+            None => client.end(),
+            Some(reason) => {
+                client.line.check(&reason);
+                client.rest().and(Err(Trouble::Untested(reason)))
+            }
+        };
+        results.push(result(["STOP", "the last STOP", "ACK 0"], &ended, 0));
+        Self::new(&client.caps, trial.extent == Extent::Full, results)
     }
-    let ended = match over {
-        None => client.end(),
-        Some(reason) => {
-            client.line.check(&reason);
-            client.rest().and(Err(Trouble::Untested(reason)))
-        }
-    };
-    results.push(result(["STOP", "the last STOP", "ACK 0"], &ended, 0));
-    Certificate::new(&client.caps, trial.extent == Extent::Full, results)
 }
 
 /// The verdict of a check, and how long it took, ms of the device's clock.

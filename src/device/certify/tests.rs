@@ -11,7 +11,7 @@ fn tried(model: DeviceModel, faults: &Faults, extent: Extent, at_us: u64) -> Cer
     let device = WiredDevice::new(model, faults);
     let mut line = VirtualLine::new(device, at_us);
     let nonce = 0x1357_0001 + u32::try_from(at_us).unwrap();
-    let certificate = certify(
+    let certificate = Certificate::of(
         &mut line,
         Trial { extent, nonce },
         &AtomicBool::new(false),
@@ -271,7 +271,7 @@ fn a_flag_ends_it_and_the_last_word_is_stop() {
         extent: Extent::Full,
         nonce: 9,
     };
-    let certificate = certify(&mut line, trial, &stop, &mut |section| {
+    let certificate = Certificate::of(&mut line, trial, &stop, &mut |section| {
         stop.store(section == "frames", std::sync::atomic::Ordering::Release);
     });
     assert!(!certificate.passed(), "{certificate}");
@@ -284,7 +284,7 @@ fn a_flag_ends_it_and_the_last_word_is_stop() {
     // A panic of the line itself ends it the same way.
     line.left = 200;
     let caught = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        certify(&mut line, trial, &AtomicBool::new(false), &mut |_| {})
+        Certificate::of(&mut line, trial, &AtomicBool::new(false), &mut |_| {})
     }));
     assert!(caught.is_err(), "the line panics");
     assert_eq!(

@@ -26,7 +26,7 @@ use super::link::StopHandle;
 use super::message::{StopHow, TICK_US, fault_bit};
 pub use direct::DirectLine;
 pub use pacer::Pacer;
-use selvedge_foundation::panics::{OnPanic, on_panic};
+use selvedge_foundation::panics::OnPanic;
 
 /// The time between two ticks of a device.
 const TICK: Duration = Duration::from_micros(TICK_US as u64);
@@ -257,7 +257,7 @@ impl Driver {
 
 /// From now on a panic of any thread stops the device.
 fn stop_on_panic(handle: StopHandle) -> OnPanic {
-    on_panic(move || handle.last_word())
+    OnPanic::new(move || handle.last_word())
 }
 
 /// Why a session ends.

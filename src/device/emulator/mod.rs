@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use super::BridgeError;
 use super::actuator_model::ActuatorFeed;
 use super::device::{AppliedFrame, DeviceCore, DeviceModel, DeviceSink, Moment};
-use super::port::{PairPort, Port, pair};
+use super::port::{PairPort, Port};
 use super::wire::{Faults, Injection, WireSink, WiredDevice};
 pub(crate) use log::DeviceLog;
 #[cfg(unix)]
@@ -41,7 +41,7 @@ impl EmulatorThread {
         faults: &Faults,
         actuators: Option<ActuatorFeed>,
     ) -> Result<PairPort, BridgeError> {
-        let (host, mut device) = pair("emulator");
+        let (host, mut device) = PairPort::pair("emulator");
         let mut wired = WiredDevice::new(model, faults);
         if let Some(feed) = &actuators {
             wired.set_load(feed.load());

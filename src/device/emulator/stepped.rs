@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::Emulation;
 use crate::actuator_model::ActuatorFeed;
 use crate::device::DeviceModel;
-use crate::port::{PairPort, Port as _, pair};
+use crate::port::{PairPort, Port as _};
 use crate::wire::{Faults, WiredDevice};
 
 /// An emulated device without a thread, connected within the process.
@@ -24,7 +24,7 @@ impl SteppedEmulator {
         faults: &Faults,
         actuators: Option<ActuatorFeed>,
     ) -> (Self, PairPort) {
-        let (host, device) = pair("emulator");
+        let (host, device) = PairPort::pair("emulator");
         let mut wired = WiredDevice::new(model, faults);
         if let Some(feed) = &actuators {
             wired.set_load(feed.load());

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::*;
 use selvedge_foundation::files::from_json_str;
-use selvedge_foundation::progress::{CancelFlag, unheard};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 use selvedge_scratch::ScratchFolder;
 
 /// Required fields, as the reference parser of the format has them; none is optional here.
@@ -93,7 +93,7 @@ fn written(name: &str, n_channels: usize, ticks: &[Vec<[f32; 2]>]) -> Experience
     for tick in ticks {
         writer.take(tick).unwrap();
     }
-    unheard(|progress| writer.finish(progress)).unwrap();
+    Progress::unheard(|progress| writer.finish(progress)).unwrap();
     let text = folder.read("a.hjif");
     check(from_json_str(&text, &path).unwrap())
 }

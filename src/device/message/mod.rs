@@ -28,7 +28,7 @@ pub(crate) const MAGIC: [u8; 4] = *b"HBP1";
 pub(crate) const VERSION: u8 = 1;
 /// Device tick in µs: every amplitude lasts one tick, in which both carriers complete whole
 /// periods.
-pub const TICK_US: u32 = 25_000;
+pub(crate) const TICK_US: u32 = 25_000;
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident = $code:literal;)+) => {

@@ -26,13 +26,15 @@ pub struct UsbIdentity {
     pub serial: Option<String>,
 }
 
-/// All serial ports, sorted by path.
-pub fn list_ports() -> Result<Vec<PortEntry>, BridgeError> {
-    let found =
-        serialport::available_ports().map_err(|error| BridgeError::List(error.to_string()))?;
-    let mut entries: Vec<PortEntry> = found.into_iter().filter(is_shown).map(entry).collect();
-    entries.sort_by(|a, b| a.path.cmp(&b.path));
-    Ok(entries)
+impl PortEntry {
+    /// All serial ports, sorted by path.
+    pub fn list() -> Result<Vec<Self>, BridgeError> {
+        let found =
+            serialport::available_ports().map_err(|error| BridgeError::List(error.to_string()))?;
+        let mut entries: Vec<Self> = found.into_iter().filter(is_shown).map(entry).collect();
+        entries.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(entries)
+    }
 }
 
 /// macOS lists every port twice; the callout name is the one that opens without a carrier.
@@ -98,7 +100,7 @@ mod tests {
 
     #[test]
     fn listing_is_sorted() {
-        let ports = list_ports().unwrap();
+        let ports = PortEntry::list().unwrap();
         assert!(ports.is_sorted_by(|a, b| a.path <= b.path));
     }
 }

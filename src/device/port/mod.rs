@@ -15,13 +15,11 @@ use std::io;
 use std::time::Duration;
 
 pub(super) use holder::holder_of;
+pub use listing::PortEntry;
 pub use listing::UsbIdentity;
-pub use listing::{PortEntry, list_ports};
 pub use pair::PairPort;
-pub use pair::pair;
-pub use refusal::check_permission;
 pub use replug::{FoundPort, PortIdentity, RecognisedBy};
-pub use serial::SerialLink;
+pub(crate) use serial::SerialLink;
 
 /// The udev rule that gives access to arrays, keeps modem managers away and names them; for
 /// `/etc/udev/rules.d/99-selvedge.rules`.

@@ -72,27 +72,29 @@ pub struct PairPort {
     name: &'static str,
 }
 
-/// Two connected ends.
-pub fn pair(name: &'static str) -> (PairPort, PairPort) {
-    let (there, back) = (Arc::new(Pipe::default()), Arc::new(Pipe::default()));
-    let host = End {
-        incoming: Arc::clone(&back),
-        outgoing: Arc::clone(&there),
-    };
-    let device = End {
-        incoming: there,
-        outgoing: back,
-    };
-    (
-        PairPort {
-            end: Arc::new(host),
-            name,
-        },
-        PairPort {
-            end: Arc::new(device),
-            name,
-        },
-    )
+impl PairPort {
+    /// Two connected ends.
+    pub fn pair(name: &'static str) -> (Self, Self) {
+        let (there, back) = (Arc::new(Pipe::default()), Arc::new(Pipe::default()));
+        let host = End {
+            incoming: Arc::clone(&back),
+            outgoing: Arc::clone(&there),
+        };
+        let device = End {
+            incoming: there,
+            outgoing: back,
+        };
+        (
+            Self {
+                end: Arc::new(host),
+                name,
+            },
+            Self {
+                end: Arc::new(device),
+                name,
+            },
+        )
+    }
 }
 
 impl Port for PairPort {
@@ -137,7 +139,7 @@ mod tests {
 
     #[test]
     fn bytes_cross_in_order_both_ways() {
-        let (mut host, mut device) = pair("test");
+        let (mut host, mut device) = PairPort::pair("test");
         host.write(&[1, 2, 3], Duration::ZERO).unwrap();
         device.write(&[9], Duration::ZERO).unwrap();
         let mut buffer = [0; 2];
@@ -150,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_full_link_times_out_and_keeps_its_bound() {
-        let (mut host, device) = pair("test");
+        let (mut host, device) = PairPort::pair("test");
         let mut taken = 0;
         let error = loop {
             match host.write(&[7; 1000], Duration::ZERO) {
@@ -167,7 +169,7 @@ mod tests {
 
     #[test]
     fn what_was_written_before_the_end_is_still_read() {
-        let (mut host, device) = pair("test");
+        let (mut host, device) = PairPort::pair("test");
         let mut copy = device.clone();
         drop(device);
         copy.write(&[5], Duration::ZERO).unwrap();

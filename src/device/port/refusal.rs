@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serialport::ErrorKind;
 
+use super::PortEntry;
 use crate::BridgeError;
 use selvedge_foundation::files::is_accessible;
 
@@ -34,18 +35,20 @@ pub(super) fn open_error(path: &str, error: &serialport::Error) -> BridgeError {
     BridgeError::Open { port, reason }
 }
 
-/// Whether we may use the port at `path`, which is not opened.
-///
-/// # Errors
-/// We may not: what to do.
-pub fn check_permission(path: &str) -> Result<(), BridgeError> {
-    if is_accessible(Path::new(path)) {
-        return Ok(());
+impl PortEntry {
+    /// Whether we may use the port at `path`, which is not opened.
+    ///
+    /// # Errors
+    /// We may not: what to do.
+    pub fn check_permission(path: &str) -> Result<(), BridgeError> {
+        if is_accessible(Path::new(path)) {
+            return Ok(());
+        }
+        Err(BridgeError::Open {
+            port: path.to_owned(),
+            reason: no_permission(path),
+        })
     }
-    Err(BridgeError::Open {
-        port: path.to_owned(),
-        reason: no_permission(path),
-    })
 }
 
 /// Who may open a port, as its node and the system's groups say.

@@ -6,7 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{PortEntry, UsbIdentity, list_ports};
+use super::{PortEntry, UsbIdentity};
 
 /// What is known of a port while its device is there, to recognise it when it is back.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl RecognisedBy {
 impl PortIdentity {
     /// What is to be known of a port that is there. Lists all ports: not for a GUI thread.
     pub fn of(path: &Path) -> Self {
-        let listed = list_ports().unwrap_or_default();
+        let listed = PortEntry::list().unwrap_or_default();
         let leads_to = std::fs::canonicalize(path).ok();
         let is_it = |entry: &&PortEntry| {
             let entry_path = Path::new(&entry.path);
@@ -82,7 +82,7 @@ impl PortIdentity {
     pub fn look(&mut self) -> Option<FoundPort> {
         let node = node_of(&self.path);
         self.was_away |= node.is_none() || (self.node.is_some() && node != self.node);
-        let listed = list_ports().unwrap_or_default();
+        let listed = PortEntry::list().unwrap_or_default();
         self.among(&listed, node.is_some())
             .or_else(|| self.renamed_link())
     }

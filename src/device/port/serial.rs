@@ -18,7 +18,7 @@ const LARGEST_PIECE: usize = 128;
 const OPEN_PATIENCE: Duration = Duration::from_millis(50);
 
 /// An open serial port.
-pub struct SerialLink {
+pub(crate) struct SerialLink {
     port: Box<dyn SerialPort>,
     name: String,
 }
@@ -34,7 +34,7 @@ impl fmt::Debug for SerialLink {
 impl SerialLink {
     /// Opens `path` at `baud` for this program alone and drops whatever input it holds. May block:
     /// not for a GUI thread.
-    pub fn open(path: &str, baud: u32) -> Result<Self, BridgeError> {
+    pub(crate) fn open(path: &str, baud: u32) -> Result<Self, BridgeError> {
         let opened = serialport::new(path, baud).timeout(OPEN_PATIENCE).open();
         let port = opened.map_err(|error| open_error(path, &error))?;
         let link = Self::from_port(port, path);
@@ -52,7 +52,7 @@ impl SerialLink {
     }
 
     /// A second handle, so that one thread can read while another writes.
-    pub fn try_clone(&self) -> Result<Self, BridgeError> {
+    pub(crate) fn try_clone(&self) -> Result<Self, BridgeError> {
         let port = self.port.try_clone().map_err(|error| BridgeError::Open {
             port: self.name.clone(),
             reason: format!("cannot be read and written at once: {error}"),

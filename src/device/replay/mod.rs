@@ -37,36 +37,38 @@ const AFTER_S: f64 = 0.01;
 /// Lines that wait at most.
 const MAX_WAITING: usize = 20_000;
 
-/// Replays every link of a log, one after the other; `each` is told of every tick. The contactors'
-/// full scale is that of the device.
-///
-/// # Errors
-/// The file cannot be read or is no session log: one line with its place. What `each` says.
-pub fn replay_log<E: From<BridgeError>>(
-    path: &Path,
-    contactors: &ContactorModel,
-    each: impl FnMut(&ReplayedTick) -> Result<(), E>,
-) -> Result<Vec<ReplayedLink>, E> {
-    let unreadable = |(line, reason): (u64, String)| BridgeError::LogContent {
-        path: path.to_path_buf(),
-        line,
-        reason,
-    };
-    let cannot = |reason: &str| {
-        let reason = format!("cannot be read: {reason}; check the path");
-        E::from(unreadable((0, reason)))
-    };
-    if path.is_dir() {
-        return Err(cannot("it is a folder"));
+impl ReplayedLink {
+    /// Replays every link of a log, one after the other; `each` is told of every tick. The contactors'
+    /// full scale is that of the device.
+    ///
+    /// # Errors
+    /// The file cannot be read or is no session log: one line with its place. What `each` says.
+    pub fn of_log<E: From<BridgeError>>(
+        path: &Path,
+        contactors: &ContactorModel,
+        each: impl FnMut(&ReplayedTick) -> Result<(), E>,
+    ) -> Result<Vec<Self>, E> {
+        let unreadable = |(line, reason): (u64, String)| BridgeError::LogContent {
+            path: path.to_path_buf(),
+            line,
+            reason,
+        };
+        let cannot = |reason: &str| {
+            let reason = format!("cannot be read: {reason}; check the path");
+            E::from(unreadable((0, reason)))
+        };
+        if path.is_dir() {
+            return Err(cannot("it is a folder"));
+        }
+        let file = File::open(path).map_err(|error| cannot(&error.to_string()))?;
+        let mut desk = Desk::new(contactors, each);
+        desk.read(BufReader::new(file), |place| E::from(unreadable(place)))?;
+        if desk.links.is_empty() {
+            let reason = "holds no link; name a file that --session-log wrote";
+            return Err(E::from(unreadable((0, reason.to_owned()))));
+        }
+        Ok(desk.links)
     }
-    let file = File::open(path).map_err(|error| cannot(&error.to_string()))?;
-    let mut desk = Desk::new(contactors, each);
-    desk.read(BufReader::new(file), |place| E::from(unreadable(place)))?;
-    if desk.links.is_empty() {
-        let reason = "holds no link; name a file that --session-log wrote";
-        return Err(E::from(unreadable((0, reason.to_owned()))));
-    }
-    Ok(desk.links)
 }
 
 /// A line that waits for its turn.

@@ -330,7 +330,7 @@ fn a_link_that_is_told_the_time_replays_as_it_was_however_its_clock_lies() {
         drop(bridge);
         log.finish().unwrap();
         let mut ticks = Vec::new();
-        let links = replay_log(&path, &ContactorModel::default(), |tick| {
+        let links = ReplayedLink::of_log(&path, &ContactorModel::default(), |tick| {
             ticks.push(tick.clone());
             Ok::<(), BridgeError>(())
         });

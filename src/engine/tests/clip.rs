@@ -1,7 +1,7 @@
 //! Files of two displays that move apart: each display is in them as it would be alone.
 
 use super::*;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_render::Replay;
 use selvedge_scratch::ScratchFolder;
 
@@ -32,7 +32,7 @@ fn contactors(kind: ClipKind, path: &ExplorationPath, n_displays: usize) -> Vec<
     let (profile, n) = (ArrayProfile::default(), 24 * n_displays);
     let file = folder.join("two");
     let writer = ClipWriter::create(&file, kind, (&profile, n), "two").unwrap();
-    unheard(|progress| write_clip(writer, &what, path, progress)).unwrap();
+    Progress::unheard(|progress| write_clip(writer, &what, path, progress)).unwrap();
     match kind {
         ClipKind::Wav { .. } => {
             let mut wav = hound::WavReader::open(&file).unwrap();

@@ -12,7 +12,7 @@ use crate::input::PointerInput;
 use crate::ready::{CoreCommand, ReadyCommand};
 use selvedge_device::{
     BridgeError, BridgeEvent, BridgeState, ContactorModel, DeviceState, DisarmedBy, FaultWords,
-    SessionLog, Target, replay_log,
+    ReplayedLink, SessionLog, Target,
 };
 #[cfg(unix)]
 use selvedge_device::{DeviceModel, Faults, PtyEmulator};
@@ -378,7 +378,7 @@ fn the_log_of_a_device_in_told_time_replays_as_it_was() {
     assert!(ticks > 300, "{ticks}");
     drop(engine);
     let mut n_felt = 0;
-    let links = replay_log(&path, &ContactorModel::default(), |tick| {
+    let links = ReplayedLink::of_log(&path, &ContactorModel::default(), |tick| {
         n_felt += u64::from(tick.state == DeviceState::Run);
         Ok::<(), BridgeError>(())
     });

@@ -17,7 +17,7 @@ use selvedge_foundation::numerics::LineFit;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
 use selvedge_statistics::psychometric::{Adjustments, Settings, Starts};
-use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, Repeated, friedman};
 use selvedge_statistics::{
     Computed, Interval, Outcome, Summary, Undefined, mean, one_sample_t, paired_t, t_quantile_upper,
 };
@@ -120,7 +120,7 @@ fn parameter_section(
     section.figure(bars("bars", &title, key, (&shown, None), &[]));
     let crossed = by_subject(all, &names);
     let (rows, pairs) = (complete_rows(&crossed), every_two("pairs", &crossed));
-    let variance = crossed.and_then(|table| repeated_one_way(&table));
+    let variance = crossed.and_then(|table| Repeated::one_way(&table));
     section.table(effects("anova", "Stimuli, within subjects", &variance));
     section.table(pairs);
     let hysteresis = start_effect(experiment, all, middle)
@@ -150,7 +150,7 @@ fn by_group(
     for group in &groups {
         let is_own = |one: &&Setting<'_>| experiment.design.stimuli[one.item].is_of(Some(group));
         let own: Vec<Setting<'_>> = all.iter().filter(is_own).copied().collect();
-        let variance = by_subject(&own, &names).and_then(|table| repeated_one_way(&table));
+        let variance = by_subject(&own, &names).and_then(|table| Repeated::one_way(&table));
         let key = super::model::file_name(&format!("anova-{group}"), '-');
         section.table(effects(
             &key,

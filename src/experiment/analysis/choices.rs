@@ -6,7 +6,7 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Section, Table, cells, or_undefined, percent_interval, percent_of};
 use super::options::Options;
 use super::tables::{D_PRIME_NOTE, group_d_prime, tests};
-use selvedge_statistics::detection::{Choice, Correction, Relation, same_different};
+use selvedge_statistics::detection::{Choice, Correction, Relation};
 use selvedge_statistics::{
     Computed, Sides, Summary, exact_binomial, one_sample_t, wilcoxon_signed_rank,
 };
@@ -159,6 +159,6 @@ fn described(relation: Option<Relation>) -> &'static str {
 fn sensitivity(experiment: &Experiment<'_>, counts: &Counts) -> Computed<Choice> {
     match experiment.design.composition.relation() {
         Some(relation) => relation.choice(counts.right, counts.n, Correction::LogLinear),
-        None => same_different(counts.hits, counts.false_alarms),
+        None => Choice::of_same_different(counts.hits, counts.false_alarms),
     }
 }

@@ -8,9 +8,7 @@ use super::model::{Section, known};
 use super::tables::{summaries, tests};
 use crate::design::Kind;
 use selvedge_statistics::variance::{holm, kruskal_wallis, one_way, welch};
-use selvedge_statistics::{
-    Computed, Outcome, Summary, TwoSamples, Undefined, paired_t, two_sample_t,
-};
+use selvedge_statistics::{Computed, Outcome, Summary, TwoSamples, Undefined, paired_t};
 
 /// What Welch's t of two samples is called.
 const WELCH: &str = "Welch t, two samples";
@@ -107,7 +105,7 @@ fn values(scores: &Scores) -> Vec<f64> {
 fn two(what: &str, first: &Scores, second: &Scores) -> Vec<(String, Computed<Outcome>)> {
     let summaries =
         Summary::of(&values(first)).and_then(|a| Ok((a, Summary::of(&values(second))?)));
-    let both = summaries.and_then(|(a, b)| two_sample_t(&a, &b));
+    let both = summaries.and_then(|(a, b)| TwoSamples::of(&a, &b));
     let part = |of: fn(TwoSamples) -> Outcome| both.clone().map(of);
     let common: Vec<[f64; 2]> = first
         .iter()

@@ -8,7 +8,7 @@ use super::options::Options;
 use super::tables::{D_PRIME_NOTE, group_d_prime, tests};
 use super::{choices, judgement_cells, judgement_confidence, judgement_pairs, judgement_power};
 use crate::design::Sets;
-use selvedge_statistics::detection::{Answers, Correction, group_yes_no, yes_no};
+use selvedge_statistics::detection::{Answers, Correction, GroupDPrime, YesNo};
 use selvedge_statistics::{Sides, Summary, exact_binomial, one_sample_t, sign_flip};
 
 pub(super) fn sections(experiment: &Experiment<'_>, options: &Options) -> Vec<Section> {
@@ -47,7 +47,7 @@ fn sensitivity(experiment: &Experiment<'_>, is_pair: bool, options: &Options) ->
         );
         let (table, d_primes) = yes_no_table(experiment);
         let answers: Vec<Answers> = experiment.subjects.iter().map(counts).collect();
-        let group = group_d_prime(answers.len(), group_yes_no(&answers));
+        let group = group_d_prime(answers.len(), GroupDPrime::of_yes_no(&answers));
         (table, d_primes, Some(group))
     };
     section.note(D_PRIME_NOTE);
@@ -101,7 +101,7 @@ fn yes_no_table(experiment: &Experiment<'_>) -> (Table, Vec<f64>) {
     let mut d_primes = Vec::new();
     for subject in &experiment.subjects {
         let answers = counts(subject);
-        let found = yes_no(answers, Correction::LogLinear);
+        let found = YesNo::of(answers, Correction::LogLinear);
         d_primes.extend(found.as_ref().ok().map(|found| found.d_prime));
         let found = found.map(|found| {
             cells![

@@ -8,7 +8,7 @@ use super::tables::{summaries, tests};
 use super::variance::effects;
 use crate::Record;
 use crate::design::{Design, Stimulus};
-use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, repeated_two_way};
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, Repeated};
 use selvedge_statistics::{Computed, Outcome, Undefined, mean, paired_t};
 
 /// What was called real, by material and condition (Table 3 and Fig. 9 of the paper): of all, and
@@ -49,7 +49,7 @@ fn section(experiment: &Experiment<'_>, group: Option<&str>) -> Section {
         "Called real (as Table 3 of the paper)",
         &rows,
     ));
-    let variance = crossed.and_then(|table| repeated_two_way(&table));
+    let variance = crossed.and_then(|table| Repeated::two_way(&table));
     section.table(effects(
         "anova",
         "Two-way analysis of variance, both factors within subjects",

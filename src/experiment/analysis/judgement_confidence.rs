@@ -6,7 +6,7 @@ use super::included_trials::{Experiment, Subject};
 use super::model::{Cell, Drawn, Section, Table, cells, or_undefined};
 use super::tables::tests;
 use selvedge_chart::{Axis, Series, Style};
-use selvedge_statistics::detection::{Roc, roc};
+use selvedge_statistics::detection::Roc;
 use selvedge_statistics::{Computed, Summary, one_sample_t};
 
 /// How often each rating from `surely generated` to `surely real` was given, of real ones and of
@@ -46,7 +46,7 @@ pub(super) fn section(experiment: &Experiment<'_>, grades: u8) -> Section {
     let mut areas = Vec::new();
     for subject in &experiment.subjects {
         let [real, others] = ratings(subject.trials().flat_map(judgements), grades);
-        let found = roc(&real, &others);
+        let found = Roc::of(&real, &others);
         areas.extend(found.as_ref().ok().map(|r| r.area));
         table.push(roc_row(subject.name, &found));
     }
@@ -56,7 +56,7 @@ pub(super) fn section(experiment: &Experiment<'_>, grades: u8) -> Section {
         .flat_map(Subject::trials)
         .flat_map(judgements);
     let [real, others] = ratings(everyone, grades);
-    let pooled = roc(&real, &others);
+    let pooled = Roc::of(&real, &others);
     table.push(roc_row("all together", &pooled));
     section.table(table);
     let t = Summary::of(&areas).and_then(|s| one_sample_t(&s, 0.5));

@@ -6,7 +6,7 @@ use super::judgement_cells::differences_of_conditions;
 use super::model::{Drawn, Section, Table, cells, or_undefined};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::fixed;
-use selvedge_statistics::{Computed, Summary, Undefined, mean, power_of_t, tost};
+use selvedge_statistics::{Computed, Equivalence, Summary, Undefined, mean, power_of_t};
 
 /// Bounds within which a difference of percentages counts as none, points.
 const BOUNDS_PERCENT: f64 = 10.0;
@@ -42,7 +42,7 @@ fn equivalence(experiment: &Experiment<'_>, percents: &[f64]) -> Table {
     let mut table = Table::new("equivalence", title, columns);
     let mut enter = |what: &str, values: &[f64], middle: f64| {
         let bounds = [middle - BOUNDS_PERCENT, middle + BOUNDS_PERCENT];
-        let found = Summary::of(values).and_then(|s| tost(&s, bounds, ALPHA));
+        let found = Summary::of(values).and_then(|s| Equivalence::of(&s, bounds, ALPHA));
         let found = found.map(|found| {
             let ends = [found.interval.low, found.interval.high];
             cells![

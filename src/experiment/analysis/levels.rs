@@ -13,7 +13,7 @@ use selvedge_foundation::numerics::{Random, in_pieces, n_threads};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::Computed;
 use selvedge_statistics::psychometric::{
-    Block, Estimate, Evidence, Family, Fit, Goodness, Guess, Model, Population, blocks,
+    Block, Estimate, Evidence, Family, Fit, Goodness, Guess, Model, Population,
 };
 
 /// Points of a drawn curve.
@@ -217,7 +217,8 @@ impl<'a> Found<'a> {
             let trials = subject
                 .trials()
                 .filter_map(|record| answered(experiment.design, record));
-            let of_levels = blocks(trials.map(|t| (levels.stimulus(t.value), t.is_right)));
+            let of_levels =
+                Block::of_trials(trials.map(|t| (levels.stimulus(t.value), t.is_right)));
             let n_trials = of_levels.iter().map(|b| b.n).sum();
             let n_levels = u32::try_from(of_levels.len()).unwrap_or(u32::MAX);
             let found = model.evidence(&of_levels).map(|one| {

@@ -8,7 +8,7 @@ use crate::design::Source;
 use crate::{AnswerValue, Record};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::quantity::{factor_of_gain, fixed};
-use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens, stevens};
+use selvedge_statistics::psychometric::stevens::{Estimate, PowerLaw, Stevens};
 use selvedge_statistics::{Summary, mean, paired_t};
 
 /// Estimates of one condition's stimuli, in amplitudes.
@@ -56,7 +56,7 @@ pub(super) fn sections(experiment: &Experiment<'_>) -> Vec<Section> {
     let mut table = Table::new("exponents", "Exponents", EXPONENTS);
     let mut found: Vec<(&str, Stevens)> = Vec::new();
     for condition in conditions {
-        match stevens(&estimates(experiment, condition), 0.95) {
+        match Stevens::fit(&estimates(experiment, condition), 0.95) {
             Ok(law) => {
                 for (name, own) in &law.subjects {
                     table.push(row(condition, name, law.stimuli.len(), own));

@@ -9,7 +9,7 @@ use super::tables::{matrix, tests};
 use selvedge_chart::{Axis, Series, Style};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
-use selvedge_statistics::properties::{Ellipse, bootstrap_ellipses};
+use selvedge_statistics::properties::Ellipse;
 use selvedge_statistics::variance::friedman;
 use selvedge_statistics::{Computed, Outcome, Undefined};
 
@@ -178,7 +178,7 @@ impl Mapping<'_> {
         };
         let draws = (2, options.n_maps);
         let resampled = few.resampled(&self.names, &self.subjects, draws, progress)?;
-        match bootstrap_ellipses(&plane.points, &resampled.maps, ELLIPSE_SHARE) {
+        match Ellipse::of_bootstrap(&plane.points, &resampled.maps, ELLIPSE_SHARE) {
             Ok(ellipses) => {
                 section.note(format!(
                     "Ellipses hold {} % of the maps of {} draws of {} subjects with replacement, \
@@ -196,9 +196,7 @@ impl Mapping<'_> {
             }
         }
     }
-}
 
-impl Mapping<'_> {
     /// How well subjects agree on the order of the pairs that all of them met: Kendall's W.
     pub(super) fn agreement(&self) -> Computed<Outcome> {
         let n = self.names.len();

@@ -10,7 +10,7 @@ use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::mds::Map;
 use selvedge_statistics::properties::{BestTurn, Ellipse, PropertyVector};
-use selvedge_statistics::{Computed, f_upper, fisher_z};
+use selvedge_statistics::{Computed, Interval, f_upper};
 
 /// Measures that the plane map is turned to, the first that exist for the figure.
 const PAIRS: [(&str, &str); 5] = [
@@ -137,7 +137,10 @@ impl Mapping<'_> {
             let found = turn
                 .as_ref()
                 .and_then(|turn| Ok((turn.r[axis], p.as_ref()?[axis + 1])));
-            or_undefined(found.map(|(r, p)| cells![r, fisher_z(r, n, 0.95), p]), 4)
+            or_undefined(
+                found.map(|(r, p)| cells![r, Interval::fisher_z(r, n, 0.95), p]),
+                4,
+            )
         };
         let way = turn
             .as_ref()

@@ -65,7 +65,7 @@ pub use random_data::RandomData;
 
 use super::ExperimentError;
 use super::design::Kind;
-use super::session::{self, Found, Unread};
+use super::session::{Found, Unread};
 use first_page::first_page;
 use included_trials::Experiment;
 use selvedge_foundation::progress::Progress;
@@ -74,18 +74,20 @@ use what_counts::describe_proof;
 /// The key of the section that lists logs that cannot be read.
 pub const UNREAD: &str = "unread";
 
-/// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
-/// it was damaged, is listed with its reason, and the others are analysed.
-///
-/// # Errors
-/// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.
-pub fn analyse_folder(
-    folder: &Path,
-    options: &Options,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, ExperimentError> {
-    let (found, unread) = sessions(folder, progress)?;
-    analyse_with_unread(&found, &unread, options, progress)
+impl Analysis {
+    /// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
+    /// it was damaged, is listed with its reason, and the others are analysed.
+    ///
+    /// # Errors
+    /// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.
+    pub fn of_folder(
+        folder: &Path,
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ExperimentError> {
+        let (found, unread) = sessions(folder, progress)?;
+        Self::with_unread(&found, &unread, options, progress)
+    }
 }
 
 /// The sessions of a folder with everything that is not as it was written, and its logs that cannot
@@ -97,9 +99,9 @@ pub fn sessions(
     folder: &Path,
     progress: &mut Progress<'_>,
 ) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
-    let (mut found, unread) = session::find_sessions(folder)?;
+    let (mut found, unread) = Found::in_folder(folder)?;
     if !found.is_empty() {
-        session::verify_stimuli(&mut found, progress)?;
+        Found::verify_stimuli(&mut found, progress)?;
         return Ok((found, unread));
     }
     let none = || {
@@ -112,21 +114,23 @@ pub fn sessions(
     Err(first.map_or_else(none, |first| first.error))
 }
 
-/// Likewise, of sessions that were found beside logs that cannot be read.
-///
-/// # Errors
-/// It was cancelled.
-pub fn analyse_with_unread(
-    found: &[Found],
-    unread: &[Unread],
-    options: &Options,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, ExperimentError> {
-    let mut analysis = analyse(found, options, progress)?;
-    if !unread.is_empty() {
-        analysis.sections.insert(0, left_out(unread));
+impl Analysis {
+    /// Likewise, of sessions that were found beside logs that cannot be read.
+    ///
+    /// # Errors
+    /// It was cancelled.
+    pub fn with_unread(
+        found: &[Found],
+        unread: &[Unread],
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ExperimentError> {
+        let mut analysis = Self::of(found, options, progress)?;
+        if !unread.is_empty() {
+            analysis.sections.insert(0, left_out(unread));
+        }
+        Ok(analysis)
     }
-    Ok(analysis)
 }
 
 /// The logs that cannot be read.
@@ -143,40 +147,43 @@ fn left_out(unread: &[Unread]) -> Section {
     section
 }
 
-/// Analyses sessions, experiment by experiment.
-///
-/// # Errors
-/// It was cancelled. What cannot be computed is said in the analysis.
-pub fn analyse(
-    found: &[Found],
-    options: &Options,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, ExperimentError> {
-    let experiments = included_trials::experiments(found);
-    let mut sections = Vec::new();
-    for experiment in &experiments {
-        if experiment.subjects.is_empty() {
+impl Analysis {
+    /// Analyses sessions, experiment by experiment.
+    ///
+    /// # Errors
+    /// It was cancelled. What cannot be computed is said in the analysis.
+    pub fn of(
+        found: &[Found],
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ExperimentError> {
+        let experiments = included_trials::experiments(found);
+        let mut sections = Vec::new();
+        for experiment in &experiments {
+            if experiment.subjects.is_empty() {
+                sections.push(experiment.sessions_section());
+                let mut empty =
+                    Section::new(experiment.key("empty"), experiment.design.title.clone());
+                describe_proof(&experiment.sessions, &mut empty);
+                empty.note("No trial is left to analyse.");
+                sections.push(empty);
+                continue;
+            }
+            let mut found = sections_of(experiment, options, progress)?;
+            sections.push(first_page(experiment, &mut found));
             sections.push(experiment.sessions_section());
-            let mut empty = Section::new(experiment.key("empty"), experiment.design.title.clone());
-            describe_proof(&experiment.sessions, &mut empty);
-            empty.note("No trial is left to analyse.");
-            sections.push(empty);
-            continue;
+            sections.extend(found);
         }
-        let mut found = sections_of(experiment, options, progress)?;
-        sections.push(first_page(experiment, &mut found));
-        sections.push(experiment.sessions_section());
-        sections.extend(found);
+        sections.extend(groups::compared(&experiments));
+        let titles: Vec<&str> = experiments
+            .iter()
+            .map(|e| e.design.title.as_str())
+            .collect();
+        Ok(Self {
+            title: titles.join(" · "),
+            sections,
+        })
     }
-    sections.extend(groups::compared(&experiments));
-    let titles: Vec<&str> = experiments
-        .iter()
-        .map(|e| e.design.title.as_str())
-        .collect();
-    Ok(Analysis {
-        title: titles.join(" · "),
-        sections,
-    })
 }
 
 fn sections_of(

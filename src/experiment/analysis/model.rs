@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 use serde::Serialize;
 
 use selvedge_chart::Figure;
-use selvedge_statistics::{Computed, Interval, Undefined, wilson};
+use selvedge_statistics::{Computed, Interval, Undefined};
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -364,5 +364,5 @@ pub(super) fn ends(interval: &Computed<Interval>) -> [Cell; 2] {
 
 /// Wilson's interval of a share, %.
 pub(super) fn percent_interval(hits: u64, n: u64) -> Computed<Interval> {
-    wilson(hits, n, 0.95).map(|interval| interval.map(|share| share * 100.0))
+    Interval::wilson(hits, n, 0.95).map(|interval| interval.map(|share| share * 100.0))
 }

@@ -9,7 +9,7 @@ use super::options::Options;
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_statistics::mds::{Dissimilarities, Map, Mds};
-use selvedge_statistics::procrustes::{Procrustes, protest};
+use selvedge_statistics::procrustes::Procrustes;
 use selvedge_statistics::ranking::{GradeWeights, OddOneOut, TriadAnswer};
 use selvedge_statistics::{Computed, Ranks, Undefined, pearson_r};
 
@@ -175,7 +175,10 @@ fn laid(map: Computed<&Map>, own: Computed<&Map>, options: &Options) -> Vec<Cell
     let found = both.map(|(map, own)| {
         let mut random = Random::new(options.seed).branch("maps by chance");
         let m2 = Procrustes::of(map, own).map(|found| found.m2);
-        cells![m2, protest(map, own, options.n_permutations, &mut random)]
+        cells![
+            m2,
+            Procrustes::protest(map, own, options.n_permutations, &mut random)
+        ]
     });
     or_undefined(found, 2)
 }

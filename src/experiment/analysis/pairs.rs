@@ -5,10 +5,9 @@ use super::model::{Cell, Section, Table, cells, or_undefined, percent_of};
 use super::options::Options;
 use super::tables::tests;
 use selvedge_statistics::ranking::{
-    BradleyTerry, Estimate, Majority, Preferences, Prior, Scale, Thurstone, bradley_terry,
-    mosteller, thurstone,
+    BradleyTerry, Estimate, Majority, Mosteller, Preferences, Prior, Scale, Thurstone,
 };
-use selvedge_statistics::{Computed, Outcome, Undefined, bootstrap_errors};
+use selvedge_statistics::{Bootstrap, Computed, Outcome, Undefined};
 
 /// Draws of subjects that errors over subjects follow from, at most.
 const MOST_DRAWS: usize = 200;
@@ -82,12 +81,12 @@ impl Pairs<'_> {
 
     fn bradley_terry(&self, all: &Preferences) -> Computed<BradleyTerry> {
         self.check(all)?;
-        bradley_terry(all, Prior::None)
+        BradleyTerry::fit(all, Prior::None)
     }
 
     fn thurstone(&self, all: &Preferences) -> Computed<Thurstone> {
         self.check(all)?;
-        thurstone(all)
+        Thurstone::fit(all)
     }
 
     /// Errors of the values that a model has, over draws of subjects.
@@ -100,7 +99,7 @@ impl Pairs<'_> {
             let all = Preferences::together(drawn.iter().map(|at| &self.subjects[*at].1))?;
             model(&all)
         };
-        bootstrap_errors(self.subjects.len(), of_drawn, draws(options))
+        Bootstrap::errors(self.subjects.len(), of_drawn, draws(options))
     }
 
     fn scales(
@@ -118,7 +117,7 @@ impl Pairs<'_> {
             let values = |all: &Preferences| Ok(self.thurstone(all)?.scale.values);
             self.errors(values, options)
         });
-        let z = mosteller(all);
+        let z = Mosteller::of(all);
         let title = format!("Pairs of {of}: scales of how often each was preferred");
         let mut table = Table::new(&format!("{key}-scales"), &title, SCALES);
         for (item, name) in self.names.iter().enumerate() {
@@ -199,7 +198,7 @@ fn tested(
         .map_err(Clone::clone)
         .map(|model| model.deviance);
     let equal = bt.clone().and_then(|d| d.against_equal());
-    let z = mosteller(all).and_then(|found| found.fit);
+    let z = Mosteller::of(all).and_then(|found| found.fit);
     let all = [
         ("Bradley & Terry, do they differ", equal),
         ("Bradley & Terry, fit", bt.and_then(|d| d.goodness_of_fit())),

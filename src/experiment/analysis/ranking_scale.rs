@@ -9,8 +9,8 @@ use super::pairs::over_subjects;
 use super::tables::tests;
 use selvedge_foundation::numerics::{in_pieces, n_threads};
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_statistics::ranking::{Preferences, Prior, Scale, bradley_terry, plackett_luce};
-use selvedge_statistics::{Computed, Outcome, Undefined, jackknife_errors};
+use selvedge_statistics::ranking::{BradleyTerry, PlackettLuce, Preferences, Prior, Scale};
+use selvedge_statistics::{Bootstrap, Computed, Outcome, Undefined};
 
 /// Strength of the prior that keeps worths finite where a target was always ranked first.
 const STRENGTH: f64 = 0.5;
@@ -99,7 +99,7 @@ impl Model {
         };
         Self {
             scale: of_drawn(&everyone),
-            errors: jackknife_errors(subjects.len(), from_target),
+            errors: Bootstrap::jackknife_errors(subjects.len(), from_target),
         }
     }
 
@@ -154,16 +154,16 @@ fn of_target(n_items: usize, target: usize, all: &[Rankings<'_>]) -> Target {
     Target {
         n_rankings: together.len(),
         plackett_luce: Model::of(&subjects, target, |rankings| {
-            Ok(plackett_luce(n_items, rankings, prior)?.scale)
+            Ok(PlackettLuce::fit(n_items, rankings, prior)?.scale)
         }),
         bradley_terry: Model::of(&subjects, target, |rankings| {
             if rankings.is_empty() {
                 return Err(Undefined::because("no rankings"));
             }
             let pairs = Preferences::of_rankings(n_items, rankings)?;
-            Ok(bradley_terry(&pairs, prior)?.scale)
+            Ok(BradleyTerry::fit(&pairs, prior)?.scale)
         }),
-        against_chance: plackett_luce(n_items, &together, Prior::None)
+        against_chance: PlackettLuce::fit(n_items, &together, Prior::None)
             .and_then(|fit| fit.against_chance()),
     }
 }

@@ -10,7 +10,7 @@ use super::variance::{complete_rows, effects, every_two};
 use crate::AnswerValue;
 use crate::design::Scale;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, friedman, repeated_one_way};
+use selvedge_statistics::variance::{Answer as CellAnswer, Crossed, Repeated, friedman};
 use selvedge_statistics::{Computed, Outcome, mean, pearson, spearman};
 
 /// A subject's mean rating of every stimulus on one scale; `None` where it was not rated.
@@ -74,7 +74,7 @@ pub(super) fn sections(
         let rows = complete_rows(&crossed);
         let pairs = every_two(&format!("pairs-{key}"), &crossed);
         found.push((scale.key.clone(), rows.and_then(|rows| friedman(&rows))));
-        let variance = crossed.and_then(|table| repeated_one_way(&table));
+        let variance = crossed.and_then(|table| Repeated::one_way(&table));
         let title = format!("Stimuli on the scale {}, within subjects", scale.key);
         section.table(effects(&format!("anova-{key}"), &title, &variance));
         section.table(pairs);

@@ -4,7 +4,7 @@ use super::model::{Cell, Section, Table, cells, or_undefined};
 use super::options::Options;
 use selvedge_statistics::detection::GroupDPrime;
 use selvedge_statistics::{
-    Computed, Freedom, Named, Outcome, Resampling, Sides, Summary, bootstrap, mean,
+    Bootstrap, Computed, Freedom, Named, Outcome, Resampling, Sides, Summary, mean,
 };
 
 /// Said wherever a group has a d′ of its own.
@@ -130,7 +130,7 @@ fn resampled<S: AsRef<str>>(all: &[(S, Vec<f64>)], how: Resampling) -> Table {
     let mut table = Table::new("bootstrap", title, columns);
     for (what, values) in all {
         let of = |drawn: &[usize]| mean(&drawn.iter().map(|i| values[*i]).collect::<Vec<f64>>());
-        let found = bootstrap(values.len(), of, how);
+        let found = Bootstrap::of(values.len(), of, how);
         let found = found.map(|f| cells![f.estimate, f.se, Ok(f.percentile), f.bca, f.n_used]);
         table.push(cells![
             what.as_ref(),

@@ -1,7 +1,7 @@
 //! Tables of analyses of variance.
 
 use super::model::{Cell, Table, cells, or_undefined};
-use selvedge_statistics::variance::{Comparison, Crossed, Effect, Repeated, every_pair};
+use selvedge_statistics::variance::{Comparison, Crossed, Effect, Repeated};
 use selvedge_statistics::{Computed, Named};
 
 const EFFECTS: &str = "effect; n; ss: SS; df; ss_error: SS error; df_error: df error; f: F; p; \
@@ -82,7 +82,7 @@ pub(super) fn every_two(key: &str, crossed: &Computed<Crossed>) -> Table {
     let column = |rows: &Vec<Vec<f64>>, at: usize| rows.iter().map(|row| row[at]).collect();
     let found = complete_rows(crossed).and_then(|rows| {
         let all: Vec<Vec<f64>> = (0..names.len()).map(|at| column(&rows, at)).collect();
-        every_pair(&all)
+        Comparison::every_pair(&all)
     });
     match found {
         Ok(all) => all.iter().for_each(|one| table.push(pair(one, names))),

@@ -4,5 +4,5 @@
 mod present;
 mod typed;
 
-pub use present::{Placed, needs_array, to_present};
-pub use typed::{form, typed_answer};
+pub use present::{Placed, needs_array};
+pub use typed::form;

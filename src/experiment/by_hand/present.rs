@@ -35,39 +35,41 @@ pub fn needs_array(design: &Design) -> bool {
         || design.stimuli.iter().any(is_virtual)
 }
 
-/// What a trial needs, place by place.
-pub fn to_present(design: &Design, task: &Task) -> Vec<Placed> {
-    let composition = &design.composition;
-    if task.adapted.is_some() {
-        return adapted(design, task);
-    }
-    if matches!(composition.response.form, Form::Adjustment(_)) {
-        return adjusted(design, task);
-    }
-    let mut placed = Vec::new();
-    if let Some(reference) = task.reference {
-        let is_real = composition.presentation.reference == Standard::RealCloth;
-        let what = if is_real {
-            cloth(design, reference)
-        } else {
-            named(design, reference)
+impl Placed {
+    /// What a trial needs, place by place.
+    pub fn all_of(design: &Design, task: &Task) -> Vec<Self> {
+        let composition = &design.composition;
+        if task.adapted.is_some() {
+            return adapted(design, task);
+        }
+        if matches!(composition.response.form, Form::Adjustment(_)) {
+            return adjusted(design, task);
+        }
+        let mut placed = Vec::new();
+        if let Some(reference) = task.reference {
+            let is_real = composition.presentation.reference == Standard::RealCloth;
+            let what = if is_real {
+                cloth(design, reference)
+            } else {
+                named(design, reference)
+            };
+            let is_target = composition.order.sets == Sets::Targets;
+            placed.push(Self::new(
+                if is_target { "target" } else { "standard" },
+                format!("{what}{}", lasting(composition)),
+            ));
+        }
+        if let [item] = task.items.as_slice() {
+            placed.push(Self::new("to be felt", named(design, *item)));
+            return placed;
+        }
+        let position = |(at, item): (usize, &usize)| {
+            let what = format!("{}{}", named(design, *item), lasting(composition));
+            Self::new(format!("{} {}", place(composition), at + 1), what)
         };
-        let is_target = composition.order.sets == Sets::Targets;
-        placed.push(Placed::new(
-            if is_target { "target" } else { "standard" },
-            format!("{what}{}", lasting(composition)),
-        ));
+        placed.extend(task.items.iter().enumerate().map(position));
+        placed
     }
-    if let [item] = task.items.as_slice() {
-        placed.push(Placed::new("to be felt", named(design, *item)));
-        return placed;
-    }
-    let position = |(at, item): (usize, &usize)| {
-        let what = format!("{}{}", named(design, *item), lasting(composition));
-        Placed::new(format!("{} {}", place(composition), at + 1), what)
-    };
-    placed.extend(task.items.iter().enumerate().map(position));
-    placed
 }
 
 /// Where or when a stimulus comes, but for its number.
@@ -174,7 +176,7 @@ mod tests {
 
     fn described(name: &str, task: &Task) -> Vec<String> {
         let design = Design::shipped(name).unwrap();
-        let placed = to_present(&design, task).into_iter();
+        let placed = Placed::all_of(&design, task).into_iter();
         placed
             .map(|placed| format!("{}: {}", placed.place, placed.what))
             .collect()
@@ -229,7 +231,7 @@ mod tests {
             right: Some(0),
             ..Task::default()
         };
-        let placed = to_present(&design, &task);
+        let placed = Placed::all_of(&design, &task);
         let expected = [
             Placed::new("interval 1", "denim for 2000 ms"),
             Placed::new("interval 2", "silk-crepe for 2000 ms"),

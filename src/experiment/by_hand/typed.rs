@@ -79,43 +79,45 @@ fn either(all: &[String]) -> String {
     }
 }
 
-/// The answer that a line holds.
-///
-/// # Errors
-/// It answers another question, or none: what is wrong, and how it is typed.
-pub fn typed_answer(design: &Design, task: &Task, line: &str) -> Result<Answer, AnswerError> {
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let described = Told {
-        line: line.trim(),
-        words: &words,
-        form: form(design),
-    };
-    let composition = &design.composition;
-    let n = composition.presentation.n;
-    let confidence = &composition.response.confidence;
-    let answer = match &composition.response.form {
-        Form::Choice => {
-            let position = described.position(0, n)?;
-            Answer::chosen(position, described.confidence(confidence)?)
-        }
-        Form::Words(_) | Form::SameDifferent => {
-            let known = composition.words().unwrap_or_default();
-            let at = described.word(0, &known)?;
-            Answer::chosen(at, described.confidence(confidence)?)
-        }
-        Form::Rank => described.order(n)?,
-        Form::BestWorst(_) => {
-            let ends = [described.position(0, n)?, described.position(1, n)?];
-            described.only(2)?;
-            AnswerValue::BestWorst(ends).into()
-        }
-        Form::Scales(scales) => described.ratings(scales)?,
-        Form::Number { .. } => AnswerValue::Number(described.numbers(1)?[0]).into(),
-        Form::Piles => described.piles(n)?,
-        Form::Adjustment(parameters) => described.adjusted(parameters)?,
-    };
-    composition.verdict(task, &answer)?;
-    Ok(answer)
+impl Answer {
+    /// The answer that a line holds.
+    ///
+    /// # Errors
+    /// It answers another question, or none: what is wrong, and how it is typed.
+    pub fn typed(design: &Design, task: &Task, line: &str) -> Result<Self, AnswerError> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let described = Told {
+            line: line.trim(),
+            words: &words,
+            form: form(design),
+        };
+        let composition = &design.composition;
+        let n = composition.presentation.n;
+        let confidence = &composition.response.confidence;
+        let answer = match &composition.response.form {
+            Form::Choice => {
+                let position = described.position(0, n)?;
+                Self::chosen(position, described.confidence(confidence)?)
+            }
+            Form::Words(_) | Form::SameDifferent => {
+                let known = composition.words().unwrap_or_default();
+                let at = described.word(0, &known)?;
+                Self::chosen(at, described.confidence(confidence)?)
+            }
+            Form::Rank => described.order(n)?,
+            Form::BestWorst(_) => {
+                let ends = [described.position(0, n)?, described.position(1, n)?];
+                described.only(2)?;
+                AnswerValue::BestWorst(ends).into()
+            }
+            Form::Scales(scales) => described.ratings(scales)?,
+            Form::Number { .. } => AnswerValue::Number(described.numbers(1)?[0]).into(),
+            Form::Piles => described.piles(n)?,
+            Form::Adjustment(parameters) => described.adjusted(parameters)?,
+        };
+        composition.verdict(task, &answer)?;
+        Ok(answer)
+    }
 }
 
 /// A line, its words, and how it should have been typed.
@@ -306,7 +308,7 @@ mod tests {
 
     fn typed(name: &str, line: &str) -> Result<Answer, String> {
         let (design, task) = first(name);
-        typed_answer(&design, &task, line).map_err(|error| error.to_string())
+        Answer::typed(&design, &task, line).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -372,9 +374,9 @@ mod tests {
         let design = Design::shipped("threshold-40").unwrap();
         let n = design.composition.presentation.n;
         let (_, task) = first("threshold-40");
-        let last = typed_answer(&design, &task, &n.to_string());
+        let last = Answer::typed(&design, &task, &n.to_string());
         assert_eq!(last, Ok(Answer::chosen(n - 1, None)));
-        assert!(typed_answer(&design, &task, &(n + 1).to_string()).is_err());
-        assert!(typed_answer(&design, &task, "0").is_err());
+        assert!(Answer::typed(&design, &task, &(n + 1).to_string()).is_err());
+        assert!(Answer::typed(&design, &task, "0").is_err());
     }
 }

@@ -24,7 +24,7 @@ pub struct Adaptation {
     /// What is sought.
     pub seeks: Seeks,
     /// How the next value is found.
-    pub track: Track,
+    pub(crate) track: Track,
     /// When a series ends.
     pub stopping: Stopping,
 }
@@ -72,7 +72,7 @@ impl Adaptation {
 
 /// How the next value is found.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Track {
+pub(crate) enum Track {
     /// Down after so many right answers, up after so many wrong ones.
     Staircase(StaircaseTrack),
     /// The value that is expected to teach most.
@@ -88,7 +88,7 @@ pub enum Track {
 
 /// QUEST+ over a grid of thresholds, widths and lapses.
 #[derive(Debug, Clone, PartialEq)]
-pub struct QuestPlusTrack {
+pub(crate) struct QuestPlusTrack {
     /// Step of values and thresholds over the range.
     pub(crate) grid: f64,
     /// Widths of the psychometric function, from 5 to 95 %: of the value for a threshold, natural
@@ -101,7 +101,7 @@ pub struct QuestPlusTrack {
 /// Interleaved staircases.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StaircaseTrack {
+pub(crate) struct StaircaseTrack {
     /// Wrong answers before it goes up.
     pub up: u32,
     /// Right answers before it goes down.
@@ -122,7 +122,7 @@ pub struct StaircaseTrack {
 
 impl StaircaseTrack {
     /// The rule of steps.
-    pub fn rule(&self) -> Rule {
+    pub(crate) fn rule(&self) -> Rule {
         Rule {
             n_up: self.up,
             m_down: self.down,
@@ -130,7 +130,7 @@ impl StaircaseTrack {
     }
 
     /// A series that begins at a value and stays between limits.
-    pub fn plan(&self, start: f64, limits: [f64; 2], stop: Stop) -> StaircasePlan {
+    pub(crate) fn plan(&self, start: f64, limits: [f64; 2], stop: Stop) -> StaircasePlan {
         let stage = |&down: &f64| Stage {
             up: down * self.up_over_down,
             down,

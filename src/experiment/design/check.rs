@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::check_adaptation::check_level;
 use super::check_composition::check_composition;
 use super::needs::{MOST_REPEATS, MOST_STIMULI, need, need_within};
-use super::{Design, Form, Medium, Source, is_name};
+use super::{Design, Form, Medium, Source};
 use selvedge_foundation::files::{Flaw, Place};
 
 type Checked = Result<(), Flaw>;
@@ -16,7 +16,7 @@ pub(super) fn check(design: &Design, n_named: usize) -> Checked {
     for (key, name) in [("study", &design.study), ("experiment", &design.experiment)] {
         let mend = "give 1 to 64 letters, digits, - and _: files are named by it";
         need(
-            is_name(name),
+            Design::is_name(name),
             ("", 0, key),
             format!("{key} is {name:?}"),
             mend,

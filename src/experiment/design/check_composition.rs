@@ -7,7 +7,7 @@ use super::check_presentation::{MOST_PLACES, MOST_SET, check_presentation};
 use super::needs::{MOST_REPEATS, need, need_within};
 use super::{
     Composition, Confidence, Design, Form, Response, Right, Scale, Sequence, Sets, Standard,
-    Tunable, TunedParameter, is_name,
+    Tunable, TunedParameter,
 };
 use crate::schedule::is_ranked;
 use selvedge_foundation::files::Flaw;
@@ -317,7 +317,8 @@ fn check_scales(scales: &[Scale]) -> Checked {
     need(is_any, ("response", 0, "kind"), "there is no scale", mend)?;
     let mut seen = BTreeSet::new();
     for (nth, scale) in scales.iter().enumerate() {
-        let is_key = is_name(&scale.key) && !scale.key.contains('-') && seen.insert(&scale.key);
+        let is_key =
+            Design::is_name(&scale.key) && !scale.key.contains('-') && seen.insert(&scale.key);
         let what = format!("a scale is called {:?}", scale.key);
         let mend = "give each a name of its own, of letters, digits and _";
         need(is_key, ("response.scale", nth, "key"), what, mend)?;

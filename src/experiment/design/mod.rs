@@ -23,7 +23,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use adaptation::Needs;
-pub use adaptation::{Adaptation, QuestPlusTrack, Seeks, StaircaseTrack, Stopping, Track};
+pub(crate) use adaptation::QuestPlusTrack;
+pub(crate) use adaptation::StaircaseTrack;
+pub(crate) use adaptation::Track;
+pub use adaptation::{Adaptation, Seeks, Stopping};
 pub(crate) use composition::Sequence;
 pub use composition::{
     Composition, Confidence, Form, Order, Presentation, Question, Response, Right, Sets, Shown,
@@ -32,7 +35,6 @@ pub use composition::{
 pub use kind::Kind;
 pub(crate) use parameter::Tunable;
 pub use parameter::{Scale, TunedParameter};
-pub use vocabulary::names_of;
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};
@@ -365,10 +367,12 @@ pub struct Subject {
     pub session: u32,
 }
 
-/// Whether a text may name a study, an experiment or a subject in names of files.
-pub fn is_name(text: &str) -> bool {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    !text.is_empty() && text.len() <= 64 && text.chars().all(is_plain)
+impl Design {
+    /// Whether a text may name a study, an experiment or a subject in names of files.
+    pub fn is_name(text: &str) -> bool {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        !text.is_empty() && text.len() <= 64 && text.chars().all(is_plain)
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! What trials present: where it lies, what is told of it, and what is played.
 
 use super::*;
-use crate::Adapted;
 use crate::Procedure;
 use crate::design::{Medium, Subject};
+use crate::trial::Adapted;
 use selvedge_engine::{Played, SequenceStep};
 use selvedge_render::RenderScene;
 use selvedge_render::scene::LoadedScene;
@@ -93,12 +93,15 @@ fn the_experimenter_lays_the_real_target_and_no_number_with_it() {
     let target = task.reference.unwrap();
     let layout = Layout::of(&design, &task);
     assert_eq!((layout.places.len(), layout.size_mm), (4, [240.0; 2]));
-    let laid = on_the_table(&design, &task);
+    let laid = Layout::on_the_table(&design, &task);
     assert_eq!(laid, [(None, design.stimuli[target].material.clone())]);
     let matching = Design::shipped("gain-matching").unwrap();
-    assert_eq!(on_the_table(&matching, &first_task(&matching)).len(), 1);
+    assert_eq!(
+        Layout::on_the_table(&matching, &first_task(&matching)).len(),
+        1
+    );
     let virtual_target = Design::shipped("ranking-virtual-target").unwrap();
-    assert!(on_the_table(&virtual_target, &task).is_empty());
+    assert!(Layout::on_the_table(&virtual_target, &task).is_empty());
 }
 
 #[test]

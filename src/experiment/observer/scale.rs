@@ -5,7 +5,7 @@
 //! same everywhere. A level is a whole step above nothing at its threshold, where two intervals
 //! are told apart three times in four; one step below it nothing is felt.
 
-use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
+use selvedge_textile::tactile::{Band, just_noticeable_db};
 
 /// Contactors that vibrate together: all of the array that the studies used.
 pub(super) const N_ACTIVE: usize = 24;
@@ -38,7 +38,7 @@ impl Jnd {
 
     /// How many just noticeable differences a level lies above nothing; 0 for what is not felt.
     pub fn steps(self, band: Band, level_db: f64) -> f64 {
-        let perceptual_level_db = level_db - detection_threshold_db(band, N_ACTIVE);
+        let perceptual_level_db = level_db - band.detection_threshold_db(N_ACTIVE);
         let at_threshold_db = self.at_db(band, 0.0);
         if perceptual_level_db.is_nan() || perceptual_level_db <= 0.0 {
             return (1.0 + perceptual_level_db / at_threshold_db).max(0.0);
@@ -84,7 +84,7 @@ mod tests {
     fn a_threshold_is_one_step_above_nothing() {
         for jnd in [Jnd::Published, Jnd::Fixed([2.0, 3.0])] {
             for band in Band::ALL {
-                let threshold_db = detection_threshold_db(band, N_ACTIVE);
+                let threshold_db = band.detection_threshold_db(N_ACTIVE);
                 assert_eq!(jnd.steps(band, threshold_db), 1.0);
                 assert_eq!(jnd.steps(band, threshold_db - 6.0), 0.0);
                 assert_eq!(jnd.steps(band, f64::NEG_INFINITY), 0.0);
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn steps_follow_the_logarithm_where_the_difference_falls_on_a_line() {
         // From 6 dB at threshold to 2.4 dB 20 dB above it: ln(6/2.4)/0.18 steps.
-        let level_db = detection_threshold_db(Band::Low, N_ACTIVE) + 20.0;
+        let level_db = Band::Low.detection_threshold_db(N_ACTIVE) + 20.0;
         let steps = Jnd::Published.steps(Band::Low, level_db);
         let expected = 1.0 + (6.0_f64 / 2.4).ln() / 0.18;
         assert!((steps - expected).abs() < 1e-6, "{steps} and {expected}");

@@ -7,10 +7,10 @@ use std::path::Path;
 use super::*;
 use crate::design::{Design, Source, Stimulus};
 use crate::{AnswerValue, Record, Simulation, simulated_subject};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::{factor_of_gain, level_db};
 use selvedge_statistics::{mean, spearman};
-use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
+use selvedge_textile::tactile::{Band, Levels, Tuning};
 
 /// Levels of the sixteen on a grid of 4 by 4, 6 dB apart; of others by their names.
 fn levels_of(ids: &[String], id: &str) -> Levels {
@@ -237,7 +237,7 @@ fn constant(reference: &str, least_db: f64, level_db: f64) -> Design {
 
 #[test]
 fn at_threshold_and_one_difference_above_a_pedestal_three_of_four_are_right() {
-    let threshold_db = detection_threshold_db(Band::Low, 24);
+    let threshold_db = Band::Low.detection_threshold_db(24);
     let pedestal_db = threshold_db + 30.0;
     for observer in [Observer::default(), fixed(1.5)] {
         let jnd_db = observer.jnd.at_db(Band::Low, 30.0);
@@ -419,7 +419,7 @@ fn what_no_observer_can_have_is_refused() {
 fn under_a_stylus_force_alone_is_silent_and_vibration_is_felt_within_the_arrays_limits() {
     let design = shipped("force-or-vibration");
     let library = design.open_library(Path::new(""), None).unwrap();
-    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    let stimuli = Progress::unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
     let felt_um: Vec<[f64; 2]> = (0..6).map(|item| stimuli.felt_um(item)).collect();
     for (nth, um) in felt_um.iter().enumerate() {
         let is_force = nth % 2 == 1;

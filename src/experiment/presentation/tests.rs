@@ -168,7 +168,7 @@ fn every_interval_is_played_to_its_end_and_its_onset_told() {
     let (track, value) = (0, 10.0);
     let task = Task {
         right: Some(0),
-        adapted: Some(crate::Adapted { track, value }),
+        adapted: Some(crate::trial::Adapted { track, value }),
         ..Task::default()
     };
     let steps = sequence(&design, &task);

@@ -8,7 +8,7 @@ use crate::ExperimentError;
 use crate::analysis::{Cell, Drawn, Section, Table, bars, called_real, cells};
 use crate::design::{Design, Stimulus};
 use selvedge_foundation::progress::Progress;
-use selvedge_statistics::variance::{Answer, Crossed, Effect, repeated_two_way};
+use selvedge_statistics::variance::{Answer, Crossed, Effect, Repeated};
 use selvedge_statistics::{Computed, Undefined, mean};
 
 const PAPER: &str = "Cai et al. 2021, phase 2";
@@ -107,7 +107,7 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
 
 fn signal(answers: &[Answer]) -> Computed<[f64; 2]> {
     let table = Crossed::of_answers(&["material", "condition"], answers)?;
-    let found = repeated_two_way(&table)?;
+    let found = Repeated::two_way(&table)?;
     let is_it = |effect: &&Effect| effect.name == "condition";
     let effect = found.effects.iter().find(is_it);
     let effect = effect.ok_or_else(|| Undefined::because("no effect of the condition"))?;

@@ -7,11 +7,11 @@ use super::studies::{Subjects, each_study};
 use crate::ExperimentError;
 use crate::analysis::{Drawn, MapDrawing, Section, Table, bars, cells, or_undefined, rank_trial};
 use crate::observer::Jnd;
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::level_db;
 use selvedge_statistics::mds::{Dissimilarities, Loss, Map, Mds, Null, NullKind, Ties};
 use selvedge_statistics::procrustes::Procrustes;
-use selvedge_statistics::properties::{BestTurn, bootstrap_ellipses};
+use selvedge_statistics::properties::{BestTurn, Ellipse};
 use selvedge_statistics::ranking::{MeanRanks, RankTrial};
 use selvedge_statistics::{Computed, Undefined, mean};
 use selvedge_textile::tactile::Band;
@@ -151,7 +151,7 @@ fn mapped(trials: Vec<RankTrial>, laid: &DesignWithStimuli, mds: &Mds) -> Comput
     let names: Vec<String> = laid.design.stimuli.iter().map(|s| s.id.clone()).collect();
     let ranks = MeanRanks::of(names.len(), &trials)?;
     let data = Dissimilarities::new(names, &ranks.dissimilarities())?;
-    let maps = unheard(|progress| mds.maps(&data, 1..=MOST_DIMENSIONS, progress));
+    let maps = Progress::unheard(|progress| mds.maps(&data, 1..=MOST_DIMENSIONS, progress));
     let maps = maps.map_err(|_stopped| Undefined::because("stopped"))?;
     let losses = maps.iter().map(|map| map.sstress).collect();
     let plane = maps.into_iter().find(|map| map.dims == 2);
@@ -232,7 +232,7 @@ fn figure_3b(found: &[Mapped], laid: &DesignWithStimuli) -> Computed<Drawn> {
         .map(|item| Ok(vec![middle(item, 0)?, middle(item, 1)?]))
         .collect();
     let points = points?;
-    let ellipses = bootstrap_ellipses(&points, &maps, 0.95)?;
+    let ellipses = Ellipse::of_bootstrap(&points, &maps, 0.95)?;
     let drawing = MapDrawing {
         names: &names,
         points: &points,

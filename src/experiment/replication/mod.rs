@@ -59,20 +59,22 @@ impl Papers {
     }
 }
 
-/// Simulates the papers' experiments with the shipped library.
-///
-/// # Errors
-/// The library cannot be read, or it was cancelled.
-pub fn replicate(
-    options: &Options,
-    progress: &mut Progress<'_>,
-) -> Result<Replication, ExperimentError> {
-    let options = &Options {
-        n_studies: options.n_studies.max(20),
-        ..options.clone()
-    };
-    let papers = progress.within([0.0, 0.1], |part| Papers::open(options, part))?;
-    progress.within([0.1, 1.0], |part| replicated(&papers, options, part))
+impl Replication {
+    /// Simulates the papers' experiments with the shipped library.
+    ///
+    /// # Errors
+    /// The library cannot be read, or it was cancelled.
+    pub fn simulate(
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ExperimentError> {
+        let options = &Options {
+            n_studies: options.n_studies.max(20),
+            ..options.clone()
+        };
+        let papers = progress.within([0.0, 0.1], |part| Papers::open(options, part))?;
+        progress.within([0.1, 1.0], |part| replicated(&papers, options, part))
+    }
 }
 
 fn replicated(
@@ -143,7 +145,7 @@ fn in_full(
         cache: options.cache.clone(),
         ..analysis::Options::default()
     };
-    let mut sections = analysis::analyse(&found, &how, progress)?.sections;
+    let mut sections = Analysis::of(&found, &how, progress)?.sections;
     for section in &mut sections {
         section.title = format!("One study in full. {}", section.title);
     }

@@ -8,7 +8,7 @@ use crate::ExperimentError;
 use crate::analysis::{
     Bar, Cell, Drawn, Section, Table, bars, cells, grade_weights, percent_of, triad_answer,
 };
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::progress::Progress;
 use selvedge_statistics::mds::{Dissimilarities, Elbow, Loss, Map, Mds, Null, Ties};
 use selvedge_statistics::ranking::{Grade, OddOneOut, TriadAnswer};
 use selvedge_statistics::{Computed, Undefined, mean};
@@ -147,7 +147,7 @@ fn found(subjects: &Subjects, laid: &DesignWithStimuli) -> Found {
     });
     let data = tally.and_then(|tally| Dissimilarities::new(names, &tally.distances()));
     let maps = data.and_then(|data| {
-        let maps = unheard(|progress| mds().maps(&data, 1..=MOST_DIMENSIONS, progress));
+        let maps = Progress::unheard(|progress| mds().maps(&data, 1..=MOST_DIMENSIONS, progress));
         maps.map_err(|_stopped| Undefined::because("stopped"))
     });
     Found {

@@ -7,9 +7,7 @@
 use crate::analysis::{Cell, Section, Table, cells, or_undefined};
 use selvedge_foundation::quantity::fixed;
 use selvedge_statistics::variance::partial_eta_squared;
-use selvedge_statistics::{
-    Computed, Outcome, Summary, TwoSamples, f_upper, one_sample_t, two_sample_t,
-};
+use selvedge_statistics::{Computed, Outcome, Summary, TwoSamples, f_upper, one_sample_t};
 
 /// A printed share, %.
 #[derive(Debug, Clone, Copy)]
@@ -250,7 +248,7 @@ fn between(of: impl Fn(&TwoSamples) -> f64) -> Computed<[f64; 2]> {
     let mut values = Vec::new();
     for a in corners(VIRTUAL) {
         for b in corners(REAL) {
-            values.push(of(&two_sample_t(&a, &b)?));
+            values.push(of(&TwoSamples::of(&a, &b)?));
         }
     }
     Ok(ends_of(&values))

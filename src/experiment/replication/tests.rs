@@ -3,7 +3,7 @@
 use super::ranking::crossing;
 use super::*;
 use crate::design::Design;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 fn small() -> Options {
     Options {
@@ -28,7 +28,7 @@ fn papers() -> Papers {
 }
 
 fn replicated_small() -> Replication {
-    unheard(|progress| replicated(&papers(), &small(), progress)).unwrap()
+    Progress::unheard(|progress| replicated(&papers(), &small(), progress)).unwrap()
 }
 
 fn found(quantity: &str, observer: &str, all: &Replication) -> Comparison {
@@ -124,7 +124,8 @@ fn a_replication_can_be_stopped() {
 fn what_chance_gives_is_known_for_every_number_of_dimensions() {
     let names: Vec<String> = (0..7).map(|at| format!("fabric-{at}")).collect();
     let mds = selvedge_statistics::mds::Mds::default();
-    let chance = unheard(|progress| maps::chance(&names, &mds, (4, 40), progress)).unwrap();
+    let chance =
+        Progress::unheard(|progress| maps::chance(&names, &mds, (4, 40), progress)).unwrap();
     let means: Vec<f64> = chance
         .iter()
         .map(selvedge_statistics::mds::Null::mean)

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use selvedge_foundation::files::{FileError, read, read_text, row_line, sha256_hex};
+use selvedge_foundation::files::{FileError, Journal, read, read_text, sha256_hex};
 
 /// The last row of a log, as the next one names it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl Chain {
         if let Some(last) = cells.last_mut() {
             last.clone_from(&self.before_sha256);
         }
-        row_line(&cells, path)
+        Journal::row_line(&cells, path)
     }
 }
 

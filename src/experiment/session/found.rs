@@ -50,27 +50,29 @@ pub struct Unread {
     pub error: ExperimentError,
 }
 
-/// Every session in a folder, by name, and the logs that cannot be read.
-///
-/// What a later version wrote, or what was damaged, does not keep the others from being read.
-/// Tables without a sidecar are no sessions, unless they begin as logs do.
-///
-/// # Errors
-/// The folder cannot be read.
-pub fn find_sessions(folder: &Path) -> Result<(Vec<Found>, Vec<Unread>), ExperimentError> {
-    let (mut found, mut unread) = (Vec::new(), Vec::new());
-    // A table that is damaged keeps no session from being read.
-    let participants = Participants::read(folder).unwrap_or_default();
-    for log in logs(folder)? {
-        match Found::read(&log) {
-            Ok(session) => found.push(Found {
-                participant: participants.find(&session.subject.pseudonym).cloned(),
-                ..session
-            }),
-            Err(error) => unread.push(Unread { log, error }),
+impl Found {
+    /// Every session in a folder, by name, and the logs that cannot be read.
+    ///
+    /// What a later version wrote, or what was damaged, does not keep the others from being read.
+    /// Tables without a sidecar are no sessions, unless they begin as logs do.
+    ///
+    /// # Errors
+    /// The folder cannot be read.
+    pub fn in_folder(folder: &Path) -> Result<(Vec<Self>, Vec<Unread>), ExperimentError> {
+        let (mut found, mut unread) = (Vec::new(), Vec::new());
+        // A table that is damaged keeps no session from being read.
+        let participants = Participants::read(folder).unwrap_or_default();
+        for log in logs(folder)? {
+            match Self::read(&log) {
+                Ok(session) => found.push(Self {
+                    participant: participants.find(&session.subject.pseudonym).cloned(),
+                    ..session
+                }),
+                Err(error) => unread.push(Unread { log, error }),
+            }
         }
+        Ok((found, unread))
     }
-    Ok((found, unread))
 }
 
 fn logs(folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {

@@ -24,16 +24,15 @@ use std::time::SystemTime;
 
 pub(crate) use files::make_folder;
 pub use files::{log_path, path_file, samples_file};
-pub use found::{Found, Unread, find_sessions};
+pub use found::{Found, Unread};
 pub use origin::Origin;
 pub use sidecar::{Opening, Sidecar};
-pub use verify::verify_stimuli;
-pub use verify::{Break, Verified, verify_folder};
+pub use verify::{Break, Verified};
 pub(crate) use whole::{unwritten, write_whole};
 
 use super::ExperimentError;
 use super::course::{Course, Step};
-use super::design::{Design, Subject, is_name};
+use super::design::{Design, Subject};
 use super::plan::FrozenPlan;
 use super::presentation::{Presentation, Validity};
 use super::record::{
@@ -373,7 +372,7 @@ fn never_begun(path: &Path, names: &[&str]) -> Result<Journal, FileError> {
 }
 
 fn check_pseudonym(pseudonym: &str) -> Result<(), ExperimentError> {
-    if is_name(pseudonym) {
+    if Design::is_name(pseudonym) {
         return Ok(());
     }
     let mend = "give 1 to 64 letters, digits, - and _: files are named by it, and no real name";

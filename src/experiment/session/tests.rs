@@ -90,7 +90,7 @@ fn every_shipped_design_can_be_held_to_its_end_and_read_back() {
         go_on(&mut session, 2000, &mut Random::new(1));
         assert_eq!(session.step(), Step::Finished, "{name}");
         assert!(session.progress().0 > 10, "{name}");
-        let found = find_sessions(&folder.0).unwrap().0;
+        let found = Found::in_folder(&folder.0).unwrap().0;
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].records.len(), session.n_rows(), "{name}");
         assert_eq!(
@@ -113,7 +113,7 @@ fn a_session_goes_on_as_if_it_had_never_stopped() {
     let mut session = Session::create(&whole.0, design.clone(), subject(), "none").unwrap();
     go_on(&mut session, 84, &mut Random::new(2));
     let trials = |folder: &Folder| -> Vec<Trial> {
-        let found = find_sessions(&folder.0).unwrap().0;
+        let found = Found::in_folder(&folder.0).unwrap().0;
         found[0]
             .records
             .iter()

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::chain::{Chain, lines};
 use super::sidecar::{Sidecar, schedule};
-use super::{Course, Found, find_sessions, path_file};
+use super::{Course, Found, path_file};
 use crate::design::Design;
 use crate::record::{MarkKind, Record, column_names, read_marks, trials as rows_of_trials};
 use crate::stimulus_hash::StimulusHashes;
@@ -45,32 +45,31 @@ impl fmt::Display for Break {
     }
 }
 
-/// What is wrong in a folder of sessions, log by log.
-///
-/// # Errors
-/// The folder cannot be read, or it was cancelled.
-pub fn verify_folder(
-    folder: &Path,
-    progress: &mut Progress<'_>,
-) -> Result<Verified, ExperimentError> {
-    let (mut found, unread) = find_sessions(folder)?;
-    verify_stimuli(&mut found, progress)?;
-    let n_logs = found.len() + unread.len();
-    let n_open = found.iter().filter(|one| !one.is_closed).count();
-    let n_broken = found.iter().filter(|one| !one.breaks.is_empty()).count() + unread.len();
-    let mut breaks: Vec<Break> = found.into_iter().flat_map(|one| one.breaks).collect();
-    breaks.extend(unread.into_iter().map(|one| Break {
-        log: one.log,
-        line: None,
-        what: one.error.to_string(),
-    }));
-    breaks.sort_by(|a, b| (&a.log, a.line).cmp(&(&b.log, b.line)));
-    Ok(Verified {
-        breaks,
-        n_logs,
-        n_broken,
-        n_open,
-    })
+impl Verified {
+    /// What is wrong in a folder of sessions, log by log.
+    ///
+    /// # Errors
+    /// The folder cannot be read, or it was cancelled.
+    pub fn of_folder(folder: &Path, progress: &mut Progress<'_>) -> Result<Self, ExperimentError> {
+        let (mut found, unread) = Found::in_folder(folder)?;
+        Found::verify_stimuli(&mut found, progress)?;
+        let n_logs = found.len() + unread.len();
+        let n_open = found.iter().filter(|one| !one.is_closed).count();
+        let n_broken = found.iter().filter(|one| !one.breaks.is_empty()).count() + unread.len();
+        let mut breaks: Vec<Break> = found.into_iter().flat_map(|one| one.breaks).collect();
+        breaks.extend(unread.into_iter().map(|one| Break {
+            log: one.log,
+            line: None,
+            what: one.error.to_string(),
+        }));
+        breaks.sort_by(|a, b| (&a.log, a.line).cmp(&(&b.log, b.line)));
+        Ok(Self {
+            breaks,
+            n_logs,
+            n_broken,
+            n_open,
+        })
+    }
 }
 
 /// What a look at a folder found.
@@ -86,36 +85,38 @@ pub struct Verified {
     pub n_open: usize,
 }
 
-/// Looks whether sessions were held with the textiles that are at hand now: of logs that name what
-/// their trials were made from, where the library of their design can be opened.
-///
-/// # Errors
-/// It was cancelled.
-pub fn verify_stimuli(
-    found: &mut [Found],
-    progress: &mut Progress<'_>,
-) -> Result<(), ExperimentError> {
-    let mut known: Vec<(Design, Option<PathBuf>, Option<StimulusHashes>)> = Vec::new();
-    for session in found.iter_mut().filter(|one| one.library_sha256.is_some()) {
-        let file = session.design_file.clone();
-        let folder = file.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let is_same = |(design, place, _): &(Design, Option<PathBuf>, _)| {
-            design.hash == session.design.hash && *place == folder
-        };
-        if !known.iter().any(is_same) {
-            let hashes = folder.as_deref().map_or(Ok(None), |folder| {
-                at_hand(&session.design, folder, progress)
-            })?;
-            known.push((session.design.clone(), folder.clone(), hashes));
+impl Found {
+    /// Looks whether sessions were held with the textiles that are at hand now: of logs that name what
+    /// their trials were made from, where the library of their design can be opened.
+    ///
+    /// # Errors
+    /// It was cancelled.
+    pub fn verify_stimuli(
+        found: &mut [Self],
+        progress: &mut Progress<'_>,
+    ) -> Result<(), ExperimentError> {
+        let mut known: Vec<(Design, Option<PathBuf>, Option<StimulusHashes>)> = Vec::new();
+        for session in found.iter_mut().filter(|one| one.library_sha256.is_some()) {
+            let file = session.design_file.clone();
+            let folder = file.as_deref().and_then(Path::parent).map(Path::to_owned);
+            let is_same = |(design, place, _): &(Design, Option<PathBuf>, _)| {
+                design.hash == session.design.hash && *place == folder
+            };
+            if !known.iter().any(is_same) {
+                let hashes = folder.as_deref().map_or(Ok(None), |folder| {
+                    at_hand(&session.design, folder, progress)
+                })?;
+                known.push((session.design.clone(), folder.clone(), hashes));
+            }
+            let is_same = |(design, place, _): &&(Design, Option<PathBuf>, _)| {
+                design.hash == session.design.hash && *place == folder
+            };
+            if let Some((.., Some(hashes))) = known.iter().find(is_same) {
+                session.compare_stimuli(hashes);
+            }
         }
-        let is_same = |(design, place, _): &&(Design, Option<PathBuf>, _)| {
-            design.hash == session.design.hash && *place == folder
-        };
-        if let Some((.., Some(hashes))) = known.iter().find(is_same) {
-            session.compare_stimuli(hashes);
-        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The textiles of a design that are at hand; `None` where its library cannot be opened, or has

@@ -5,9 +5,9 @@ use std::fs;
 use super::tests::{Folder, any_answer, circumstances};
 use super::*;
 use crate::StimulusHashes;
-use crate::analysis::{Options, analyse_folder};
+use crate::analysis::{Analysis, Options};
 use selvedge_foundation::numerics::Random;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_render::scene::PathRow;
 
 const CLOTH: &str = "study = \"cloth\"\nexperiment = \"odd\"\nmedium = \"real-cloth\"\nseed = 3\n\
@@ -343,7 +343,7 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
     for (name, spoil) in WAYS {
         let folder = Folder::new("spoilt");
         let logs = held(&folder);
-        let whole = unheard(|progress| verify_folder(&folder.0, progress)).unwrap();
+        let whole = Progress::unheard(|progress| Verified::of_folder(&folder.0, progress)).unwrap();
         assert_eq!(
             (whole.breaks, whole.n_broken, whole.n_open),
             (Vec::new(), 0, 0)
@@ -359,7 +359,7 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
             Spoil::Sidecar(how) => edit(&logs[0].with_extension("json"), how),
             Spoil::Files(how) => how(&logs[0]),
         }
-        let found = unheard(|progress| verify_folder(&folder.0, progress)).unwrap();
+        let found = Progress::unheard(|progress| Verified::of_folder(&folder.0, progress)).unwrap();
         assert_eq!(
             (found.n_logs, found.n_broken),
             (3, 1),
@@ -367,7 +367,8 @@ fn every_way_to_spoil_a_session_is_named_and_left_out() {
             found.breaks
         );
         assert!(found.breaks.iter().all(|one| one.log == logs[0]), "{name}");
-        let analysis = unheard(|progress| analyse_folder(&folder.0, &few, progress)).unwrap();
+        let analysis =
+            Progress::unheard(|progress| Analysis::of_folder(&folder.0, &few, progress)).unwrap();
         let page = analysis.page();
         let counted = page.lines().filter(|line| line.starts_with("| p01 | 1 |"));
         let is_counted = counted.clone().any(|line| line.contains("complete"));
@@ -385,7 +386,8 @@ fn a_session_with_other_textiles_than_those_at_hand_is_named_wherever_sessions_a
     let folder = Folder::new("textiles");
     let design = Design::shipped("odd-one-out").unwrap();
     let library = design.open_library(Path::new(""), None).unwrap();
-    let hashes = unheard(|progress| StimulusHashes::of_library(&design, &library, progress));
+    let hashes =
+        Progress::unheard(|progress| StimulusHashes::of_library(&design, &library, progress));
     let held_with = |nth: usize, library: String| {
         let subject = Subject {
             pseudonym: format!("p{nth:02}"),
@@ -397,7 +399,8 @@ fn a_session_with_other_textiles_than_those_at_hand_is_named_wherever_sessions_a
     };
     held_with(1, hashes.unwrap().all());
     held_with(2, "0".repeat(64));
-    let (found, _) = unheard(|progress| crate::analysis::sessions(&folder.0, progress)).unwrap();
+    let (found, _) =
+        Progress::unheard(|progress| crate::analysis::sessions(&folder.0, progress)).unwrap();
     assert_eq!(found[0].breaks, []);
     let [one] = &found[1].breaks[..] else {
         panic!("{:?}", found[1].breaks);

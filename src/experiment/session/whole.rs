@@ -9,7 +9,7 @@ use crate::ExperimentError;
 use crate::course::Course;
 use crate::design::{Design, Subject};
 use crate::record::{Mark, MarkKind, Record, SCHEMA_VERSION, column_names};
-use selvedge_foundation::files::{FileError, row_line, write_atomic};
+use selvedge_foundation::files::{FileError, Journal, write_atomic};
 
 /// Writes the files of a session, as they would be had it been held trial by trial: its log.
 ///
@@ -26,7 +26,7 @@ pub(crate) fn write_whole(
     let sidecar = Sidecar::of(design, subject, Course::begin(design, subject)?.procedure());
     let mut chain = sidecar.write(&log)?;
     let names = column_names(design, SCHEMA_VERSION);
-    let mut rows = row_line(&names, &log)?;
+    let mut rows = Journal::row_line(&names, &log)?;
     let mut add = |cells: Vec<String>| -> Result<(), FileError> {
         let line = chain.bound(cells, &log)?;
         chain.follow(line.strip_suffix(b"\n").unwrap_or(&line));

@@ -4,8 +4,8 @@ use std::fs;
 
 use super::*;
 use crate::observer::{Strategy, Weighting, tests::stimuli};
-use crate::session::{Circumstances, Session, find_sessions, tests::Folder};
-use selvedge_foundation::progress::unheard;
+use crate::session::{Circumstances, Found, Session, tests::Folder};
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::Library;
 
 fn simulation<'a>(
@@ -34,9 +34,10 @@ fn every_shipped_design_is_simulated_to_its_end_and_read_back() {
         };
         let place = folder.0.join(name);
         let simulation = simulation(&design, &stimuli, &observer);
-        let logs = unheard(|progress| simulation.write(&place, (2, 2), progress)).unwrap();
+        let logs =
+            Progress::unheard(|progress| simulation.write(&place, (2, 2), progress)).unwrap();
         assert_eq!(logs.len(), 4, "{name}");
-        for found in find_sessions(&place).unwrap().0 {
+        for found in Found::in_folder(&place).unwrap().0 {
             let records = simulation.records(&found.subject).unwrap();
             assert_eq!(
                 found.records, records,
@@ -62,7 +63,8 @@ fn the_same_seed_gives_the_same_bytes_and_another_gives_others() {
             seed,
             ..simulation(&design, &stimuli, &observer)
         };
-        let logs = unheard(|progress| simulation.write(&folder.0, (2, 1), progress)).unwrap();
+        let logs =
+            Progress::unheard(|progress| simulation.write(&folder.0, (2, 1), progress)).unwrap();
         let files = logs
             .iter()
             .flat_map(|log| [log.clone(), log.with_extension("json")]);
@@ -81,7 +83,7 @@ fn rows_are_those_of_a_session_that_is_held_trial_by_trial() {
     let (stimuli, observer) = (stimuli(&design), Observer::default());
     let simulation = simulation(&design, &stimuli, &observer);
     let (whole, held) = (Folder::new("whole-rows"), Folder::new("held-rows"));
-    let logs = unheard(|progress| simulation.write(&whole.0, (1, 1), progress)).unwrap();
+    let logs = Progress::unheard(|progress| simulation.write(&whole.0, (1, 1), progress)).unwrap();
     let subject = simulated_subject(0, 1);
     let mut session = Session::create(&held.0, design.clone(), subject.clone(), "none").unwrap();
     for record in simulation.records(&subject).unwrap() {
@@ -117,7 +119,8 @@ fn a_log_that_is_there_is_never_overwritten_and_nothing_beside_it_is_begun() {
     let (stimuli, observer) = (stimuli(&design), Observer::default());
     let simulation = simulation(&design, &stimuli, &observer);
     let folder = Folder::new("there");
-    let write = |n: usize| unheard(|progress| simulation.write(&folder.0, (n, 1), progress));
+    let write =
+        |n: usize| Progress::unheard(|progress| simulation.write(&folder.0, (n, 1), progress));
     let logs = write(1).unwrap();
     let before = fs::read(&logs[0]).unwrap();
     let error = write(3).unwrap_err().to_string();
@@ -132,7 +135,7 @@ fn a_textile_that_is_not_in_the_library_is_named_in_one_line() {
     let text = text.replace("polyamide-taffeta", "felt-hat");
     let design = Design::from_toml(&text, Path::new("a.toml")).unwrap();
     let library = Library::shipped().unwrap();
-    let error = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap_err();
+    let error = Progress::unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap_err();
     let described = error.to_string();
     assert!(described.contains("no textile \"felt-hat\""), "{described}");
     assert_eq!(described.lines().count(), 1, "{described}");
@@ -144,7 +147,7 @@ fn a_textile_that_is_not_in_the_library_is_named_in_one_line() {
 fn what_the_shipped_ranking_gives() {
     let library = Library::shipped().unwrap();
     let design = Design::shipped("ranking-virtual-target").unwrap();
-    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    let stimuli = Progress::unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
     for weighting in [Weighting::Equal, Weighting::Learnt] {
         for looks in [1, 2, 4, 8, 16] {
             for strategy in Strategy::ALL {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use selvedge_foundation::files::{FileError, Journal, Table, row_line};
+use selvedge_foundation::files::{FileError, Journal, Table};
 use selvedge_foundation::quantity::rfc3339;
 
 use super::{
@@ -158,5 +158,5 @@ fn opened(path: &Path, columns: &[&str]) -> Result<(Journal, Option<Table>), Fil
 }
 
 fn line(cells: &[String]) -> Result<Vec<u8>, String> {
-    row_line(cells, Path::new("")).map_err(|error| error.to_string())
+    Journal::row_line(cells, Path::new("")).map_err(|error| error.to_string())
 }

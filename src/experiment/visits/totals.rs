@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use selvedge_foundation::files::{FileError, Table, TableWriter, read_text, write_atomic};
-use selvedge_statistics::{Sides, Summary, exact_binomial, wilson};
+use selvedge_statistics::{Interval, Sides, Summary, exact_binomial};
 
 use super::{
     COMMENT_COLUMNS, COMMENTS, GUESS_COLUMNS, GUESSES, N_CLOTHS, VISIT_COLUMNS, VISITS, VisitEnd,
@@ -149,7 +149,7 @@ impl Rows {
         chance: Option<f64>,
     ) -> Result<(), FileError> {
         self.0.text(what).number(hits).number(n);
-        let Ok(interval) = wilson(hits as u64, n as u64, LEVEL) else {
+        let Ok(interval) = Interval::wilson(hits as u64, n as u64, LEVEL) else {
             return self.empty(5);
         };
         self.0

@@ -71,23 +71,25 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// Packs members into an archive, deflated, all dated 1980: the same members, the same bytes.
-///
-/// # Errors
-/// More than a ZIP archive can hold.
-pub fn pack(members: &[(&str, &[u8])], path: &Path) -> Result<Vec<u8>, FileError> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default()
-        .compression_method(zip::CompressionMethod::Deflated)
-        .last_modified_time(zip::DateTime::default());
-    for (name, bytes) in members {
-        let started = zip.start_file(*name, options);
-        started.map_err(|error| wrong(path, &error))?;
-        let written = zip.write_all(bytes);
-        written.map_err(|error| wrong(path, &ZipError::Io(error)))?;
+impl Archive<'_> {
+    /// Packs members into an archive, deflated, all dated 1980: the same members, the same bytes.
+    ///
+    /// # Errors
+    /// More than a ZIP archive can hold.
+    pub fn pack(members: &[(&str, &[u8])], path: &Path) -> Result<Vec<u8>, FileError> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        let options = SimpleFileOptions::default()
+            .compression_method(zip::CompressionMethod::Deflated)
+            .last_modified_time(zip::DateTime::default());
+        for (name, bytes) in members {
+            let started = zip.start_file(*name, options);
+            started.map_err(|error| wrong(path, &error))?;
+            let written = zip.write_all(bytes);
+            written.map_err(|error| wrong(path, &ZipError::Io(error)))?;
+        }
+        let packed = zip.finish().map_err(|error| wrong(path, &error))?;
+        Ok(packed.into_inner())
     }
-    let packed = zip.finish().map_err(|error| wrong(path, &error))?;
-    Ok(packed.into_inner())
 }
 
 fn wrong(path: &Path, error: &ZipError) -> FileError {
@@ -103,11 +105,12 @@ mod tests {
     fn members_come_back_and_a_bomb_is_stopped() {
         let zeros = vec![0_u8; 1 << 20];
         let path = Path::new("a.zip");
-        let packed = pack(&[("sub/main.xml", b"<a/>"), ("data.bin", &zeros)], path).unwrap();
+        let packed =
+            Archive::pack(&[("sub/main.xml", b"<a/>"), ("data.bin", &zeros)], path).unwrap();
         assert!(packed.len() < 4096, "{}", packed.len());
         assert_eq!(
             packed,
-            pack(&[("sub/main.xml", b"<a/>"), ("data.bin", &zeros)], path).unwrap()
+            Archive::pack(&[("sub/main.xml", b"<a/>"), ("data.bin", &zeros)], path).unwrap()
         );
         let mut archive = Archive::open(&packed, path).unwrap();
         assert_eq!(archive.find("main.xml").unwrap(), "sub/main.xml");

@@ -104,7 +104,7 @@ impl Journal {
     /// The number of cells is not that of the columns.
     pub fn append(&mut self, cells: &[&str]) -> Result<(), FileError> {
         assert_eq!(cells.len(), self.n_columns, "cells of a row");
-        let line = row_line(cells, &self.path)?;
+        let line = Self::row_line(cells, &self.path)?;
         self.append_lines(&line)
     }
 
@@ -136,19 +136,19 @@ impl Journal {
     pub fn path(&self) -> &Path {
         &self.path
     }
-}
 
-/// A row as its line, with its line break; line breaks in cells become blanks.
-///
-/// # Errors
-/// None that a text in memory could have.
-pub fn row_line<T: AsRef<str>>(cells: &[T], path: &Path) -> Result<Vec<u8>, FileError> {
-    let mut writer = TableWriter::continued(Vec::new(), path);
-    for cell in cells {
-        writer.text(&cell.as_ref().replace(['\n', '\r'], " "));
+    /// A row as its line, with its line break; line breaks in cells become blanks.
+    ///
+    /// # Errors
+    /// None that a text in memory could have.
+    pub fn row_line<T: AsRef<str>>(cells: &[T], path: &Path) -> Result<Vec<u8>, FileError> {
+        let mut writer = TableWriter::continued(Vec::new(), path);
+        for cell in cells {
+            writer.text(&cell.as_ref().replace(['\n', '\r'], " "));
+        }
+        writer.end_row()?;
+        writer.finish()
     }
-    writer.end_row()?;
-    writer.finish()
 }
 
 /// Opens a file to add to it, for this process alone.

@@ -33,29 +33,24 @@ mod staged;
 mod table;
 mod xml;
 
-pub use archive::{Archive, pack};
+pub use archive::Archive;
 pub use atomic::write_atomic;
 pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
 pub use edited_keys::{EditedKeys, KeyPlace};
 pub use flaw::{Flaw, Place};
-pub use gray16::{
-    GrayImage, decode_gray_png, decode_gray_tiff, encode_gray_png, encode_gray_tiff, gray_values,
-};
+pub use gray16::GrayImage;
 pub use hash::{md5_hex, sha256_hex};
 pub use inflate::{deflate, inflate};
-pub use journal::{Journal, Reopened, row_line};
+pub use journal::{Journal, Reopened};
 pub use json::{from_json_str, to_json_string};
 pub use keys::{
     KeyValue, Keys, keys_from_str, keys_to_string, known_keys_from_str, lay_over, line_of_key,
     set_value, take_text, value_at,
 };
 pub use matrix::SquareTable;
-pub use npy::{NPY_MAGIC, NumberArray, decode_npy, encode_npy};
-pub use picture::{
-    Rgb8Image, Rgb16Image, decode_picture, decode_png, encode_png, encode_png_rgba,
-    encode_png_small, is_picture,
-};
+pub use npy::NumberArray;
+pub use picture::{Rgb8Image, Rgb16Image, encode_png_rgba, is_picture};
 pub use place::{free_bytes, is_accessible};
 pub use read::{read, read_known, read_text};
 pub use staged::Staged;

@@ -4,9 +4,6 @@ use std::path::Path;
 
 use super::{ByteReader, FileError, Number};
 
-/// How an NPY file begins.
-pub const NPY_MAGIC: &[u8] = b"\x93NUMPY";
-
 /// An array of one or two dimensions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NumberArray {
@@ -18,75 +15,82 @@ pub struct NumberArray {
     pub values: Vec<f64>,
 }
 
-/// Decodes an array of at most `most` numbers. `path` only names it in errors.
-///
-/// # Errors
-/// What is no NPY file, is cut short, has more dimensions or numbers, or holds no numbers.
-pub fn decode_npy(bytes: &[u8], path: &Path, most: usize) -> Result<NumberArray, FileError> {
-    let mend = "save a plain array of numbers with one or two dimensions";
-    let wrong = |what: String| FileError::whole(path, what, mend);
-    let mut reader = ByteReader::new(bytes, path);
-    if reader.take(NPY_MAGIC.len())? != NPY_MAGIC {
-        return Err(wrong("this is no NPY file".to_owned()));
-    }
-    let [major, _minor] = reader.array()?;
-    let n_header = if major == 1 {
-        usize::from(reader.u16()?)
-    } else {
-        usize::try_from(reader.u32()?).unwrap_or(usize::MAX)
-    };
-    let header = reader.latin1(n_header)?;
-    let descr = value_of(&header, "descr").unwrap_or_default();
-    let (number, is_big_endian) = number_of(descr.trim_matches(['\'', '"']))
-        .ok_or_else(|| wrong(format!("numbers of kind {descr} are not read")))?;
-    let is_fortran = value_of(&header, "fortran_order") == Some("True");
-    let shape = shape_of(&header)
-        .ok_or_else(|| wrong("the shape is not stated or not of one or two dimensions".into()))?;
-    let [n_rows, n_columns] = shape;
-    let n = n_rows.checked_mul(n_columns).filter(|&n| n <= most);
-    let n = n.ok_or_else(|| wrong(format!("{n_rows} × {n_columns} numbers are too many")))?;
-    // At most `most` × 8 bytes, and no more than the file holds.
-    let data = reader.take(n * number.size())?;
-    let values = if is_big_endian {
-        let mut swapped = data.to_vec();
-        swapped
-            .chunks_exact_mut(number.size())
-            .for_each(<[u8]>::reverse);
-        number.decode(&swapped)
-    } else {
-        number.decode(data)
-    };
-    let values = if is_fortran {
-        let place = |i: usize| values[(i % n_columns) * n_rows + i / n_columns];
-        (0..n).map(place).collect()
-    } else {
-        values
-    };
-    Ok(NumberArray {
-        n_rows,
-        n_columns,
-        values,
-    })
-}
+impl NumberArray {
+    /// How an NPY file begins.
+    pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Encodes rows of numbers as float64.
-pub fn encode_npy(array: &NumberArray) -> Vec<u8> {
-    let NumberArray {
-        n_rows, n_columns, ..
-    } = array;
-    let mut header =
-        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({n_rows}, {n_columns}), }}");
-    // Magic, version and length are 10 bytes; the data begin at a multiple of 64.
-    while (header.len() + 11) % 64 != 0 {
-        header.push(' ');
+    /// Decodes an array of at most `most` numbers. `path` only names it in errors.
+    ///
+    /// # Errors
+    /// What is no NPY file, is cut short, has more dimensions or numbers, or holds no numbers.
+    pub fn from_npy(bytes: &[u8], path: &Path, most: usize) -> Result<Self, FileError> {
+        let mend = "save a plain array of numbers with one or two dimensions";
+        let wrong = |what: String| FileError::whole(path, what, mend);
+        let mut reader = ByteReader::new(bytes, path);
+        if reader.take(Self::MAGIC.len())? != Self::MAGIC {
+            return Err(wrong("this is no NPY file".to_owned()));
+        }
+        let [major, _minor] = reader.array()?;
+        let n_header = if major == 1 {
+            usize::from(reader.u16()?)
+        } else {
+            usize::try_from(reader.u32()?).unwrap_or(usize::MAX)
+        };
+        let header = reader.latin1(n_header)?;
+        let descr = value_of(&header, "descr").unwrap_or_default();
+        let (number, is_big_endian) = number_of(descr.trim_matches(['\'', '"']))
+            .ok_or_else(|| wrong(format!("numbers of kind {descr} are not read")))?;
+        let is_fortran = value_of(&header, "fortran_order") == Some("True");
+        let shape = shape_of(&header).ok_or_else(|| {
+            wrong("the shape is not stated or not of one or two dimensions".into())
+        })?;
+        let [n_rows, n_columns] = shape;
+        let n = n_rows.checked_mul(n_columns).filter(|&n| n <= most);
+        let n = n.ok_or_else(|| wrong(format!("{n_rows} × {n_columns} numbers are too many")))?;
+        // At most `most` × 8 bytes, and no more than the file holds.
+        let data = reader.take(n * number.size())?;
+        let values = if is_big_endian {
+            let mut swapped = data.to_vec();
+            swapped
+                .chunks_exact_mut(number.size())
+                .for_each(<[u8]>::reverse);
+            number.decode(&swapped)
+        } else {
+            number.decode(data)
+        };
+        let values = if is_fortran {
+            let place = |i: usize| values[(i % n_columns) * n_rows + i / n_columns];
+            (0..n).map(place).collect()
+        } else {
+            values
+        };
+        Ok(Self {
+            n_rows,
+            n_columns,
+            values,
+        })
     }
-    header.push('\n');
-    let mut bytes = NPY_MAGIC.to_vec();
-    bytes.extend([1, 0]);
-    bytes.extend(u16::try_from(header.len()).unwrap_or(0).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(Number::F64.encode(array.values.iter().copied()));
-    bytes
+
+    /// Encodes rows of numbers as float64.
+    pub fn to_npy(&self) -> Vec<u8> {
+        let Self {
+            n_rows, n_columns, ..
+        } = self;
+        let mut header = format!(
+            "{{'descr': '<f8', 'fortran_order': False, 'shape': ({n_rows}, {n_columns}), }}"
+        );
+        // Magic, version and length are 10 bytes; the data begin at a multiple of 64.
+        while (header.len() + 11) % 64 != 0 {
+            header.push(' ');
+        }
+        header.push('\n');
+        let mut bytes = Self::MAGIC.to_vec();
+        bytes.extend([1, 0]);
+        bytes.extend(u16::try_from(header.len()).unwrap_or(0).to_le_bytes());
+        bytes.extend(header.as_bytes());
+        bytes.extend(Number::F64.encode(self.values.iter().copied()));
+        bytes
+    }
 }
 
 /// The text after a key of the header, up to the comma that ends it.
@@ -146,7 +150,7 @@ mod tests {
     }
 
     fn read(bytes: &[u8]) -> Result<NumberArray, FileError> {
-        decode_npy(bytes, Path::new(PATH), 1000)
+        NumberArray::from_npy(bytes, Path::new(PATH), 1000)
     }
 
     #[test]
@@ -156,7 +160,7 @@ mod tests {
             n_columns: 3,
             values: vec![1.0, -2.5, 0.1, 4.0, 5.0, 1e-9],
         };
-        let bytes = encode_npy(&array);
+        let bytes = array.to_npy();
         assert_eq!((bytes.len() - 48) % 64, 0);
         assert_eq!(read(&bytes).unwrap(), array);
     }

@@ -57,41 +57,45 @@ pub fn is_picture(head: &[u8]) -> bool {
     image::guess_format(head).is_ok_and(|format| FORMATS.contains(&format))
 }
 
-/// Decodes a picture of at most 64 million pixels to red, green and blue of 16 bits. `path` only
-/// names it in errors.
-///
-/// # Errors
-/// What is no such picture, is damaged, or is larger.
-pub fn decode_picture(bytes: &[u8], path: &Path) -> Result<Rgb16Image, FileError> {
-    let mend = "give an intact PNG, JPEG, TIFF or BMP picture";
-    let picture = decode(bytes, path, &FORMATS, mend)?;
-    let n_bits = match picture {
-        DynamicImage::ImageLuma8(_)
-        | DynamicImage::ImageLumaA8(_)
-        | DynamicImage::ImageRgb8(_)
-        | DynamicImage::ImageRgba8(_) => 8,
-        _ => 16,
-    };
-    Ok(Rgb16Image {
-        width: picture.width() as usize,
-        height: picture.height() as usize,
-        pixels: pixels(picture),
-        n_bits,
-    })
+impl Rgb16Image {
+    /// Decodes a picture of at most 64 million pixels to red, green and blue of 16 bits. `path` only
+    /// names it in errors.
+    ///
+    /// # Errors
+    /// What is no such picture, is damaged, or is larger.
+    pub fn decode(bytes: &[u8], path: &Path) -> Result<Self, FileError> {
+        let mend = "give an intact PNG, JPEG, TIFF or BMP picture";
+        let picture = decode(bytes, path, &FORMATS, mend)?;
+        let n_bits = match picture {
+            DynamicImage::ImageLuma8(_)
+            | DynamicImage::ImageLumaA8(_)
+            | DynamicImage::ImageRgb8(_)
+            | DynamicImage::ImageRgba8(_) => 8,
+            _ => 16,
+        };
+        Ok(Self {
+            width: picture.width() as usize,
+            height: picture.height() as usize,
+            pixels: pixels(picture),
+            n_bits,
+        })
+    }
 }
 
-/// Decodes a PNG of any colour type to 8-bit RGB. `path` only names it in errors.
-///
-/// # Errors
-/// What is no PNG, is damaged, or has more than 64 million pixels.
-pub fn decode_png(bytes: &[u8], path: &Path) -> Result<Rgb8Image, FileError> {
-    let formats = [ImageFormat::Png];
-    let picture = decode(bytes, path, &formats, "give an intact PNG picture")?.into_rgb8();
-    Ok(Rgb8Image {
-        width: picture.width() as usize,
-        height: picture.height() as usize,
-        pixels: picture.pixels().map(|pixel| pixel.0).collect(),
-    })
+impl Rgb8Image {
+    /// Decodes a PNG of any colour type to 8-bit RGB. `path` only names it in errors.
+    ///
+    /// # Errors
+    /// What is no PNG, is damaged, or has more than 64 million pixels.
+    pub fn from_png(bytes: &[u8], path: &Path) -> Result<Self, FileError> {
+        let formats = [ImageFormat::Png];
+        let picture = decode(bytes, path, &formats, "give an intact PNG picture")?.into_rgb8();
+        Ok(Self {
+            width: picture.width() as usize,
+            height: picture.height() as usize,
+            pixels: picture.pixels().map(|pixel| pixel.0).collect(),
+        })
+    }
 }
 
 fn decode(
@@ -129,14 +133,16 @@ fn damage(error: &ImageError) -> &'static str {
     }
 }
 
-/// Encodes a picture as PNG.
-pub fn encode_png(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError> {
-    encode_rgb(picture, Packing::default(), path)
-}
+impl Rgb8Image {
+    /// Encodes a picture as PNG.
+    pub fn to_png(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        encode_rgb(self, Packing::default(), path)
+    }
 
-/// Encodes a picture of few colours as PNG, slowly and small: the best compression, no filter.
-pub fn encode_png_small(picture: &Rgb8Image, path: &Path) -> Result<Vec<u8>, FileError> {
-    encode_rgb(picture, (CompressionType::Best, FilterType::NoFilter), path)
+    /// Encodes a picture of few colours as PNG, slowly and small: the best compression, no filter.
+    pub fn to_small_png(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        encode_rgb(self, (CompressionType::Best, FilterType::NoFilter), path)
+    }
 }
 
 /// Encodes rows of 8-bit red, green, blue and alpha (not premultiplied) as PNG.
@@ -209,7 +215,7 @@ fn on_white([red, green, blue, alpha]: [u16; 4]) -> [u16; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::{GrayImage, decode_gray_png, encode_gray_png, encode_gray_tiff};
+    use crate::files::GrayImage;
 
     #[test]
     fn pixels_survive_encoding_and_decoding() {
@@ -226,8 +232,11 @@ mod tests {
             height: 2,
             pixels,
         };
-        let png = encode_png(&picture, Path::new("a.png")).unwrap();
-        assert_eq!(decode_png(&png, Path::new("a.png")).unwrap(), picture);
+        let png = picture.to_png(Path::new("a.png")).unwrap();
+        assert_eq!(
+            Rgb8Image::from_png(&png, Path::new("a.png")).unwrap(),
+            picture
+        );
     }
 
     #[test]
@@ -237,9 +246,9 @@ mod tests {
             height: 40,
             pixels: vec![[7, 90, 200]; 1600],
         };
-        let png = encode_png(&picture, Path::new("a.png")).unwrap();
+        let png = picture.to_png(Path::new("a.png")).unwrap();
         for bytes in [b"not a picture".as_slice(), &png[..png.len() / 2], b""] {
-            let error = decode_png(bytes, Path::new("b.png"))
+            let error = Rgb8Image::from_png(bytes, Path::new("b.png"))
                 .unwrap_err()
                 .to_string();
             assert!(error.starts_with("b.png: this "), "{error}");
@@ -259,11 +268,8 @@ mod tests {
             white: u16::MAX,
             texts: Vec::new(),
         };
-        for bytes in [
-            encode_gray_png(&grey, at()).unwrap(),
-            encode_gray_tiff(&grey, at()).unwrap(),
-        ] {
-            let read = decode_picture(&bytes, at()).unwrap();
+        for bytes in [grey.to_png(at()).unwrap(), grey.to_tiff(at()).unwrap()] {
+            let read = Rgb16Image::decode(&bytes, at()).unwrap();
             assert_eq!(read.pixels, [[0; 3], [12_345; 3], [65_535; 3]]);
             assert_eq!(read.n_bits, 16);
         }
@@ -272,7 +278,7 @@ mod tests {
             height: 2,
             pixels: vec![[0, 128, 255], [1, 2, 3]],
         };
-        let read = decode_picture(&encode_png(&colours, at()).unwrap(), at()).unwrap();
+        let read = Rgb16Image::decode(&colours.to_png(at()).unwrap(), at()).unwrap();
         assert_eq!(read.pixels, [[0, 32_896, 65_535], [257, 514, 771]]);
         assert_eq!((read.width, read.height, read.n_bits), (1, 2, 8));
     }
@@ -309,13 +315,13 @@ mod tests {
 
     #[test]
     fn a_size_beyond_the_limit_is_refused_before_it_is_decoded() {
-        let error = decode_picture(&bitmap(20_000, 20_000), at())
+        let error = Rgb16Image::decode(&bitmap(20_000, 20_000), at())
             .unwrap_err()
             .to_string();
         let expected =
             "a.png: 20000 × 20000 pixels where 1 to 64 million are read; scale it down or cut it";
         assert_eq!(error, expected);
-        let read = decode_picture(&bitmap(1, 1), at()).unwrap();
+        let read = Rgb16Image::decode(&bitmap(1, 1), at()).unwrap();
         assert_eq!(read.pixels.len(), 1);
     }
 
@@ -328,7 +334,7 @@ mod tests {
                 .map(|i| [i.to_le_bytes()[0], 7, i.to_le_bytes()[1]])
                 .collect(),
         };
-        let png = encode_png(&picture, at()).unwrap();
+        let png = picture.to_png(at()).unwrap();
         for bytes in [
             &png[..png.len() / 2],
             b"GIF89a....",
@@ -336,7 +342,7 @@ mod tests {
             b"",
             &png[..20],
         ] {
-            let error = decode_picture(bytes, at()).unwrap_err().to_string();
+            let error = Rgb16Image::decode(bytes, at()).unwrap_err().to_string();
             assert!(
                 error.starts_with("a.png: this ") && error.ends_with("BMP picture"),
                 "{error}"
@@ -351,14 +357,14 @@ mod tests {
             height: 7,
             pixels: vec![[7, 90, 200]; 63],
         };
-        let png = encode_png(&picture, at()).unwrap();
+        let png = picture.to_png(at()).unwrap();
         for at_byte in 8..png.len() {
             let mut broken = png.clone();
             broken[at_byte] ^= 0x20;
             for error in [
-                decode_png(&broken, at()).err(),
-                decode_picture(&broken, at()).err(),
-                decode_gray_png(&broken, at(), 63).err(),
+                Rgb8Image::from_png(&broken, at()).err(),
+                Rgb16Image::decode(&broken, at()).err(),
+                GrayImage::from_png(&broken, at(), 63).err(),
             ] {
                 let error = error.map_or_else(String::new, |error| error.to_string());
                 let foreign = ["{", "(", "ChunkType", "Crc", "IHDR", "Some"];
@@ -372,10 +378,10 @@ mod tests {
         #[test]
         fn no_damage_makes_the_decoder_panic(at in 0..200_usize, byte in proptest::num::u8::ANY) {
             let picture = Rgb8Image { width: 9, height: 7, pixels: vec![[7, 90, 200]; 63] };
-            let mut png = encode_png(&picture, Path::new("a.png")).unwrap();
+            let mut png = picture.to_png(Path::new("a.png")).unwrap();
             let at = at % png.len();
             png[at] = byte;
-            if let Ok(decoded) = decode_png(&png, Path::new("a.png")) {
+            if let Ok(decoded) = Rgb8Image::from_png(&png, Path::new("a.png")) {
                 proptest::prop_assert_eq!(decoded.pixels.len(), decoded.width * decoded.height);
             }
         }

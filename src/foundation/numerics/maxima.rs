@@ -9,35 +9,37 @@ pub struct QuadraticPeak {
     pub height: f64,
 }
 
-/// The peak of nine samples, rows first, whose middle one is a local maximum. Where the surface has
-/// no top within a sample of the middle (a ridge, a plateau), the middle itself.
-pub fn quadratic_peak(values: &[[f64; 3]; 3]) -> QuadraticPeak {
-    let middle = values[1][1];
-    let column = |i: usize| values[0][i] + values[1][i] + values[2][i];
-    let row = |i: usize| values[i].iter().sum::<f64>();
-    let (gx, gy) = ((column(2) - column(0)) / 6.0, (row(2) - row(0)) / 6.0);
-    let hxx = (column(0) - 2.0 * column(1) + column(2)) / 3.0;
-    let hyy = (row(0) - 2.0 * row(1) + row(2)) / 3.0;
-    let hxy = (values[0][0] + values[2][2] - values[0][2] - values[2][0]) / 4.0;
-    let determinant = hxx * hyy - hxy * hxy;
-    let offset = [
-        (hxy * gy - hyy * gx) / determinant,
-        (hxy * gx - hxx * gy) / determinant,
-    ];
-    let is_top = hxx < 0.0 && determinant > 0.0 && offset.iter().all(|x| x.abs() <= 1.0);
-    if !is_top {
-        return QuadraticPeak {
-            offset: [0.0; 2],
-            height: middle,
-        };
-    }
-    // The constant of the least-squares surface.
-    let sum: f64 = values.iter().flatten().sum();
-    let flat = sum / 9.0 - (hxx + hyy) / 3.0;
-    let height = flat + 0.5 * (gx * offset[0] + gy * offset[1]);
-    QuadraticPeak {
-        offset,
-        height: height.max(middle),
+impl QuadraticPeak {
+    /// The peak of nine samples, rows first, whose middle one is a local maximum. Where the surface has
+    /// no top within a sample of the middle (a ridge, a plateau), the middle itself.
+    pub fn of(values: &[[f64; 3]; 3]) -> Self {
+        let middle = values[1][1];
+        let column = |i: usize| values[0][i] + values[1][i] + values[2][i];
+        let row = |i: usize| values[i].iter().sum::<f64>();
+        let (gx, gy) = ((column(2) - column(0)) / 6.0, (row(2) - row(0)) / 6.0);
+        let hxx = (column(0) - 2.0 * column(1) + column(2)) / 3.0;
+        let hyy = (row(0) - 2.0 * row(1) + row(2)) / 3.0;
+        let hxy = (values[0][0] + values[2][2] - values[0][2] - values[2][0]) / 4.0;
+        let determinant = hxx * hyy - hxy * hxy;
+        let offset = [
+            (hxy * gy - hyy * gx) / determinant,
+            (hxy * gx - hxx * gy) / determinant,
+        ];
+        let is_top = hxx < 0.0 && determinant > 0.0 && offset.iter().all(|x| x.abs() <= 1.0);
+        if !is_top {
+            return Self {
+                offset: [0.0; 2],
+                height: middle,
+            };
+        }
+        // The constant of the least-squares surface.
+        let sum: f64 = values.iter().flatten().sum();
+        let flat = sum / 9.0 - (hxx + hyy) / 3.0;
+        let height = flat + 0.5 * (gx * offset[0] + gy * offset[1]);
+        Self {
+            offset,
+            height: height.max(middle),
+        }
     }
 }
 
@@ -53,7 +55,7 @@ mod tests {
             0.9 - 0.2 * u * u - 0.1 * v * v + 0.05 * u * v
         };
         let row = |y: f64| [-1.0, 0.0, 1.0].map(|x| surface(x, y));
-        let peak = quadratic_peak(&[row(-1.0), row(0.0), row(1.0)]);
+        let peak = QuadraticPeak::of(&[row(-1.0), row(0.0), row(1.0)]);
         assert!((peak.offset[0] - place[0]).abs() < 1e-12, "{peak:?}");
         assert!((peak.offset[1] - place[1]).abs() < 1e-12, "{peak:?}");
         assert!((peak.height - 0.9).abs() < 1e-12, "{peak:?}");
@@ -61,9 +63,9 @@ mod tests {
 
     #[test]
     fn a_plateau_and_a_ridge_stay_at_their_sample() {
-        let flat = quadratic_peak(&[[0.5; 3]; 3]);
+        let flat = QuadraticPeak::of(&[[0.5; 3]; 3]);
         assert_eq!((flat.offset, flat.height), ([0.0; 2], 0.5));
-        let ridge = quadratic_peak(&[[0.0, 0.5, 0.0]; 3]);
+        let ridge = QuadraticPeak::of(&[[0.0, 0.5, 0.0]; 3]);
         assert_eq!((ridge.offset, ridge.height), ([0.0; 2], 0.5));
     }
 }

@@ -22,12 +22,11 @@ pub use correlation::overlap_autocorrelation;
 pub use fft::{ChirpTransform, Complex, RealTransform};
 pub use grid::Grid;
 pub use maxima::QuadraticPeak;
-pub use maxima::quadratic_peak;
 pub use parallel::{in_pieces, n_threads};
 pub use plane::PlaneTransform;
 pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
-pub use simplex::{Lowest, lowest};
+pub use simplex::Lowest;
 pub use stft::{GriffinLim, StartPhases, Stft};
 pub use whole::{Whole, to_whole};
 

@@ -12,35 +12,37 @@ pub struct Lowest<const N: usize> {
 /// Evaluations before a search is given up.
 const MAX_EVALUATIONS: usize = 2000;
 
-/// Walks downhill from `start` with a simplex whose edges are `steps`, until its values agree to
-/// about 1e-12; infinite values are walls.
-///
-/// A simplex can shrink onto a slope: search again from what was found where that matters.
-pub fn lowest<const N: usize>(
-    mut function: impl FnMut(&[f64; N]) -> f64,
-    start: [f64; N],
-    steps: [f64; N],
-) -> Lowest<N> {
-    let mut at = |place: [f64; N]| {
-        let value = function(&place);
-        let value = if value.is_nan() { f64::INFINITY } else { value };
-        Lowest { place, value }
-    };
-    let mut corners = vec![at(start)];
-    for (axis, step) in steps.iter().enumerate() {
-        let mut place = start;
-        place[axis] += step;
-        corners.push(at(place));
-    }
-    for _ in 0..MAX_EVALUATIONS {
-        corners.sort_by(|a, b| a.value.total_cmp(&b.value));
-        if is_small(&corners, &steps) {
-            break;
+impl<const N: usize> Lowest<N> {
+    /// Walks downhill from `start` with a simplex whose edges are `steps`, until its values agree to
+    /// about 1e-12; infinite values are walls.
+    ///
+    /// A simplex can shrink onto a slope: search again from what was found where that matters.
+    pub fn of(
+        mut function: impl FnMut(&[f64; N]) -> f64,
+        start: [f64; N],
+        steps: [f64; N],
+    ) -> Self {
+        let mut at = |place: [f64; N]| {
+            let value = function(&place);
+            let value = if value.is_nan() { f64::INFINITY } else { value };
+            Self { place, value }
+        };
+        let mut corners = vec![at(start)];
+        for (axis, step) in steps.iter().enumerate() {
+            let mut place = start;
+            place[axis] += step;
+            corners.push(at(place));
         }
-        improve(&mut corners, &mut at);
+        for _ in 0..MAX_EVALUATIONS {
+            corners.sort_by(|a, b| a.value.total_cmp(&b.value));
+            if is_small(&corners, &steps) {
+                break;
+            }
+            improve(&mut corners, &mut at);
+        }
+        corners.sort_by(|a, b| a.value.total_cmp(&b.value));
+        corners[0]
     }
-    corners.sort_by(|a, b| a.value.total_cmp(&b.value));
-    corners[0]
 }
 
 /// Whether neither values nor places differ any more.
@@ -106,7 +108,7 @@ mod tests {
     #[test]
     fn the_bottom_of_a_bent_valley_is_found() {
         let rosenbrock = |p: &[f64; 2]| (1.0 - p[0]).powi(2) + 100.0 * (p[1] - p[0] * p[0]).powi(2);
-        let found = lowest(rosenbrock, [-1.2, 1.0], [0.5, 0.5]);
+        let found = Lowest::of(rosenbrock, [-1.2, 1.0], [0.5, 0.5]);
         assert!((found.place[0] - 1.0).abs() < 1e-5, "{found:?}");
         assert!((found.place[1] - 1.0).abs() < 1e-5, "{found:?}");
     }
@@ -118,7 +120,7 @@ mod tests {
             let sum: f64 = p.iter().map(|x| x * x).sum();
             if inside { sum } else { f64::NAN }
         };
-        let found = lowest(walled, [2.0, 1.0, -1.0], [0.3; 3]);
+        let found = Lowest::of(walled, [2.0, 1.0, -1.0], [0.3; 3]);
         assert!(
             found.place[0] > 0.5 && found.value < 0.2501 + 0.02,
             "{found:?}"

@@ -4,7 +4,7 @@
 use super::learn::Network as _;
 use super::*;
 use crate::example::{Example, Split, all_taken};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 fn small(method: Method) -> Lesson {
     Lesson {
@@ -27,9 +27,9 @@ fn learning_goes_on_where_it_was_broken_off_to_the_same_bytes() {
     for method in Method::ALL {
         let lesson = small(method);
         let mut whole = Learning::begin(lesson, &examples);
-        let first = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        let first = Progress::unheard(|progress| whole.round(&examples, progress)).unwrap();
         let checkpoint = whole.checkpoint();
-        let second = unheard(|progress| whole.round(&examples, progress)).unwrap();
+        let second = Progress::unheard(|progress| whole.round(&examples, progress)).unwrap();
         assert!(
             second.spectra < first.spectra,
             "{method:?}: {first:?}, {second:?}"
@@ -37,7 +37,7 @@ fn learning_goes_on_where_it_was_broken_off_to_the_same_bytes() {
         let mut resumed = Learning::resume(lesson, &examples, &checkpoint).unwrap();
         assert_eq!(resumed.n_rounds_done(), 1);
         assert_eq!(
-            unheard(|progress| resumed.round(&examples, progress)).unwrap(),
+            Progress::unheard(|progress| resumed.round(&examples, progress)).unwrap(),
             second
         );
         let [a, b] = [&whole, &resumed].map(|l| l.network().predict(&examples[0]).trace);

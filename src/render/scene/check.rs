@@ -10,7 +10,7 @@ use super::{Display, Geometry, PlacedTextile, Scene};
 use selvedge_foundation::files::{Flaw, Place};
 use selvedge_foundation::geometry::{Displacement, Point};
 use selvedge_textile::elsewhere;
-use selvedge_textile::tactile::{Filters, Tuning, check_gain};
+use selvedge_textile::tactile::{Filters, Tuning};
 
 /// How to mend a gain whose error does not say.
 const FINITE: &str = "give a finite number";
@@ -166,7 +166,7 @@ fn tuning_flaw((table, nth): (&'static str, usize), tuning: &Tuning) -> Option<F
 }
 
 fn gain_flaw(place: Place, gain_db: f64) -> Option<Flaw> {
-    check_gain(place.2, gain_db)
+    Tuning::check_gain(place.2, gain_db)
         .err()
         .map(|error| Flaw::described(place, &error.to_string(), FINITE))
 }

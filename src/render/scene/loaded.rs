@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::{PlacedTextile, Scene, SceneError};
 use selvedge_foundation::files::{self, FileError};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::tactile::{Filters, Levels, Tuning};
 use selvedge_textile::{BuildCache, Library, Textile, TextileError, elsewhere, is_of_the_program};
 
@@ -100,7 +100,7 @@ impl LoadedScene {
                 fresh.push(id.clone());
             }
         }
-        let fresh = unheard(|progress| self.library.load_all(&fresh, progress))?;
+        let fresh = Progress::unheard(|progress| self.library.load_all(&fresh, progress))?;
         let find = |placed: &PlacedTextile| {
             let mut known = fresh.iter().chain(&self.textiles);
             known
@@ -350,7 +350,7 @@ mod tests {
     fn a_scene_places_textiles_of_several_libraries_and_moves_with_the_folder_beside_it() {
         let scratch = selvedge_scratch::ScratchFolder::made("several");
         let folder = scratch.join("own");
-        let files = selvedge_textile::files_of(&Library::shipped().unwrap(), "denim").unwrap();
+        let files = Library::shipped().unwrap().files_of("denim").unwrap();
         selvedge_textile::write(&files, &folder.join("mine")).unwrap();
         let path = scratch.join("a.scene.toml");
         let place = |id: &str| {

@@ -32,7 +32,7 @@ pub(crate) use stop::Reached;
 pub use stop::Stop;
 
 use super::Computed;
-use super::psychometric::{Block, blocks};
+use super::psychometric::Block;
 use crate::Undefined;
 
 /// One trial of an adaptive procedure.
@@ -62,7 +62,7 @@ pub trait Procedure {
 
     /// The trials so far by presented stimulus, for a fit.
     fn blocks(&self) -> Vec<Block> {
-        blocks(
+        Block::of_trials(
             self.trials()
                 .iter()
                 .map(|trial| (trial.presented, trial.is_right)),

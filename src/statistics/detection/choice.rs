@@ -2,27 +2,24 @@
 //! have no z, what is found of one subject, and how a relation is turned round.
 
 use crate::{Computed, Interval};
+use selvedge_foundation::named;
 use selvedge_foundation::numerics::to_whole;
 
-/// What is done about shares of 0 and 1, whose z is infinite.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Correction {
-    /// (count + ½)/(trials + 1) (Hautus 1995).
-    #[default]
-    LogLinear,
-    /// 1/(2N) for 0 and 1 − 1/(2N) for 1 (Macmillan & Kaplan 1985); other shares as they are.
-    Clip,
+named! {
+    /// What is done about shares of 0 and 1, whose z is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Correction {
+        /// (count + ½)/(trials + 1) (Hautus 1995).
+        #[default]
+        LogLinear = "log-linear",
+        /// 1/(2N) for 0 and 1 − 1/(2N) for 1 (Macmillan & Kaplan 1985); other shares as they are.
+        Clip = "1/(2N)",
+    }
+    /// Its name in a table.
+    pub fn name;
 }
 
 impl Correction {
-    /// Its name in a table.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::LogLinear => "log-linear",
-            Self::Clip => "1/(2N)",
-        }
-    }
-
     /// The share as it is corrected.
     pub(crate) fn share(self, count: u64, trials: u64) -> f64 {
         let (k, n) = (count as f64, trials as f64);

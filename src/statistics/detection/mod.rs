@@ -3,7 +3,7 @@
 //! Distances are d′: the difference of the means of two normal distributions in units of their
 //! common standard deviation. Pooling subjects before the transformation makes d′ too small, so
 //! each subject has a d′ of its own; the mean of these is biased where trials are few, so a group
-//! has one from all answers ([`Relation::group`], [`group_yes_no`]).
+//! has one from all answers ([`Relation::group`], [`GroupDPrime::of_yes_no`]).
 
 mod choice;
 mod forced_choice;
@@ -17,8 +17,7 @@ pub(crate) use choice::inverted;
 pub use choice::{Choice, Correction};
 pub(crate) use forced_choice::choice_share;
 pub(crate) use matching::abx_share;
-pub use matching::same_different;
 pub use relation::{GroupDPrime, Relation};
-pub use roc::{Roc, roc};
+pub use roc::Roc;
 pub(crate) use triangle::triangle_share;
-pub use yes_no::{Answers, YesNo, group_yes_no, yes_no};
+pub use yes_no::{Answers, YesNo};

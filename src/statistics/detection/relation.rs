@@ -4,7 +4,6 @@
 use super::choice::{Choice, Correction, inverted};
 use super::{abx_share, choice_share, triangle_share};
 use crate::distribution::t_quantile_upper;
-use crate::interval::wilson;
 use crate::{Computed, Interval, Summary, Undefined, undefined};
 
 const LEVEL: f64 = 0.95;
@@ -112,7 +111,7 @@ impl Relation {
     /// # Errors
     /// No trials, more right than trials, or as [`Self::share`].
     pub fn choice(self, right: u64, trials: u64, correction: Correction) -> Computed<Choice> {
-        let ends = wilson(right, trials, LEVEL)?;
+        let ends = Interval::wilson(right, trials, LEVEL)?;
         let is_extreme = right == 0 || right == trials;
         let share = if is_extreme {
             correction.share(right, trials)

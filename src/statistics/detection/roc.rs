@@ -22,56 +22,58 @@ pub struct Roc {
     pub d_a: Computed,
 }
 
-/// From how often each rating was given, `sure it is not` first, to signals and to other trials.
-///
-/// # Errors
-/// Fewer than two ratings, lists of different lengths, no trials of one kind.
-pub fn roc(signals: &[u64], others: &[u64]) -> Computed<Roc> {
-    if signals.len() != others.len() || signals.len() < 2 {
-        let (a, b) = (signals.len(), others.len());
-        let reason = format!("{a} and {b} ratings: two or more of each are needed");
-        return undefined(reason);
+impl Roc {
+    /// From how often each rating was given, `sure it is not` first, to signals and to other trials.
+    ///
+    /// # Errors
+    /// Fewer than two ratings, lists of different lengths, no trials of one kind.
+    pub fn of(signals: &[u64], others: &[u64]) -> Computed<Self> {
+        if signals.len() != others.len() || signals.len() < 2 {
+            let (a, b) = (signals.len(), others.len());
+            let reason = format!("{a} and {b} ratings: two or more of each are needed");
+            return undefined(reason);
+        }
+        let n: [u64; 2] = [signals.iter().sum(), others.iter().sum()];
+        if n.contains(&0) {
+            let reason = format!("{} signals and {} other trials give no curve", n[0], n[1]);
+            return undefined(reason);
+        }
+        let [n_signals, n_others] = n.map(|n| n as f64);
+        // Of each rating: how much of the other kind lies below it, ties half.
+        let (of_signals, of_others) = (shares_below(others), shares_below(signals));
+        let area = weighted_mean(&of_signals, signals);
+        let spread = |values: &[f64], counts: &[u64], mean: f64, n: f64| {
+            let both = values.iter().zip(counts);
+            let squares: f64 = both.map(|(v, &c)| c as f64 * (v - mean).powi(2)).sum();
+            let is_enough = n > 1.0;
+            is_enough
+                .then(|| squares / (n - 1.0) / n)
+                .ok_or_else(|| Undefined::because("one trial of a kind alone"))
+        };
+        let se = spread(&of_signals, signals, area, n_signals).and_then(|variance| {
+            let variance = variance + spread(&of_others, others, 1.0 - area, n_others)?;
+            let is_spread = variance > 0.0;
+            is_spread
+                .then(|| variance.sqrt())
+                .ok_or_else(|| Undefined::because("ratings without overlap: no spread of the area"))
+        });
+        let level = 0.95;
+        let z = normal_quantile(0.5 + 0.5 * level)?;
+        let interval = se
+            .clone()
+            .map(|se| Interval::new([(area - z * se).max(0.0), (area + z * se).min(1.0)], level));
+        let d_a = normal_quantile(area)
+            .map(|z| std::f64::consts::SQRT_2 * z)
+            .map_err(|_infinite| Undefined::because(format!("an area of {area} has no finite d′")));
+        Ok(Self {
+            points: points(signals, others, n),
+            n,
+            area,
+            se,
+            interval,
+            d_a,
+        })
     }
-    let n: [u64; 2] = [signals.iter().sum(), others.iter().sum()];
-    if n.contains(&0) {
-        let reason = format!("{} signals and {} other trials give no curve", n[0], n[1]);
-        return undefined(reason);
-    }
-    let [n_signals, n_others] = n.map(|n| n as f64);
-    // Of each rating: how much of the other kind lies below it, ties half.
-    let (of_signals, of_others) = (shares_below(others), shares_below(signals));
-    let area = weighted_mean(&of_signals, signals);
-    let spread = |values: &[f64], counts: &[u64], mean: f64, n: f64| {
-        let both = values.iter().zip(counts);
-        let squares: f64 = both.map(|(v, &c)| c as f64 * (v - mean).powi(2)).sum();
-        let is_enough = n > 1.0;
-        is_enough
-            .then(|| squares / (n - 1.0) / n)
-            .ok_or_else(|| Undefined::because("one trial of a kind alone"))
-    };
-    let se = spread(&of_signals, signals, area, n_signals).and_then(|variance| {
-        let variance = variance + spread(&of_others, others, 1.0 - area, n_others)?;
-        let is_spread = variance > 0.0;
-        is_spread
-            .then(|| variance.sqrt())
-            .ok_or_else(|| Undefined::because("ratings without overlap: no spread of the area"))
-    });
-    let level = 0.95;
-    let z = normal_quantile(0.5 + 0.5 * level)?;
-    let interval = se
-        .clone()
-        .map(|se| Interval::new([(area - z * se).max(0.0), (area + z * se).min(1.0)], level));
-    let d_a = normal_quantile(area)
-        .map(|z| std::f64::consts::SQRT_2 * z)
-        .map_err(|_infinite| Undefined::because(format!("an area of {area} has no finite d′")));
-    Ok(Roc {
-        points: points(signals, others, n),
-        n,
-        area,
-        se,
-        interval,
-        d_a,
-    })
 }
 
 fn points(signals: &[u64], others: &[u64], n: [u64; 2]) -> Vec<[f64; 2]> {
@@ -114,7 +116,7 @@ mod tests {
     #[test]
     fn the_area_is_that_of_the_trapezia_and_of_all_pairs() -> Computed<()> {
         let (signals, others) = ([2, 3, 5, 10], [9, 5, 4, 2]);
-        let found = roc(&signals, &others)?;
+        let found = Roc::of(&signals, &others)?;
         let trapezia: f64 = found
             .points
             .windows(2)
@@ -149,7 +151,7 @@ mod tests {
         };
         let (mut areas, mut stated) = (Vec::new(), 0.0);
         for _ in 0..1000 {
-            let found = roc(&rated(d), &rated(0.0))?;
+            let found = Roc::of(&rated(d), &rated(0.0))?;
             areas.push(found.area);
             stated += found.se?.powi(2) / 1000.0;
         }
@@ -169,18 +171,18 @@ mod tests {
 
     #[test]
     fn ratings_that_say_nothing_or_everything_are_told_apart() -> Computed<()> {
-        let nothing = roc(&[0, 20], &[0, 20])?;
+        let nothing = Roc::of(&[0, 20], &[0, 20])?;
         assert_eq!(nothing.area, 0.5);
         assert!(nothing.se.is_err(), "all answers equal");
-        let everything = roc(&[0, 20], &[20, 0])?;
+        let everything = Roc::of(&[0, 20], &[20, 0])?;
         assert_eq!(everything.area, 1.0);
         assert!(
             everything.se.is_err() && everything.d_a.is_err(),
             "no overlap"
         );
-        assert!(roc(&[1, 2], &[0, 0]).is_err(), "one kind");
-        assert!(roc(&[1], &[1]).is_err(), "one rating");
-        assert!(roc(&[1, 2], &[1, 2, 3]).is_err(), "lengths");
+        assert!(Roc::of(&[1, 2], &[0, 0]).is_err(), "one kind");
+        assert!(Roc::of(&[1], &[1]).is_err(), "one rating");
+        assert!(Roc::of(&[1, 2], &[1, 2, 3]).is_err(), "lengths");
         Ok(())
     }
 }

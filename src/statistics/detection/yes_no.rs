@@ -44,80 +44,85 @@ pub struct YesNo {
     pub interval: Interval,
 }
 
-/// d′, c and ln β of one subject (Macmillan & Creelman 2005). The log-linear correction enters
-/// every share, as Hautus advises; the clip only those of 0 and 1.
-///
-/// # Errors
-/// No trials of one kind, more answers than trials.
-pub fn yes_no(answers: Answers, correction: Correction) -> Computed<YesNo> {
-    let Answers {
-        hits,
-        n_signal,
-        false_alarms,
-        n_noise,
-    } = answers;
-    if n_signal == 0 || n_noise == 0 || hits > n_signal || false_alarms > n_noise {
-        return undefined(format!(
-            "{hits} of {n_signal} signals and {false_alarms} of {n_noise} others give no d′"
-        ));
+impl YesNo {
+    /// d′, c and ln β of one subject (Macmillan & Creelman 2005). The log-linear correction enters
+    /// every share, as Hautus advises; the clip only those of 0 and 1.
+    ///
+    /// # Errors
+    /// No trials of one kind, more answers than trials.
+    pub fn of(answers: Answers, correction: Correction) -> Computed<Self> {
+        let Answers {
+            hits,
+            n_signal,
+            false_alarms,
+            n_noise,
+        } = answers;
+        if n_signal == 0 || n_noise == 0 || hits > n_signal || false_alarms > n_noise {
+            return undefined(format!(
+                "{hits} of {n_signal} signals and {false_alarms} of {n_noise} others give no d′"
+            ));
+        }
+        let hit_rate = correction.share(hits, n_signal);
+        let false_alarm_rate = correction.share(false_alarms, n_noise);
+        let (z_hit, z_false) = (
+            normal_quantile(hit_rate)?,
+            normal_quantile(false_alarm_rate)?,
+        );
+        let (d_prime, criterion) = (z_hit - z_false, -0.5 * (z_hit + z_false));
+        let part = |share: f64, z: f64, n: u64| {
+            share * (1.0 - share) / (n as f64 * normal_density(z).powi(2))
+        };
+        let variance = part(hit_rate, z_hit, n_signal) + part(false_alarm_rate, z_false, n_noise);
+        let level = 0.95;
+        let half = normal_quantile(0.5 + 0.5 * level)? * variance.sqrt();
+        let plain = |count: u64, n: u64| normal_quantile(count as f64 / n as f64);
+        let uncorrected_d_prime = plain(hits, n_signal)
+            .and_then(|z_hit| Ok(z_hit - plain(false_alarms, n_noise)?))
+            .map_err(|_infinite| Undefined::because("a share of 0 or 1 has no z"));
+        Ok(Self {
+            answers,
+            correction,
+            hit_rate,
+            false_alarm_rate,
+            d_prime,
+            criterion,
+            ln_beta: criterion * d_prime,
+            uncorrected_d_prime,
+            variance,
+            interval: Interval::about(d_prime, half, level),
+        })
     }
-    let hit_rate = correction.share(hits, n_signal);
-    let false_alarm_rate = correction.share(false_alarms, n_noise);
-    let (z_hit, z_false) = (
-        normal_quantile(hit_rate)?,
-        normal_quantile(false_alarm_rate)?,
-    );
-    let (d_prime, criterion) = (z_hit - z_false, -0.5 * (z_hit + z_false));
-    let part =
-        |share: f64, z: f64, n: u64| share * (1.0 - share) / (n as f64 * normal_density(z).powi(2));
-    let variance = part(hit_rate, z_hit, n_signal) + part(false_alarm_rate, z_false, n_noise);
-    let level = 0.95;
-    let half = normal_quantile(0.5 + 0.5 * level)? * variance.sqrt();
-    let plain = |count: u64, n: u64| normal_quantile(count as f64 / n as f64);
-    let uncorrected_d_prime = plain(hits, n_signal)
-        .and_then(|z_hit| Ok(z_hit - plain(false_alarms, n_noise)?))
-        .map_err(|_infinite| Undefined::because("a share of 0 or 1 has no z"));
-    Ok(YesNo {
-        answers,
-        correction,
-        hit_rate,
-        false_alarm_rate,
-        d_prime,
-        criterion,
-        ln_beta: criterion * d_prime,
-        uncorrected_d_prime,
-        variance,
-        interval: Interval::about(d_prime, half, level),
-    })
 }
 
-/// d′ of a group, from the answers of each subject.
-///
-/// The mean of subjects' own d′ is too small where trials are few: the correction draws shares to
-/// one half, 5 % at d′ = 2.7 of 16 trials each. Here both rates are means over subjects,
-/// uncorrected, and z of each is less what subjects who differ bend it by, as in
-/// [`super::Relation::group`]. The interval is Student's, of what every subject's rates move it by.
-///
-/// # Errors
-/// Fewer than two subjects, one without two trials of each kind, a rate that is 0 or 1 in all.
-pub fn group_yes_no(subjects: &[Answers]) -> Computed<GroupDPrime> {
-    let rates = |of: &dyn Fn(&Answers) -> [u64; 2]| {
-        let counts: Vec<[u64; 2]> = subjects.iter().map(of).collect();
-        Rate::of(&counts)
-    };
-    let hits = rates(&|own| [own.hits, own.n_signal])?;
-    let alarms = rates(&|own| [own.false_alarms, own.n_noise])?;
-    let apart: Vec<f64> = hits.z.iter().zip(&alarms.z).map(|(h, f)| h - f).collect();
-    let apart = Summary::of(&apart)?;
-    let mean = hits.middle - alarms.middle;
-    let variance = apart.sd * apart.sd - hits.by_chance - alarms.by_chance;
-    let t = t_quantile_upper(0.025, subjects.len() as f64 - 1.0)?;
-    Ok(GroupDPrime {
-        mean,
-        spread: variance.max(0.0).sqrt(),
-        interval: Interval::about(mean, t * apart.se, 0.95),
-        se: apart.se,
-    })
+impl GroupDPrime {
+    /// d′ of a group, from the answers of each subject.
+    ///
+    /// The mean of subjects' own d′ is too small where trials are few: the correction draws shares to
+    /// one half, 5 % at d′ = 2.7 of 16 trials each. Here both rates are means over subjects,
+    /// uncorrected, and z of each is less what subjects who differ bend it by, as in
+    /// [`super::Relation::group`]. The interval is Student's, of what every subject's rates move it by.
+    ///
+    /// # Errors
+    /// Fewer than two subjects, one without two trials of each kind, a rate that is 0 or 1 in all.
+    pub fn of_yes_no(subjects: &[Answers]) -> Computed<Self> {
+        let rates = |of: &dyn Fn(&Answers) -> [u64; 2]| {
+            let counts: Vec<[u64; 2]> = subjects.iter().map(of).collect();
+            Rate::of(&counts)
+        };
+        let hits = rates(&|own| [own.hits, own.n_signal])?;
+        let alarms = rates(&|own| [own.false_alarms, own.n_noise])?;
+        let apart: Vec<f64> = hits.z.iter().zip(&alarms.z).map(|(h, f)| h - f).collect();
+        let apart = Summary::of(&apart)?;
+        let mean = hits.middle - alarms.middle;
+        let variance = apart.sd * apart.sd - hits.by_chance - alarms.by_chance;
+        let t = t_quantile_upper(0.025, subjects.len() as f64 - 1.0)?;
+        Ok(Self {
+            mean,
+            spread: variance.max(0.0).sqrt(),
+            interval: Interval::about(mean, t * apart.se, 0.95),
+            se: apart.se,
+        })
+    }
 }
 
 /// One rate over subjects, as z.
@@ -166,7 +171,7 @@ mod tests {
     #[test]
     fn a_hit_rate_above_and_a_false_alarm_rate_below_by_one_sigma_are_two_apart() -> Computed<()> {
         // Φ(1) of a hundred thousand, rounded to whole answers.
-        let found = yes_no(answers(84_134, 15_866, 100_000), Correction::Clip)?;
+        let found = YesNo::of(answers(84_134, 15_866, 100_000), Correction::Clip)?;
         assert!((found.d_prime - 2.0).abs() < 1e-4, "{found:?}");
         assert!(
             found.criterion.abs() < 1e-10 && found.ln_beta.abs() < 1e-10,
@@ -178,7 +183,7 @@ mod tests {
 
     #[test]
     fn bias_is_the_likelihood_ratio_at_the_criterion() -> Computed<()> {
-        let found = yes_no(answers(60, 10, 100), Correction::LogLinear)?;
+        let found = YesNo::of(answers(60, 10, 100), Correction::LogLinear)?;
         let place = -normal_quantile(found.false_alarm_rate)?;
         let ratio = normal_density(place - found.d_prime) / normal_density(place);
         assert!((found.ln_beta - ratio.ln()).abs() < 1e-12, "{found:?}");
@@ -188,11 +193,11 @@ mod tests {
 
     #[test]
     fn extreme_shares_are_corrected_and_the_result_says_how() -> Computed<()> {
-        let logged = yes_no(answers(20, 0, 20), Correction::default())?;
+        let logged = YesNo::of(answers(20, 0, 20), Correction::default())?;
         assert_eq!(logged.correction.name(), "log-linear");
         assert_eq!(logged.hit_rate, 20.5 / 21.0);
         assert_eq!(logged.false_alarm_rate, 0.5 / 21.0);
-        let clipped = yes_no(answers(20, 0, 20), Correction::Clip)?;
+        let clipped = YesNo::of(answers(20, 0, 20), Correction::Clip)?;
         assert_eq!([clipped.hit_rate, clipped.false_alarm_rate], [0.975, 0.025]);
         assert!(
             (clipped.d_prime - 2.0 * 1.959_963_984_540_054).abs() < 1e-12,
@@ -200,11 +205,11 @@ mod tests {
         );
         assert!(clipped.uncorrected_d_prime.is_err(), "infinite");
         assert!(
-            yes_no(answers(0, 0, 0), Correction::Clip).is_err(),
+            YesNo::of(answers(0, 0, 0), Correction::Clip).is_err(),
             "no trials"
         );
         assert!(
-            yes_no(answers(3, 0, 2), Correction::Clip).is_err(),
+            YesNo::of(answers(3, 0, 2), Correction::Clip).is_err(),
             "too many"
         );
         Ok(())
@@ -223,7 +228,7 @@ mod tests {
                     .count();
                 yes as u64
             };
-            let seen = yes_no(answers(count(d), count(0.0), n), Correction::LogLinear)?;
+            let seen = YesNo::of(answers(count(d), count(0.0), n), Correction::LogLinear)?;
             found.push(seen.d_prime);
             stated += seen.variance / 2000.0;
         }

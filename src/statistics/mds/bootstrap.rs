@@ -76,8 +76,8 @@ fn mean_of(subjects: &[&Vec<Option<f64>>], n: usize) -> Vec<Option<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::properties::bootstrap_ellipses;
-    use selvedge_foundation::progress::unheard;
+    use crate::properties::Ellipse;
+    use selvedge_foundation::progress::Progress;
 
     /// Subjects who feel the same points of a plane, each with noise of their own.
     fn subjects(noise: f64) -> Vec<Vec<Option<f64>>> {
@@ -106,11 +106,11 @@ mod tests {
         let size = |noise: f64| {
             let subjects = subjects(noise);
             let draws = (2, 30);
-            let found = unheard(|p| mds.resampled(&names, &subjects, draws, p)).unwrap();
-            let again = unheard(|p| mds.resampled(&names, &subjects, draws, p)).unwrap();
+            let found = Progress::unheard(|p| mds.resampled(&names, &subjects, draws, p)).unwrap();
+            let again = Progress::unheard(|p| mds.resampled(&names, &subjects, draws, p)).unwrap();
             assert_eq!((found.maps.len(), found.n_unmapped), (30, 0));
             assert_eq!(found, again, "the same draws");
-            let ellipses = bootstrap_ellipses(&found.maps[0], &found.maps, 0.95).unwrap();
+            let ellipses = Ellipse::of_bootstrap(&found.maps[0], &found.maps, 0.95).unwrap();
             ellipses.iter().map(|e| e.half_axes[0]).sum::<f64>() / 9.0
         };
         let [little, much] = [0.02, 0.3].map(size);
@@ -121,7 +121,8 @@ mod tests {
     fn draws_without_an_order_are_counted() {
         let names: Vec<String> = (0..3).map(|i| format!("t{i}")).collect();
         let even = vec![vec![Some(1.0); 9]; 2];
-        let found = unheard(|p| Mds::default().resampled(&names, &even, (1, 4), p)).unwrap();
+        let found =
+            Progress::unheard(|p| Mds::default().resampled(&names, &even, (1, 4), p)).unwrap();
         assert_eq!((found.maps.len(), found.n_unmapped), (0, 4));
     }
 }

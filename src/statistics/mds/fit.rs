@@ -6,29 +6,21 @@ use nalgebra::DMatrix;
 
 use super::dissimilarities::Dissimilarities;
 use super::monotone::{Regression, Ties};
+use selvedge_foundation::named;
 
-/// What is made small.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Loss {
-    /// Kruskal's stress-1, `√(Σ(d − d̂)² / Σd²)`.
-    #[default]
-    Stress1,
-    /// The loss of ALSCAL, the same of squared distances: `√(Σ(d² − d̂²)² / Σd⁴)`. Large
-    /// dissimilarities weigh more.
-    SStress,
-}
-
-impl Loss {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Stress1, Self::SStress];
-
-    /// Its name in files and commands.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stress1 => "stress1",
-            Self::SStress => "sstress",
-        }
+named! {
+    /// What is made small.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Loss {
+        /// Kruskal's stress-1, `√(Σ(d − d̂)² / Σd²)`.
+        #[default]
+        Stress1 = "stress1",
+        /// The loss of ALSCAL, the same of squared distances: `√(Σ(d² − d̂²)² / Σd⁴)`. Large
+        /// dissimilarities weigh more.
+        SStress = "sstress",
     }
+    /// Its name in files and commands.
+    pub fn name;
 }
 
 /// The pairs in the order of their dissimilarities, and how ties among them are treated.

@@ -3,30 +3,22 @@
 
 use std::ops::Range;
 
-/// What ties in the dissimilarities ask of the distances.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Ties {
-    /// Nothing: tied pairs may be at different distances (Kruskal's first way, ALSCAL's UNTIE).
-    #[default]
-    Primary,
-    /// The same disparity for tied pairs (Kruskal's second way, ALSCAL's default).
-    Secondary,
-    /// Only their mean disparities rise from block to block (de Leeuw).
-    Tertiary,
-}
+use selvedge_foundation::named;
 
-impl Ties {
-    /// All rules.
-    pub const ALL: [Self; 3] = [Self::Primary, Self::Secondary, Self::Tertiary];
-
-    /// Its name in files and commands.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Primary => "primary",
-            Self::Secondary => "secondary",
-            Self::Tertiary => "tertiary",
-        }
+named! {
+    /// What ties in the dissimilarities ask of the distances.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Ties {
+        /// Nothing: tied pairs may be at different distances (Kruskal's first way, ALSCAL's UNTIE).
+        #[default]
+        Primary = "primary",
+        /// The same disparity for tied pairs (Kruskal's second way, ALSCAL's default).
+        Secondary = "secondary",
+        /// Only their mean disparities rise from block to block (de Leeuw).
+        Tertiary = "tertiary",
     }
+    /// Its name in files and commands.
+    pub fn name;
 }
 
 /// A run of values that share their weighted mean.

@@ -5,7 +5,7 @@ use super::fit::Problem;
 use super::search::{Plan, search};
 use super::{Dissimilarities, Loss, Mds};
 use selvedge_foundation::numerics::{Random, in_pieces, quantile};
-use selvedge_foundation::progress::{Cancelled, Progress, unheard};
+use selvedge_foundation::progress::{Cancelled, Progress};
 
 /// Which data have no structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,6 +131,6 @@ fn lowest(mds: &Mds, set: &Dissimilarities, dims: usize) -> f64 {
     };
     let plan = Plan { k: dims, mds };
     let problem = Problem::new(set, mds.ties);
-    let found = unheard(|progress| search(&problem, &plan, None, progress));
+    let found = Progress::unheard(|progress| search(&problem, &plan, None, progress));
     found.map_or(1.0, |found| found.loss)
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::procrustes::Procrustes;
 use selvedge_foundation::numerics::{Random, median};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 pub(super) fn named(n: usize) -> Vec<String> {
     (0..n).map(|i| format!("t{i}")).collect()
@@ -30,7 +30,7 @@ fn spread(n: usize, k: usize, noise: f64, seed: u64) -> Dissimilarities {
 }
 
 fn maps(data: &Dissimilarities, mds: Mds, dims: RangeInclusive<usize>) -> Vec<Map> {
-    unheard(|progress| mds.maps(data, dims, progress)).unwrap()
+    Progress::unheard(|progress| mds.maps(data, dims, progress)).unwrap()
 }
 
 fn pair_distances(points: &[Vec<f64>], data: &Dissimilarities) -> Vec<f64> {
@@ -324,7 +324,7 @@ fn chance_gives_what_is_known_and_structure_lies_below_it() {
         ..Mds::default()
     };
     let null = |data: &Dissimilarities, kind, dims| {
-        unheard(|progress| Null::of(&mds, data, kind, (dims, 40), progress)).unwrap()
+        Progress::unheard(|progress| Null::of(&mds, data, kind, (dims, 40), progress)).unwrap()
     };
     let data = spread(16, 2, 0.1, 9);
     for (n, dims, expected) in [(16, 2, 0.270), (16, 3, 0.172), (7, 2, 0.111)] {
@@ -358,7 +358,7 @@ fn few_starts_do_for_data_without_structure() {
         let data = spread(7, 2, 0.1, 9);
         let null = |mds: &Mds| {
             let sets = (dims, 20);
-            unheard(|p| Null::of(mds, &data, NullKind::RandomRanks, sets, p)).unwrap()
+            Progress::unheard(|p| Null::of(mds, &data, NullKind::RandomRanks, sets, p)).unwrap()
         };
         let (few, many) = (null(&many.for_chance()), null(&many));
         let higher = few.mean() - many.mean();

@@ -109,7 +109,7 @@ fn ellipses_hold_the_scatter_that_made_them() {
             reference.iter().map(moved).collect()
         })
         .collect();
-    let ellipses = bootstrap_ellipses(&reference, &maps, 0.95).unwrap();
+    let ellipses = Ellipse::of_bootstrap(&reference, &maps, 0.95).unwrap();
     let factor = (-2.0 * 0.05_f64.ln()).sqrt();
     let mean = |of: fn(&Ellipse) -> f64| ellipses.iter().map(of).sum::<f64>() / 30.0;
     let long = mean(|e| e.half_axes[0]) / factor;
@@ -119,7 +119,7 @@ fn ellipses_hold_the_scatter_that_made_them() {
         "{ellipses:?}"
     );
     assert!(
-        bootstrap_ellipses(&reference, &maps[..2], 0.95).is_err(),
+        Ellipse::of_bootstrap(&reference, &maps[..2], 0.95).is_err(),
         "too few"
     );
 }

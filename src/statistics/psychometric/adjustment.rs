@@ -1,7 +1,7 @@
 //! The method of adjustment: settings made from above and from below.
 
 use crate::summary::at_least;
-use crate::{Computed, Outcome, Summary, two_sample_t, undefined};
+use crate::{Computed, Outcome, Summary, TwoSamples, undefined};
 
 /// How settings are averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,7 +60,7 @@ impl Adjustments {
         let all = Summary::of(&[ascending.as_slice(), descending.as_slice()].concat())?;
         let [ascending, descending] = [ascending, descending].map(|values| Summary::of(&values));
         let difference = match (&ascending, &descending) {
-            (Ok(up), Ok(down)) => two_sample_t(up, down).map(|both| both.welch),
+            (Ok(up), Ok(down)) => TwoSamples::of(up, down).map(|both| both.welch),
             (Err(reason), _) | (_, Err(reason)) => Err(reason.clone()),
         };
         Ok(Self {

@@ -14,26 +14,28 @@ pub struct Block {
     pub n_right: u32,
 }
 
-/// Single trials as blocks, stimuli ascending, equal ones together.
-pub fn blocks(trials: impl IntoIterator<Item = (f64, bool)>) -> Vec<Block> {
-    let mut trials: Vec<(f64, bool)> = trials.into_iter().collect();
-    trials.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut blocks: Vec<Block> = Vec::new();
-    for (x, is_right) in trials {
-        let is_new = blocks.last().is_none_or(|last| last.x < x || x.is_nan());
-        if is_new {
-            blocks.push(Block {
-                x,
-                n: 0,
-                n_right: 0,
-            });
+impl Block {
+    /// Single trials as blocks, stimuli ascending, equal ones together.
+    pub fn of_trials(trials: impl IntoIterator<Item = (f64, bool)>) -> Vec<Self> {
+        let mut trials: Vec<(f64, bool)> = trials.into_iter().collect();
+        trials.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut blocks: Vec<Self> = Vec::new();
+        for (x, is_right) in trials {
+            let is_new = blocks.last().is_none_or(|last| last.x < x || x.is_nan());
+            if is_new {
+                blocks.push(Self {
+                    x,
+                    n: 0,
+                    n_right: 0,
+                });
+            }
+            if let Some(last) = blocks.last_mut() {
+                last.n += 1;
+                last.n_right += u32::from(is_right);
+            }
         }
-        if let Some(last) = blocks.last_mut() {
-            last.n += 1;
-            last.n_right += u32::from(is_right);
-        }
+        blocks
     }
-    blocks
 }
 
 /// Blocks in order, if they can say anything of a threshold.

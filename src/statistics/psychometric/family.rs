@@ -2,20 +2,25 @@
 
 use crate::distribution::{normal_lower, normal_quantile, normal_upper};
 use crate::{Computed, undefined};
+use selvedge_foundation::named;
 
-/// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Family {
-    /// 1/(1 + e⁻ᶻ).
-    #[default]
-    Logistic,
-    /// The cumulative Gaussian.
-    Normal,
-    /// 1 − exp(−eᶻ) over the logarithm of the stimulus, which must be above zero. Its width is a
-    /// difference of natural logarithms.
-    Weibull,
-    /// 1 − exp(−eᶻ) over the stimulus as it is: the Weibull function of a stimulus in decibels.
-    Gumbel,
+named! {
+    /// The shape F, which rises from 0 to 1: ½ at the threshold, 5 % and 95 % a width apart.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Family {
+        /// 1/(1 + e⁻ᶻ).
+        #[default]
+        Logistic = "logistic",
+        /// The cumulative Gaussian.
+        Normal = "normal",
+        /// 1 − exp(−eᶻ) over the logarithm of the stimulus, which must be above zero. Its width is a
+        /// difference of natural logarithms.
+        Weibull = "Weibull",
+        /// 1 − exp(−eᶻ) over the stimulus as it is: the Weibull function of a stimulus in decibels.
+        Gumbel = "Gumbel",
+    }
+    /// Its name in a table.
+    pub fn name;
 }
 
 /// ln 19: the logit of 95 %.
@@ -28,19 +33,6 @@ const GUMBEL: [f64; 2] = [1.097_188_700_364_948_7, 2.970_195_249_042_164_6];
 const GUMBEL_MIDDLE: f64 = -0.366_512_920_581_664_35;
 
 impl Family {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Logistic, Self::Normal, Self::Weibull, Self::Gumbel];
-
-    /// Its name in a table.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Logistic => "logistic",
-            Self::Normal => "normal",
-            Self::Weibull => "Weibull",
-            Self::Gumbel => "Gumbel",
-        }
-    }
-
     /// Where a stimulus lies on the scale on which widths are measured.
     pub fn place(self, x: f64) -> f64 {
         match self {

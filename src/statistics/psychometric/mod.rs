@@ -28,7 +28,7 @@ pub mod stevens;
 mod tests;
 
 pub use adjustment::{Adjustments, Settings, Starts};
-pub use answers::{Block, blocks};
+pub use answers::Block;
 pub use curve::Psychometric;
 pub(super) use curve::scaled;
 pub use evidence::Evidence;

@@ -20,7 +20,7 @@ use super::evidence::Evidence;
 use super::fit::{Drawn, Fit, LEVEL};
 use super::model::{Expected, USUAL_LAPSE};
 use crate::{Computed, Interval, Summary, mean, undefined};
-use selvedge_foundation::numerics::{Random, in_pieces, lowest, n_threads};
+use selvedge_foundation::numerics::{Lowest, Random, in_pieces, n_threads};
 
 /// μ, ln τ, ω, ln σ, ln l.
 const N: usize = 5;
@@ -172,7 +172,7 @@ impl<'a> Joint<'a> {
 
     /// Draws of the population with their weights, 1 together.
     fn draws(&self, seed: u64) -> Computed<Vec<(Point, f64)>> {
-        let mode = lowest(
+        let mode = Lowest::of(
             |p| -self.ln_probability(p),
             self.start,
             self.steps.map(|s| 3.0 * s),

@@ -52,37 +52,39 @@ pub struct Stevens {
 /// A subject and the logarithms of its geometric means, one a stimulus.
 type Subject = (String, Vec<f64>);
 
-/// Fits power laws to estimates in any order, several a stimulus where they were repeated.
-///
-/// # Errors
-/// No estimates, stimuli or estimates that are not above zero (with subject and stimulus), fewer
-/// than two stimuli, a subject that lacks a stimulus (with their list): its modulus could not be
-/// told from what it was asked.
-pub fn stevens(estimates: &[Estimate], level: f64) -> Computed<Stevens> {
-    let (stimuli, subjects) = collected(estimates)?;
-    let ln_stimuli: Vec<f64> = stimuli.iter().map(|x| x.ln()).collect();
-    let n = subjects.len() as f64;
-    // Moduli are equal once every subject's mean logarithm is the group's; the means over subjects
-    // are the same before and after, their scatter is not.
-    let ln_mean = |place: usize| subjects.iter().map(|(_, logs)| logs[place]).sum::<f64>() / n;
-    let ln_means: Vec<f64> = (0..stimuli.len()).map(ln_mean).collect();
-    let group = power_law(&ln_stimuli, &ln_means, level)?;
-    let mut own = Vec::with_capacity(subjects.len());
-    for (name, logs) in subjects {
-        own.push((name, power_law(&ln_stimuli, &logs, level)?));
+impl Stevens {
+    /// Fits power laws to estimates in any order, several a stimulus where they were repeated.
+    ///
+    /// # Errors
+    /// No estimates, stimuli or estimates that are not above zero (with subject and stimulus), fewer
+    /// than two stimuli, a subject that lacks a stimulus (with their list): its modulus could not be
+    /// told from what it was asked.
+    pub fn fit(estimates: &[Estimate], level: f64) -> Computed<Self> {
+        let (stimuli, subjects) = collected(estimates)?;
+        let ln_stimuli: Vec<f64> = stimuli.iter().map(|x| x.ln()).collect();
+        let n = subjects.len() as f64;
+        // Moduli are equal once every subject's mean logarithm is the group's; the means over subjects
+        // are the same before and after, their scatter is not.
+        let ln_mean = |place: usize| subjects.iter().map(|(_, logs)| logs[place]).sum::<f64>() / n;
+        let ln_means: Vec<f64> = (0..stimuli.len()).map(ln_mean).collect();
+        let group = power_law(&ln_stimuli, &ln_means, level)?;
+        let mut own = Vec::with_capacity(subjects.len());
+        for (name, logs) in subjects {
+            own.push((name, power_law(&ln_stimuli, &logs, level)?));
+        }
+        let values: Vec<f64> = own.iter().map(|(_, law)| law.exponent).collect();
+        let exponents = Summary::of(&values);
+        Ok(Self {
+            interval: exponents
+                .clone()
+                .and_then(|summary| summary.interval(level)),
+            exponents,
+            stimuli,
+            means: ln_means.into_iter().map(f64::exp).collect(),
+            group,
+            subjects: own,
+        })
     }
-    let values: Vec<f64> = own.iter().map(|(_, law)| law.exponent).collect();
-    let exponents = Summary::of(&values);
-    Ok(Stevens {
-        interval: exponents
-            .clone()
-            .and_then(|summary| summary.interval(level)),
-        exponents,
-        stimuli,
-        means: ln_means.into_iter().map(f64::exp).collect(),
-        group,
-        subjects: own,
-    })
 }
 
 /// Stimuli ascending, and mean logarithms of each subject at each of them.
@@ -191,7 +193,7 @@ mod tests {
 
     #[test]
     fn exact_power_laws_come_back_whatever_the_moduli() -> Computed<()> {
-        let found = stevens(&estimates(&[0.5, 0.7, 0.9], 0.0, 1), 0.95)?;
+        let found = Stevens::fit(&estimates(&[0.5, 0.7, 0.9], 0.0, 1), 0.95)?;
         for ((_, law), exponent) in found.subjects.iter().zip([0.5, 0.7, 0.9]) {
             assert!((law.exponent - exponent).abs() < 1e-12, "{law:?}");
             assert!((law.r_squared.clone()? - 1.0).abs() < 1e-12, "{law:?}");
@@ -212,7 +214,7 @@ mod tests {
 
     #[test]
     fn zeros_missing_stimuli_and_one_stimulus_alone_are_refused() {
-        let reason = |all: &[Estimate]| stevens(all, 0.95).map(|_| ()).map_err(|e| e.reason);
+        let reason = |all: &[Estimate]| Stevens::fit(all, 0.95).map(|_| ()).map_err(|e| e.reason);
         let mut zero = estimates(&[0.5, 0.6], 0.1, 3);
         zero[4].value = 0.0;
         assert!(
@@ -232,7 +234,7 @@ mod tests {
 
     #[test]
     fn one_subject_has_its_own_line_and_no_interval_over_subjects() -> Computed<()> {
-        let found = stevens(&estimates(&[0.8], 0.05, 4), 0.95)?;
+        let found = Stevens::fit(&estimates(&[0.8], 0.05, 4), 0.95)?;
         assert!(
             found.exponents.is_err() && found.interval.is_err(),
             "{found:?}"

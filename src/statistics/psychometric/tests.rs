@@ -228,7 +228,7 @@ fn thresholds_outside_the_stimuli_are_said_and_models_of_nothing_refused() -> Co
 
 #[test]
 fn trials_become_blocks_of_equal_stimuli() {
-    let found = blocks([(2.0, true), (1.0, false), (2.0, false), (2.0, true)]);
+    let found = Block::of_trials([(2.0, true), (1.0, false), (2.0, false), (2.0, true)]);
     let expected = [
         Block {
             x: 1.0,

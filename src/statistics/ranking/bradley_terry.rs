@@ -25,37 +25,39 @@ pub struct BradleyTerry {
     pub prior: Prior,
 }
 
-/// The most likely abilities, by Newton's method to 1e-10; the peak is where Hunter's MM (2004)
-/// ends.
-///
-/// # Errors
-/// Fewer than two items, no comparisons; groups of items without finite abilities, unless
-/// there is a prior.
-pub fn bradley_terry(preferences: &Preferences, prior: Prior) -> Computed<BradleyTerry> {
-    preferences.check()?;
-    let n_items = preferences.n_items();
-    let mut choices = Choices::new(n_items);
-    for pair in preferences.compared() {
-        for (chosen, wins) in pair.items.into_iter().zip(pair.wins) {
-            if wins > 0 {
-                choices.add(chosen, pair.items.to_vec(), wins as f64);
+impl BradleyTerry {
+    /// The most likely abilities, by Newton's method to 1e-10; the peak is where Hunter's MM (2004)
+    /// ends.
+    ///
+    /// # Errors
+    /// Fewer than two items, no comparisons; groups of items without finite abilities, unless
+    /// there is a prior.
+    pub fn fit(preferences: &Preferences, prior: Prior) -> Computed<Self> {
+        preferences.check()?;
+        let n_items = preferences.n_items();
+        let mut choices = Choices::new(n_items);
+        for pair in preferences.compared() {
+            for (chosen, wins) in pair.items.into_iter().zip(pair.wins) {
+                if wins > 0 {
+                    choices.add(chosen, pair.items.to_vec(), wins as f64);
+                }
             }
         }
+        let mut all = prior.choices(n_items)?;
+        all.merge(&choices);
+        all.connection().check(number)?;
+        let peak = maximise(&all, vec![0.0; n_items])?;
+        Ok(Self {
+            scale: Scale::of(&peak.at, &peak.covariance),
+            log_likelihood: choices.value(&peak.at),
+            deviance: Deviance::of(preferences, prior, |pair| {
+                let [i, j] = pair.items;
+                odds_of(peak.at[i] - peak.at[j])
+            }),
+            n_steps: peak.n_steps,
+            prior,
+        })
     }
-    let mut all = prior.choices(n_items)?;
-    all.merge(&choices);
-    all.connection().check(number)?;
-    let peak = maximise(&all, vec![0.0; n_items])?;
-    Ok(BradleyTerry {
-        scale: Scale::of(&peak.at, &peak.covariance),
-        log_likelihood: choices.value(&peak.at),
-        deviance: Deviance::of(preferences, prior, |pair| {
-            let [i, j] = pair.items;
-            odds_of(peak.at[i] - peak.at[j])
-        }),
-        n_steps: peak.n_steps,
-        prior,
-    })
 }
 
 /// Probabilities of either item from the difference of their abilities.

@@ -1,7 +1,7 @@
 //! Scales from rankings and paired comparisons, and tables of what was ranked or taken for what.
 //!
 //! [`plackett_luce()`] for rankings of any length, [`bradley_terry()`] for pairs, [`thurstone()`]
-//! and [`mosteller`] on the normal scale: each by maximum likelihood (but the last) with errors
+//! and [`Mosteller::of`] on the normal scale: each by maximum likelihood (but the last) with errors
 //! from the observed information. A scale has no zero of its own: values sum to zero. Where an
 //! estimate would be infinite the groups of items that cause it are named ([`Connection`]); only a
 //! [`Prior`] that the caller asks for makes it finite.
@@ -27,14 +27,14 @@ mod scale;
 mod tests;
 mod thurstone;
 
-pub use bradley_terry::{BradleyTerry, bradley_terry};
+pub use bradley_terry::BradleyTerry;
 pub use choices::Prior;
 pub use connection::Connection;
 pub use consistency::{Consistency, Majority};
 pub use deviance::Deviance;
 pub use mean_ranks::{Asymmetry, MeanRanks, RankTrial};
 pub use odd_one_out::{Grade, GradeWeights, ItemErrors, OddOneOut, PairTally, TriadAnswer};
-pub use plackett_luce::{PlackettLuce, plackett_luce};
+pub use plackett_luce::PlackettLuce;
 pub use preferences::Preferences;
 pub use scale::{Estimate, Scale};
-pub use thurstone::{Mosteller, Thurstone, mosteller, thurstone};
+pub use thurstone::{Mosteller, Thurstone};

@@ -2,26 +2,21 @@
 
 use super::preferences::{check_distinct, check_items};
 use crate::{Computed, Undefined, undefined};
+use selvedge_foundation::named;
 
-/// How hard a choice was, as the subject graded it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Grade {
-    /// Easy.
-    Easy,
-    /// Neither easy nor hard.
-    Normal,
-    /// Hard.
-    Hard,
-}
-
-impl Grade {
-    /// All of them, from easy to hard.
-    pub const ALL: [Self; 3] = [Self::Easy, Self::Normal, Self::Hard];
-
-    /// As files and people call it.
-    pub fn name(self) -> &'static str {
-        ["easy", "normal", "hard"][self as usize]
+named! {
+    /// How hard a choice was, as the subject graded it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum Grade {
+        /// Easy.
+        Easy = "easy",
+        /// Neither easy nor hard.
+        Normal = "normal",
+        /// Hard.
+        Hard = "hard",
     }
+    /// As files and people call it.
+    pub fn name;
 }
 
 /// What a correct choice counts by its grade. A wrong one counts nothing.

@@ -55,36 +55,32 @@ impl PlackettLuce {
             effect,
         )
     }
-}
 
-/// The most likely worths of `n_items` items from rankings, each the indices of two items or more,
-/// best first; items that a ranking leaves out say nothing in it.
-///
-/// By Newton's method on log-worths, to 1e-10; the peak is where Hunter's MM (2004) ends.
-///
-/// # Errors
-/// Fewer than two items, no rankings, a ranking with fewer than two items or an item twice or
-/// unknown (with its number); groups of items without finite worths, unless there is a prior.
-pub fn plackett_luce<R: AsRef<[usize]>>(
-    n_items: usize,
-    rankings: &[R],
-    prior: Prior,
-) -> Computed<PlackettLuce> {
-    check_rankings(n_items, rankings)?;
-    let mut choices = Choices::new(n_items);
-    for ranking in rankings {
-        choices.add_ranking(ranking.as_ref());
+    /// The most likely worths of `n_items` items from rankings, each the indices of two items or more,
+    /// best first; items that a ranking leaves out say nothing in it.
+    ///
+    /// By Newton's method on log-worths, to 1e-10; the peak is where Hunter's MM (2004) ends.
+    ///
+    /// # Errors
+    /// Fewer than two items, no rankings, a ranking with fewer than two items or an item twice or
+    /// unknown (with its number); groups of items without finite worths, unless there is a prior.
+    pub fn fit<R: AsRef<[usize]>>(n_items: usize, rankings: &[R], prior: Prior) -> Computed<Self> {
+        check_rankings(n_items, rankings)?;
+        let mut choices = Choices::new(n_items);
+        for ranking in rankings {
+            choices.add_ranking(ranking.as_ref());
+        }
+        let mut all = prior.choices(n_items)?;
+        all.merge(&choices);
+        all.connection().check(number)?;
+        let peak = maximise(&all, vec![0.0; n_items])?;
+        Ok(Self {
+            scale: Scale::of(&peak.at, &peak.covariance),
+            n_rankings: rankings.len(),
+            log_likelihood: choices.value(&peak.at),
+            null_log_likelihood: choices.null_value(),
+            n_steps: peak.n_steps,
+            prior,
+        })
     }
-    let mut all = prior.choices(n_items)?;
-    all.merge(&choices);
-    all.connection().check(number)?;
-    let peak = maximise(&all, vec![0.0; n_items])?;
-    Ok(PlackettLuce {
-        scale: Scale::of(&peak.at, &peak.covariance),
-        n_rankings: rankings.len(),
-        log_likelihood: choices.value(&peak.at),
-        null_log_likelihood: choices.null_value(),
-        n_steps: peak.n_steps,
-        prior,
-    })
 }

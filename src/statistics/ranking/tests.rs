@@ -68,7 +68,7 @@ const SIX: [f64; 6] = [1.2, 0.6, 0.1, -0.2, -0.6, -1.1];
 #[test]
 fn the_peak_is_where_mm_ends_and_no_step_from_it_leads_up() -> Computed<()> {
     let rankings = fours(&SIX, 60, &mut Random::new(4));
-    let found = plackett_luce(6, &rankings, Prior::None)?;
+    let found = PlackettLuce::fit(6, &rankings, Prior::None)?;
     let values = &found.scale.values;
     assert!(values.iter().sum::<f64>().abs() < 1e-13, "centred");
     assert!((found.log_likelihood - by_stages(values, &rankings)).abs() < 1e-9);
@@ -100,7 +100,7 @@ fn the_peak_is_where_mm_ends_and_no_step_from_it_leads_up() -> Computed<()> {
 #[test]
 fn errors_are_those_of_the_curvature_seen_by_differences() -> Computed<()> {
     let rankings = fours(&SIX, 80, &mut Random::new(6));
-    let found = plackett_luce(6, &rankings, Prior::None)?;
+    let found = PlackettLuce::fit(6, &rankings, Prior::None)?;
     // The covariance times the information is the identity less the mean.
     let h = 1e-3;
     let bent = |i: usize, j: usize| {
@@ -129,8 +129,8 @@ fn rankings_of_two_are_paired_comparisons() -> Computed<()> {
     let pairs: Vec<Vec<usize>> = (0..300)
         .map(|n| drawn(&SIX, &[n % 6, (n + 1 + n / 60) % 6], &mut random))
         .collect();
-    let ranked = plackett_luce(6, &pairs, Prior::None)?;
-    let compared = bradley_terry(&Preferences::of_rankings(6, &pairs)?, Prior::None)?;
+    let ranked = PlackettLuce::fit(6, &pairs, Prior::None)?;
+    let compared = BradleyTerry::fit(&Preferences::of_rankings(6, &pairs)?, Prior::None)?;
     assert_close(&ranked.scale.values, &compared.scale.values, 1e-12);
     let se = |scale: &Scale| scale.centred().iter().map(|e| e.se).collect::<Vec<f64>>();
     assert_close(&se(&ranked.scale), &se(&compared.scale), 1e-12);
@@ -155,17 +155,17 @@ fn other_numbers_for_the_items_change_nothing_else() -> Computed<()> {
         .map(|r| r.iter().map(|&i| to[i]).collect())
         .collect();
     let (one, other) = (
-        plackett_luce(6, &rankings, Prior::None)?,
-        plackett_luce(6, &renamed, Prior::None)?,
+        PlackettLuce::fit(6, &rankings, Prior::None)?,
+        PlackettLuce::fit(6, &renamed, Prior::None)?,
     );
     let pairs = |r: &[Vec<usize>]| Preferences::of_rankings(6, r);
     let (probit, probit_renamed) = (
-        thurstone(&pairs(&rankings)?)?,
-        thurstone(&pairs(&renamed)?)?,
+        Thurstone::fit(&pairs(&rankings)?)?,
+        Thurstone::fit(&pairs(&renamed)?)?,
     );
     let (rows, rows_renamed) = (
-        mosteller(&pairs(&rankings)?)?,
-        mosteller(&pairs(&renamed)?)?,
+        Mosteller::of(&pairs(&rankings)?)?,
+        Mosteller::of(&pairs(&renamed)?)?,
     );
     for (i, &j) in to.iter().enumerate() {
         let (a, b) = (one.scale.centred()[i], other.scale.centred()[j]);
@@ -182,7 +182,7 @@ fn known_worths_lie_in_their_intervals_as_often_as_those_say() -> Computed<()> {
     let mut random = Random::new(21);
     let (mut n_held, mut n_all) = (0, 0);
     for _ in 0..100 {
-        let found = plackett_luce(6, &fours(&SIX, 80, &mut random), Prior::None)?;
+        let found = PlackettLuce::fit(6, &fours(&SIX, 80, &mut random), Prior::None)?;
         for (estimate, truth) in found.scale.centred().iter().zip(SIX) {
             n_all += 1;
             n_held += i32::from(estimate.interval(0.95)?.holds(truth));
@@ -212,10 +212,10 @@ fn answers_that_fit_one_scale_are_rejected_as_often_as_they_should() -> Computed
             }
         }
         let is_rejected = |p: f64| i32::from(p < 0.05);
-        let deviance = bradley_terry(&pairs, Prior::None)?.deviance;
+        let deviance = BradleyTerry::fit(&pairs, Prior::None)?.deviance;
         logit += is_rejected(deviance.goodness_of_fit()?.p);
-        probit += is_rejected(thurstone(&pairs)?.deviance.goodness_of_fit()?.p);
-        arcsine += is_rejected(mosteller(&pairs)?.fit?.p);
+        probit += is_rejected(Thurstone::fit(&pairs)?.deviance.goodness_of_fit()?.p);
+        arcsine += is_rejected(Mosteller::of(&pairs)?.fit?.p);
     }
     // Standard error of a share of 0.05: 0.013. Logits fit these probits nearly as well, and row
     // means are not the closest fit, so that theirs is a little larger.
@@ -231,7 +231,7 @@ fn sixteen_items_in_640_rankings_are_quick_and_settle_in_few_steps() -> Computed
     let truth: Vec<f64> = (0..16).map(|i| 0.2 * f64::from(i) - 1.5).collect();
     let rankings = fours(&truth, 640, &mut Random::new(2));
     let start = selvedge_foundation::progress::thread_cpu_seconds();
-    let found = plackett_luce(16, &rankings, Prior::None)?;
+    let found = PlackettLuce::fit(16, &rankings, Prior::None)?;
     let ms = 1000.0 * (selvedge_foundation::progress::thread_cpu_seconds() - start);
     println!(
         "16 items, 640 rankings: {ms:.1} ms of CPU, {} steps",

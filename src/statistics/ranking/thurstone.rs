@@ -31,24 +31,26 @@ pub struct Thurstone {
     pub n_steps: usize,
 }
 
-/// The most likely values, by Newton's method to 1e-10.
-///
-/// # Errors
-/// Fewer than two items, no comparisons, groups of items without finite values.
-pub fn thurstone(preferences: &Preferences) -> Computed<Thurstone> {
-    preferences.check()?;
-    preferences.connection().check(number)?;
-    let n_items = preferences.n_items();
-    let model = Probit {
-        pairs: preferences.compared(),
-    };
-    let peak = maximise(&model, vec![0.0; n_items])?;
-    Ok(Thurstone {
-        scale: Scale::of(&peak.at, &peak.covariance),
-        log_likelihood: model.value(&peak.at),
-        deviance: Deviance::of(preferences, Prior::None, |pair| shares(pair, &peak.at)),
-        n_steps: peak.n_steps,
-    })
+impl Thurstone {
+    /// The most likely values, by Newton's method to 1e-10.
+    ///
+    /// # Errors
+    /// Fewer than two items, no comparisons, groups of items without finite values.
+    pub fn fit(preferences: &Preferences) -> Computed<Self> {
+        preferences.check()?;
+        preferences.connection().check(number)?;
+        let n_items = preferences.n_items();
+        let model = Probit {
+            pairs: preferences.compared(),
+        };
+        let peak = maximise(&model, vec![0.0; n_items])?;
+        Ok(Self {
+            scale: Scale::of(&peak.at, &peak.covariance),
+            log_likelihood: model.value(&peak.at),
+            deviance: Deviance::of(preferences, Prior::None, |pair| shares(pair, &peak.at)),
+            n_steps: peak.n_steps,
+        })
+    }
 }
 
 struct Probit {
@@ -117,36 +119,38 @@ pub struct Mosteller {
     pub fit: Computed<Outcome>,
 }
 
-/// The values by row means of z.
-///
-/// # Errors
-/// Fewer than two items, no comparisons, pairs that were never compared (with their list).
-pub fn mosteller(preferences: &Preferences) -> Computed<Mosteller> {
-    preferences.check()?;
-    let missing = preferences.pairs_where(|n| n == 0);
-    if !missing.is_empty() {
-        let reason = format!(
-            "never compared: {}; row means need every pair",
-            missing.join(", ")
-        );
-        return undefined(reason);
+impl Mosteller {
+    /// The values by row means of z.
+    ///
+    /// # Errors
+    /// Fewer than two items, no comparisons, pairs that were never compared (with their list).
+    pub fn of(preferences: &Preferences) -> Computed<Self> {
+        preferences.check()?;
+        let missing = preferences.pairs_where(|n| n == 0);
+        if !missing.is_empty() {
+            let reason = format!(
+                "never compared: {}; row means need every pair",
+                missing.join(", ")
+            );
+            return undefined(reason);
+        }
+        let k = preferences.n_items();
+        let mut values = vec![0.0; k];
+        let mut n_clipped = 0;
+        let pairs = preferences.compared();
+        for pair in &pairs {
+            n_clipped += usize::from(pair.wins.contains(&0));
+            let z = normal_quantile(Correction::Clip.share(pair.wins[0], pair.n()))?;
+            values[pair.items[0]] += z / k as f64;
+            values[pair.items[1]] -= z / k as f64;
+        }
+        let fit = arcsine_fit(&pairs, &values);
+        Ok(Self {
+            values,
+            n_clipped,
+            fit,
+        })
     }
-    let k = preferences.n_items();
-    let mut values = vec![0.0; k];
-    let mut n_clipped = 0;
-    let pairs = preferences.compared();
-    for pair in &pairs {
-        n_clipped += usize::from(pair.wins.contains(&0));
-        let z = normal_quantile(Correction::Clip.share(pair.wins[0], pair.n()))?;
-        values[pair.items[0]] += z / k as f64;
-        values[pair.items[1]] -= z / k as f64;
-    }
-    let fit = arcsine_fit(&pairs, &values);
-    Ok(Mosteller {
-        values,
-        n_clipped,
-        fit,
-    })
 }
 
 fn arcsine_fit(pairs: &[Compared], values: &[f64]) -> Computed<Outcome> {

@@ -160,7 +160,7 @@ fn joined(groups: &[Vec<f64>]) -> Computed<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::two_sample_t;
+    use crate::TwoSamples;
     use selvedge_foundation::numerics::Random;
 
     fn groups() -> Vec<Vec<f64>> {
@@ -202,7 +202,7 @@ mod tests {
     #[test]
     fn two_groups_are_a_t_test_squared() -> Computed<()> {
         let two = &groups()[..2];
-        let both = two_sample_t(&Summary::of(&two[0])?, &Summary::of(&two[1])?)?;
+        let both = TwoSamples::of(&Summary::of(&two[0])?, &Summary::of(&two[1])?)?;
         let one = one_way(two)?;
         assert!(
             (one.statistic.value - both.student.statistic.value.powi(2)).abs() < 1e-12,

@@ -13,35 +13,37 @@ pub struct Comparison {
     pub p_holm: Computed,
 }
 
-/// Every condition against every other by paired t tests, one list of values a condition, subjects
-/// in the same order in each.
-///
-/// # Errors
-/// Fewer than two conditions. A pair that cannot be computed says so itself.
-pub fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Comparison>> {
-    let k = conditions.len();
-    if k < 2 {
-        return undefined(format!("{k} conditions make no pair"));
-    }
-    let pairs = (0..k).flat_map(|i| (i + 1..k).map(move |j| [i, j]));
-    let compared = |[i, j]: [usize; 2]| {
-        let outcome = paired_t(&conditions[i], &conditions[j]);
-        Comparison {
-            conditions: [i, j],
-            p_holm: outcome.as_ref().map(|o| o.p).map_err(Clone::clone),
-            outcome,
+impl Comparison {
+    /// Every condition against every other by paired t tests, one list of values a condition, subjects
+    /// in the same order in each.
+    ///
+    /// # Errors
+    /// Fewer than two conditions. A pair that cannot be computed says so itself.
+    pub fn every_pair(conditions: &[Vec<f64>]) -> Computed<Vec<Self>> {
+        let k = conditions.len();
+        if k < 2 {
+            return undefined(format!("{k} conditions make no pair"));
         }
-    };
-    let mut comparisons: Vec<Comparison> = pairs.map(compared).collect();
-    let mut p: Vec<&mut f64> = comparisons
-        .iter_mut()
-        .filter_map(|c| c.p_holm.as_mut().ok())
-        .collect();
-    let adjusted = holm(&p.iter().map(|p| **p).collect::<Vec<f64>>());
-    for (p, adjusted) in p.iter_mut().zip(adjusted) {
-        **p = adjusted;
+        let pairs = (0..k).flat_map(|i| (i + 1..k).map(move |j| [i, j]));
+        let compared = |[i, j]: [usize; 2]| {
+            let outcome = paired_t(&conditions[i], &conditions[j]);
+            Self {
+                conditions: [i, j],
+                p_holm: outcome.as_ref().map(|o| o.p).map_err(Clone::clone),
+                outcome,
+            }
+        };
+        let mut comparisons: Vec<Self> = pairs.map(compared).collect();
+        let mut p: Vec<&mut f64> = comparisons
+            .iter_mut()
+            .filter_map(|c| c.p_holm.as_mut().ok())
+            .collect();
+        let adjusted = holm(&p.iter().map(|p| **p).collect::<Vec<f64>>());
+        for (p, adjusted) in p.iter_mut().zip(adjusted) {
+            **p = adjusted;
+        }
+        Ok(comparisons)
     }
-    Ok(comparisons)
 }
 
 /// p values adjusted for their number by Holm's method (1979), in the order given: the j-th
@@ -67,7 +69,7 @@ mod tests {
         let first = vec![1.0, 2.0, 4.0, 3.0];
         let shifted: Vec<f64> = first.iter().map(|v| v + 1.0).collect();
         let other = vec![5.0, 9.0, 6.0, 9.5];
-        let found = every_pair(&[first.clone(), shifted, other.clone()])?;
+        let found = Comparison::every_pair(&[first.clone(), shifted, other.clone()])?;
         let [constant, larger, _] = found.as_slice() else {
             return undefined("three pairs");
         };
@@ -75,7 +77,7 @@ mod tests {
         assert_eq!(larger.conditions, [0, 2]);
         let p = paired_t(&first, &other)?.p;
         assert_eq!(larger.p_holm, Ok(2.0 * p), "two could be computed");
-        assert!(every_pair(&[first]).is_err(), "one alone");
+        assert!(Comparison::every_pair(&[first]).is_err(), "one alone");
         Ok(())
     }
 

@@ -12,5 +12,5 @@ pub use crossed::{Answer, Crossed};
 pub use effect::{Effect, Sphericity, partial_eta_squared};
 pub use friedman::friedman;
 pub use groups::{kruskal_wallis, one_way, welch};
-pub use holm::{Comparison, every_pair, holm};
-pub use repeated::{Repeated, repeated_one_way, repeated_two_way};
+pub use holm::{Comparison, holm};
+pub use repeated::Repeated;

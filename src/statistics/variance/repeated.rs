@@ -23,38 +23,40 @@ pub struct Repeated {
     pub effects: Vec<Effect>,
 }
 
-/// One factor within subjects.
-///
-/// # Errors
-/// A table with other than one factor, missing cells (with their list), fewer than two subjects
-/// or levels.
-pub fn repeated_one_way(table: &Crossed) -> Computed<Repeated> {
-    let [a] = table.factors.as_slice() else {
-        return Err(wrong_factors(table, "one"));
-    };
-    let terms = vec![(a.name.clone(), contrasts(a.levels.len()))];
-    analyse(table, &average(a.levels.len()), &terms)
-}
+impl Repeated {
+    /// One factor within subjects.
+    ///
+    /// # Errors
+    /// A table with other than one factor, missing cells (with their list), fewer than two subjects
+    /// or levels.
+    pub fn one_way(table: &Crossed) -> Computed<Self> {
+        let [a] = table.factors.as_slice() else {
+            return Err(wrong_factors(table, "one"));
+        };
+        let terms = vec![(a.name.clone(), contrasts(a.levels.len()))];
+        analyse(table, &average(a.levels.len()), &terms)
+    }
 
-/// Two crossed factors within subjects: A against A×S, B against B×S, A×B against A×B×S.
-///
-/// # Errors
-/// A table with other than two factors, missing cells (with their list), fewer than two subjects
-/// or levels.
-pub fn repeated_two_way(table: &Crossed) -> Computed<Repeated> {
-    let [a, b] = table.factors.as_slice() else {
-        return Err(wrong_factors(table, "two"));
-    };
-    let (n_a, n_b) = (a.levels.len(), b.levels.len());
-    let terms = vec![
-        (a.name.clone(), crossed(&contrasts(n_a), &average(n_b))),
-        (b.name.clone(), crossed(&average(n_a), &contrasts(n_b))),
-        (
-            format!("{} × {}", a.name, b.name),
-            crossed(&contrasts(n_a), &contrasts(n_b)),
-        ),
-    ];
-    analyse(table, &crossed(&average(n_a), &average(n_b)), &terms)
+    /// Two crossed factors within subjects: A against A×S, B against B×S, A×B against A×B×S.
+    ///
+    /// # Errors
+    /// A table with other than two factors, missing cells (with their list), fewer than two subjects
+    /// or levels.
+    pub fn two_way(table: &Crossed) -> Computed<Self> {
+        let [a, b] = table.factors.as_slice() else {
+            return Err(wrong_factors(table, "two"));
+        };
+        let (n_a, n_b) = (a.levels.len(), b.levels.len());
+        let terms = vec![
+            (a.name.clone(), crossed(&contrasts(n_a), &average(n_b))),
+            (b.name.clone(), crossed(&average(n_a), &contrasts(n_b))),
+            (
+                format!("{} × {}", a.name, b.name),
+                crossed(&contrasts(n_a), &contrasts(n_b)),
+            ),
+        ];
+        analyse(table, &crossed(&average(n_a), &average(n_b)), &terms)
+    }
 }
 
 fn wrong_factors(table: &Crossed, wanted: &str) -> Undefined {

@@ -2,7 +2,7 @@
 //! and loss.
 
 use selvedge_foundation::numerics::Random;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_statistics::mds::{Descent, Dissimilarities, Loss, Map, Mds, Ties};
 
 use super::{Bench, Findings, ReportError, Row, Study};
@@ -111,7 +111,7 @@ fn ways(k: usize, loss: Loss) -> Vec<Way> {
 }
 
 fn made(mds: &Mds, data: &Dissimilarities, k: usize) -> Option<Map> {
-    let maps = unheard(|progress| mds.maps(data, k..=k, progress));
+    let maps = Progress::unheard(|progress| mds.maps(data, k..=k, progress));
     maps.ok().and_then(|mut maps| maps.pop())
 }
 

@@ -9,7 +9,7 @@ use crate::{Bench, Row, Timing};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Maxima, Measured, Measurements,
-    SignificantMaxima, even_light, refine,
+    SignificantMaxima, Tile, even_light,
 };
 
 /// Adds what estimates and steps cost on one usual picture.
@@ -73,7 +73,7 @@ fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>, rows: &mut Vec<Row>) 
     rows.push(row("lattice", of_lattice));
     if let Ok(lattice) = measured.lattice() {
         let basis = lattice.basis();
-        let refining = || refine(&light, basis, 1, |_| Ok::<(), Infallible>(()));
+        let refining = || Tile::refine(&light, basis, 1, |_| Ok::<(), Infallible>(()));
         rows.push(row("refining", bench.time_repeated(n, 1, refining)));
     }
 }

@@ -21,9 +21,9 @@ pub(crate) use route::STUDY as ROUTE;
 pub(crate) use scale::STUDY as SCALE;
 
 use selvedge_foundation::numerics::Grid;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::{
-    Analysis, AnalysisOptions, Basis, DirectionOptions, EvenLight, Picture, analyse,
+    Analysis, AnalysisOptions, Basis, DirectionOptions, EvenLight, Picture,
 };
 
 /// A lattice whose vectors are this share of its shorter one away from the truth is another.
@@ -37,7 +37,7 @@ pub(crate) fn analysed(luminance: &Grid<f64>) -> Option<Analysis> {
         n_threads: 1,
     };
     let picture = Picture::grey(luminance.clone());
-    unheard(|progress| analyse(&picture, &options, progress)).ok()
+    Progress::unheard(|progress| Analysis::of(&picture, &options, progress)).ok()
 }
 
 /// How far a lattice is from the truth, as a share of the truth's shorter vector; 1 of none, and

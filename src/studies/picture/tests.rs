@@ -3,10 +3,10 @@
 use super::lattice::{ESTIMATES, Estimate, of_estimates};
 use super::*;
 use crate::{Bench, Effort, Findings, Row, Study};
-use selvedge_foundation::progress::{thread_cpu_seconds, unheard};
+use selvedge_foundation::progress::{Progress, thread_cpu_seconds};
 
 fn with_bench<T>(work: impl FnOnce(&mut Bench<'_>) -> T) -> T {
-    unheard(|progress| work(&mut Bench::new(Effort::Quick, 3, progress)))
+    Progress::unheard(|progress| work(&mut Bench::new(Effort::Quick, 3, progress)))
 }
 
 /// What a study finds in quick mode.

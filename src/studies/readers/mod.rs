@@ -9,7 +9,7 @@ use selvedge_chart::Axis;
 use selvedge_foundation::files::Number;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::LengthUnit;
-use selvedge_textile::metrology::{About, Coding, HeightOptions, Measured, open, write, write_x3p};
+use selvedge_textile::metrology::{About, Coding, HeightOptions, Measured, write, write_x3p};
 
 /// A format, and how exactly Sq comes back from it.
 #[derive(Debug, Clone, Copy)]
@@ -115,10 +115,10 @@ fn row(bench: &mut Bench<'_>, written: Written, map: &Measured) -> Result<Row, R
     let bytes = written.bytes(map)?;
     let path = Path::new("map");
     let asked = written.asked();
-    let read = open(&bytes, path, &asked)?;
+    let read = Measured::open(&bytes, path, &asked)?;
     let n_points = map.heights_um.values().len();
     let cost = bench.time(n_points, || {
-        open(&bytes, path, &asked).map(|read| read.n_missing())
+        Measured::open(&bytes, path, &asked).map(|read| read.n_missing())
     });
     let side = map.heights_um.width();
     Ok(Row::of(written.name, "", format!("{side} × {side}"))
@@ -153,7 +153,7 @@ mod tests {
         let map = map(64, 1).unwrap();
         for written in WRITTEN {
             let bytes = written.bytes(&map).unwrap();
-            let read = open(&bytes, Path::new("map"), &written.asked()).unwrap();
+            let read = Measured::open(&bytes, Path::new("map"), &written.asked()).unwrap();
             let off = (read.sq_um() / map.sq_um() - 1.0).abs();
             assert!(off <= written.promised, "{}: {off:e}", written.name);
         }

@@ -164,7 +164,7 @@ fn crossings(textiles: &[PlacedSurface]) -> Vec<Pose> {
 mod tests {
     use super::*;
     use crate::{Effort, pareto};
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
     use selvedge_render::scene::LoadedScene;
 
     fn study(method: Method, accuracy: Accuracy) -> ThisSceneStudy {
@@ -177,7 +177,8 @@ mod tests {
     }
 
     fn findings(study: &ThisSceneStudy) -> Findings {
-        unheard(|progress| study.run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap()
+        Progress::unheard(|progress| study.run(&mut Bench::new(Effort::Quick, 1, progress)))
+            .unwrap()
     }
 
     #[test]

@@ -11,10 +11,8 @@ use super::{Bench, Effort, Findings, ReportError, Row, Study};
 use reliefs::{Relief, Truth};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_foundation::progress::unheard;
-use selvedge_textile::picture::shading::{
-    Light, Method, ShadingOptions, Shape, estimate_light, shape_from_shading,
-};
+use selvedge_foundation::progress::Progress;
+use selvedge_textile::picture::shading::{Light, LightEstimate, Method, ShadingOptions, Shape};
 
 /// The light that everything else is varied about.
 const LIGHT: Light = Light {
@@ -133,7 +131,7 @@ fn promised_percent() -> f64 {
 }
 
 fn found(picture: &Grid<f64>, light: Light, options: &ShadingOptions) -> Option<Shape> {
-    unheard(|progress| shape_from_shading(picture, light, options, progress)).ok()
+    Progress::unheard(|progress| Shape::from_shading(picture, light, options, progress)).ok()
 }
 
 fn options(method: Method, iterations: Option<usize>) -> ShadingOptions {
@@ -272,7 +270,7 @@ fn of_estimates(weave: &Truth, bench: &Bench<'_>) -> String {
     for tilt_deg in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 120.0, 150.0] {
         let light = Light { tilt_deg, ..LIGHT };
         let picture = weave.picture(light, 0.0, &mut random);
-        let Ok(estimate) = estimate_light(&picture) else {
+        let Ok(estimate) = LightEstimate::of(&picture) else {
             continue;
         };
         let apart = (estimate.light.tilt_deg - tilt_deg).rem_euclid(180.0);

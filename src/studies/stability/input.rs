@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
-use selvedge_foundation::files::{Rgb8Image, decode_png, encode_png};
+use selvedge_foundation::files::Rgb8Image;
 use selvedge_textile::Library;
 use selvedge_textile::surface::{Direction, LocalSpectra, Profile};
 
@@ -101,11 +101,11 @@ fn small_png() -> Result<Vec<u8>, String> {
         height: 1,
         pixels: vec![[1, 2, 3]],
     };
-    encode_png(&picture, Path::new("a.png")).map_err(failed)
+    picture.to_png(Path::new("a.png")).map_err(failed)
 }
 
 fn decoded(bytes: &[u8]) -> Result<usize, String> {
-    let picture = decode_png(bytes, Path::new("a.png"));
+    let picture = Rgb8Image::from_png(bytes, Path::new("a.png"));
     picture
         .map(|picture| picture.pixels.len())
         .map_err(|error| error.to_string())

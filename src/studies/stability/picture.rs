@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::case::{Case, Verdict, cases, failed, refused, verdict};
 use crate::picture::analysed;
-use selvedge_foundation::files::{FileError, Rgb8Image, encode_png};
+use selvedge_foundation::files::{FileError, Rgb8Image};
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_textile::picture::{NoLattice, Picture, load};
+use selvedge_textile::picture::{NoLattice, Picture};
 
 /// A side of the pictures, px.
 const N: usize = 96;
@@ -85,7 +85,7 @@ fn nearly_parallel() -> Verdict {
 }
 
 fn loaded(bytes: &[u8]) -> Result<Picture, FileError> {
-    load(bytes, Path::new("a picture"))
+    Picture::load(bytes, Path::new("a picture"))
 }
 
 /// A bitmap that only says how large it is.
@@ -106,6 +106,6 @@ fn cut_off() -> Verdict {
             .map(|i| [i, u8::MAX - i, i / 3])
             .collect(),
     };
-    let bytes = encode_png(&picture, Path::new("a.png")).map_err(failed)?;
+    let bytes = picture.to_png(Path::new("a.png")).map_err(failed)?;
     refused(loaded(&bytes[..bytes.len() / 2]), &["cut short"])
 }

@@ -2,10 +2,8 @@
 
 use super::case::{Case, Verdict, cases, failed};
 use selvedge_foundation::numerics::Grid;
-use selvedge_foundation::progress::{Progress, unheard};
-use selvedge_textile::picture::shading::{
-    Light, Method, ShadingOptions, Shape, shape_from_shading,
-};
+use selvedge_foundation::progress::Progress;
+use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, Shape};
 
 /// A side of the tiles, px.
 const N: usize = 24;
@@ -58,8 +56,8 @@ fn found(
         method,
         ..ShadingOptions::default()
     };
-    let run = |progress: &mut Progress<'_>| shape_from_shading(tile, light, &options, progress);
-    unheard(run).map_err(failed)
+    let run = |progress: &mut Progress<'_>| Shape::from_shading(tile, light, &options, progress);
+    Progress::unheard(run).map_err(failed)
 }
 
 /// That it was refused, with these words.

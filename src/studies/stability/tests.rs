@@ -3,7 +3,7 @@
 use super::*;
 use crate::Effort;
 use crate::tests::quick;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 #[test]
 fn every_extreme_case_comes_out_as_promised() {
@@ -21,7 +21,8 @@ fn what_comes_out_otherwise_or_panics_is_broken_and_harms_no_other() {
         Case::new("a", "right", "silent", || Ok("0 µm".to_owned())),
     ];
     let run = |bench: &mut Bench<'_>| try_all(cases, PATIENCE, bench);
-    let findings = unheard(|progress| run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
+    let findings =
+        Progress::unheard(|progress| run(&mut Bench::new(Effort::Quick, 1, progress))).unwrap();
     let kept: Vec<Option<bool>> = findings.rows.iter().map(Row::is_kept).collect();
     assert_eq!(kept, [Some(false), Some(false), Some(true)]);
     let described: Vec<&str> = findings

@@ -14,7 +14,7 @@ use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
 use crate::recipe::{ProfileFiles, profiles_of_files};
 use crate::surface::Direction;
-use selvedge_foundation::files::{FileError, encode_png_small, read_text, write_atomic};
+use selvedge_foundation::files::{FileError, read_text, write_atomic};
 
 /// The name of the picture.
 pub(crate) const PICTURE: &str = "appearance.png";
@@ -53,7 +53,7 @@ pub fn build(recipe: &Manifest, path: &Path) -> Result<Vec<BuiltFile>, TextileEr
     let file = |(direction, text)| BuiltFile::new(ProfileFiles::name(direction), text);
     let mut files: Vec<_> = Direction::ALL.into_iter().zip(texts).map(file).collect();
     let (picture, px_per_mm) = model.picture();
-    let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
+    let bytes = picture.to_small_png(Path::new(PICTURE))?;
     files.push(BuiltFile::new(PICTURE, bytes));
     let mut manifest = complete(recipe, px_per_mm, path)?;
     let found = [("smd_um", smd_um, 100.0)].into_iter();

@@ -64,14 +64,14 @@ mod tests {
     use super::*;
     use crate::library::Store;
     use crate::surface::Direction;
-    use crate::{Textile, build, example};
-    use selvedge_foundation::progress::{CancelFlag, unheard};
+    use crate::{Manifest, Textile, build};
+    use selvedge_foundation::progress::{CancelFlag, Progress};
 
     #[test]
     fn a_trial_has_the_surface_of_the_textile_that_is_built_from_its_recipe() {
         for kind in ["weave", "fourier", "restoration"] {
-            let recipe = example(kind).unwrap();
-            let trial = unheard(|progress| RecipePreview::of(&recipe, progress)).unwrap();
+            let recipe = Manifest::example(kind).unwrap();
+            let trial = Progress::unheard(|progress| RecipePreview::of(&recipe, progress)).unwrap();
             let files = build(&recipe, Path::new("recipe")).unwrap();
             let store = Store::Built(Arc::new(files), Path::new("here").to_owned());
             let textile = Textile::load(&store, "built").unwrap();
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_trial_that_is_stopped_ends_and_what_was_measured_is_refused() {
-        let recipe = example("weave").unwrap();
+        let recipe = Manifest::example("weave").unwrap();
         let flag = CancelFlag::new();
         flag.cancel();
         let mut heard = |_: f64, _: &str| {};
@@ -100,7 +100,8 @@ mod tests {
         let text = "name = \"a\"\nconstruction = \"other\"\nfibre = \"b\"\n[source]\n\
                     kind = \"profiles\"\nwarp_forward = \"a.csv\"\n";
         let measured = Manifest::from_toml(text, Path::new("a")).unwrap();
-        let refused = unheard(|progress| RecipePreview::of(&measured, progress)).unwrap_err();
+        let refused =
+            Progress::unheard(|progress| RecipePreview::of(&measured, progress)).unwrap_err();
         assert!(refused.to_string().contains("is not a recipe"), "{refused}");
     }
 }

@@ -110,7 +110,7 @@ fn index_text(library: &Library, lines: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_foundation::progress::{CancelFlag, Progress};
     use selvedge_scratch::ScratchFolder;
 
     #[test]
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_catalogue_has_a_sheet_for_every_textile_and_stops_when_asked() {
-        let store = Library::shipped().unwrap().files_of("silk-crepe").unwrap();
+        let store = Library::shipped().unwrap().store_of("silk-crepe").unwrap();
         let root = ScratchFolder::new("sheets");
         let folder = root.join("cloths").join("silk");
         for name in [
@@ -154,7 +154,7 @@ mod tests {
         fs::write(folder.join("textile.toml"), manifest).unwrap();
         let library = Library::open(&root.join("cloths")).unwrap();
         let out = root.join("sheets");
-        let n = unheard(|progress| write_catalogue(&library, &out, progress)).unwrap();
+        let n = Progress::unheard(|progress| write_catalogue(&library, &out, progress)).unwrap();
         assert_eq!(n, 1);
         let index = fs::read_to_string(out.join("index.md")).unwrap();
         assert!(index.contains("# Catalogue of cloths") && index.contains("[silk](silk.svg)"));

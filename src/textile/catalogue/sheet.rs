@@ -4,7 +4,7 @@
 use crate::curve::{corners, line, row};
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
 use crate::tactile::{Band, Filters, SpeedResponse};
-use crate::{Source, Textile, TextileError, measured_figures};
+use crate::{MeasuredFigure, Source, Textile, TextileError};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Upright, Weight, Words,
 };
@@ -245,7 +245,7 @@ fn friction(textile: &Textile) -> Result<Option<Row>, TextileError> {
 /// Figures, where it comes from, and how to read the sheet.
 fn notes(textile: &Textile) -> Vec<String> {
     let manifest = textile.manifest();
-    let figures: Vec<String> = measured_figures(&manifest.measured)
+    let figures: Vec<String> = MeasuredFigure::all_of(&manifest.measured)
         .into_iter()
         .map(|figure| {
             let line = format!("{} {} {}", figure.name, figure.value, figure.unit);

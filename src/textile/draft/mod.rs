@@ -144,53 +144,55 @@ impl Draft {
     }
 }
 
-/// An example of a kind of recipe, to begin with.
-///
-/// # Errors
-/// A kind that is no recipe.
-pub fn example(kind: &str) -> Result<Manifest, TextileError> {
-    let example = example_of(kind)?.ok_or_else(|| {
-        let what = format!("a source of kind \"{kind}\" is not a recipe");
-        TextileError::Model(what)
-    })?;
-    match example {
-        Example::Shipped(id) => Library::shipped()?.manifest(id),
-        Example::Own { name, like, recipe } => {
-            let mut manifest = Manifest::new(name, recipe);
-            "none".clone_into(&mut manifest.fibre);
-            if let Some(id) = like {
-                let like = Library::shipped()?.manifest(id)?;
-                (manifest.construction, manifest.fibre) = (like.construction, like.fibre);
+impl Manifest {
+    /// An example of a kind of recipe, to begin with.
+    ///
+    /// # Errors
+    /// A kind that is no recipe.
+    pub fn example(kind: &str) -> Result<Self, TextileError> {
+        let example = example_of(kind)?.ok_or_else(|| {
+            let what = format!("a source of kind \"{kind}\" is not a recipe");
+            TextileError::Model(what)
+        })?;
+        match example {
+            Example::Shipped(id) => Library::shipped()?.manifest(id),
+            Example::Own { name, like, recipe } => {
+                let mut manifest = Self::new(name, recipe);
+                "none".clone_into(&mut manifest.fibre);
+                if let Some(id) = like {
+                    let like = Library::shipped()?.manifest(id)?;
+                    (manifest.construction, manifest.fibre) = (like.construction, like.fibre);
+                }
+                Ok(manifest)
             }
-            Ok(manifest)
         }
     }
-}
 
-/// The recipe that restores a textile from its warp and its weft profile: what repeats in them and
-/// the spectrum of the rest.
-///
-/// # Errors
-/// A textile whose profiles are too short.
-pub fn restored(textile: &Textile) -> Result<Manifest, TextileError> {
-    use crate::surface::Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
+    /// The recipe that restores a textile from its warp and its weft profile: what repeats in them and
+    /// the spectrum of the rest.
+    ///
+    /// # Errors
+    /// A textile whose profiles are too short.
+    pub fn restored(textile: &Textile) -> Result<Self, TextileError> {
+        use crate::surface::Direction::{WarpForward, WarpReverse, WeftForward, WeftReverse};
 
-    let surface = textile.surface();
-    let profile = |forward, reverse| {
-        surface
-            .profile(forward)
-            .or_else(|| surface.profile(reverse))
-    };
-    let none = || TextileError::Model(format!("{} has no warp profile", textile.id()));
-    let warp = profile(WarpForward, WarpReverse).ok_or_else(none)?;
-    let recipe = Restoration::of_profiles(warp, profile(WeftForward, WeftReverse))?;
-    let own = textile.manifest();
-    Ok(Manifest {
-        construction: own.construction,
-        fibre: own.fibre.clone(),
-        ..Manifest::new(
-            &format!("{}, restored", own.name),
-            Source::Restoration(Box::new(recipe)),
-        )
-    })
+        let surface = textile.surface();
+        let profile = |forward, reverse| {
+            surface
+                .profile(forward)
+                .or_else(|| surface.profile(reverse))
+        };
+        let none = || TextileError::Model(format!("{} has no warp profile", textile.id()));
+        let warp = profile(WarpForward, WarpReverse).ok_or_else(none)?;
+        let recipe = Restoration::of_profiles(warp, profile(WeftForward, WeftReverse))?;
+        let own = textile.manifest();
+        Ok(Self {
+            construction: own.construction,
+            fibre: own.fibre.clone(),
+            ..Self::new(
+                &format!("{}, restored", own.name),
+                Source::Restoration(Box::new(recipe)),
+            )
+        })
+    }
 }

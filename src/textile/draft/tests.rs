@@ -5,7 +5,7 @@ use crate::RECIPES;
 use selvedge_foundation::files::KeyValue;
 
 fn draft(kind: &str) -> Draft {
-    Draft::of(&example(kind).unwrap()).unwrap()
+    Draft::of(&Manifest::example(kind).unwrap()).unwrap()
 }
 
 #[test]

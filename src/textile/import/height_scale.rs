@@ -34,36 +34,39 @@ pub struct ScaledRelief {
     pub(crate) smd_um: Option<f64>,
 }
 
-/// Gives a shape its heights; `strokes` draws the tester over a map.
-pub fn scaled(
-    shape: &Shape,
-    step_mm: [f64; 2],
-    scale: HeightScale,
-    strokes: &impl Fn(&HeightMap) -> Result<ProfileSet, TextileError>,
-) -> Result<ScaledRelief, TextileError> {
-    if shape.is_flat() {
-        return Err(ShadingError::Flat.into());
-    }
-    let [low, high] = shape.range_px();
-    let of = |relief_um: f64| -> Result<HeightMap, TextileError> {
-        let factor = relief_um / (high - low);
-        let map = HeightMap::new(shape.height_px.map(|height| height * factor), step_mm);
-        Ok(map.map_err(no_surface)?.periodic())
-    };
-    let (relief_um, smd_um) = match scale {
-        HeightScale::Unscaled => return Err(ShadingError::Unscaled.into()),
-        HeightScale::ReliefUm(relief_um) => (checked("the relief", relief_um)?, None),
-        HeightScale::SmdUm(smd_um) => {
-            let wanted = checked("the SMD", smd_um)?;
-            let of_relief = |relief_um: f64| Ok(crate::surface::smd_um(&strokes(&of(relief_um)?)?));
-            (relief_for(wanted, of_relief)?, Some(wanted))
+impl ScaledRelief {
+    /// Gives a shape its heights; `strokes` draws the tester over a map.
+    pub fn of(
+        shape: &Shape,
+        step_mm: [f64; 2],
+        scale: HeightScale,
+        strokes: &impl Fn(&HeightMap) -> Result<ProfileSet, TextileError>,
+    ) -> Result<Self, TextileError> {
+        if shape.is_flat() {
+            return Err(ShadingError::Flat.into());
         }
-    };
-    Ok(ScaledRelief {
-        map: of(relief_um)?,
-        relief_um,
-        smd_um,
-    })
+        let [low, high] = shape.range_px();
+        let of = |relief_um: f64| -> Result<HeightMap, TextileError> {
+            let factor = relief_um / (high - low);
+            let map = HeightMap::new(shape.height_px.map(|height| height * factor), step_mm);
+            Ok(map.map_err(no_surface)?.periodic())
+        };
+        let (relief_um, smd_um) = match scale {
+            HeightScale::Unscaled => return Err(ShadingError::Unscaled.into()),
+            HeightScale::ReliefUm(relief_um) => (checked("the relief", relief_um)?, None),
+            HeightScale::SmdUm(smd_um) => {
+                let wanted = checked("the SMD", smd_um)?;
+                let of_relief =
+                    |relief_um: f64| Ok(crate::surface::smd_um(&strokes(&of(relief_um)?)?));
+                (relief_for(wanted, of_relief)?, Some(wanted))
+            }
+        };
+        Ok(Self {
+            map: of(relief_um)?,
+            relief_um,
+            smd_um,
+        })
+    }
 }
 
 fn checked(key: &'static str, um: f64) -> Result<f64, ShadingError> {

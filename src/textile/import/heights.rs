@@ -19,7 +19,7 @@ use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
 use crate::surface::{Direction, HeightMap, ProfileSet, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
-use selvedge_foundation::files::{encode_png_small, sha256_hex};
+use selvedge_foundation::files::sha256_hex;
 
 /// How measured heights are read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -144,7 +144,7 @@ impl HeightImport {
         }
         if !self.measured.is_profile() {
             let picture = shaded(&self.measured).map_err(TextileError::surface(&self.path))?;
-            let bytes = encode_png_small(&picture, Path::new(PICTURE))?;
+            let bytes = picture.to_small_png(Path::new(PICTURE))?;
             files.push(BuiltFile::new(PICTURE, bytes));
         }
         let manifest = self.manifest(keys, place, description);

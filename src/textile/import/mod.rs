@@ -11,12 +11,12 @@ mod picture;
 mod profile_files;
 
 pub use description::Description;
-pub use height_scale::{HeightScale, ScaledRelief, scaled};
+pub use height_scale::{HeightScale, ScaledRelief};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};
+pub use picture::PictureTextile;
 #[cfg(test)]
 pub(crate) use picture::to_textile;
-pub use picture::{PictureTextile, relief_um_of, textile_of};
 
 use std::path::Path;
 

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::description::manifest_file;
-use super::height_scale::{HeightScale, ScaledRelief, no_surface, scaled};
+use super::height_scale::{HeightScale, ScaledRelief, no_surface};
 use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
@@ -18,7 +18,7 @@ use crate::sources::Source;
 use crate::sources::picture::PictureSource;
 use crate::surface::{HeightMap, Probe, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
-use selvedge_foundation::files::{encode_png_small, sha256_hex};
+use selvedge_foundation::files::sha256_hex;
 
 /// The name of the map in the textile's folder.
 const MAP: &str = "heights.png";
@@ -72,12 +72,12 @@ pub(crate) fn to_textile(
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
     // Strokes are drawn over the map as the file has it.
-    let kept = metrology::open(&bytes, path, &HeightOptions::default())?;
+    let kept = Measured::open(&bytes, path, &HeightOptions::default())?;
     let profiles = keys.map().strokes(&kept, path)?;
     let mut files = vec![BuiltFile::new(MAP, bytes)];
     files.extend(profile_files(&profiles)?);
     let image = shaded(&kept).map_err(no_surface)?;
-    let bytes = encode_png_small(&image, Path::new(PICTURE))?;
+    let bytes = image.to_small_png(Path::new(PICTURE))?;
     files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
@@ -87,31 +87,33 @@ pub(crate) fn to_textile(
     Ok(files)
 }
 
-/// The files of a textile of that shape; size and lattice are taken from what it was cut from.
-///
-/// # Errors
-/// See [`to_textile`].
-pub fn textile_of(
-    shape: &Shape,
-    brightness: &Brightness,
-    tile: &Tile,
-    about: &PictureTextile,
-) -> Result<Vec<BuiltFile>, TextileError> {
-    let y_up = |[x, y]: [f64; 2]| [x, -y];
-    let about = PictureTextile {
-        size_px: Some(brightness.size_px),
-        lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
-        ..about.clone()
-    };
-    to_textile(shape, &about)
-}
+impl PictureTextile {
+    /// The files of a textile of that shape; size and lattice are taken from what it was cut from.
+    ///
+    /// # Errors
+    /// See [`to_textile`].
+    pub fn files_of(
+        shape: &Shape,
+        brightness: &Brightness,
+        tile: &Tile,
+        about: &Self,
+    ) -> Result<Vec<BuiltFile>, TextileError> {
+        let y_up = |[x, y]: [f64; 2]| [x, -y];
+        let about = Self {
+            size_px: Some(brightness.size_px),
+            lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
+            ..about.clone()
+        };
+        to_textile(shape, &about)
+    }
 
-/// From the lowest to the highest height of the textile that would be made, µm.
-///
-/// # Errors
-/// See [`to_textile`].
-pub fn relief_um_of(shape: &Shape, about: &PictureTextile) -> Result<f64, TextileError> {
-    Ok(heights(shape, about, &keys(shape, about))?.relief_um)
+    /// From the lowest to the highest height of the textile that would be made, µm.
+    ///
+    /// # Errors
+    /// See [`to_textile`].
+    pub fn relief_um_of(shape: &Shape, about: &Self) -> Result<f64, TextileError> {
+        Ok(heights(shape, about, &keys(shape, about))?.relief_um)
+    }
 }
 
 /// The shape in µm.
@@ -137,7 +139,7 @@ fn heights(
         keys.map().strokes(&measured, Path::new(MAP))
     };
     let step_mm = about.step_mm([width, height]);
-    scaled(shape, step_mm, about.scale, &drawn)
+    ScaledRelief::of(shape, step_mm, about.scale, &drawn)
 }
 
 fn rounded(um: f64) -> f64 {

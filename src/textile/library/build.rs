@@ -12,35 +12,37 @@ use crate::manifest::MANIFEST;
 use crate::surface::Surface;
 use crate::tactile::{Filters, Levels, Tuning};
 use selvedge_foundation::files::{sha256_hex, write_atomic};
-use selvedge_foundation::progress::{Progress, unheard};
+use selvedge_foundation::progress::Progress;
 
-/// Builds every textile of the library `from` into the folder `to`.
-///
-/// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are
-/// no models are copied. The work is shared among `n_threads`, which changes no byte.
-pub fn build_library(
-    from: &Library,
-    to: &Path,
-    tuning: Tuning,
-    n_threads: usize,
-    progress: &mut Progress<'_>,
-) -> Result<Index, TextileError> {
-    let build = |id: &str| {
-        let recipe = from.manifest(id)?;
-        let path = from.root().join(id).join(MANIFEST);
-        let files = if recipe.source.is_recipe() {
-            build(&recipe, &path)?
-        } else {
-            files_of(from, id)?
+impl Index {
+    /// Builds every textile of the library `from` into the folder `to`.
+    ///
+    /// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are
+    /// no models are copied. The work is shared among `n_threads`, which changes no byte.
+    pub fn build(
+        from: &Library,
+        to: &Path,
+        tuning: Tuning,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, TextileError> {
+        let build = |id: &str| {
+            let recipe = from.manifest(id)?;
+            let path = from.root().join(id).join(MANIFEST);
+            let files = if recipe.source.is_recipe() {
+                build(&recipe, &path)?
+            } else {
+                from.files_of(id)?
+            };
+            Ok(write(&files, &to.join(id))?)
         };
-        Ok(write(&files, &to.join(id))?)
-    };
-    for_each(from.ids(), n_threads, progress, build)?;
-    let index = index_of(&Library::of_folder(to, from.ids()), tuning, n_threads)?;
-    let path = to.join(INDEX);
-    write_atomic(&path, index.to_toml(&path)?.as_bytes())?;
-    progress.step(1.0, INDEX)?;
-    Ok(index)
+        for_each(from.ids(), n_threads, progress, build)?;
+        let index = index_of(&Library::of_folder(to, from.ids()), tuning, n_threads)?;
+        let path = to.join(INDEX);
+        write_atomic(&path, index.to_toml(&path)?.as_bytes())?;
+        progress.step(1.0, INDEX)?;
+        Ok(index)
+    }
 }
 
 /// The index of a library, from its profiles: levels with the default filters (to six digits), the
@@ -51,11 +53,12 @@ pub(crate) fn index_of(
     n_threads: usize,
 ) -> Result<Index, TextileError> {
     let measure = |id: &str| {
-        let store = library.files_of(id)?;
+        let store = library.store_of(id)?;
         let textile = Textile::load(&store, id)?;
         Ok((entry_of(id, textile.surface()), content_of(&store, id)?))
     };
-    let measured = unheard(|progress| for_each(library.ids(), n_threads, progress, measure));
+    let measured =
+        Progress::unheard(|progress| for_each(library.ids(), n_threads, progress, measure));
     let (textiles, content): (Vec<IndexEntry>, Vec<_>) = measured?.into_iter().unzip();
     let levels: Vec<f64> = textiles.iter().filter_map(IndexEntry::level_db).collect();
     let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;
@@ -83,28 +86,30 @@ fn six_digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
-/// The files of a textile of a library, as they are; recipes of a file are built.
-///
-/// # Errors
-/// An unknown id; a file that is missing or wrong.
-pub fn files_of(from: &Library, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
-    let store = from.files_of(id)?;
-    let manifest = read_manifest(&store, id)?;
-    let mut names = content_names(&manifest);
-    names.extend(manifest.friction_file().map(ToOwned::to_owned));
-    names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
-    names.push(MANIFEST.to_owned());
-    if let Some(heights) = manifest.source.keys().heights_file() {
-        let name = heights.name().to_owned();
-        if !names.contains(&name) && store.read(id, &name).is_ok() {
-            names.push(name);
+impl Library {
+    /// The files of a textile of a library, as they are; recipes of a file are built.
+    ///
+    /// # Errors
+    /// An unknown id; a file that is missing or wrong.
+    pub fn files_of(&self, id: &str) -> Result<Vec<BuiltFile>, TextileError> {
+        let store = self.store_of(id)?;
+        let manifest = read_manifest(&store, id)?;
+        let mut names = content_names(&manifest);
+        names.extend(manifest.friction_file().map(ToOwned::to_owned));
+        names.extend(manifest.appearance.as_ref().map(|keys| keys.image.clone()));
+        names.push(MANIFEST.to_owned());
+        if let Some(heights) = manifest.source.keys().heights_file() {
+            let name = heights.name().to_owned();
+            if !names.contains(&name) && store.read(id, &name).is_ok() {
+                names.push(name);
+            }
         }
+        let copy = |name: String| {
+            let bytes = store.read(id, &name)?;
+            Ok(BuiltFile::new(name, bytes))
+        };
+        names.into_iter().map(copy).collect()
     }
-    let copy = |name: String| {
-        let bytes = store.read(id, &name)?;
-        Ok(BuiltFile::new(name, bytes))
-    };
-    names.into_iter().map(copy).collect()
 }
 
 /// The hash that the index of a library states: of what its figures are made from, in order.
@@ -112,7 +117,7 @@ pub(crate) fn hash_of(library: &Library) -> Result<String, TextileError> {
     let contents = library
         .ids()
         .iter()
-        .map(|id| content_of(&library.files_of(id)?, id));
+        .map(|id| content_of(&library.store_of(id)?, id));
     let contents = contents.collect::<Result<Vec<_>, _>>()?;
     Ok(sha256_hex(contents.iter().flatten().map(Vec::as_slice)))
 }

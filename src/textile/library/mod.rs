@@ -15,14 +15,13 @@ mod textile;
 
 #[cfg(test)]
 pub(crate) use build::index_of;
-pub use build::{build_library, files_of};
 pub use cache::BuildCache;
 pub use folder::{Change, LibraryFolder, Version, called};
 pub use id::{elsewhere, id_in, id_of, nth_id};
 #[cfg(test)]
 pub(crate) use recipe_file::SEVENTY_FOUR;
 pub use recipe_file::is_of_the_program;
-pub use representatives::{kind_of, most_typical};
+pub use representatives::kind_of;
 pub use selvedge_foundation::numerics::n_threads;
 pub use textile::{Appearance, Textile};
 
@@ -204,7 +203,7 @@ impl Library {
         if let Some((library, id)) = self.other_of(id)? {
             return library.appearance(id);
         }
-        let store = self.files_of(id)?;
+        let store = self.store_of(id)?;
         let manifest = read_manifest(&store, id)?;
         read_appearance(&store, id, &manifest)
     }
@@ -215,8 +214,8 @@ impl Library {
     /// An unknown id, a file that is missing, wrong or has vanished since the library was opened.
     pub fn load(&self, id: &str) -> Result<Arc<Textile>, TextileError> {
         let textile = match self.other_of(id)? {
-            Some((library, plain)) => Textile::load(&library.files_of(plain)?, plain)?.known_as(id),
-            None => Textile::load(&self.files_of(id)?, id)?,
+            Some((library, plain)) => Textile::load(&library.store_of(plain)?, plain)?.known_as(id),
+            None => Textile::load(&self.store_of(id)?, id)?,
         };
         Ok(Arc::new(textile))
     }
@@ -240,7 +239,7 @@ impl Library {
     }
 
     /// Where the files of a textile are: built, if they were not there.
-    pub(crate) fn files_of(&self, id: &str) -> Result<Store, TextileError> {
+    pub(crate) fn store_of(&self, id: &str) -> Result<Store, TextileError> {
         self.check_id(id)?;
         match &self.place {
             Place::Recipes(recipes) => {

@@ -74,7 +74,7 @@ pub(crate) fn for_each<T: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::progress::{CancelFlag, unheard};
+    use selvedge_foundation::progress::{CancelFlag, Progress};
 
     fn ids(n: usize) -> Vec<String> {
         (0..n).map(|i| i.to_string()).collect()
@@ -84,10 +84,10 @@ mod tests {
     fn results_come_in_order_whatever_the_number_of_threads() {
         let double = |id: &str| Ok(2 * id.parse::<usize>().unwrap());
         for n_threads in [0, 1, 2, 7] {
-            let all = unheard(|p| for_each(&ids(20), n_threads, p, double)).unwrap();
+            let all = Progress::unheard(|p| for_each(&ids(20), n_threads, p, double)).unwrap();
             assert_eq!(all, (0..20).map(|i| 2 * i).collect::<Vec<_>>());
         }
-        let none = unheard(|p| for_each(&[], 2, p, double)).unwrap();
+        let none = Progress::unheard(|p| for_each(&[], 2, p, double)).unwrap();
         assert!(none.is_empty());
     }
 
@@ -100,7 +100,7 @@ mod tests {
                 known: String::new(),
             })
         };
-        let error = unheard(|p| for_each(&ids(5), 2, p, failed)).unwrap_err();
+        let error = Progress::unheard(|p| for_each(&ids(5), 2, p, failed)).unwrap_err();
         assert!(error.to_string().contains("\"0\""), "{error}");
         let flag = CancelFlag::new();
         flag.cancel();

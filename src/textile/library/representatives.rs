@@ -15,37 +15,39 @@ pub fn kind_of(manifest: &Manifest) -> Option<&'static str> {
     manifest.source.keys().textile_kind(&manifest.fibre)
 }
 
-/// The kinds of a library in the order in which they first come, each with its most typical
-/// textile. Textiles without a kind or without a level are passed over.
-///
-/// # Errors
-/// A library without measured levels, a manifest that is wrong.
-pub fn most_typical(library: &Library) -> Result<Vec<(&'static str, String)>, TextileError> {
-    let index = library.index().ok_or_else(|| TextileError::NoIndex {
-        library: library.root(),
-    })?;
-    let mut kinds: Vec<(&'static str, Vec<&IndexEntry>)> = Vec::new();
-    for entry in &index.textiles {
-        let kind = kind_of(&library.manifest(&entry.id)?);
-        let Some(kind) = kind.filter(|_| entry.level_db().is_some()) else {
-            continue;
-        };
-        match kinds.iter_mut().find(|(known, _)| *known == kind) {
-            Some((_, entries)) => entries.push(entry),
-            None => kinds.push((kind, vec![entry])),
+impl Library {
+    /// The kinds of a library in the order in which they first come, each with its most typical
+    /// textile. Textiles without a kind or without a level are passed over.
+    ///
+    /// # Errors
+    /// A library without measured levels, a manifest that is wrong.
+    pub fn most_typical(&self) -> Result<Vec<(&'static str, String)>, TextileError> {
+        let index = self.index().ok_or_else(|| TextileError::NoIndex {
+            library: self.root(),
+        })?;
+        let mut kinds: Vec<(&'static str, Vec<&IndexEntry>)> = Vec::new();
+        for entry in &index.textiles {
+            let kind = kind_of(&self.manifest(&entry.id)?);
+            let Some(kind) = kind.filter(|_| entry.level_db().is_some()) else {
+                continue;
+            };
+            match kinds.iter_mut().find(|(known, _)| *known == kind) {
+                Some((_, entries)) => entries.push(entry),
+                None => kinds.push((kind, vec![entry])),
+            }
         }
-    }
-    let chosen = |(kind, entries): (&'static str, Vec<&IndexEntry>)| {
-        let far = |one: &&IndexEntry| {
-            entries
-                .iter()
-                .map(|other| apart_db(one, other))
-                .sum::<f64>()
+        let chosen = |(kind, entries): (&'static str, Vec<&IndexEntry>)| {
+            let far = |one: &&IndexEntry| {
+                entries
+                    .iter()
+                    .map(|other| apart_db(one, other))
+                    .sum::<f64>()
+            };
+            let nearest = entries.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+            Some((kind, nearest.id.clone()))
         };
-        let nearest = entries.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
-        Some((kind, nearest.id.clone()))
-    };
-    Ok(kinds.into_iter().filter_map(chosen).collect())
+        Ok(kinds.into_iter().filter_map(chosen).collect())
+    }
 }
 
 /// How far two textiles are from one another in the plane of levels, dB.

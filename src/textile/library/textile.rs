@@ -7,8 +7,10 @@ use crate::error::TextileError;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::profile_file;
 use crate::recipe::profiles_of_files;
-use crate::surface::{Direction, FrictionTrace, HeightMap, ProfileSet, Representation, Surface};
-use selvedge_foundation::files::{Rgb8Image, decode_png, sha256_hex};
+use crate::surface::{
+    Direction, FrictionTrace, HeightMap, Profile, ProfileSet, Representation, Surface,
+};
+use selvedge_foundation::files::{Rgb8Image, sha256_hex};
 
 /// A textile, ready to be felt.
 #[derive(Debug, Clone)]
@@ -153,7 +155,7 @@ pub(crate) fn read_appearance(
         return Ok(None);
     };
     let bytes = store.read(id, &keys.image)?;
-    let image = decode_png(&bytes, &store.path(id, &keys.image))?;
+    let image = Rgb8Image::from_png(&bytes, &store.path(id, &keys.image))?;
     Ok(Some(Appearance {
         image,
         px_per_mm: keys.px_per_mm,
@@ -208,7 +210,7 @@ fn read_profiles(store: &Store, id: &str, manifest: &Manifest) -> Result<Profile
         let Some(name) = files.of(direction) else {
             continue;
         };
-        let profile = profile_file::read(&store.text(id, name)?, &store.path(id, name))?;
+        let profile = Profile::read(&store.text(id, name)?, &store.path(id, name))?;
         profiles[direction.index()] = Some(profile);
     }
     Ok(profiles)

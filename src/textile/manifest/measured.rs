@@ -109,49 +109,53 @@ pub struct KnownFigure {
     pub max: f64,
 }
 
-/// Every known figure in the testers' order, with those of one direction after it.
-pub fn all_known() -> impl Iterator<Item = KnownFigure> {
-    KNOWN.iter().flat_map(|known| {
-        let n_sides = if known.has_directions { SIDES.len() } else { 1 };
-        SIDES[..n_sides].iter().map(|side| {
-            let between = if side.is_empty() { "" } else { "_" };
-            KnownFigure {
-                key: [known.symbol, between, side, known.suffix].concat(),
-                name: [known.name, side].join(" ").trim_end().to_owned(),
-                what: known.what,
-                unit: known.unit,
-                max: known.max,
-            }
+impl KnownFigure {
+    /// Every known figure in the testers' order, with those of one direction after it.
+    pub fn all() -> impl Iterator<Item = Self> {
+        KNOWN.iter().flat_map(|known| {
+            let n_sides = if known.has_directions { SIDES.len() } else { 1 };
+            SIDES[..n_sides].iter().map(|side| {
+                let between = if side.is_empty() { "" } else { "_" };
+                Self {
+                    key: [known.symbol, between, side, known.suffix].concat(),
+                    name: [known.name, side].join(" ").trim_end().to_owned(),
+                    what: known.what,
+                    unit: known.unit,
+                    max: known.max,
+                }
+            })
         })
-    })
+    }
 }
 
-/// The figures of a manifest for people: the known ones in the testers' order, then the others by
-/// their keys.
-pub fn figures(measured: &BTreeMap<String, f64>) -> Vec<Figure> {
-    let known: Vec<KnownFigure> = all_known().collect();
-    let is_other = |key: &&String| known.iter().all(|figure| figure.key != **key);
-    let others: Vec<&String> = measured.keys().filter(is_other).collect();
-    let others = others.into_iter().map(|key| Figure {
-        name: key.clone(),
-        what: "",
-        value: measured[key],
-        unit: "",
-    });
-    let found = known.iter().filter_map(|figure| {
-        Some(Figure {
-            name: figure.name.clone(),
-            what: figure.what,
-            value: *measured.get(&figure.key)?,
-            unit: figure.unit,
-        })
-    });
-    found.chain(others).collect()
+impl Figure {
+    /// The figures of a manifest for people: the known ones in the testers' order, then the others by
+    /// their keys.
+    pub fn all_of(measured: &BTreeMap<String, f64>) -> Vec<Self> {
+        let known: Vec<KnownFigure> = KnownFigure::all().collect();
+        let is_other = |key: &&String| known.iter().all(|figure| figure.key != **key);
+        let others: Vec<&String> = measured.keys().filter(is_other).collect();
+        let others = others.into_iter().map(|key| Self {
+            name: key.clone(),
+            what: "",
+            value: measured[key],
+            unit: "",
+        });
+        let found = known.iter().filter_map(|figure| {
+            Some(Self {
+                name: figure.name.clone(),
+                what: figure.what,
+                value: *measured.get(&figure.key)?,
+                unit: figure.unit,
+            })
+        });
+        found.chain(others).collect()
+    }
 }
 
 /// Refuses a figure out of its range, and a key that says no unit.
 pub(super) fn check(checker: &Checker<'_>, key: &str, value: f64) -> Result<(), TextileError> {
-    if let Some(known) = all_known().find(|known| known.key == key) {
+    if let Some(known) = KnownFigure::all().find(|known| known.key == key) {
         return checker.within("measured", key, value, 0.0..=known.max);
     }
     checker.within("measured", key, value, -1e12..=1e12)?;
@@ -182,7 +186,7 @@ mod tests {
 
     #[test]
     fn every_known_figure_takes_its_range_and_nothing_beyond() {
-        for known in all_known() {
+        for known in KnownFigure::all() {
             checked(&known.key, known.max).unwrap();
             for value in [f64::NAN, -0.1, known.max * 1.01] {
                 let error = checked(&known.key, value).unwrap_err();
@@ -194,7 +198,7 @@ mod tests {
 
     #[test]
     fn directions_are_for_figures_that_have_one() {
-        let keys: Vec<String> = all_known().map(|known| known.key).collect();
+        let keys: Vec<String> = KnownFigure::all().map(|known| known.key).collect();
         let is_known = |key: &str| keys.iter().any(|known| known == key);
         assert!(is_known("smd_warp_um") && is_known("mmd_official_weft"));
         assert!(!is_known("rc_warp_percent"));
@@ -229,7 +233,7 @@ mod tests {
             "smd_warp_um",
         ];
         let measured = keys.map(|key| (key.to_owned(), 1.0)).into_iter().collect();
-        let names: Vec<String> = figures(&measured)
+        let names: Vec<String> = Figure::all_of(&measured)
             .into_iter()
             .map(|figure| figure.name)
             .collect();

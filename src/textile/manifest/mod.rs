@@ -7,7 +7,7 @@ mod measured;
 mod provenance;
 mod uncertainty;
 
-pub use measured::{Figure, KnownFigure, all_known, figures};
+pub use measured::{Figure, KnownFigure};
 pub use provenance::{Parent, Provenance};
 pub use uncertainty::Uncertainty;
 
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::TextileError;
 use crate::recipe::Checker;
 use crate::sources::{self, KINDS, ReadKind, Source};
-use crate::tactile::check_gain;
+use crate::tactile::Tuning;
 use selvedge_foundation::files::{FileError, keys_from_str, keys_to_string};
 use selvedge_foundation::named;
 
@@ -149,7 +149,7 @@ impl Manifest {
         if self.name.trim().is_empty() {
             return Err(checker.wrong("", "name", "the name is empty", "give the textile a name"));
         }
-        check_gain("gain_db", self.gain_db).map_err(|error| {
+        Tuning::check_gain("gain_db", self.gain_db).map_err(|error| {
             let what = error.to_string().replace(';', ",");
             checker.wrong("", "gain_db", what, "write a number of dB")
         })?;

@@ -7,7 +7,7 @@ use super::field::{FieldKeys, field_reading};
 use super::reading::Stated;
 use super::{HeightOptions, LengthUnit, Measured, Reading};
 use crate::surface::MAX_POINTS;
-use selvedge_foundation::files::{FileError, GrayImage, decode_gray_png, decode_gray_tiff};
+use selvedge_foundation::files::{FileError, GrayImage};
 
 pub(super) const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PREFIX: &str = "Gwy::";
@@ -15,9 +15,9 @@ const PREFIX: &str = "Gwy::";
 /// Reads a PNG or a TIFF.
 pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
     let (picture, format) = if bytes.starts_with(PNG_MAGIC) {
-        (decode_gray_png(bytes, path, MAX_POINTS)?, "PNG")
+        (GrayImage::from_png(bytes, path, MAX_POINTS)?, "PNG")
     } else {
-        (decode_gray_tiff(bytes, path, MAX_POINTS)?, "TIFF")
+        (GrayImage::from_tiff(bytes, path, MAX_POINTS)?, "TIFF")
     };
     let mut keys = FieldKeys::default();
     for (key, value) in &picture.texts {

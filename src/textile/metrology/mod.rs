@@ -34,7 +34,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use reading::{Reading, n_points};
-use selvedge_foundation::files::{FileError, NPY_MAGIC, encode_gray_png, encode_gray_tiff};
+use selvedge_foundation::files::{FileError, NumberArray};
 
 /// What can be read, for people.
 const READABLE: &str =
@@ -60,7 +60,7 @@ const FORMATS: [(&[u8], Reader); 11] = [
     (b"DSCOMPRESSED", |bytes, path, _| sur::read(bytes, path)),
     (b"GWYP", gwy::read),
     (gsf::MAGIC, |bytes, path, _| gsf::read(bytes, path)),
-    (NPY_MAGIC, |bytes, path, _| npy::read(bytes, path)),
+    (NumberArray::MAGIC, |bytes, path, _| npy::read(bytes, path)),
     (image16::PNG_MAGIC, image16::read),
     (b"II*\0", image16::read),
     (b"MM\0*", image16::read),
@@ -78,19 +78,21 @@ pub(crate) fn is_known(head: &[u8]) -> bool {
     reader_of(head).is_some()
 }
 
-/// Reads measured heights. `path` only names the file in errors.
-///
-/// # Errors
-/// One line: a format that is not read, a damaged file, a size beyond
-/// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
-/// be given, no height at all.
-pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Measured, TextileError> {
-    let of_text = || is_text(bytes).then_some(text::read as Reader);
-    let Some(reader) = reader_of(bytes).or_else(of_text) else {
-        let what = "this is no file of measured heights that is known here";
-        return Err(FileError::whole(path, what, READABLE).into());
-    };
-    reader(bytes, path, asked)?.finish(path, asked)
+impl Measured {
+    /// Reads measured heights. `path` only names the file in errors.
+    ///
+    /// # Errors
+    /// One line: a format that is not read, a damaged file, a size beyond
+    /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
+    /// be given, no height at all.
+    pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Self, TextileError> {
+        let of_text = || is_text(bytes).then_some(text::read as Reader);
+        let Some(reader) = reader_of(bytes).or_else(of_text) else {
+            let what = "this is no file of measured heights that is known here";
+            return Err(FileError::whole(path, what, READABLE).into());
+        };
+        reader(bytes, path, asked)?.finish(path, asked)
+    }
 }
 
 /// Writes a map in the format that the ending of `path` names: `.x3p`, `.gsf`, `.npy`, `.png` or
@@ -104,8 +106,8 @@ pub fn write(measured: &Measured, path: &Path) -> Result<Vec<u8>, TextileError> 
         "x3p" => x3p::write(measured, Coding::default(), path)?,
         "gsf" => gsf::write(measured),
         "npy" => npy::write(measured),
-        "png" => encode_gray_png(&image16::picture(measured, path)?, path)?,
-        "tif" | "tiff" => encode_gray_tiff(&image16::picture(measured, path)?, path)?,
+        "png" => image16::picture(measured, path)?.to_png(path)?,
+        "tif" | "tiff" => image16::picture(measured, path)?.to_tiff(path)?,
         _ => {
             let what = "heights are not written in this format";
             let mend = "name a file that ends in .x3p, .gsf, .npy, .png or .tif";

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::open;
+use super::Measured;
 use super::samples::all;
 use crate::surface::MAX_POINTS;
 use selvedge_foundation::numerics::Random;
@@ -24,7 +24,7 @@ fn every_reader_withstands_faulty_files() {
         for _ in 0..n_each {
             let faulty = mutated(&bytes, &mut random);
             n_inputs += 1;
-            match open(&faulty, Path::new(name), &asked) {
+            match Measured::open(&faulty, Path::new(name), &asked) {
                 Ok(read) => {
                     n_read += 1;
                     assert!(read.heights_um.values().len() <= MAX_POINTS, "{name}");

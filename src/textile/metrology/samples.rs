@@ -2,7 +2,7 @@
 
 use super::{Coding, HeightOptions, LengthUnit, Measured, frt, gsf, npy, tmd, x3p};
 use crate::metrology::About;
-use selvedge_foundation::files::{Number, deflate, pack};
+use selvedge_foundation::files::{Archive, Number, deflate};
 use selvedge_foundation::numerics::Grid;
 use std::path::Path;
 
@@ -94,7 +94,7 @@ fn with_places() -> Vec<u8> {
         axis("Z", "A"),
         data.concat()
     );
-    pack(&[("cloth/main.xml", xml.as_bytes())], Path::new("sample")).unwrap()
+    Archive::pack(&[("cloth/main.xml", xml.as_bytes())], Path::new("sample")).unwrap()
 }
 
 /// A Digital Surf file: x in mm, y in µm, heights in nm; two missing points. `[bits, is_packed]`.

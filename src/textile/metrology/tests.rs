@@ -23,7 +23,7 @@ fn assert_alike(read: &Measured, given: &Measured, um: f64, what: &str) {
 #[test]
 fn every_format_gives_the_same_map() {
     for (name, bytes, asked) in all() {
-        let read = open(&bytes, Path::new(name), &asked).unwrap();
+        let read = Measured::open(&bytes, Path::new(name), &asked).unwrap();
         let um = match name {
             "x3p f64" | "x3p list" | "gwy" | "npy" | "x3p places" => 2e-6,
             "two columns" | "valid" | "matrix" => continue,
@@ -58,7 +58,7 @@ fn texts_give_profiles_and_maps_with_the_units_of_their_headings() {
             .into_iter()
             .find(|(name, ..)| *name == wanted)
             .unwrap();
-        open(&bytes, Path::new(wanted), &HeightOptions::default()).unwrap()
+        Measured::open(&bytes, Path::new(wanted), &HeightOptions::default()).unwrap()
     };
     let stylus = of("two columns");
     assert!(stylus.is_profile() && stylus.heights_um.width() == 60);
@@ -89,7 +89,7 @@ fn x3p_comes_back_from_every_number_type_binary_and_listed() {
                 let bytes = write_x3p(&given, Coding { number, is_list }, path).unwrap();
                 let again = write_x3p(&given, Coding { number, is_list }, path).unwrap();
                 assert_eq!(bytes, again, "the same map, the same bytes");
-                let read = open(&bytes, path, &HeightOptions::default()).unwrap();
+                let read = Measured::open(&bytes, path, &HeightOptions::default()).unwrap();
                 let um = if number == Number::I16 { 2e-4 } else { 1e-5 };
                 assert_alike(&read, &given, um, &format!("{number:?} {is_list}"));
                 assert_eq!(read.warnings, Vec::<String>::new());
@@ -113,31 +113,31 @@ fn x3p_comes_back_from_every_number_type_binary_and_listed() {
 
 #[test]
 fn a_wrong_checksum_is_a_warning_and_a_short_member_an_error() {
-    use selvedge_foundation::files::{Archive, pack};
+    use selvedge_foundation::files::Archive;
     let path = Path::new("a.x3p");
     let bytes = write_x3p(&map(0), Coding::default(), path).unwrap();
     let mut archive = Archive::open(&bytes, path).unwrap();
     let xml = archive.member("main.xml", 1 << 20).unwrap();
     let mut data = archive.member("bindata/data.bin", 1 << 20).unwrap();
     data[7] ^= 1;
-    let changed = pack(&[("main.xml", &xml), ("bindata/data.bin", &data)], path).unwrap();
-    let read = open(&changed, path, &HeightOptions::default()).unwrap();
+    let changed = Archive::pack(&[("main.xml", &xml), ("bindata/data.bin", &data)], path).unwrap();
+    let read = Measured::open(&changed, path, &HeightOptions::default()).unwrap();
     assert_eq!(read.warnings.len(), 2, "{:?}", read.warnings);
     assert!(read.warnings[1].contains("does not fit bindata/data.bin"));
     for (data, expected) in [
         (&data[..80], "holds 80 bytes"),
         (&[0; 9999], "more than 672"),
     ] {
-        let bytes = pack(&[("main.xml", &xml), ("bindata/data.bin", data)], path).unwrap();
-        let error = open(&bytes, path, &HeightOptions::default())
+        let bytes = Archive::pack(&[("main.xml", &xml), ("bindata/data.bin", data)], path).unwrap();
+        let error = Measured::open(&bytes, path, &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected), "{error}");
     }
     let giant = String::from_utf8(xml).unwrap().replace(">12<", ">9999999<");
     let giant = giant.replace("<SizeY>7<", "<SizeY>9999999999<");
-    let bytes = pack(&[("main.xml", giant.as_bytes())], path).unwrap();
-    let error = open(&bytes, path, &HeightOptions::default())
+    let bytes = Archive::pack(&[("main.xml", giant.as_bytes())], path).unwrap();
+    let error = Measured::open(&bytes, path, &HeightOptions::default())
         .unwrap_err()
         .to_string();
     assert!(
@@ -193,7 +193,7 @@ fn what_is_not_stated_or_wrong_is_asked_for_in_one_line() {
 const TWO_COLUMNS: &str = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
 
 fn read_text(text: &str, asked: &HeightOptions) -> Result<Measured, TextileError> {
-    open(text.as_bytes(), Path::new("a.txt"), asked)
+    Measured::open(text.as_bytes(), Path::new("a.txt"), asked)
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn a_column_among_many_is_chosen_by_name_or_number() {
     };
     for column in ["first", "2"] {
         asked.column = Some(column.to_owned());
-        let error = open(text.as_bytes(), Path::new("a.csv"), &asked).unwrap_err();
+        let error = Measured::open(text.as_bytes(), Path::new("a.csv"), &asked).unwrap_err();
         assert!(
             error
                 .to_string()
@@ -245,11 +245,11 @@ fn a_column_among_many_is_chosen_by_name_or_number() {
             step_mm: Some(0.01),
             ..asked.clone()
         };
-        let read = open(text.as_bytes(), Path::new("a.csv"), &with_step).unwrap();
+        let read = Measured::open(text.as_bytes(), Path::new("a.csv"), &with_step).unwrap();
         assert_eq!(read.heights_um.values(), [1.5, 2.5]);
     }
     asked.column = Some("third".to_owned());
-    let error = open(text.as_bytes(), Path::new("a.csv"), &asked)
+    let error = Measured::open(text.as_bytes(), Path::new("a.csv"), &asked)
         .unwrap_err()
         .to_string();
     assert!(
@@ -281,7 +281,7 @@ fn lying_and_foreign_files_are_refused_in_one_line() {
             "no block with the grid",
         ),
     ] {
-        let error = open(&bytes, path, &HeightOptions::default())
+        let error = Measured::open(&bytes, path, &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected) && error.contains("; "), "{error}");
@@ -437,7 +437,7 @@ fn files_of_instruments_have_the_sq_that_independent_readers_find() {
             column: name.ends_with("aux.csv").then(|| "iso1661029_a".to_owned()),
             ..HeightOptions::default()
         };
-        let read = open(&bytes, Path::new(name), &asked).unwrap();
+        let read = Measured::open(&bytes, Path::new(name), &asked).unwrap();
         let off = (read.sq_um() / sq_um - 1.0).abs();
         println!(
             "{name}: Sq {} µm, {off:.1e} from {whose}; {:?}",
@@ -461,7 +461,7 @@ fn files_of_instruments_have_the_sq_that_independent_readers_find() {
         ("navierpy/vectoraux.csv", "9 columns: 1, 2 \"iso1661029_a\""),
     ] {
         let bytes = std::fs::read(folder.join(name)).unwrap();
-        let error = open(&bytes, Path::new(name), &HeightOptions::default())
+        let error = Measured::open(&bytes, Path::new(name), &HeightOptions::default())
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected), "{name}: {error}");
@@ -476,11 +476,11 @@ fn a_text_in_utf_16_reads_like_any_other() {
     for unit in [u16::to_le_bytes, u16::to_be_bytes] {
         let units = format!("\u{feff}{text}");
         let bytes: Vec<u8> = units.encode_utf16().flat_map(unit).collect();
-        let read = open(&bytes, Path::new("a.txt"), &HeightOptions::default());
+        let read = Measured::open(&bytes, Path::new("a.txt"), &HeightOptions::default());
         assert_eq!(read.unwrap(), plain);
     }
     assert!(
-        open(
+        Measured::open(
             b"\xff\xfe\x00\xd8",
             Path::new("a.txt"),
             &HeightOptions::default()

@@ -10,7 +10,6 @@ use super::lattice::{Lattice, NoLattice};
 use super::light::{EvenLight, even_light, mean_and_variance};
 use super::maxima::Maxima;
 use super::part::flattest;
-use super::refine::refine;
 use super::significant::SignificantMaxima;
 use super::source::Picture;
 use super::tile::Tile;
@@ -128,7 +127,7 @@ impl Found {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         let all = |share: f64| progress.step(0.8 + 0.06 * share, "averaging the cells");
-        let (whole, explained_variance) = refine(luminance, lattice.basis(), n_threads, all)?;
+        let (whole, explained_variance) = Tile::refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
         let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
         let wanted = DRIFT * lattice.level;
@@ -157,45 +156,48 @@ impl Found {
     }
 }
 
-/// Runs every stage.
-///
-/// # Errors
-/// The work was cancelled. A picture without a lattice is no error.
-pub fn analyse(
-    picture: &Picture,
-    options: &AnalysisOptions,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, Cancelled> {
-    progress.step(0.0, "evening out the light")?;
-    let (luminance, was_evened) = even_light(&picture.luminance, options.light);
-    let (width, height) = (luminance.width(), luminance.height());
-    let variance = mean_and_variance(&luminance).1;
-    if let Err(reason) = Lattice::worth_looking(width, height, variance) {
-        return Ok(Analysis {
+impl Analysis {
+    /// Runs every stage.
+    ///
+    /// # Errors
+    /// The work was cancelled. A picture without a lattice is no error.
+    pub fn of(
+        picture: &Picture,
+        options: &AnalysisOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        progress.step(0.0, "evening out the light")?;
+        let (luminance, was_evened) = even_light(&picture.luminance, options.light);
+        let (width, height) = (luminance.width(), luminance.height());
+        let variance = mean_and_variance(&luminance).1;
+        if let Err(reason) = Lattice::worth_looking(width, height, variance) {
+            return Ok(Self {
+                luminance,
+                was_evened,
+                measured: None,
+                found: Err(reason),
+            });
+        }
+        let measured =
+            Measurements::of(&luminance, options.directions, options.n_threads, progress)?;
+        progress.step(0.7, "fitting the lattice")?;
+        let lattice = measured.lattice();
+        let found = match lattice {
+            Ok(lattice) => Ok(Found::of(
+                &luminance,
+                picture,
+                lattice,
+                options.n_threads,
+                progress,
+            )?),
+            Err(reason) => Err(reason),
+        };
+        progress.step(1.0, "done")?;
+        Ok(Self {
             luminance,
             was_evened,
-            measured: None,
-            found: Err(reason),
-        });
+            measured: Some(measured),
+            found,
+        })
     }
-    let measured = Measurements::of(&luminance, options.directions, options.n_threads, progress)?;
-    progress.step(0.7, "fitting the lattice")?;
-    let lattice = measured.lattice();
-    let found = match lattice {
-        Ok(lattice) => Ok(Found::of(
-            &luminance,
-            picture,
-            lattice,
-            options.n_threads,
-            progress,
-        )?),
-        Err(reason) => Err(reason),
-    };
-    progress.step(1.0, "done")?;
-    Ok(Analysis {
-        luminance,
-        was_evened,
-        measured: Some(measured),
-        found,
-    })
 }

@@ -9,9 +9,7 @@
 //! functions turn it to the axes of what was cut from it.
 
 use super::basis::{Basis, dot, length, whole};
-use super::shading::{
-    Light, LightEstimate, ShadingError, ShadingOptions, Shape, estimate_light, shape_from_shading,
-};
+use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
 use crate::surface::WINDOW_LENGTH_MM;
 use selvedge_foundation::numerics::Grid;
@@ -26,7 +24,7 @@ const LOOK_FURTHER: isize = 12;
 
 /// What was cut from a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// The smallest rectangle that repeats, sheared by this to close, radians.
     Repeat {
         /// The shear.
@@ -50,22 +48,24 @@ pub struct Brightness {
     /// Direction of its rows in the picture, radians clockwise from x to the right.
     pub angle_rad: f64,
     /// What it is.
-    pub extent: Extent,
+    pub(crate) extent: Extent,
 }
 
-/// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
-/// synthesizes textile that holds a window of the finger or more at this scale.
-pub fn brightness_of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
-    match tile.rectangle(1.0, n_threads) {
-        Some(rectangle) => Brightness {
-            values: upright(&rectangle.values),
-            size_px: rectangle.size_px,
-            angle_rad: rectangle.angle_rad,
-            extent: Extent::Repeat {
-                shear_rad: rectangle.shear_rad,
+impl Brightness {
+    /// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
+    /// synthesizes textile that holds a window of the finger or more at this scale.
+    pub fn of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Self {
+        match tile.rectangle(1.0, n_threads) {
+            Some(rectangle) => Self {
+                values: upright(&rectangle.values),
+                size_px: rectangle.size_px,
+                angle_rad: rectangle.angle_rad,
+                extent: Extent::Repeat {
+                    shear_rad: rectangle.shear_rad,
+                },
             },
-        },
-        None => synthesized(tile, px_per_mm, n_threads),
+            None => synthesized(tile, px_per_mm, n_threads),
+        }
     }
 }
 
@@ -126,7 +126,7 @@ impl Brightness {
     /// # Errors
     /// All is black.
     pub fn estimated_light(&self) -> Result<LightEstimate, ShadingError> {
-        let mut estimate = estimate_light(&self.values)?;
+        let mut estimate = LightEstimate::of(&self.values)?;
         estimate.light = self.light_on_picture(estimate.light);
         Ok(estimate)
     }
@@ -143,30 +143,32 @@ fn turned(light: Light, by_deg: f64) -> Light {
     Light { tilt_deg, ..light }
 }
 
-/// Heights of what was cut, under a light on the picture.
-///
-/// # Errors
-/// See [`shape_from_shading`].
-pub fn shape_of(
-    brightness: &Brightness,
-    on_picture: Light,
-    options: &ShadingOptions,
-    progress: &mut Progress<'_>,
-) -> Result<Shape, ShadingError> {
-    // A light that is out of range is refused in the user's own numbers.
-    on_picture.check()?;
-    let light = brightness.light(on_picture);
-    shape_from_shading(&brightness.values, light, options, progress)
+impl Brightness {
+    /// Heights of what was cut, under a light on the picture.
+    ///
+    /// # Errors
+    /// See [`Shape::from_shading`].
+    pub fn shape(
+        &self,
+        on_picture: Light,
+        options: &ShadingOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Shape, ShadingError> {
+        // A light that is out of range is refused in the user's own numbers.
+        on_picture.check()?;
+        let light = self.light(on_picture);
+        Shape::from_shading(&self.values, light, options, progress)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::{AnalysisOptions, DirectionOptions, EvenLight, Picture, analyse};
+    use super::super::{Analysis, AnalysisOptions, DirectionOptions, EvenLight, Picture};
     use super::*;
     use selvedge_foundation::numerics::Random;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
 
     /// Of the picture, px.
     const SIDE: usize = 300;
@@ -221,7 +223,8 @@ mod tests {
             n_threads: 2,
         };
         let picture = picture(basis);
-        let found = unheard(|progress| analyse(&picture, &options, progress)).unwrap();
+        let found =
+            Progress::unheard(|progress| Analysis::of(&picture, &options, progress)).unwrap();
         found.found.unwrap().tile
     }
 
@@ -263,13 +266,13 @@ mod tests {
 
     fn shape(cut: &Brightness) -> Shape {
         let options = ShadingOptions::default();
-        unheard(|progress| shape_of(cut, LIGHT, &options, progress)).unwrap()
+        Progress::unheard(|progress| cut.shape(LIGHT, &options, progress)).unwrap()
     }
 
     #[test]
     fn a_picture_of_a_turned_cloth_gives_its_relief_the_right_way_round() {
         let basis = turned_basis(17.0, [22.0, 26.0], 90.0);
-        let cut = brightness_of(&tile_of(&basis), 20.0, 2);
+        let cut = Brightness::of(&tile_of(&basis), 20.0, 2);
         assert!(
             matches!(cut.extent, Extent::Repeat { .. }),
             "{:?}",

@@ -6,7 +6,7 @@
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Place, length, whole};
-use selvedge_foundation::numerics::quadratic_peak;
+use selvedge_foundation::numerics::QuadraticPeak;
 
 /// A local maximum of the autocorrelation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +116,7 @@ fn maximum_at(rho: &Autocorrelation, dx: isize, dy: isize) -> Option<(Place, f64
             }
         }
     }
-    let peak = quadratic_peak(&around);
+    let peak = QuadraticPeak::of(&around);
     let place = [dx as f64 + peak.offset[0], dy as f64 + peak.offset[1]];
     Some((place, peak.height.min(1.0)))
 }

@@ -1,10 +1,10 @@
 //! Textile from a picture: the lattice of its repeats and the cell that repeats (Allerkamp et al.,
 //! "Generating tactile textures using periodicity analysis").
 //!
-//! A pipeline of stages: [`load`] a picture, perhaps a [`Picture::part`] of it or
+//! A pipeline of stages: [`Picture::load`] a picture, perhaps a [`Picture::part`] of it or
 //! [`Picture::rectified`]; [`even_light`]; the [`Autocorrelation`]; its [`Maxima`]; the
 //! [`Directions`] they lie in; the [`Lattice`]; the [`Tile`]. Each takes what the one before made.
-//! [`analyse`] runs them all. *No lattice* is an answer, with its reason. Physical scale is never
+//! [`Analysis::of`] runs them all. *No lattice* is an answer, with its reason. Physical scale is never
 //! guessed: everything here is in pixels.
 
 mod analysis;
@@ -31,7 +31,7 @@ mod tile;
 #[cfg(test)]
 mod tests;
 
-pub use analysis::{Analysis, AnalysisOptions, Found, Measurements, analyse};
+pub use analysis::{Analysis, AnalysisOptions, Found, Measurements};
 pub use autocorrelation::Autocorrelation;
 pub use basis::{Basis, Place};
 pub use candidates::Method;
@@ -42,11 +42,10 @@ pub use light::{EvenLight, even_light};
 pub use maxima::Maxima;
 pub use output::{About, FILE_NAMES, files};
 pub use overlay::{overlay, range};
-pub use refine::refine;
 pub use relief::Relief;
 pub use shading::ShadingError;
 pub use significant::{Significant, SignificantMaxima};
-pub use source::{Picture, load};
+pub use source::Picture;
 pub use tile::{Rectangle, Tile};
 
 use selvedge_foundation::files::FileError;

@@ -9,9 +9,7 @@ use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
 use super::overlay::{overlay, range};
 use super::relief::{Relief, object};
-use selvedge_foundation::files::{
-    FileError, GrayImage, TableWriter, encode_gray_png, encode_png, to_json_string,
-};
+use selvedge_foundation::files::{FileError, GrayImage, TableWriter, to_json_string};
 use selvedge_foundation::numerics::Grid;
 
 /// Rows of the table of maxima at most.
@@ -67,13 +65,10 @@ pub fn files(
     )];
     let lattice = found.map(|f| f.lattice.basis());
     let drawn = overlay(&analysis.luminance, lattice);
-    all.push(("overlay.png", encode_png(&drawn, Path::new("overlay.png"))?));
+    all.push(("overlay.png", drawn.to_png(Path::new("overlay.png"))?));
     if let Some(measured) = &analysis.measured {
         let name = "autocorrelation.png";
-        all.push((
-            name,
-            encode_gray_png(&measured.rho.picture(), Path::new(name))?,
-        ));
+        all.push((name, measured.rho.picture().to_png(Path::new(name))?));
         all.push(("maxima.csv", maxima_table(analysis)?));
     }
     if let Some(Found { tile, .. }) = found {
@@ -89,10 +84,7 @@ pub fn files(
             ("synthesized.png", &again),
             ("residual.png", &rest),
         ] {
-            all.push((
-                name,
-                encode_gray_png(&grey(grid, low, high), Path::new(name))?,
-            ));
+            all.push((name, grey(grid, low, high).to_png(Path::new(name))?));
         }
     }
     if let Some((relief, relief_um)) = &about.relief {

@@ -1,7 +1,6 @@
 //! The part of a bent textile that lies flat enough for its cells to be averaged.
 
 use super::basis::Basis;
-use super::refine::refine;
 use super::tile::Tile;
 use selvedge_foundation::numerics::Grid;
 
@@ -45,7 +44,7 @@ pub(super) fn flattest<E>(
             let Some(part) = luminance.part(place) else {
                 continue;
             };
-            let (tile, explained_variance) = refine(&part, basis, n_threads, |_| Ok(()))?;
+            let (tile, explained_variance) = Tile::refine(&part, basis, n_threads, |_| Ok(()))?;
             let is_better = |b: &FlatPart| explained_variance > b.explained_variance;
             if best.as_ref().is_none_or(is_better) {
                 best = Some(FlatPart {

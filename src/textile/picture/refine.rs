@@ -22,40 +22,42 @@ const MIN_GAIN: f64 = 1e-3;
 /// A round ends when the vectors are known to this share of a pixel at the picture's edge.
 const FINEST_PX: f64 = 1e-3;
 
-/// The tile whose vectors near `basis` make the folded variance of a picture largest, and the share
-/// of the picture's variance that it explains.
-///
-/// Never less than the tile of `basis`. `step` hears how far it is, 0…1, and may stop it.
-///
-/// # Errors
-/// Those of `step`.
-pub fn refine<E>(
-    luminance: &Grid<f64>,
-    basis: Basis,
-    n_threads: usize,
-    mut step: impl FnMut(f64) -> Result<(), E>,
-) -> Result<(Tile, f64), E> {
-    step(0.0)?;
-    let mut best = Tile::fold(luminance, basis, n_threads);
-    let mut explained = best.explained_variance(luminance, n_threads);
-    for round in 0..N_ROUNDS {
-        let share = |part: f64| 0.2 + 0.8 * (round as f64 + part) / N_ROUNDS as f64;
-        step(share(0.0))?;
-        let harmonics = strongest(&best);
-        let blocks = Blocks::of(luminance, &best.basis(), &harmonics, n_threads);
-        step(share(0.5))?;
-        let tile = Tile::fold(luminance, blocks.search(), n_threads);
-        let now = tile.explained_variance(luminance, n_threads);
-        if now <= explained {
-            break;
+impl Tile {
+    /// The tile whose vectors near `basis` make the folded variance of a picture largest, and the share
+    /// of the picture's variance that it explains.
+    ///
+    /// Never less than the tile of `basis`. `step` hears how far it is, 0…1, and may stop it.
+    ///
+    /// # Errors
+    /// Those of `step`.
+    pub fn refine<E>(
+        luminance: &Grid<f64>,
+        basis: Basis,
+        n_threads: usize,
+        mut step: impl FnMut(f64) -> Result<(), E>,
+    ) -> Result<(Self, f64), E> {
+        step(0.0)?;
+        let mut best = Self::fold(luminance, basis, n_threads);
+        let mut explained = best.explained_variance(luminance, n_threads);
+        for round in 0..N_ROUNDS {
+            let share = |part: f64| 0.2 + 0.8 * (round as f64 + part) / N_ROUNDS as f64;
+            step(share(0.0))?;
+            let harmonics = strongest(&best);
+            let blocks = Blocks::of(luminance, &best.basis(), &harmonics, n_threads);
+            step(share(0.5))?;
+            let tile = Self::fold(luminance, blocks.search(), n_threads);
+            let now = tile.explained_variance(luminance, n_threads);
+            if now <= explained {
+                break;
+            }
+            let gain = now - explained;
+            (best, explained) = (tile, now);
+            if gain < MIN_GAIN {
+                break;
+            }
         }
-        let gain = now - explained;
-        (best, explained) = (tile, now);
-        if gain < MIN_GAIN {
-            break;
-        }
+        Ok((best, explained))
     }
-    Ok((best, explained))
 }
 
 /// Orders (m, n) of the strongest harmonics of a tile, one of ± each, without the mean.

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::brightness::{Brightness, Extent, brightness_of, shape_of};
+use super::brightness::{Brightness, Extent};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::tile::Tile;
-use selvedge_foundation::files::{FileError, GrayImage, encode_gray_png};
+use selvedge_foundation::files::{FileError, GrayImage};
 use selvedge_foundation::progress::Progress;
 
 /// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
@@ -67,14 +67,14 @@ impl Relief {
         (options, n_threads): (&ShadingOptions, usize),
         progress: &mut Progress<'_>,
     ) -> Result<Self, ShadingError> {
-        let brightness = brightness_of(tile, px_per_mm.unwrap_or(1.0), n_threads);
+        let brightness = Brightness::of(tile, px_per_mm.unwrap_or(1.0), n_threads);
         let estimate = match light {
             Some(_) => None,
             None => Some(believed(brightness.estimated_light()?)),
         };
         let light = light.or_else(|| estimate.as_ref().map(|e| e.light));
         let light = light.ok_or(ShadingError::Empty)?;
-        let shape = shape_of(&brightness, light, options, progress)?;
+        let shape = brightness.shape(light, options, progress)?;
         Ok(Self {
             brightness,
             shape,
@@ -165,7 +165,7 @@ impl Relief {
             texts: texts.to_vec(),
             ..GrayImage::of_shares([heights.width(), heights.height()], shares)
         };
-        encode_gray_png(&picture, Path::new("height.png"))
+        picture.to_png(Path::new("height.png"))
     }
 }
 

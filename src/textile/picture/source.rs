@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::PictureError;
 use super::basis::{Place, length, mix};
-use selvedge_foundation::files::{FileError, decode_picture};
+use selvedge_foundation::files::{FileError, Rgb16Image};
 use selvedge_foundation::numerics::{Grid, to_index};
 
 /// Channels that differ by more than this share of white are coloured.
@@ -25,37 +25,38 @@ pub struct Picture {
     pub colour: Option<Grid<[f32; 2]>>,
 }
 
-/// Decodes a picture (PNG, JPEG, TIFF, BMP). `path` only names it in errors.
-///
-/// # Errors
-/// What is no picture, is damaged, or has more than 64 million pixels.
-pub fn load(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
-    let decoded = decode_picture(bytes, path)?;
-    let white = f64::from(u16::MAX);
-    let luminance = |&[r, g, b]: &[u16; 3]| {
-        (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / white
-    };
-    let is_coloured = decoded.pixels.iter().any(|p| {
-        let max = p.iter().max().copied().unwrap_or(0);
-        f64::from(max - p.iter().min().copied().unwrap_or(0)) > COLOURED * white
-    });
-    let share = |&[r, g, b]: &[u16; 3]| {
-        // One step of 8 bits is added to each, so that black is grey.
-        let [r, g, b] = [r, g, b].map(|x| f32::from(x) + 257.0);
-        [r / (r + g + b), g / (r + g + b)]
-    };
-    let width = decoded.width;
-    let empty = || FileError::whole(path, "the picture has no pixels", "give an intact picture");
-    let grid = Grid::from_rows(width, decoded.pixels.iter().map(luminance).collect());
-    let colour =
-        is_coloured.then(|| Grid::from_rows(width, decoded.pixels.iter().map(share).collect()));
-    Ok(Picture {
-        luminance: grid.ok_or_else(empty)?,
-        colour: colour.flatten(),
-    })
-}
-
 impl Picture {
+    /// Decodes a picture (PNG, JPEG, TIFF, BMP). `path` only names it in errors.
+    ///
+    /// # Errors
+    /// What is no picture, is damaged, or has more than 64 million pixels.
+    pub fn load(bytes: &[u8], path: &Path) -> Result<Self, FileError> {
+        let decoded = Rgb16Image::decode(bytes, path)?;
+        let white = f64::from(u16::MAX);
+        let luminance = |&[r, g, b]: &[u16; 3]| {
+            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / white
+        };
+        let is_coloured = decoded.pixels.iter().any(|p| {
+            let max = p.iter().max().copied().unwrap_or(0);
+            f64::from(max - p.iter().min().copied().unwrap_or(0)) > COLOURED * white
+        });
+        let share = |&[r, g, b]: &[u16; 3]| {
+            // One step of 8 bits is added to each, so that black is grey.
+            let [r, g, b] = [r, g, b].map(|x| f32::from(x) + 257.0);
+            [r / (r + g + b), g / (r + g + b)]
+        };
+        let width = decoded.width;
+        let empty =
+            || FileError::whole(path, "the picture has no pixels", "give an intact picture");
+        let grid = Grid::from_rows(width, decoded.pixels.iter().map(luminance).collect());
+        let colour =
+            is_coloured.then(|| Grid::from_rows(width, decoded.pixels.iter().map(share).collect()));
+        Ok(Self {
+            luminance: grid.ok_or_else(empty)?,
+            colour: colour.flatten(),
+        })
+    }
+
     /// A grey picture.
     pub fn grey(luminance: Grid<f64>) -> Self {
         Self {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_foundation::progress::{CancelFlag, Progress, unheard};
+use selvedge_foundation::progress::{CancelFlag, Progress};
 
 const WIDTH: usize = 360;
 const HEIGHT: usize = 320;
@@ -18,7 +18,8 @@ fn options(n_threads: usize) -> AnalysisOptions {
 }
 
 fn analysed(luminance: Grid<f64>) -> Analysis {
-    unheard(|progress| analyse(&Picture::grey(luminance), &options(2), progress)).unwrap()
+    Progress::unheard(|progress| Analysis::of(&Picture::grey(luminance), &options(2), progress))
+        .unwrap()
 }
 
 /// A picture of a value at every pixel.
@@ -345,7 +346,8 @@ fn the_bytes_of_every_file_are_the_same_for_any_number_of_threads() {
     let picture = Picture::grey(spoiled(&cloth, &mut random));
     let made = |n_threads: usize| {
         let analysis =
-            unheard(|progress| analyse(&picture, &options(n_threads), progress)).unwrap();
+            Progress::unheard(|progress| Analysis::of(&picture, &options(n_threads), progress))
+                .unwrap();
         files(&analysis, &About::default(), n_threads).unwrap()
     };
     let one = made(1);
@@ -373,7 +375,7 @@ fn work_that_is_cancelled_ends() {
     let mut progress = Progress::new(&mut nobody, cancel);
     let picture = Picture::grey(Grid::filled(50, 50, 0.1));
     assert!(
-        analyse(&picture, &options(1), &mut progress).is_err(),
+        Analysis::of(&picture, &options(1), &mut progress).is_err(),
         "cancelled"
     );
 }
@@ -396,7 +398,8 @@ fn a_printed_pattern_is_told_by_its_colour() {
         colour: Some(Grid::filled(200, 200, shares(0.5))),
     };
     for (picture, is_printed) in [(printed, true), (dyed, false)] {
-        let analysis = unheard(|progress| analyse(&picture, &options(1), progress)).unwrap();
+        let analysis =
+            Progress::unheard(|progress| Analysis::of(&picture, &options(1), progress)).unwrap();
         let found = analysis.found.unwrap();
         assert_eq!(found.colour.is_printed(), is_printed, "{:?}", found.colour);
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::error::TextileError;
 use crate::profile_file;
-use crate::surface::{Direction, HeightMap, ProfileSet, SurfaceError};
+use crate::surface::{Direction, HeightMap, Profile, ProfileSet, SurfaceError};
 use selvedge_foundation::files::Rgb8Image;
 
 /// A model of a textile, ready to be felt.
@@ -47,7 +47,7 @@ pub(crate) trait Model {
 pub(crate) fn profiles_of_files(texts: &[String; 4]) -> Result<ProfileSet, TextileError> {
     let mut profiles = ProfileSet::default();
     for (direction, text) in Direction::ALL.into_iter().zip(texts) {
-        let profile = profile_file::read(text, Path::new(direction.key()))?;
+        let profile = Profile::read(text, Path::new(direction.key()))?;
         profiles[direction.index()] = Some(profile);
     }
     Ok(profiles)

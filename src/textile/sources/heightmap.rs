@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::error::TextileError;
-use crate::metrology::{HeightOptions, Measured, open};
+use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys, source};
 use crate::surface::{
     Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
@@ -108,7 +108,7 @@ impl Heightmap {
             let mend = "restore that file, or import this one";
             return Err(FileError::whole(path, what, mend).into());
         }
-        open(bytes, path, &self.asked())
+        Measured::open(bytes, path, &self.asked())
     }
 
     /// The strokes over measured heights, by [`Direction::index`].

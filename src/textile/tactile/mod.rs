@@ -17,11 +17,11 @@ mod tuning;
 pub use filters::Filters;
 pub(crate) use levels::level_of_means;
 pub use levels::{LEVEL_SPEED_MM_PER_S, Levels, loudest_um};
-pub use perception::{Perception, detection_threshold_db, just_noticeable_db, vibrating_mean_um};
+pub use perception::{Perception, just_noticeable_db, vibrating_mean_um};
 pub use response::{
     MAX_FREQUENCY_HZ, MAX_SPEED_MM_PER_S, MIN_SPEED_MM_PER_S, SpeedResponse, n_audible_bins,
 };
-pub use tuning::{Tuning, TuningError, check_gain};
+pub use tuning::{Tuning, TuningError};
 
 /// One of the two carriers and the filter around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

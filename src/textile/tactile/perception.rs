@@ -37,14 +37,16 @@ pub struct Perception {
     pub(crate) loudness: [f64; 2],
 }
 
-/// The threshold of a band where `n_active` contactors sound, dB re 1 µm peak.
-pub fn detection_threshold_db(band: Band, n_active: usize) -> f64 {
-    let measured_db = threshold_db(band, band.carrier_hz());
-    match band {
-        Band::Low => measured_db,
-        Band::High => {
-            let area_mm2 = CONTACTOR_AREA_MM2 * n_active.max(1) as f64;
-            measured_db + SUMMATION_DB * (MEASURED_AREA_MM2 / area_mm2).log2()
+impl Band {
+    /// The threshold of a band where `n_active` contactors sound, dB re 1 µm peak.
+    pub fn detection_threshold_db(self, n_active: usize) -> f64 {
+        let measured_db = threshold_db(self, self.carrier_hz());
+        match self {
+            Self::Low => measured_db,
+            Self::High => {
+                let area_mm2 = CONTACTOR_AREA_MM2 * n_active.max(1) as f64;
+                measured_db + SUMMATION_DB * (MEASURED_AREA_MM2 / area_mm2).log2()
+            }
         }
     }
 }
@@ -86,7 +88,7 @@ impl Perception {
             } else {
                 f64::NEG_INFINITY
             };
-            level - detection_threshold_db(band, n_active)
+            level - band.detection_threshold_db(n_active)
         });
         let loudness = [0, 1].map(|band| {
             let above_db = perceptual_level_db[band];
@@ -121,8 +123,8 @@ mod tests {
 
     #[test]
     fn one_pin_needs_more_at_320_hz_and_all_24_together_less() {
-        let one = detection_threshold_db(Band::High, 1);
-        let all = detection_threshold_db(Band::High, 24);
+        let one = Band::High.detection_threshold_db(1);
+        let all = Band::High.detection_threshold_db(24);
         assert!(
             (one - 5.5).abs() < 0.5,
             "{one} dB: −19 dB and 8.2 doublings of area"
@@ -131,7 +133,7 @@ mod tests {
             (one - all - 3.0 * 24.0_f64.log2()).abs() < 1e-12,
             "{all} dB"
         );
-        let low = [1, 24].map(|n| detection_threshold_db(Band::Low, n));
+        let low = [1, 24].map(|n| Band::Low.detection_threshold_db(n));
         assert_eq!(low, [8.0, 8.0], "no summation at 40 Hz");
     }
 
@@ -145,7 +147,7 @@ mod tests {
 
     #[test]
     fn at_threshold_loudness_is_one_and_below_it_nothing_is_felt() {
-        let threshold_um = Band::ALL.map(|b| 10.0_f64.powf(detection_threshold_db(b, 24) / 20.0));
+        let threshold_um = Band::ALL.map(|b| 10.0_f64.powf(b.detection_threshold_db(24) / 20.0));
         let at = Perception::of(threshold_um.map(|um| um * (1.0 + 1e-9)), 24);
         for loudness in at.loudness {
             assert!((loudness - 1.0).abs() < 1e-6, "{at:?}");

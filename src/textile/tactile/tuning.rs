@@ -73,9 +73,9 @@ impl Default for Tuning {
 impl Tuning {
     /// Refuses gains that are NaN or +∞, compression outside 0…1, a reference that is not finite.
     pub fn check(&self) -> Result<(), TuningError> {
-        check_gain("gain_db", self.gain_db)?;
-        check_gain("gain_40_db", self.gain_40_db)?;
-        check_gain("gain_320_db", self.gain_320_db)?;
+        Self::check_gain("gain_db", self.gain_db)?;
+        Self::check_gain("gain_40_db", self.gain_40_db)?;
+        Self::check_gain("gain_320_db", self.gain_320_db)?;
         if !(0.0..=1.0).contains(&self.compression) {
             return Err(TuningError::Compression {
                 value: self.compression,
@@ -103,14 +103,14 @@ impl Tuning {
             -self.compression * (level_db - reference_db)
         })
     }
-}
 
-/// Refuses a gain that is NaN or +∞; −∞ is silence and fine.
-pub fn check_gain(key: &'static str, value: f64) -> Result<(), TuningError> {
-    if value.is_nan() || value == f64::INFINITY {
-        return Err(TuningError::Gain { key, value });
+    /// Refuses a gain that is NaN or +∞; −∞ is silence and fine.
+    pub fn check_gain(key: &'static str, value: f64) -> Result<(), TuningError> {
+        if value.is_nan() || value == f64::INFINITY {
+            return Err(TuningError::Gain { key, value });
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::*;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder;
 
 fn brownian(name: &str, hurst: f64) -> Vec<BuiltFile> {
@@ -74,11 +74,13 @@ fn the_index_of_a_folder_follows_and_its_reference_stays() {
     let shipped = Library::shipped().unwrap();
     let two = Library::of_folder(Path::new(""), &shipped.ids()[..2]);
     for id in two.ids() {
-        write(&files_of(&shipped, id).unwrap(), &scratch.join(id)).unwrap();
+        write(&shipped.files_of(id).unwrap(), &scratch.join(id)).unwrap();
     }
     let there = Library::open(&scratch).unwrap();
-    unheard(|progress| build_library(&there, &scratch, there.default_tuning(), 2, progress))
-        .unwrap();
+    Progress::unheard(|progress| {
+        Index::build(&there, &scratch, there.default_tuning(), 2, progress)
+    })
+    .unwrap();
     let before = Library::open(&scratch).unwrap().index().unwrap().clone();
     let folder = LibraryFolder::at(&scratch);
     folder.put("own", &brownian("One", 0.5), false).unwrap();

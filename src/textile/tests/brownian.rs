@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::build::build;
 use crate::library::index_of;
-use crate::{Hurst, Library, Source, build_library};
+use crate::{Hurst, Index, Library, Source};
 
 fn library() -> Library {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../textiles/brownian");
@@ -56,7 +56,7 @@ fn a_brownian_surface_is_rebuilt_byte_for_byte() {
     let (library, id) = (library(), "brownian-h5");
     let recipe = library.manifest(id).unwrap();
     for file in build(&recipe, Path::new(id)).unwrap() {
-        let shipped = library.files_of(id).unwrap().read(id, &file.name).unwrap();
+        let shipped = library.store_of(id).unwrap().read(id, &file.name).unwrap();
         assert!(shipped == file.bytes, "{id}/{} differs", file.name);
     }
 }
@@ -69,8 +69,8 @@ fn rebuild_the_brownian_library() {
         .unwrap();
     let library = library();
     let tuning = library.index().unwrap().tuning;
-    let index = selvedge_foundation::progress::unheard(|progress| {
-        build_library(&library, &out, tuning, 2, progress)
+    let index = selvedge_foundation::progress::Progress::unheard(|progress| {
+        Index::build(&library, &out, tuning, 2, progress)
     });
     assert_eq!(index.unwrap().textiles.len(), 5);
 }

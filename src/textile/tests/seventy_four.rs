@@ -11,7 +11,7 @@ use crate::recipe::Side;
 use crate::tactile::{Filters, Levels};
 use crate::*;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder;
 
 fn seventy_four() -> Library {
@@ -84,7 +84,7 @@ fn the_main_library_is_in_it_unchanged() {
     let is_all = std::env::var_os("SELVEDGE_ALL_TEXTILES").is_some();
     for id in main.ids().iter().take(if is_all { 16 } else { 1 }) {
         for file in build(&library.manifest(id).unwrap(), Path::new(id)).unwrap() {
-            let shipped = main.files_of(id).unwrap().read(id, &file.name).unwrap();
+            let shipped = main.store_of(id).unwrap().read(id, &file.name).unwrap();
             assert!(shipped == file.bytes, "{id}/{} differs", file.name);
         }
     }
@@ -92,14 +92,18 @@ fn the_main_library_is_in_it_unchanged() {
 
 #[test]
 fn the_most_typical_of_each_kind_are_the_main_library() {
-    let typical = most_typical(&seventy_four()).unwrap();
-    assert_eq!(typical, most_typical(&seventy_four()).unwrap(), "again");
+    let typical = Library::most_typical(&seventy_four()).unwrap();
+    assert_eq!(
+        typical,
+        Library::most_typical(&seventy_four()).unwrap(),
+        "again"
+    );
     let chosen: BTreeSet<String> = typical.into_iter().map(|(_, id)| id).collect();
     let main = Library::shipped().unwrap();
     assert_eq!(chosen, main.ids().iter().cloned().collect());
     let scratch = ScratchFolder::made("no-index");
     let bare = Library::open(&scratch.0).unwrap();
-    let error = most_typical(&bare).unwrap_err().to_string();
+    let error = Library::most_typical(&bare).unwrap_err().to_string();
     assert!(error.contains("library.toml"), "{error}");
 }
 
@@ -168,7 +172,7 @@ fn what_is_built_is_kept_and_what_is_kept_is_what_is_built() {
         "nobody asked for a surface"
     );
     let hash = || {
-        let store = library.files_of(id).unwrap();
+        let store = library.store_of(id).unwrap();
         let names = ["warp_forward.csv", "appearance.png", "textile.toml"];
         sha256_hex(
             names
@@ -209,7 +213,7 @@ fn one_thread_and_two_make_the_same_bytes() {
     let built = [1, 2].map(|n_threads| {
         let to = scratch.0.join(n_threads.to_string());
         let tuning = library.default_tuning();
-        unheard(|p| build_library(&library, &to, tuning, n_threads, p)).unwrap();
+        Progress::unheard(|p| Index::build(&library, &to, tuning, n_threads, p)).unwrap();
         to
     });
     for id in library.ids() {

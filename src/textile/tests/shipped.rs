@@ -186,7 +186,7 @@ fn two_shipped_textiles_are_rebuilt_byte_for_byte() {
     for id in ["denim", "polyamide-rib"] {
         let recipe = library.manifest(id).unwrap();
         for file in build(&recipe, Path::new(id)).unwrap() {
-            let shipped = library.files_of(id).unwrap().read(id, &file.name).unwrap();
+            let shipped = library.store_of(id).unwrap().read(id, &file.name).unwrap();
             assert!(shipped == file.bytes, "{id}/{} differs", file.name);
         }
     }
@@ -200,8 +200,8 @@ fn rebuild_the_shipped_library() {
         .unwrap();
     let library = Library::shipped().unwrap();
     let tuning = library.index().unwrap().tuning;
-    let index = selvedge_foundation::progress::unheard(|progress| {
-        build_library(&library, &out, tuning, 2, progress)
+    let index = selvedge_foundation::progress::Progress::unheard(|progress| {
+        Index::build(&library, &out, tuning, 2, progress)
     });
     assert_eq!(index.unwrap().textiles.len(), 16);
 }

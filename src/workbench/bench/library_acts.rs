@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::bench::background::Task;
 use crate::bench::history::{History, Moment, StepList};
 use crate::bench::keep::{Keep, Taken};
-use selvedge_textile::{BuiltFile, Change, Library, LibraryFolder, TextileError, called, files_of};
+use selvedge_textile::{BuiltFile, Change, Library, LibraryFolder, TextileError, called};
 
 /// Which version stands under an id of a folder; `None`: nothing.
 pub(crate) type Arrangement = BTreeMap<(LibraryFolder, String), Option<String>>;
@@ -192,7 +192,7 @@ impl Deed {
         match self {
             Self::Put(id, files, replaces) => folder.put(&id, &files, replaces),
             Self::Copy(library, id, name) => {
-                let files = called(&files_of(&library, &id)?, &name)?;
+                let files = called(&library.files_of(&id)?, &name)?;
                 folder.put(&format!("{id}-copy"), &files, false)
             }
             Self::Rename(id, name) => folder.rename(&id, &name),

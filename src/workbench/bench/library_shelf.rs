@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::bench::view::LibraryEntry;
 use selvedge_textile::{
-    BuildCache, Library, LibraryFolder, elsewhere, id_in, kind_of, measured_figures,
+    BuildCache, Library, LibraryFolder, MeasuredFigure, elsewhere, id_in, kind_of,
 };
 
 /// A library in sight.
@@ -134,7 +134,7 @@ pub(crate) fn items_of(library: &Library, name: Option<(&str, &Path)>) -> Vec<Li
                 kind: kind(manifest.construction.word(), &manifest.fibre),
                 construction: manifest.construction.word(),
                 structure: kind_of(&manifest),
-                measured: measured_figures(&manifest.measured),
+                measured: MeasuredFigure::all_of(&manifest.measured),
                 name: manifest.name,
                 gain_db: manifest.gain_db,
                 level_db,

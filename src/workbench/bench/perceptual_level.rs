@@ -9,9 +9,7 @@ use crate::bench::mute_solo::MuteSolo;
 use crate::bench::part::Part;
 use crate::bench::view::{LibraryDot, SceneView};
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db, with_unit};
-use selvedge_textile::tactile::{
-    Band, Perception, Tuning, detection_threshold_db, just_noticeable_db, vibrating_mean_um,
-};
+use selvedge_textile::tactile::{Band, Perception, Tuning, just_noticeable_db, vibrating_mean_um};
 
 /// Where numbers above threshold come from, for tips.
 pub(crate) const SOURCE: &str = "dB SL: above the threshold of detection. A model of published \
@@ -47,7 +45,7 @@ impl PerceptualLevel {
         let (n_vibrating, mean_um) = vibrating_mean_um(amplitudes_um);
         Self {
             n_vibrating,
-            threshold_db: Band::ALL.map(|band| detection_threshold_db(band, n_vibrating)),
+            threshold_db: Band::ALL.map(|band| band.detection_threshold_db(n_vibrating)),
             whole: Perception::of(mean_um, n_vibrating),
         }
     }

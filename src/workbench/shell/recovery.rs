@@ -142,7 +142,7 @@ mod tests {
     use crate::tools::lab::Lab;
     use crate::tools::picture::Picture;
     use crate::tools::picture::draft::Part as PicturePart;
-    use selvedge_foundation::files::{Rgb8Image, encode_png};
+    use selvedge_foundation::files::Rgb8Image;
     use selvedge_scratch::ScratchFolder;
     use selvedge_textile::Place;
 
@@ -231,7 +231,7 @@ mod tests {
             height: 64,
             pixels: (0..64 * 64).map(|n| [grey(n % 64 + n / 64); 3]).collect(),
         };
-        fs::write(&picture, encode_png(&image, &picture).unwrap()).unwrap();
+        fs::write(&picture, image.to_png(&picture).unwrap()).unwrap();
         let mut first = window(&root);
         first.dispatch(FileCommand::Use(Purpose::ImportFiles, table));
         first.dispatch(FileCommand::Use(

@@ -14,8 +14,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use selvedge_device::{
-    ArrayProfile, Bridge, BridgeEvent, BridgeState, Clear, Decoder, DeviceMessage, DeviceState,
-    DirectLine, Extent, Hello, Message as _, Status, StopHow, Target, Trial, certify,
+    ArrayProfile, Bridge, BridgeEvent, BridgeState, Certificate, Clear, Decoder, DeviceMessage,
+    DeviceState, DirectLine, Extent, Hello, Message as _, Status, StopHow, Target, Trial,
 };
 
 use super::tools;
@@ -139,7 +139,7 @@ fn an_emulated_board_passes_the_quick_certificate_and_plays_a_stroke() {
         };
         let target = Target::Port(board.port.clone());
         let mut line = DirectLine::open(target, &ArrayProfile::default(), None).unwrap();
-        let certificate = certify(&mut line, trial, &AtomicBool::new(false), &mut |_| {});
+        let certificate = Certificate::of(&mut line, trial, &AtomicBool::new(false), &mut |_| {});
         line.close();
         certificate
     });

@@ -6,7 +6,7 @@ use std::io;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
-use selvedge_device::{Certificate, CheckOutcome, Extent, Line, Trial, certify};
+use selvedge_device::{Certificate, CheckOutcome, Extent, Line, Trial};
 
 use super::reference::{CCore, Obedient as _, bytes, hex};
 use super::{defects, tools};
@@ -72,7 +72,7 @@ fn certificate(defect: usize, at_us: u64) -> Certificate {
         nonce: 0x1234_0001 + u32::try_from(at_us).unwrap(),
     };
     let began_us = line.now_us();
-    let certificate = certify(&mut line, trial, &AtomicBool::new(false), &mut |_| {});
+    let certificate = Certificate::of(&mut line, trial, &AtomicBool::new(false), &mut |_| {});
     let took_us = line.now_us() - began_us;
     assert!(took_us <= 60_000_000, "{took_us} us for defect {defect}");
     certificate

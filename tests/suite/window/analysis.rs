@@ -3,7 +3,7 @@
 use eframe::egui::OutputCommand;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use selvedge_experiment::analysis::{Analysis, Options, Section, analyse_folder};
+use selvedge_experiment::analysis::{Analysis, Options, Section};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 use super::*;
@@ -45,7 +45,7 @@ fn study(lab: &Lab) -> (PathBuf, Analysis) {
     };
     let mut unheard = |_: f64, _: &str| {};
     let mut progress = Progress::new(&mut unheard, CancelFlag::default());
-    let expected = analyse_folder(&logs, &options, &mut progress).unwrap();
+    let expected = Analysis::of_folder(&logs, &options, &mut progress).unwrap();
     (logs, expected)
 }
 

@@ -5,7 +5,7 @@
 use std::io::{self, BufRead, Write};
 use std::time::SystemTime;
 
-use selvedge_experiment::by_hand::{form, to_present, typed_answer};
+use selvedge_experiment::by_hand::{Placed, form};
 use selvedge_experiment::design::{Familiarisation, Movement};
 use selvedge_experiment::session::{Circumstances, Session};
 use selvedge_experiment::{
@@ -214,7 +214,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
                     Line::Empty => self.say(&ask)?,
                     Line::Text(text) => {
                         let design = self.session.design();
-                        match typed_answer(design, &trial.task, &text) {
+                        match Answer::typed(design, &trial.task, &text) {
                             Ok(answer) => return self.write(Some(&answer), start),
                             Err(error) => self.say(&format!("{error} (or {COMMANDS})"))?,
                         }
@@ -261,7 +261,7 @@ impl<R: BufRead, W: Write, B: Bench> Desk<'_, R, W, B> {
         let mut lines = vec![format!(
             "\n{kind} {number}, block {block}{attempt}: {done} of {all} done"
         )];
-        let placed = to_present(self.session.design(), &trial.task).into_iter();
+        let placed = Placed::all_of(self.session.design(), &trial.task).into_iter();
         lines.extend(placed.map(|placed| format!("  {:<16}{}", placed.place, placed.what)));
         lines.push("Enter when the participant begins".to_owned());
         lines.join("\n")

@@ -40,7 +40,7 @@ fn on_disk(folder: &Scratch, n_trials: &[usize]) -> Vec<PathBuf> {
 }
 
 fn of_folder(folder: &Scratch) -> Result<Analysis, ExperimentError> {
-    unheard(|progress| analyse_folder(&folder.0, &few(), progress))
+    Progress::unheard(|progress| Analysis::of_folder(&folder.0, &few(), progress))
 }
 
 fn made_newer(log: &Path) {
@@ -137,7 +137,7 @@ fn an_analysis_that_is_stopped_says_that_it_was_stopped() {
     let flag = CancelFlag::new();
     flag.cancel();
     let mut report = |_: f64, _: &str| {};
-    let stopped = analyse_folder(&folder.0, &few(), &mut Progress::new(&mut report, flag));
+    let stopped = Analysis::of_folder(&folder.0, &few(), &mut Progress::new(&mut report, flag));
     assert!(
         matches!(stopped, Err(ExperimentError::Cancelled(_))),
         "{stopped:?}"
@@ -159,7 +159,8 @@ fn random_data_are_on_unless_refused_and_found_once_a_size() {
         n_random_data: 10,
         ..few()
     };
-    let analysed = || unheard(|progress| analyse(&found, &options, progress)).unwrap();
+    let analysed =
+        || Progress::unheard(|progress| Analysis::of(&found, &options, progress)).unwrap();
     let first = analysed();
     let stress = table(&first, "odd-one-out-map", "stress");
     let (mean, five) = (

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::observer::{Jnd, Observer, tests::stimuli};
-use crate::session::find_sessions;
+use crate::session::Found;
 use crate::simulate::Simulation;
 use selvedge_scratch::ScratchFolder as Scratch;
 
@@ -71,8 +71,9 @@ fn every_composition_is_held_read_back_and_analysed() {
             observer: &observer,
             seed: 3,
         };
-        unheard(|progress| simulation.write(&folder.0, (N_OBSERVERS, 1), progress)).unwrap();
-        let (found, unread) = find_sessions(&folder.0).unwrap();
+        Progress::unheard(|progress| simulation.write(&folder.0, (N_OBSERVERS, 1), progress))
+            .unwrap();
+        let (found, unread) = Found::in_folder(&folder.0).unwrap();
         assert!(unread.is_empty(), "{}: {unread:?}", one.name);
         for session in &found {
             let held = simulation.records(&session.subject).unwrap();

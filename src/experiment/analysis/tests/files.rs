@@ -56,7 +56,8 @@ fn check_files(found: &[Found], name: &str) {
 fn a_folder_without_sessions_is_refused_in_one_line() {
     let folder = Scratch::new("empty");
     fs::create_dir_all(&folder.0).unwrap();
-    let error = unheard(|progress| analyse_folder(&folder.0, &few(), progress)).unwrap_err();
+    let error =
+        Progress::unheard(|progress| Analysis::of_folder(&folder.0, &few(), progress)).unwrap_err();
     let described = error.to_string();
     assert!(
         described.contains("holds no session") && !described.contains('\n'),

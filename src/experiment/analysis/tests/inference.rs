@@ -6,8 +6,8 @@ use crate::observer::{Jnd, Observer, Stimuli, tests::stimuli};
 use crate::simulate::{Simulation, simulated_subject};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::factor_of_gain;
-use selvedge_statistics::detection::{Answers, Correction, yes_no};
-use selvedge_textile::tactile::{Band, Levels, Tuning, detection_threshold_db};
+use selvedge_statistics::detection::{Answers, Correction, YesNo};
+use selvedge_textile::tactile::{Band, Levels, Tuning};
 
 /// Observers of a study.
 const N: usize = 100;
@@ -107,7 +107,7 @@ fn thresholds_of_a_hundred_observers_are_found_and_held() {
         };
         let truth_db = |noise: f64| match band {
             None => JND_DB * noise,
-            Some(band) => detection_threshold_db(band, 24) + (TWO_THIRDS * noise - 1.0) * JND_DB,
+            Some(band) => band.detection_threshold_db(24) + (TWO_THIRDS * noise - 1.0) * JND_DB,
         };
         let design = Design::shipped(name).unwrap();
         let analysis = analysed(&sessions(&design, &observer, 0..N));
@@ -315,7 +315,7 @@ fn sensitivity_of_a_hundred_observers_is_found_and_held() {
             answers.false_alarms += u64::from(is_real);
         }
     }
-    let d_prime = yes_no(answers, Correction::LogLinear).unwrap().d_prime;
+    let d_prime = YesNo::of(answers, Correction::LogLinear).unwrap().d_prime;
     let known = Known {
         group: ("single-judgements-sensitivity", "d′"),
         subjects: ("subjects", ["d_prime_ci_low", "d_prime_ci_high"]),

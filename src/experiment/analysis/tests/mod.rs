@@ -19,7 +19,7 @@ use crate::{
     Answer, AnswerValue, Apparatus, Course, Grade, Outcome, Presentation, Proof, Record, Step,
     Task, Timing, Trial,
 };
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 /// Few of everything: these tests are of numbers that do not hang on it.
 fn few() -> Options {
@@ -35,7 +35,7 @@ fn few() -> Options {
 }
 
 fn analysed(found: &[Found]) -> Analysis {
-    unheard(|progress| analyse(found, &few(), progress)).unwrap()
+    Progress::unheard(|progress| Analysis::of(found, &few(), progress)).unwrap()
 }
 
 fn record(trial: Trial, answer: Answer, is_correct: Option<bool>) -> Record {

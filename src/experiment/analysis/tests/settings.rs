@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use super::*;
-use crate::Adapted;
 use crate::design::{Adaptation, Source, Track};
+use crate::trial::Adapted;
 use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_statistics::adaptive::{Procedure as _, Staircase};
 

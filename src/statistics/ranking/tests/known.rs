@@ -10,7 +10,7 @@ fn pair(wins: u64, losses: u64) -> Preferences {
 
 #[test]
 fn two_items_lie_the_logit_of_the_share_apart() -> Computed<()> {
-    let found = bradley_terry(&pair(14, 6), Prior::None)?;
+    let found = BradleyTerry::fit(&pair(14, 6), Prior::None)?;
     let difference = found.scale.difference(0, 1)?;
     let error = (1.0_f64 / 14.0 + 1.0 / 6.0).sqrt();
     assert_close(
@@ -28,14 +28,14 @@ fn two_items_lie_the_logit_of_the_share_apart() -> Computed<()> {
 #[test]
 fn two_items_lie_the_z_of_the_share_apart_by_both_routes() -> Computed<()> {
     let z = normal_quantile(0.7)?;
-    let found = thurstone(&pair(14, 6))?;
+    let found = Thurstone::fit(&pair(14, 6))?;
     let difference = found.scale.difference(0, 1)?;
     let error = (0.7_f64 * 0.3 / 20.0).sqrt() / normal_density(z);
     assert_close(&[difference.value, difference.se], &[z, error], 1e-12);
-    let rows = mosteller(&pair(14, 6))?;
+    let rows = Mosteller::of(&pair(14, 6))?;
     assert_close(&rows.values, &[0.5 * z, -0.5 * z], 1e-14);
     assert!(rows.n_clipped == 0 && rows.fit.is_err(), "{rows:?}");
-    let always = mosteller(&pair(20, 0))?;
+    let always = Mosteller::of(&pair(20, 0))?;
     assert_eq!(always.n_clipped, 1);
     let clipped = 0.5 * normal_quantile(1.0 - 1.0 / 40.0)?;
     assert_close(&always.values, &[clipped, -clipped], 1e-14);
@@ -53,7 +53,7 @@ fn journals_have_the_abilities_of_the_generalised_linear_model() -> Computed<()>
         vec![320, 813, 0, 142],
         vec![284, 276, 325, 0],
     ])?;
-    let found = bradley_terry(&cited, Prior::None)?;
+    let found = BradleyTerry::fit(&cited, Prior::None)?;
     let from_first = |item| found.scale.difference(item, 0);
     let relative = (1..4)
         .map(from_first)
@@ -86,7 +86,7 @@ fn a_circle_of_equal_wins_is_level_and_as_sure_as_a_triangle_of_springs() -> Com
     // All abilities 0: each pair has information n/4, and three in a triangle 3n/4 about the mean.
     let circle = [vec![0, 7, 3], vec![3, 0, 7], vec![7, 3, 0]];
     let preferences = Preferences::of_wins(&circle)?;
-    let found = bradley_terry(&preferences, Prior::None)?;
+    let found = BradleyTerry::fit(&preferences, Prior::None)?;
     assert_close(&found.scale.values, &[0.0; 3], 1e-14);
     let variance = found.scale.covariance[0][0];
     assert!((variance - (2.0 / 3.0) / (0.75 * 10.0)).abs() < 1e-14);
@@ -94,7 +94,7 @@ fn a_circle_of_equal_wins_is_level_and_as_sure_as_a_triangle_of_springs() -> Com
     let fit = found.deviance.goodness_of_fit()?;
     let by_hand = 3.0 * 2.0 * (7.0 * 1.4_f64.ln() + 3.0 * 0.6_f64.ln());
     assert!((fit.statistic.value - by_hand).abs() < 1e-12);
-    let rows = mosteller(&preferences)?;
+    let rows = Mosteller::of(&preferences)?;
     assert_close(&rows.values, &[0.0; 3], 1e-14);
     let angle = 0.7_f64.sqrt().asin() - std::f64::consts::FRAC_PI_4;
     let arcsine = rows.fit?;
@@ -121,7 +121,7 @@ fn three_items_ranked_in_every_order_have_the_worths_of_their_first_places() -> 
         rankings.extend(std::iter::repeat_n([a, b, c], n));
     }
     assert_eq!(rankings.len(), 60);
-    let found = plackett_luce(3, &rankings, Prior::None)?;
+    let found = PlackettLuce::fit(3, &rankings, Prior::None)?;
     assert_close(&found.worths(), &[0.5, 1.0 / 3.0, 1.0 / 6.0], 1e-12);
     let null = 60.0 * (1.0_f64 / 6.0).ln();
     assert!((found.null_log_likelihood - null).abs() < 1e-10);
@@ -143,21 +143,21 @@ fn shares_that_follow_the_normal_scale_are_fitted_by_it() -> Computed<()> {
         rows[i][j] = wins;
     }
     let shares = Preferences::of_wins(&rows)?;
-    assert_close(&thurstone(&shares)?.scale.values, &truth, 1e-7);
-    assert_close(&mosteller(&shares)?.values, &truth, 1e-7);
-    assert!(thurstone(&shares)?.deviance.residual < 1e-6);
+    assert_close(&Thurstone::fit(&shares)?.scale.values, &truth, 1e-7);
+    assert_close(&Mosteller::of(&shares)?.values, &truth, 1e-7);
+    assert!(Thurstone::fit(&shares)?.deviance.residual < 1e-6);
     Ok(())
 }
 
 #[test]
 fn a_prior_is_one_choice_of_each_item_among_all() -> Computed<()> {
-    let found = bradley_terry(&pair(5, 0), Prior::Gamma(0.5))?;
+    let found = BradleyTerry::fit(&pair(5, 0), Prior::Gamma(0.5))?;
     let apart = found.scale.difference(0, 1)?;
     assert_close(&[apart.value], &[(5.5_f64 / 0.5).ln()], 1e-12);
     assert!(found.deviance.goodness_of_fit().is_err(), "no χ²");
     // For rankings: the same fit as with those choices added as rankings of one first.
     let mut ranked = vec![vec![0, 1, 2]; 4];
-    let with_prior = plackett_luce(3, &ranked, Prior::Gamma(1.0))?;
+    let with_prior = PlackettLuce::fit(3, &ranked, Prior::Gamma(1.0))?;
     assert!(with_prior.against_chance().is_err(), "no χ²");
     let worths = with_prior.worths();
     // Slopes: choices won less choices expected, the prior's three among all included.
@@ -168,8 +168,8 @@ fn a_prior_is_one_choice_of_each_item_among_all() -> Computed<()> {
     ];
     assert_close(&expected, &[0.0; 3], 1e-10);
     ranked.extend([vec![2, 1, 0], vec![1, 0, 2], vec![0, 2, 1]]);
-    let weak = plackett_luce(3, &ranked, Prior::Gamma(1e-9))?;
-    let none = plackett_luce(3, &ranked, Prior::None)?;
+    let weak = PlackettLuce::fit(3, &ranked, Prior::Gamma(1e-9))?;
+    let none = PlackettLuce::fit(3, &ranked, Prior::None)?;
     assert_close(&weak.scale.values, &none.scale.values, 1e-8);
     Ok(())
 }
@@ -183,7 +183,10 @@ fn a_chain_of_hardly_any_defeats_is_as_long_as_its_links() -> Computed<()> {
         rows[i][i - 1] = 1;
     }
     let chain = Preferences::of_wins(&rows)?;
-    let (logit, probit) = (bradley_terry(&chain, Prior::None)?, thurstone(&chain)?);
+    let (logit, probit) = (
+        BradleyTerry::fit(&chain, Prior::None)?,
+        Thurstone::fit(&chain)?,
+    );
     let z = normal_quantile(1e6 / (1e6 + 1.0))?;
     for i in 1..n {
         let link = |scale: &Scale| scale.difference(i - 1, i);

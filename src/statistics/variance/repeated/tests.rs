@@ -78,7 +78,7 @@ fn sums_of_squares_are_those_of_whole_number_totals() -> Computed<()> {
         [b - all, b_s - b - s + all],
         [ab - a - b + all, each - ab - a_s - b_s + a + b + s - all],
     ];
-    let found = repeated_two_way(&reaction(0.0))?;
+    let found = Repeated::two_way(&reaction(0.0))?;
     let sixtieth = |whole: i64| whole as f64 / 60.0;
     assert_close(found.ss_subjects, sixtieth(s - all), 1e-6);
     for (effect, [ss, ss_error]) in found.effects.iter().zip(expected) {
@@ -90,7 +90,7 @@ fn sums_of_squares_are_those_of_whole_number_totals() -> Computed<()> {
 
 #[test]
 fn the_textbook_example_has_its_published_values() -> Computed<()> {
-    let found = repeated_two_way(&reaction(0.0))?;
+    let found = Repeated::two_way(&reaction(0.0))?;
     let [noise, angle, both] = found.effects.as_slice() else {
         return undefined("three effects");
     };
@@ -143,7 +143,7 @@ fn epsilon_agrees_with_the_formula_of_double_centred_covariances() -> Computed<(
     let squares: f64 = c.iter().map(|x| x * x).sum();
     let box_epsilon =
         9.0 * (diagonal - grand).powi(2) / (2.0 * (squares - 6.0 * rows + 9.0 * grand * grand));
-    let found = repeated_two_way(&reaction(0.0))?;
+    let found = Repeated::two_way(&reaction(0.0))?;
     let epsilon = found.effects[1]
         .sphericity
         .as_ref()
@@ -154,8 +154,8 @@ fn epsilon_agrees_with_the_formula_of_double_centred_covariances() -> Computed<(
 
 #[test]
 fn an_offset_of_a_million_million_changes_nothing() -> Computed<()> {
-    let near = repeated_two_way(&reaction(0.0))?;
-    let far = repeated_two_way(&reaction(1e12))?;
+    let near = Repeated::two_way(&reaction(0.0))?;
+    let far = Repeated::two_way(&reaction(1e12))?;
     for (near, far) in near.effects.iter().zip(&far.effects) {
         assert_close(far.f.clone()? / near.f.clone()?, 1.0, 1e-10);
     }
@@ -174,7 +174,7 @@ fn two_conditions_are_a_paired_t_squared() -> Computed<()> {
             .flat_map(|(a, b)| [Some(*a), Some(b)])
             .collect(),
     };
-    let found = repeated_one_way(&table)?;
+    let found = Repeated::one_way(&table)?;
     let t = paired_t(&a, &b)?;
     assert_close(
         found.effects[0].f.clone()?,
@@ -205,7 +205,7 @@ fn complementary_answers_make_one_effect_nothing_by_nothing() -> Computed<()> {
         factors: vec![factor("signal", &["real", "made"]), material],
         values,
     };
-    let found = repeated_two_way(&table)?;
+    let found = Repeated::two_way(&table)?;
     let [signal, material, _] = found.effects.as_slice() else {
         return undefined("three effects");
     };
@@ -234,7 +234,7 @@ fn without_an_effect_one_study_of_twenty_finds_one() -> Computed<()> {
     let mut n_found = [0; 3];
     for _ in 0..2000 {
         table.values.fill_with(|| Some(random.normal()));
-        for (count, effect) in n_found.iter_mut().zip(repeated_two_way(&table)?.effects) {
+        for (count, effect) in n_found.iter_mut().zip(Repeated::two_way(&table)?.effects) {
             *count += i32::from(effect.p? < 0.05);
         }
     }
@@ -247,7 +247,7 @@ fn without_an_effect_one_study_of_twenty_finds_one() -> Computed<()> {
 
 #[test]
 fn tables_that_cannot_be_analysed_say_why() {
-    let reason = |table: &Crossed| repeated_two_way(table).map(|_| ()).map_err(|e| e.reason);
+    let reason = |table: &Crossed| Repeated::two_way(table).map(|_| ()).map_err(|e| e.reason);
     let mut holes = reaction(0.0);
     holes.values[7] = None;
     holes.values[59] = Some(f64::INFINITY);
@@ -257,10 +257,10 @@ fn tables_that_cannot_be_analysed_say_why() {
     alone.subjects.truncate(1);
     alone.values.truncate(6);
     assert_eq!(reason(&alone), Err("one subject alone".to_owned()));
-    assert!(repeated_one_way(&reaction(0.0)).is_err(), "two factors");
+    assert!(Repeated::one_way(&reaction(0.0)).is_err(), "two factors");
     let mut same = reaction(0.0);
     same.values.fill(Some(0.1));
-    let found = repeated_two_way(&same).map(|r| r.effects);
+    let found = Repeated::two_way(&same).map(|r| r.effects);
     let is_said = |e: &Effect| e.f.is_err() && e.p.is_err() && e.sphericity.is_none();
     assert!(found.is_ok_and(|e| e.iter().all(is_said)), "all equal");
 }

@@ -6,11 +6,11 @@ use crate::ReportError;
 use crate::picture::analysed;
 use crate::textiles::wrong;
 use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::Rectangle;
-use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, shape_from_shading};
+use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, Shape};
 use selvedge_textile::surface::{AREAL_WIRE_MM, Direction, HeightMap, Probe, Profile, ProfileSet};
-use selvedge_textile::{HeightScale, Reduced, TextileError, scaled, smd_um};
+use selvedge_textile::{HeightScale, Reduced, ScaledRelief, TextileError, smd_um};
 
 /// Harmonics that a restored profile keeps.
 const N_HARMONICS: usize = 8;
@@ -165,11 +165,14 @@ impl Subject {
             method,
             ..ShadingOptions::default()
         };
-        let shape = unheard(|progress| shape_from_shading(brightness, light, &options, progress))
-            .map_err(|error| error.to_string())?;
+        let shape = Progress::unheard(|progress| {
+            Shape::from_shading(brightness, light, &options, progress)
+        })
+        .map_err(|error| error.to_string())?;
         let scale = HeightScale::SmdUm(smd_um(&self.strokes));
         let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
-        let scaled = scaled(&shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
+        let scaled =
+            ScaledRelief::of(&shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
         Ok(scaled.map)
     }
 }

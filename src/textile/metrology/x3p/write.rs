@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::metrology::Measured;
-use selvedge_foundation::files::{FileError, Number, md5_hex, pack, push_number, xml_text};
+use selvedge_foundation::files::{Archive, FileError, Number, md5_hex, push_number, xml_text};
 
 /// How heights are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,7 +125,7 @@ pub fn write(measured: &Measured, coding: Coding, path: &Path) -> Result<Vec<u8>
         members.push(("bindata/valid.bin", &valid));
     }
     members.push(("md5checksum.hex", checksum.as_bytes()));
-    pack(&members, path)
+    Archive::pack(&members, path)
 }
 
 fn list(heights: &[f64], z: &ZAxis, record: &mut String) {

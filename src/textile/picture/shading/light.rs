@@ -80,57 +80,59 @@ pub struct LightEstimate {
 /// Gradients that agree less than this tell no side.
 const AGREE: f64 = 0.1;
 
-/// Estimates light and albedo of a picture (after Zheng & Chellappa 1991).
-///
-/// It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and albedo
-/// follow from mean and mean square of the brightness; the tilt from the mean direction of its
-/// gradient, or where that says nothing, from the axis along which it changes most.
-///
-/// # Errors
-/// An empty or black tile.
-pub fn estimate_light(brightness: &Grid<f64>) -> Result<LightEstimate, ShadingError> {
-    if brightness.values().is_empty() {
-        return Err(ShadingError::Empty);
+impl LightEstimate {
+    /// Estimates light and albedo of a picture (after Zheng & Chellappa 1991).
+    ///
+    /// It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and albedo
+    /// follow from mean and mean square of the brightness; the tilt from the mean direction of its
+    /// gradient, or where that says nothing, from the axis along which it changes most.
+    ///
+    /// # Errors
+    /// An empty or black tile.
+    pub fn of(brightness: &Grid<f64>) -> Result<Self, ShadingError> {
+        if brightness.values().is_empty() {
+            return Err(ShadingError::Empty);
+        }
+        let level = mean(brightness);
+        if level.is_nan() || level < 1e-9 {
+            return Err(ShadingError::Black);
+        }
+        let n = brightness.values().len() as f64;
+        let square = brightness.values().iter().map(|e| e * e).sum::<f64>() / n;
+        let pi = std::f64::consts::PI;
+        let albedo = (6.0 * pi * pi * square - 48.0 * level * level)
+            .max(0.0)
+            .sqrt()
+            / pi;
+        let cos_slant = 4.0 * level / (pi * albedo);
+        let is_slant_known = cos_slant.is_finite() && cos_slant < 1.0;
+        let slant_deg = if is_slant_known {
+            cos_slant.acos().to_degrees()
+        } else {
+            0.0
+        };
+        let gradients = Gradients::of(brightness);
+        let [agreement, mean_deg] = gradients.mean_direction();
+        let [coherence, axis_deg] = gradients.axis();
+        let is_sided = agreement >= AGREE;
+        let tilt_deg = if is_sided { mean_deg } else { axis_deg };
+        let words = [
+            slant_words(is_slant_known),
+            tilt_words(is_sided, coherence),
+            "Light from the other side (tilt + 180°) shows the same picture of the surface turned \
+             inside out.",
+        ];
+        Ok(Self {
+            light: Light {
+                slant_deg: slant_deg.min(GRAZING_DEG),
+                tilt_deg,
+            },
+            albedo,
+            tilt_agreement: agreement,
+            axis_coherence: coherence,
+            words: words.join(" "),
+        })
     }
-    let level = mean(brightness);
-    if level.is_nan() || level < 1e-9 {
-        return Err(ShadingError::Black);
-    }
-    let n = brightness.values().len() as f64;
-    let square = brightness.values().iter().map(|e| e * e).sum::<f64>() / n;
-    let pi = std::f64::consts::PI;
-    let albedo = (6.0 * pi * pi * square - 48.0 * level * level)
-        .max(0.0)
-        .sqrt()
-        / pi;
-    let cos_slant = 4.0 * level / (pi * albedo);
-    let is_slant_known = cos_slant.is_finite() && cos_slant < 1.0;
-    let slant_deg = if is_slant_known {
-        cos_slant.acos().to_degrees()
-    } else {
-        0.0
-    };
-    let gradients = Gradients::of(brightness);
-    let [agreement, mean_deg] = gradients.mean_direction();
-    let [coherence, axis_deg] = gradients.axis();
-    let is_sided = agreement >= AGREE;
-    let tilt_deg = if is_sided { mean_deg } else { axis_deg };
-    let words = [
-        slant_words(is_slant_known),
-        tilt_words(is_sided, coherence),
-        "Light from the other side (tilt + 180°) shows the same picture of the surface turned \
-         inside out.",
-    ];
-    Ok(LightEstimate {
-        light: Light {
-            slant_deg: slant_deg.min(GRAZING_DEG),
-            tilt_deg,
-        },
-        albedo,
-        tilt_agreement: agreement,
-        axis_coherence: coherence,
-        words: words.join(" "),
-    })
 }
 
 fn slant_words(is_known: bool) -> &'static str {

@@ -27,7 +27,7 @@ mod tsai_shah;
 mod variational;
 
 pub use error::ShadingError;
-pub use light::{Light, LightEstimate, estimate_light};
+pub use light::{Light, LightEstimate};
 pub use reflectance::picture_of;
 pub use shape::{Edges, Method, ShadingOptions, Shape};
 
@@ -36,46 +36,48 @@ use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
 use shape::{MAX_ITERATIONS, mean};
 
-/// Heights from brightness 0…1 under a light; row 0 is the lowest y.
-///
-/// # Errors
-/// Brightness that is empty, too large, outside 0…1 or black; a light that the method cannot use;
-/// options out of range; cancelled.
-pub fn shape_from_shading(
-    brightness: &Grid<f64>,
-    light: Light,
-    options: &ShadingOptions,
-    progress: &mut Progress<'_>,
-) -> Result<Shape, ShadingError> {
-    check(brightness, options)?;
-    light.check()?;
-    let is_singular = options.method == Method::TsaiShah && tsai_shah::is_singular(light);
-    if is_singular {
-        return Err(ShadingError::Singular);
+impl Shape {
+    /// Heights from brightness 0…1 under a light; row 0 is the lowest y.
+    ///
+    /// # Errors
+    /// Brightness that is empty, too large, outside 0…1 or black; a light that the method cannot use;
+    /// options out of range; cancelled.
+    pub fn from_shading(
+        brightness: &Grid<f64>,
+        light: Light,
+        options: &ShadingOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ShadingError> {
+        check(brightness, options)?;
+        light.check()?;
+        let is_singular = options.method == Method::TsaiShah && tsai_shah::is_singular(light);
+        if is_singular {
+            return Err(ShadingError::Singular);
+        }
+        if light.is_frontal() {
+            return Err(ShadingError::Frontal {
+                slant_deg: light.slant_deg,
+            });
+        }
+        progress.step(0.0, "shape from shading")?;
+        let found = match options.method {
+            Method::TsaiShah => tsai_shah::solve(brightness, light, options, progress)?,
+            Method::Linear => linear::solve(brightness, light, options),
+            Method::Variational => variational::solve(brightness, light, options, progress)?,
+        };
+        let blind = linear::blind(brightness, light, options);
+        progress.step(1.0, "shape from shading")?;
+        Ok(Self {
+            height_px: about_mean(&found.height_px),
+            method: options.method,
+            light,
+            albedo: found.albedo,
+            residuals: found.residuals,
+            n_rounds: found.n_rounds,
+            blind,
+            reliability: reliability::words(options.method, light, blind),
+        })
     }
-    if light.is_frontal() {
-        return Err(ShadingError::Frontal {
-            slant_deg: light.slant_deg,
-        });
-    }
-    progress.step(0.0, "shape from shading")?;
-    let found = match options.method {
-        Method::TsaiShah => tsai_shah::solve(brightness, light, options, progress)?,
-        Method::Linear => linear::solve(brightness, light, options),
-        Method::Variational => variational::solve(brightness, light, options, progress)?,
-    };
-    let blind = linear::blind(brightness, light, options);
-    progress.step(1.0, "shape from shading")?;
-    Ok(Shape {
-        height_px: about_mean(&found.height_px),
-        method: options.method,
-        light,
-        albedo: found.albedo,
-        residuals: found.residuals,
-        n_rounds: found.n_rounds,
-        blind,
-        reliability: reliability::words(options.method, light, blind),
-    })
 }
 
 fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), ShadingError> {

@@ -40,9 +40,7 @@ impl Hurst {
         })
         .filter(|found| found.error.is_finite())
     }
-}
 
-impl Hurst {
     /// The exponent of some lines together, of 17 samples or more; `None` if they are level.
     pub fn of_lines_whole(lines: &[&[f64]]) -> Option<f64> {
         exponent(lines)

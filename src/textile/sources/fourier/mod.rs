@@ -225,7 +225,7 @@ impl Recipe for Fourier {
     }
 
     fn example() -> Result<Option<Example<Self>>, TextileError> {
-        let templates = example_templates()?;
+        let templates = FourierTemplate::examples()?;
         let none = || TextileError::Model("there is no example of a template".to_owned());
         let template = templates.into_iter().next().ok_or_else(none)?;
         Ok(Some(Example::Own {
@@ -249,29 +249,28 @@ struct TemplateFile {
     template: Vec<FourierTemplate>,
 }
 
-/// Reads a file of templates. `path` only names it in errors.
-pub fn templates_from_toml(text: &str, path: &Path) -> Result<Vec<FourierTemplate>, TextileError> {
-    let file: TemplateFile = keys_from_str(text, path)?;
-    for (nth, template) in file.template.iter().enumerate() {
-        if let Some((key, what, mend)) = template.fault() {
-            let line = line_of_key(text, "template", nth, key);
-            return Err(FileError::content(path, line, what, mend).into());
+impl FourierTemplate {
+    /// Reads a file of templates. `path` only names it in errors.
+    pub fn list_from_toml(text: &str, path: &Path) -> Result<Vec<Self>, TextileError> {
+        let file: TemplateFile = keys_from_str(text, path)?;
+        for (nth, template) in file.template.iter().enumerate() {
+            if let Some((key, what, mend)) = template.fault() {
+                let line = line_of_key(text, "template", nth, key);
+                return Err(FileError::content(path, line, what, mend).into());
+            }
         }
+        Ok(file.template)
     }
-    Ok(file.template)
-}
 
-/// Templates as a file.
-pub fn templates_to_toml(
-    templates: &[FourierTemplate],
-    path: &Path,
-) -> Result<String, TextileError> {
-    let template = templates.to_vec();
-    Ok(keys_to_string(&TemplateFile { template }, path)?)
-}
+    /// Templates as a file.
+    pub fn list_to_toml(templates: &[Self], path: &Path) -> Result<String, TextileError> {
+        let template = templates.to_vec();
+        Ok(keys_to_string(&TemplateFile { template }, path)?)
+    }
 
-/// The five templates that are part of the program. They are invented: smooth spectra with a peak,
-/// scaled to the range of standard deviations that Wall & Harwin print, not measured on textile.
-pub fn example_templates() -> Result<Vec<FourierTemplate>, TextileError> {
-    templates_from_toml(EXAMPLES, Path::new("the example templates"))
+    /// The five templates that are part of the program. They are invented: smooth spectra with a peak,
+    /// scaled to the range of standard deviations that Wall & Harwin print, not measured on textile.
+    pub fn examples() -> Result<Vec<Self>, TextileError> {
+        Self::list_from_toml(EXAMPLES, Path::new("the example templates"))
+    }
 }

@@ -200,7 +200,7 @@ fn strokes_come_back_from_the_mirror_as_they_went() {
 
 #[test]
 fn the_five_examples_have_the_published_spread() {
-    let examples = example_templates().unwrap();
+    let examples = FourierTemplate::examples().unwrap();
     let spreads: Vec<f64> = examples.iter().map(sd_um).collect();
     for (found, said) in spreads.iter().zip([11.0, 20.7, 34.8, 45.0, 59.0]) {
         assert!((found / said - 1.0).abs() < 0.003, "{spreads:?}");
@@ -211,8 +211,11 @@ fn the_five_examples_have_the_published_spread() {
         "it must be said"
     );
     let path = Path::new("t.toml");
-    let text = templates_to_toml(&examples, path).unwrap();
-    assert_eq!(templates_from_toml(&text, path).unwrap(), examples);
+    let text = FourierTemplate::list_to_toml(&examples, path).unwrap();
+    assert_eq!(
+        FourierTemplate::list_from_toml(&text, path).unwrap(),
+        examples
+    );
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(crate) enum Interlacing {
 }
 
 /// The interlacings known by name, with their rows.
-pub const NAMES: [(&str, &[&str]); 15] = [
+pub(super) const NAMES: [(&str, &[&str]); 15] = [
     ("plain", &["X.", ".X"]),
     ("twill-2-1", &["XX.", ".XX", "X.X"]),
     ("twill-2-2", &["XX..", ".XX.", "..XX", "X..X"]),

@@ -12,7 +12,7 @@ mod crossing;
 mod interlacing;
 
 pub(crate) use interlacing::Interlacing;
-pub use interlacing::NAMES;
+use interlacing::NAMES;
 
 use crate::error::TextileError;
 use crate::recipe::{
@@ -86,6 +86,9 @@ defaults! {
 }
 
 impl Weave {
+    /// The interlacings known by name, with their rows.
+    pub const INTERLACINGS: [(&str, &[&str]); 15] = NAMES;
+
     /// The textile. Empty if the interlacing is none: [`Weave::check`] refuses that.
     pub(crate) fn yarn_geometry(&self) -> YarnGeometry {
         let random = Random::new(u64::from(self.seed));

@@ -12,7 +12,7 @@ use crate::bench::export::origin::Origin;
 use crate::bench::export::{Exported, Sheet};
 use crate::bench::session::title_of;
 use crate::tools::analysis::asked::Asked;
-use selvedge_experiment::analysis::{Analysis, Cell, Drawn, Table, analyse_with_unread, sessions};
+use selvedge_experiment::analysis::{Analysis, Cell, Drawn, Table, sessions};
 use selvedge_experiment::design::Source;
 use selvedge_experiment::session::Found;
 use selvedge_foundation::progress::Progress;
@@ -108,7 +108,7 @@ pub(crate) fn find_out(
             left_out.join(", ")
         ));
     }
-    let analysis = analyse_with_unread(&found, &unread, &asked.options(), progress)
+    let analysis = Analysis::with_unread(&found, &unread, &asked.options(), progress)
         .map_err(|error| error.to_string())?;
     Ok(Findings {
         analysis,

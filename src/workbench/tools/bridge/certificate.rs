@@ -106,7 +106,7 @@ pub(crate) fn show(ui: &mut Ui, state: Option<([u8; 3], bool)>) {
 mod tests {
     use super::*;
     use selvedge_device::{
-        Certificate, DeviceModel, Extent, Faults, Trial, VirtualLine, WiredDevice, certify,
+        Certificate, DeviceModel, Extent, Faults, Trial, VirtualLine, WiredDevice,
     };
     use selvedge_scratch::ScratchFolder;
     use std::sync::atomic::AtomicBool;
@@ -118,7 +118,7 @@ mod tests {
             extent: Extent::Full,
             nonce: 7,
         };
-        certify(&mut line, trial, &AtomicBool::new(false), &mut |_| {})
+        Certificate::of(&mut line, trial, &AtomicBool::new(false), &mut |_| {})
     }
 
     #[test]

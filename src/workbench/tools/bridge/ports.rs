@@ -4,7 +4,7 @@ use eframe::egui;
 
 use crate::bench::background::{Executor, Task, finished};
 use crate::tools::bridge::replug::Replug;
-use selvedge_device::{FoundPort, PortEntry, Target, list_ports};
+use selvedge_device::{FoundPort, PortEntry, Target};
 
 /// The ports as a pane shows them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -32,7 +32,7 @@ pub(crate) struct Ports {
 impl Ports {
     /// Begins to list the ports, unless that is under way.
     pub(crate) fn list(&mut self, ctx: &egui::Context) {
-        self.list_by(ctx, || list_ports().map_err(|error| error.to_string()));
+        self.list_by(ctx, || PortEntry::list().map_err(|error| error.to_string()));
     }
 
     fn list_by(

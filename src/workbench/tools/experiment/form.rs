@@ -12,8 +12,8 @@ use crate::tools::experiment::builder::looked::{Looked, Looking};
 use crate::tools::experiment::builder::study_text::{Chosen, StudyText};
 use crate::tools::experiment::held::Held;
 use crate::tools::experiment::who::Who;
-use selvedge_experiment::design::{Design, Subject, is_name};
-use selvedge_experiment::session::{find_sessions, log_path, verify_stimuli};
+use selvedge_experiment::design::{Design, Subject};
+use selvedge_experiment::session::{Found, log_path};
 use selvedge_experiment::{Participant, Participants, Plan, Preview};
 use selvedge_foundation::progress::Progress;
 
@@ -122,7 +122,7 @@ impl Form {
             let mend = "The design was changed: save it in the Study builder first";
             return Some(mend.to_owned());
         }
-        if !is_name(self.who.pseudonym.trim()) {
+        if !Design::is_name(self.who.pseudonym.trim()) {
             let mend = "Give a pseudonym of letters, digits, - and _, and no real name";
             return Some(mend.to_owned());
         }
@@ -316,8 +316,8 @@ pub(crate) fn list(
         return Err(format!("there is no folder {folder}; check the path"));
     }
     let described = |error: selvedge_experiment::ExperimentError| error.to_string();
-    let (mut found, unread) = find_sessions(folder).map_err(described)?;
-    verify_stimuli(&mut found, progress).map_err(described)?;
+    let (mut found, unread) = Found::in_folder(folder).map_err(described)?;
+    Found::verify_stimuli(&mut found, progress).map_err(described)?;
     Ok(Listed {
         found: found.iter().map(Held::of).collect(),
         unread: unread.into_iter().map(|one| described(one.error)).collect(),

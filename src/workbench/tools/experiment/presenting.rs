@@ -10,7 +10,7 @@ use crate::tools::experiment::in_turn::LEAD_STEPS;
 use crate::tools::experiment::now::{Began, Now};
 use crate::tools::experiment::played_noise::HeardNoise;
 use selvedge_engine::{RecordedTick, Recording};
-use selvedge_experiment::layout::on_the_table;
+use selvedge_experiment::layout::Layout;
 use selvedge_experiment::{Answer, Outcome, Presentation, PresentedTick, Proof, Standing, Watch};
 use selvedge_render::stylus::StylusState;
 
@@ -168,7 +168,7 @@ impl ActiveSession {
         !is_laid
             && self
                 .trial()
-                .is_some_and(|trial| !on_the_table(&self.design, &trial.task).is_empty())
+                .is_some_and(|trial| !Layout::on_the_table(&self.design, &trial.task).is_empty())
     }
 
     /// Whether the array presents something in this design.

@@ -15,7 +15,7 @@ use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::state::Experiment;
 use selvedge_experiment::Trial;
 use selvedge_experiment::design::{Design, Form, Source};
-use selvedge_experiment::layout::{Layout, on_the_table};
+use selvedge_experiment::layout::Layout;
 use selvedge_foundation::geometry::Point;
 
 /// What the participant sees.
@@ -315,7 +315,9 @@ impl ActiveSession {
             left_s: self.left_s(now_s),
             last_response_s: self.presented.last_response_s,
             answered: self.draft.describe(),
-            table: trial.map_or_else(Vec::new, |trial| on_the_table(&self.design, &trial.task)),
+            table: trial.map_or_else(Vec::new, |trial| {
+                Layout::on_the_table(&self.design, &trial.task)
+            }),
             link,
             pause: self.pause,
             is_writing: self.is_writing(),

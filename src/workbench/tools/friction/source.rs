@@ -11,7 +11,7 @@ use selvedge_foundation::numerics::{Grid, at_place, to_byte, to_index, to_single
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_friction::{PredictedFriction, Predictor};
 use selvedge_textile::Textile;
-use selvedge_textile::picture::load;
+use selvedge_textile::picture::Picture;
 
 /// A textile's own picture is repeated to such a length and height, mm.
 const REPEATED_MM: [f64; 2] = [100.0, 20.0];
@@ -52,7 +52,7 @@ impl Source {
     fn brightness(&self, px_per_mm: f64) -> Result<Arc<Grid<f32>>, String> {
         match self {
             Self::File(file) => {
-                let picture = load(file.bytes()?, file.file_name());
+                let picture = Picture::load(file.bytes()?, file.file_name());
                 let picture = picture.map_err(|error| error.to_string())?;
                 Ok(Arc::new(picture.luminance.map(to_single)))
             }

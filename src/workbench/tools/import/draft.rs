@@ -10,7 +10,7 @@ use selvedge_textile::metrology::HeightOptions;
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     ColumnRole, Construction, DecimalSign, Description, ImportOptions, KesOptions, KesPlace,
-    LengthUnit, Measurement, ReturnOrder, Unit, id_of, known_figures,
+    KnownFigure, LengthUnit, Measurement, ReturnOrder, Unit, id_of,
 };
 
 /// A file and what was said of it.
@@ -224,7 +224,7 @@ impl WordsDraft {
     pub(crate) fn words(&self, suggested: &str, kind: Measurement) -> Result<Description, Failure> {
         let mut figures = BTreeMap::new();
         for (key, text) in &self.figures {
-            let figure = known_figures().find(|figure| figure.key == *key);
+            let figure = KnownFigure::all().find(|figure| figure.key == *key);
             let name = figure.map_or_else(|| key.clone(), |figure| figure.name);
             let value = number(text, &name).map_err(|line| Failure::at(Step::Keep, line))?;
             if let Some(value) = value {

@@ -14,7 +14,7 @@ use crate::bench::keep::NewTextile;
 use crate::bench::latest::Standing;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::tools::import::failure::{Failure, Step};
-use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress, unheard};
+use selvedge_foundation::progress::{CancelFlag, Cancelled, Progress};
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
@@ -290,7 +290,8 @@ fn work_that_is_cancelled_stops_and_begins_again_with_other_words() {
     assert_eq!(importing.standing(), Standing::Stopped);
     importing.draft.looked.is_official = true;
     read(&mut importing);
-    let found = unheard(|progress| work::read(importing.inputs(), None, progress)).unwrap();
+    let found =
+        Progress::unheard(|progress| work::read(importing.inputs(), None, progress)).unwrap();
     assert!(found.failure.is_none());
 }
 

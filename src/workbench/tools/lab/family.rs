@@ -154,8 +154,7 @@ impl Family {
         for (done, (value, manifest)) in values.into_iter().zip(recipes).enumerate() {
             let step = progress.step(done as f64 / n, parameter.name);
             step.map_err(|stop| stop.to_string())?;
-            let preview =
-                selvedge_foundation::progress::unheard(|own| Preview::of(manifest, filters, own))?;
+            let preview = Progress::unheard(|own| Preview::of(manifest, filters, own))?;
             members.push(Member {
                 label: label(parameter.name, value, unit),
                 value,

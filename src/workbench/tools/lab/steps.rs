@@ -196,7 +196,7 @@ fn excluded(draft: &Draft, place: Place) -> Option<Place> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_textile::example;
+    use selvedge_textile::Manifest;
 
     const HURST: Place = Place {
         table: "source",
@@ -204,7 +204,7 @@ mod tests {
     };
 
     fn steps() -> Steps {
-        let draft = Draft::of(&example("brownian").unwrap()).unwrap();
+        let draft = Draft::of(&Manifest::example("brownian").unwrap()).unwrap();
         Steps::new(Recipe::new(draft, None))
     }
 

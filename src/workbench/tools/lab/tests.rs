@@ -12,7 +12,7 @@ use crate::bench::latest::Standing;
 use crate::tools::lab::family::{Family, Member, Plan};
 use crate::tools::lab::state::Begun;
 use crate::tools::lab::work::{begin, built};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder;
 use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::Filters;
@@ -25,7 +25,7 @@ const HURST: Place = Place {
 
 fn begun(from: &Beginning) -> Begun {
     let library = Library::shipped().unwrap();
-    unheard(|progress| begin(from, &library, &Filters::default(), progress)).unwrap()
+    Progress::unheard(|progress| begin(from, &library, &Filters::default(), progress)).unwrap()
 }
 
 /// A Brownian surface of few points: made in no time.
@@ -47,7 +47,8 @@ fn a_copy_names_its_parent_and_is_kept_with_the_bytes_of_its_recipe() {
     let library = Library::shipped().unwrap();
     assert_eq!(lab.recipe().unwrap().fields.id, "polyamide-taffeta-changed");
     let recipes = vec![lab.to_keep().unwrap()];
-    let [one, again] = [(); 2].map(|()| unheard(|progress| built(&recipes, progress)).unwrap());
+    let [one, again] =
+        [(); 2].map(|()| Progress::unheard(|progress| built(&recipes, progress)).unwrap());
     assert_eq!(one, again, "no clock, no chance");
     let manifest = &one[0]
         .files
@@ -104,8 +105,9 @@ fn what_has_no_recipe_is_refused_in_a_line_and_can_be_restored() {
                 kind = \"profiles\"\nwarp_forward = \"w.csv\"\n";
     std::fs::write(textile.join("textile.toml"), text).unwrap();
     let library = Library::open(&folder).unwrap();
-    let begin =
-        |from: Beginning| unheard(|progress| begin(&from, &library, &Filters::default(), progress));
+    let begin = |from: Beginning| {
+        Progress::unheard(|progress| begin(&from, &library, &Filters::default(), progress))
+    };
     let refusal = begin(Beginning::Copy("measured".to_owned())).unwrap_err();
     assert!(refusal.contains("is not a recipe"), "{refusal}");
     let begun = begin(Beginning::Restore("measured".to_owned())).unwrap();
@@ -127,7 +129,8 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
     };
     let draft = lab.steps.as_ref().unwrap().recipe.draft.clone();
     let filters = Filters::default();
-    let family = unheard(|progress| Family::of(&draft, &plan, &filters, progress)).unwrap();
+    let family =
+        Progress::unheard(|progress| Family::of(&draft, &plan, &filters, progress)).unwrap();
     let labels: Vec<&str> = family
         .members
         .iter()
@@ -158,7 +161,8 @@ fn a_family_differs_in_one_parameter_and_is_named_one_after_the_other() {
         ends: [0.2, 8.0],
         ..plan
     };
-    let words = unheard(|progress| Family::of(&draft, &beyond, &filters, progress)).unwrap_err();
+    let words =
+        Progress::unheard(|progress| Family::of(&draft, &beyond, &filters, progress)).unwrap_err();
     assert_eq!(words, "hurst is 4.1; give a number from 0.01 to 0.99");
 }
 

@@ -178,7 +178,7 @@ pub(crate) fn begin(
     let words = |error: TextileError| error.to_string();
     let (id, is_copy) = match from {
         Beginning::Example(kind) => {
-            let manifest = selvedge_textile::example(kind).map_err(words)?;
+            let manifest = Manifest::example(kind).map_err(words)?;
             let draft = Draft::of(&manifest).map_err(words)?;
             return Ok(Begun {
                 draft,
@@ -194,7 +194,7 @@ pub(crate) fn begin(
     let draft = if is_copy {
         Draft::of(loaded.manifest())
     } else {
-        selvedge_textile::restored(&loaded).and_then(|manifest| Draft::of(&manifest))
+        Manifest::restored(&loaded).and_then(|manifest| Draft::of(&manifest))
     };
     let compared = Compared::of(&loaded, filters, progress).map_err(|stop| stop.to_string())?;
     let parent = Parent {

@@ -13,17 +13,14 @@ use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shape
 use crate::tools::picture::images;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
-use selvedge_textile::picture::brightness::{Brightness, brightness_of, shape_of};
+use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    SignificantMaxima, even_light, load,
+    Picture, SignificantMaxima, even_light,
 };
 use selvedge_textile::surface::{Direction, HeightMap};
-use selvedge_textile::{
-    Construction, Manifest, PictureTextile, Source, TextileError, n_threads, read_profile,
-    textile_of,
-};
+use selvedge_textile::{Construction, Manifest, PictureTextile, Source, TextileError, n_threads};
 
 /// Why a run ended early.
 enum End {
@@ -139,7 +136,8 @@ fn loaded(inputs: &Draft) -> Result<Loaded, End> {
     let file = inputs.source.as_ref();
     let file = file.ok_or_else(|| failed("no picture was chosen".to_owned()))?;
     let bytes = file.bytes().map_err(|line| failed(line.to_owned()))?;
-    let picture = load(bytes, file.file_name()).map_err(|error| failed(error.to_string()))?;
+    let picture =
+        Picture::load(bytes, file.file_name()).map_err(|error| failed(error.to_string()))?;
     Ok(Loaded {
         sha256: sha256_hex([bytes]),
         image: images::thumbnail(&picture.luminance),
@@ -240,7 +238,7 @@ fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<
     };
     // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
     let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
-    let brightness = brightness_of(&tiled.tile, px_per_mm, n_threads());
+    let brightness = Brightness::of(&tiled.tile, px_per_mm, n_threads());
     let estimate = if inputs.is_light_estimated {
         Some(brightness.estimated_light().map_err(failed)?)
     } else {
@@ -253,7 +251,9 @@ fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<
         method: inputs.method,
         ..ShadingOptions::default()
     };
-    let shape = shape_of(&brightness, light, &options, progress).map_err(failed)?;
+    let shape = brightness
+        .shape(light, &options, progress)
+        .map_err(failed)?;
     Ok(Shaped {
         brightness,
         shape,
@@ -277,7 +277,7 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
         ..PictureTextile::default()
     };
     let (shape, brightness) = (&shaped.shape, &shaped.brightness);
-    let files = textile_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
+    let files = PictureTextile::files_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
     let text = |name: &str| {
         let file = files.iter().find(|file| file.name == name)?;
         String::from_utf8(file.bytes.clone()).ok()
@@ -292,7 +292,8 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
     for direction in Direction::ALL {
         let name = format!("{}.csv", direction.key());
         if let Some(text) = text(&name) {
-            let profile = read_profile(&text, Path::new(&name)).map_err(failed)?;
+            let profile = selvedge_textile::surface::Profile::read(&text, Path::new(&name))
+                .map_err(failed)?;
             profiles.push((direction, profile.heights_um().to_vec(), profile.step_mm()));
         }
     }

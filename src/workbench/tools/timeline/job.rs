@@ -143,7 +143,7 @@ fn nearest(left: &[u64], focus: u64) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_foundation::progress::unheard;
+    use selvedge_foundation::progress::Progress;
     use selvedge_render::scene::{PathRow, Pose};
 
     /// Writes the number of the tick.
@@ -180,7 +180,7 @@ mod tests {
             order.push(nth);
             tiles.install(nth, tile);
         };
-        unheard(|progress| work.all(&focus, put, progress)).unwrap();
+        Progress::unheard(|progress| work.all(&focus, put, progress)).unwrap();
         (order, tiles)
     }
 

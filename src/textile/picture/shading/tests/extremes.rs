@@ -37,15 +37,15 @@ fn black_empty_and_impossible_brightness_is_refused() {
     let wide = Grid::filled(MAX_POINTS + 1, 1, 0.5);
     assert!(refused(&wide).contains("scale"));
     assert_eq!(
-        estimate_light(&Grid::filled(3, 3, 0.0)),
+        LightEstimate::of(&Grid::filled(3, 3, 0.0)),
         Err(ShadingError::Black)
     );
     assert_eq!(
-        estimate_light(&Grid::filled(3, 0, 0.0)),
+        LightEstimate::of(&Grid::filled(3, 0, 0.0)),
         Err(ShadingError::Empty)
     );
     assert_eq!(
-        estimate_light(&Grid::filled(3, 3, f64::NAN)),
+        LightEstimate::of(&Grid::filled(3, 3, f64::NAN)),
         Err(ShadingError::Black)
     );
 }
@@ -137,9 +137,9 @@ fn noise_steps_and_wild_options_stay_finite() {
             };
             for slant in [2.0, 45.0, 85.0] {
                 let run = |progress: &mut Progress<'_>| {
-                    shape_from_shading(&steps, light(slant, 30.0), &options, progress)
+                    Shape::from_shading(&steps, light(slant, 30.0), &options, progress)
                 };
-                let found = unheard(run).unwrap();
+                let found = Progress::unheard(run).unwrap();
                 assert!(is_finite(&found), "{options:?} {slant}");
             }
         }
@@ -158,9 +158,9 @@ fn noise_steps_and_wild_options_stay_finite() {
                 ..ShadingOptions::default()
             };
             let run = |progress: &mut Progress<'_>| {
-                shape_from_shading(&steps, light(45.0, 30.0), &options, progress)
+                Shape::from_shading(&steps, light(45.0, 30.0), &options, progress)
             };
-            let error = unheard(run).unwrap_err();
+            let error = Progress::unheard(run).unwrap_err();
             assert!(matches!(error, ShadingError::Option { .. }), "{error}");
         }
     }
@@ -174,7 +174,7 @@ fn the_work_tells_how_far_it_is_stops_when_asked_and_repeats() {
         let mut report = |share: f64, _: &str| heard.push(share);
         let mut progress = Progress::new(&mut report, CancelFlag::new());
         let from = light(45.0, 30.0);
-        let first = shape_from_shading(&e, from, &with(method), &mut progress).unwrap();
+        let first = Shape::from_shading(&e, from, &with(method), &mut progress).unwrap();
         assert!(heard.windows(2).all(|pair| pair[0] <= pair[1]), "{heard:?}");
         assert_eq!(heard.last(), Some(&1.0));
         assert_eq!(shape(&e, from, method).unwrap(), first);
@@ -182,7 +182,7 @@ fn the_work_tells_how_far_it_is_stops_when_asked_and_repeats() {
         cancel.cancel();
         let mut report = |_: f64, _: &str| {};
         let mut progress = Progress::new(&mut report, cancel);
-        let stopped = shape_from_shading(&e, from, &with(method), &mut progress);
+        let stopped = Shape::from_shading(&e, from, &with(method), &mut progress);
         assert_eq!(stopped, Err(ShadingError::Cancelled(Cancelled)));
     }
 }

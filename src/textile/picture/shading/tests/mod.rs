@@ -8,7 +8,7 @@ mod truths;
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 
 /// Points of a fine relief to a pixel's side.
 const FINE: usize = 4;
@@ -116,5 +116,5 @@ fn with(method: Method) -> ShadingOptions {
 }
 
 fn shape(brightness: &Grid<f64>, from: Light, method: Method) -> Result<Shape, ShadingError> {
-    unheard(|progress| shape_from_shading(brightness, from, &with(method), progress))
+    Progress::unheard(|progress| Shape::from_shading(brightness, from, &with(method), progress))
 }

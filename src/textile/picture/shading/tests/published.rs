@@ -116,9 +116,9 @@ fn the_running_average_brings_the_residual_down_and_the_shape_nearer() {
     };
     let of = |n: usize| {
         let run = |progress: &mut Progress<'_>| {
-            shape_from_shading(&e, light(45.0, 0.0), &options(n), progress)
+            Shape::from_shading(&e, light(45.0, 0.0), &options(n), progress)
         };
-        unheard(run).unwrap()
+        Progress::unheard(run).unwrap()
     };
     let (few, many) = (of(2), of(200));
     assert_eq!((few.n_iterations(), many.n_iterations()), (2, 200));

@@ -129,7 +129,7 @@ fn an_even_surface_tells_the_axis_of_its_light_and_says_how_sure_it_is() {
         waves.iter().map(height).sum()
     });
     for tilt in [20.0, 60.0, 110.0] {
-        let found = estimate_light(&even.picture(50.0, tilt)).unwrap();
+        let found = LightEstimate::of(&even.picture(50.0, tilt)).unwrap();
         let apart = (found.light.tilt_deg - tilt).rem_euclid(180.0);
         assert!(apart.min(180.0 - apart) < 15.0, "{tilt}: {found:?}");
         assert!(found.words.contains("180°"), "{found:?}");
@@ -156,7 +156,7 @@ fn the_slant_of_a_ball_is_found() {
         }
         let n_values = values.len();
         let e = Grid::from_rows(n_values, values).unwrap();
-        let found = estimate_light(&e).unwrap();
+        let found = LightEstimate::of(&e).unwrap();
         println!("{slant_deg}: {found:?}");
         assert!(
             (found.light.slant_deg - slant_deg).abs() < 15.0,

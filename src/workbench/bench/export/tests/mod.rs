@@ -156,7 +156,7 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
             assert_eq!(bytes, again.bytes(kind, path).unwrap(), "{name}");
             match kind {
                 Kind::Png => {
-                    let picture = files::decode_png(&bytes, path).unwrap();
+                    let picture = files::Rgb8Image::from_png(&bytes, path).unwrap();
                     assert_eq!(picture.width, 1720, "{name}");
                     let n_white = picture
                         .pixels

@@ -39,11 +39,11 @@ impl Headless {
         let picture = files::GrayImage {
             width: 160,
             height: 120,
-            values: files::gray_values((0..160 * 120).map(grey)),
+            values: files::GrayImage::values_of((0..160 * 120).map(grey)),
             white: u16::MAX,
             texts: Vec::new(),
         };
-        fs::write(&path, files::encode_gray_png(&picture, &path).unwrap()).unwrap();
+        fs::write(&path, picture.to_png(&path).unwrap()).unwrap();
         self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path));
         let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
         picture.follow(&self.ctx, &Executor::InLine);

@@ -20,11 +20,11 @@ use crate::shell::headless::Headless;
 use crate::tools::analysis::asked::{Asked, Choice, Effort};
 use crate::tools::analysis::findings::find_out;
 use selvedge_experiment::Simulation;
-use selvedge_experiment::analysis::{Section, analyse_folder};
+use selvedge_experiment::analysis::{self as study, Section};
 use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::session::Session;
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_scratch::ScratchFolder as Folder;
 use selvedge_textile::Library;
 
@@ -34,7 +34,7 @@ const DESIGN: &str = "odd-one-out";
 fn study(folder: &Folder, n_observers: usize) {
     let design = Design::shipped(DESIGN).unwrap();
     let library = Library::shipped().unwrap();
-    let stimuli = unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
+    let stimuli = Progress::unheard(|progress| Stimuli::of(&design, &library, progress)).unwrap();
     let simulation = Simulation {
         design: &design,
         stimuli: &stimuli,
@@ -42,7 +42,7 @@ fn study(folder: &Folder, n_observers: usize) {
         seed: 3,
     };
     let numbers = (n_observers, 1);
-    unheard(|progress| simulation.write(&folder.0, numbers, progress)).unwrap();
+    Progress::unheard(|progress| simulation.write(&folder.0, numbers, progress)).unwrap();
 }
 
 fn asked(folder: &Path) -> Asked {
@@ -99,8 +99,10 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     let mut window = window(&asked);
     open(&mut window, &folder.0);
     window.pass(3);
-    let expected =
-        unheard(|progress| analyse_folder(&folder.0, &asked.options(), progress)).unwrap();
+    let expected = Progress::unheard(|progress| {
+        study::Analysis::of_folder(&folder.0, &asked.options(), progress)
+    })
+    .unwrap();
     let found = analysis(&window).found.as_ref().unwrap();
     assert_eq!(found.analysis, expected);
     assert_eq!((&found.asked, found.n_sessions), (&asked, 3));
@@ -123,7 +125,7 @@ fn a_folder_in_the_window_gives_the_numbers_of_the_analysis_and_its_files() {
     window.pass(2);
     let line = analysis(&window).written.clone().unwrap().unwrap_err();
     assert!(line.contains("beyond") && !line.contains('\n'), "{line}");
-    let again = unheard(|progress| find_out(asked.clone(), None, progress)).unwrap();
+    let again = Progress::unheard(|progress| find_out(asked.clone(), None, progress)).unwrap();
     assert_eq!(again.n_sessions, 3, "the report is no session");
 }
 
@@ -205,7 +207,8 @@ fn who_takes_part_in_a_session_under_way_is_left_out_unless_that_is_asked_for() 
     let design = Design::shipped(DESIGN).unwrap();
     let held = Session::create(&folder.0, design, subject, "none").unwrap();
     let mut asked = asked(&folder.0);
-    let find = |asked: &Asked| unheard(|progress| find_out(asked.clone(), None, progress));
+    let find =
+        |asked: &Asked| Progress::unheard(|progress| find_out(asked.clone(), None, progress));
     let found = find(&asked).unwrap();
     assert_eq!(found.left_out, ["o02"]);
     assert_eq!(found.n_sessions, 1, "neither of their sessions");
@@ -217,7 +220,8 @@ fn who_takes_part_in_a_session_under_way_is_left_out_unless_that_is_asked_for() 
     drop(held);
     let found = find(&asked).unwrap();
     assert_eq!(found.n_sessions, 3, "it is over");
-    let found = unheard(|progress| find_out(asked.clone(), Some(&log), progress)).unwrap();
+    let found =
+        Progress::unheard(|progress| find_out(asked.clone(), Some(&log), progress)).unwrap();
     assert_eq!(found.left_out, ["o02"], "this window holds it");
     let alone = Folder::new("alone");
     fs::create_dir_all(&alone.0).unwrap();
@@ -227,7 +231,7 @@ fn who_takes_part_in_a_session_under_way_is_left_out_unless_that_is_asked_for() 
     }
     let copied = alone.0.join(log.file_name().unwrap());
     asked.folder.clone_from(&alone.0);
-    let refusal = unheard(|progress| find_out(asked.clone(), Some(&copied), progress));
+    let refusal = Progress::unheard(|progress| find_out(asked.clone(), Some(&copied), progress));
     let line = refusal.unwrap_err();
     assert!(
         line.contains("nobody but o02") && !line.contains('\n'),

@@ -16,7 +16,7 @@ use crate::tools::collection::state::{CollectionView, Entry};
 use crate::tools::collection::view::hand::{Hand, answer, paint_focus};
 use selvedge_chart::{Chart, Ruler, Scale};
 use selvedge_foundation::quantity;
-use selvedge_textile::tactile::{Band, detection_threshold_db, just_noticeable_db};
+use selvedge_textile::tactile::{Band, just_noticeable_db};
 
 /// Room for pieces of cloth beyond the outermost points, as a share of an axis.
 const BESIDE: f64 = 0.05;
@@ -256,7 +256,7 @@ fn paint_just_noticed(
     let [Some(x), Some(y)] = bands else { return };
     let ends = [x, y].map(|band| {
         let um = mean_um[band.index()];
-        let above_db = quantity::level_db(um) - detection_threshold_db(band, N_ACTIVE);
+        let above_db = quantity::level_db(um) - band.detection_threshold_db(N_ACTIVE);
         let factor = quantity::factor_of_gain(just_noticeable_db(above_db));
         [um / factor, um * factor]
     });

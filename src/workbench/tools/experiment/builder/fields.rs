@@ -9,7 +9,7 @@ use crate::kit::widgets::text::{button, toggle};
 use crate::tools::experiment::builder::blocks::{Field, Holds, Rows};
 use crate::tools::experiment::builder::settle::settle;
 use crate::tools::experiment::builder::study_text::Target;
-use selvedge_experiment::design::names_of;
+use selvedge_experiment::design::Design;
 use selvedge_foundation::files::{EditedKeys, KeyPlace, KeyValue};
 
 /// Width of a field's name, points.
@@ -57,7 +57,7 @@ pub(crate) fn field(ui: &mut Ui, editing: &mut Editing, (field, nth): (&Field, u
     }
     row_of(ui, NAME, (field.name, ""), |ui, label| match field.holds {
         Holds::Name(may_be_left_out) => {
-            let names = names_of(field.table, field.key);
+            let names = Design::names_of(field.table, field.key);
             let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
             let left_out = may_be_left_out.then_some(LEFT_OUT);
             one_of(ui, editing, (field, place), (&names, left_out));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::bench::latest::Computed;
 use crate::bench::settings::build_cache;
-use selvedge_experiment::analysis::{self, analyse};
+use selvedge_experiment::analysis::{self, Analysis};
 use selvedge_experiment::design::{Design, Source, Subject};
 use selvedge_experiment::observer::{Observer, Stimuli};
 use selvedge_experiment::{Preview, PreviewOptions, Procedure, Simulation, Trial};
@@ -139,7 +139,7 @@ pub(crate) fn simulated(
     let n_subjects = if n_subjects == 0 { 8 } else { n_subjects };
     let found = simulation.sessions(n_subjects, 1).map_err(failed)?;
     let options = analysis::Options::default();
-    let page = progress.within([0.5, 1.0], |part| analyse(&found, &options, part));
+    let page = progress.within([0.5, 1.0], |part| Analysis::of(&found, &options, part));
     let sections = page.map_err(failed)?.sections;
     let notes = sections.first().map_or(&[][..], |section| &section.notes);
     let mut lines = vec![format!("{n_subjects} observers; {}", observer.describe())];

@@ -86,7 +86,7 @@ mod tests {
     use super::*;
     use crate::tools::experiment::builder::blocks::Holds;
     use crate::tools::experiment::builder::stimuli::STIMULUS;
-    use selvedge_experiment::design::{Design, names_of};
+    use selvedge_experiment::design::Design;
 
     fn keys(name: &str) -> EditedKeys {
         let text = Design::shipped_text(name).unwrap();
@@ -102,7 +102,7 @@ mod tests {
         let rows = BLOCKS.iter().flat_map(|block| block.rows);
         let fields = BLOCKS.iter().flat_map(|block| block.fields);
         for field in fields.chain(rows.flat_map(|rows| rows.fields)) {
-            let has_names = !names_of(field.table, field.key).is_empty();
+            let has_names = !Design::names_of(field.table, field.key).is_empty();
             let is_name = matches!(field.holds, Holds::Name(_));
             assert_eq!(is_name, has_names, "{}.{}", field.table, field.key);
         }
@@ -139,7 +139,7 @@ mod tests {
     fn whatever_is_chosen_to_be_answered_by_is_a_design_again_or_says_why_not() {
         let mut n_good = 0;
         for name in Design::shipped_names() {
-            for kind in names_of("response", "kind") {
+            for kind in Design::names_of("response", "kind") {
                 let mut keys = keys(name);
                 keys.set(("response", 0, "kind"), Some(&kind.into()));
                 settle(&mut keys);

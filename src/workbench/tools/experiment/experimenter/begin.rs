@@ -14,8 +14,8 @@ use crate::tools::experiment::builder::show_designs;
 use crate::tools::experiment::sessions::device_name;
 use crate::tools::experiment::state::{Asked, Experiment};
 use crate::tools::experiment::who::Who;
+use selvedge_experiment::Participant;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::{Participant, over_limits};
 
 /// What stands where nothing was told.
 const NOT_TOLD: &str = "not told";
@@ -101,7 +101,7 @@ fn show_asked(ui: &mut Ui, experiment: &mut Experiment, bench: &mut Bench) {
                      one, what is given by force alone is silent.";
         note(ui, words, Tone::Wrong);
     }
-    let over = over_limits(&plan.design, bench.engine.profile().limit_um);
+    let over = plan.design.over_limits(bench.engine.profile().limit_um);
     if !over.is_empty() {
         let words = "The array may not play all of it: trials with it would not count. Lower it in \
                      the design, or choose an array that may.";

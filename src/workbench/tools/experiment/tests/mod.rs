@@ -28,7 +28,7 @@ use crate::tools::experiment::presenting::ArrayNow;
 use crate::tools::experiment::view::{Ground, Link, TrialView};
 use selvedge_experiment::AnswerValue;
 use selvedge_experiment::design::Design;
-use selvedge_experiment::session::{find_sessions, path_file, samples_file};
+use selvedge_experiment::session::{Found, path_file, samples_file};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::ExplorationPath;
 use selvedge_scratch::ScratchFolder as Folder;
@@ -196,7 +196,7 @@ fn an_answer_is_on_disk_with_its_path_before_the_next_trial_and_is_resumed() {
         None,
         "no recording of the user's"
     );
-    let found = find_sessions(&folder.0).unwrap().0;
+    let found = Found::in_folder(&folder.0).unwrap().0;
     let [one] = &found[..] else {
         panic!("one session")
     };
@@ -362,7 +362,7 @@ fn a_trial_that_is_given_up_comes_again_and_a_pause_waits_for_the_answer() {
     act(&mut window, |one, bench| one.pause(false, bench));
     window.pass(2);
     assert!(session(&window).trial().is_some_and(|next| *next != trial));
-    let found = find_sessions(&folder.0).unwrap().0;
+    let found = Found::in_folder(&folder.0).unwrap().0;
     let rows = &found[0].records;
     assert_eq!(
         (rows.len(), rows[0].note.as_str(), rows[1].attempt),
@@ -396,7 +396,7 @@ fn what_is_turned_is_felt_at_once_and_logged() {
     feel(&mut window);
     answer(&mut window);
     window.pass(4);
-    let found = find_sessions(&folder.0).unwrap().0;
+    let found = Found::in_folder(&folder.0).unwrap().0;
     let Some(AnswerValue::Adjusted { values, steps }) = found[0].records[0].value() else {
         panic!("an adjustment")
     };

@@ -5,9 +5,9 @@ use crate::bench::command::array::ArrayCommand;
 use crate::bench::view::BridgePhase;
 use selvedge_device::FaultWords;
 use selvedge_engine::SequenceStep;
-use selvedge_experiment::analysis::{Cell, Options, analyse_folder};
+use selvedge_experiment::analysis::{Analysis, Cell, Options};
 use selvedge_experiment::{Proof, Record, Validity};
-use selvedge_foundation::progress::unheard;
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::tactile::Band;
 
 /// Runs frames until something is so.
@@ -87,7 +87,7 @@ fn an_answer_waits_until_everything_was_felt() {
     feel(&mut window);
     say(&mut window);
     assert_eq!(session(&window).progress.0, 1);
-    let found = find_sessions(&folder.0).unwrap().0;
+    let found = Found::in_folder(&folder.0).unwrap().0;
     let presentation = &found[0].records[0].presentation;
     assert_eq!(
         (presentation.validity(), presentation.proof),
@@ -264,7 +264,7 @@ fn go_on(window: &mut Headless, marks: &[Mark]) {
 
 /// The rows of the only session, which are as they were written.
 pub(super) fn rows(folder: &Folder) -> Vec<Record> {
-    let [found] = &find_sessions(&folder.0.join("logs")).unwrap().0[..] else {
+    let [found] = &Found::in_folder(&folder.0.join("logs")).unwrap().0[..] else {
         panic!("one session")
     };
     assert_eq!(found.breaks, []);
@@ -395,7 +395,8 @@ fn what_counts_is_every_tick_to_the_answer() {
 fn counted(folder: &Folder) -> [Cell; 2] {
     let logs = folder.0.join("logs");
     let options = Options::default();
-    let analysis = unheard(|progress| analyse_folder(&logs, &options, progress)).unwrap();
+    let analysis =
+        Progress::unheard(|progress| Analysis::of_folder(&logs, &options, progress)).unwrap();
     let mut tables = analysis.sections.iter().flat_map(|section| &section.tables);
     let held = tables.find(|table| table.key == "held").unwrap();
     ["trials", "void"].map(|name| {

@@ -9,7 +9,7 @@ use crate::kit::widgets::text::{button, line, quiet, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::work::Found;
-use selvedge_textile::{Construction, Measurement, known_figures, nth_id};
+use selvedge_textile::{Construction, KnownFigure, Measurement, nth_id};
 
 /// Width that a column of fields needs, points.
 const LEAST: f32 = 180.0;
@@ -161,7 +161,7 @@ fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
         ui.spacing_mut().interact_size.y = LINE - 2.0;
         ui.label(quiet("figures measured elsewhere"));
         choose(ui, "Add a figure", ("add …", 84.0, Need::Optional), |ui| {
-            for figure in known_figures() {
+            for figure in KnownFigure::all() {
                 let is_there = words.figures.iter().any(|(key, _)| *key == figure.key);
                 let name = format!("{}  {}", figure.name, figure.what);
                 if !is_there && ui.selectable_label(false, name).clicked() {
@@ -170,7 +170,7 @@ fn show_figures(ui: &mut Ui, words: &mut WordsDraft) {
             }
         });
         for (nth, (key, typed)) in words.figures.iter_mut().enumerate() {
-            let known = known_figures().find(|figure| figure.key == *key);
+            let known = KnownFigure::all().find(|figure| figure.key == *key);
             let (name, unit) =
                 known.map_or_else(|| (key.clone(), ""), |known| (known.name, known.unit));
             if ui.available_size_before_wrap().x < FIGURE {

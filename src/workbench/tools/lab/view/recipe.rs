@@ -145,11 +145,11 @@ fn show_parameter(ui: &mut Ui, steps: &Steps, parameter: &Parameter) -> Option<C
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_textile::example;
+    use selvedge_textile::Manifest;
 
     #[test]
     fn more_yarn_than_there_is_room_for_is_said_and_less_is_not() {
-        let mut draft = Draft::of(&example("weave").unwrap()).unwrap();
+        let mut draft = Draft::of(&Manifest::example("weave").unwrap()).unwrap();
         let at = |table, key| Place { table, key };
         let ends = at("source", "warp_per_cm");
         draft.set(ends, Some(57.0.into()));

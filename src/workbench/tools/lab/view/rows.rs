@@ -13,7 +13,7 @@ use crate::kit::widgets::text::{button, line, named, quiet, row, toggle};
 use crate::tools::lab::family::key_value;
 use crate::tools::lab::steps::Steps;
 use selvedge_foundation::files::{KeyValue, Keys};
-use selvedge_textile::{Draft, Parameter, Place, example_templates};
+use selvedge_textile::{Draft, FourierTemplate, Parameter, Place};
 
 /// Width of a parameter's name, points.
 const NAME: f32 = 134.0;
@@ -283,7 +283,7 @@ pub(crate) fn template(
     const LIKE_WARP: &str = "like the warp";
     let own = draft.value(parameter.place);
     let name = own.and_then(|own| own.as_table()?.get("name")?.as_str());
-    let templates = example_templates().ok()?;
+    let templates = FourierTemplate::examples().ok()?;
     let mut names: Vec<&str> = templates.iter().map(|one| one.name.as_str()).collect();
     if is_optional {
         names.insert(0, LIKE_WARP);

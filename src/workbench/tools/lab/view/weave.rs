@@ -8,7 +8,7 @@ use crate::kit::theme::{Palette, STEP};
 use crate::tools::lab::view::rows::combo;
 use selvedge_foundation::files::KeyValue;
 use selvedge_foundation::numerics::to_index;
-use selvedge_textile::{Draft, INTERLACINGS, Parameter};
+use selvedge_textile::{Draft, Parameter, Weave};
 
 /// What the list says of rows that are no named interlacing.
 const OWN: &str = "its own";
@@ -21,7 +21,7 @@ const HEIGHT: f32 = 106.0;
 pub(crate) fn show(ui: &mut Ui, draft: &Draft, parameter: &Parameter) -> Option<KeyValue> {
     let value = draft.value(parameter.place)?;
     let now = value.as_str().unwrap_or(OWN);
-    let names: Vec<&str> = INTERLACINGS.iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = Weave::INTERLACINGS.iter().map(|(name, _)| *name).collect();
     let chosen = combo(ui, parameter, now, &names).map(KeyValue::from);
     let rows = rows_of(value);
     let pressed = paper(ui, &rows);
@@ -37,7 +37,7 @@ fn rows_of(value: &KeyValue) -> Vec<Vec<bool>> {
         return texts.map(cells).collect();
     }
     let name = value.as_str().unwrap_or_default();
-    let named = INTERLACINGS.iter().find(|(known, _)| *known == name);
+    let named = Weave::INTERLACINGS.iter().find(|(known, _)| *known == name);
     let rows = named.map_or(&[][..], |(_, rows)| rows);
     rows.iter().map(|row| cells(row)).collect()
 }
@@ -58,7 +58,7 @@ fn value_of(rows: &[Vec<bool>]) -> KeyValue {
         signs.collect()
     };
     let texts: Vec<String> = rows.iter().map(text).collect();
-    let mut known = INTERLACINGS.iter();
+    let mut known = Weave::INTERLACINGS.iter();
     let named = known.find(|(_, rows)| rows.iter().eq(texts.iter()));
     named.map_or_else(|| texts.into(), |(name, _)| (*name).into())
 }
