@@ -32,18 +32,20 @@ pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
 ///
 /// Where signals cannot be listened to they end the program as they always did, and the
 /// device falls silent by its own rule.
+#[cfg(unix)]
 pub fn on_signal(act: impl Fn() + Send + 'static) {
-    #[cfg(unix)]
-    if let Ok(mut signals) = signal_hook::iterator::Signals::new(ends()) {
-        let listen = move || signals.forever().for_each(|_signal| act());
-        let listener = std::thread::Builder::new().name("signals".to_owned());
-        // A system that has no thread left to give cannot run the engine either.
-        drop(listener.spawn(listen));
-    }
-    // This system has no such signals.
-    #[cfg(not(unix))]
-    drop(act);
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(ends()) else {
+        return;
+    };
+    let listen = move || signals.forever().for_each(|_signal| act());
+    let listener = std::thread::Builder::new().name("signals".to_owned());
+    // A system that has no thread left to give cannot run the engine either.
+    drop(listener.spawn(listen));
 }
+
+/// This system has no such signals.
+#[cfg(not(unix))]
+pub fn on_signal(_act: impl Fn() + Send + 'static) {}
 
 /// The signals that ask for the end.
 fn ends() -> Vec<i32> {

@@ -394,9 +394,8 @@ fn what_counts_is_every_tick_to_the_answer() {
 /// What the table of sessions says of the only one: trials that count, and those that are void.
 fn counted(folder: &Folder) -> [Cell; 2] {
     let logs = folder.0.join("logs");
-    let options = Options::default();
-    let analysis =
-        Progress::unheard(|progress| Analysis::of_folder(&logs, &options, progress)).unwrap();
+    let find = |own: &mut Progress<'_>| Analysis::of_folder(&logs, &Options::default(), own);
+    let analysis = Progress::unheard(find).unwrap();
     let mut tables = analysis.sections.iter().flat_map(|section| &section.tables);
     let held = tables.find(|table| table.key == "held").unwrap();
     ["trials", "void"].map(|name| {
