@@ -86,6 +86,8 @@ pub(crate) struct Cloth {
     /// How many steps `past` can be relied on.
     n_past: usize,
     touched: bool,
+    /// Whether velocities are those between two places, as explicit steps have them.
+    is_staggered: bool,
     rests_s: f64,
     pub(crate) counters: DrapeCounters,
     /// Work that hands did, J.
@@ -115,6 +117,7 @@ impl Cloth {
             past: [past.clone(), past],
             n_past: 0,
             touched: false,
+            is_staggered: false,
             rests_s: 0.0,
             counters: DrapeCounters::default(),
             work_j: 0.0,
@@ -129,6 +132,7 @@ impl Cloth {
     /// Forgets what was before: places or velocities were set from outside.
     pub(crate) fn restart(&mut self) {
         self.n_past = 0;
+        self.is_staggered = false;
         self.rests_s = 0.0;
         let Self { system, x, newton, .. } = self;
         system.lag.sigma = 0.0;
@@ -209,7 +213,8 @@ impl Cloth {
         self.touched = touched;
     }
 
-    /// Semi-implicit Euler: `v += dt M⁻¹ f(x)`, `x += dt v`.
+    /// Semi-implicit Euler: `v += dt M⁻¹ f(x)`, `x += dt v`. The first push is half of one: from
+    /// there on velocities are those between two places, and places of second order.
     fn explicit(&mut self) {
         let step_s = self.stepping.step_s;
         let Self { system, x, v, .. } = self;
@@ -229,6 +234,8 @@ impl Cloth {
         // What was evaluated is where the step begins.
         self.angles.copy_from_slice(&self.system.sheet.shear.angles);
         self.remember();
+        let push_s = if self.is_staggered { step_s } else { 0.5 * step_s };
+        self.is_staggered = true;
         let Self { system, x, v, .. } = self;
         for node in 0..x.len() {
             if system.is_held(node) {
@@ -238,7 +245,7 @@ impl Cloth {
             let mass = system.mass_kg[node];
             let is_cloth = node < system.sheet.mesh.n_vertices();
             let gravity = if is_cloth { self.gravity } else { Vector::zeros() };
-            v[node] += (gravity - self.newton.grad[node] / mass) * step_s;
+            v[node] += (gravity - self.newton.grad[node] / mass) * push_s;
             x[node] += v[node] * step_s;
         }
         system.sheet.settle(x, &system.lag);

@@ -91,3 +91,74 @@ fn a_cantilever_bends_as_the_elastica() {
         assert!((angle / chord_deg - 1.0).abs() < 5e-3, "{gamma}: {angle} {chord_deg}");
     }
 }
+
+/// Frequencies of small motion along some axes about where a cloth is, Hz, rising.
+fn frequencies_hz(cloth: &mut Cloth, axes: &[usize]) -> Vec<f64> {
+    cloth.system.lag.mu = 0.0;
+    cloth.system.lag.sigma = 0.0;
+    let at = cloth.x.clone();
+    let mut scratch = at.clone();
+    cloth.system.evaluate(&at, &mut scratch);
+    let free = (0..at.len()).filter(|node| !cloth.system.is_held(*node));
+    let places: Vec<(usize, usize)> = free
+        .flat_map(|node| axes.iter().map(move |axis| (node, *axis)))
+        .collect();
+    let mut stiffness = nalgebra::DMatrix::zeros(places.len(), places.len());
+    for (column, (node, axis)) in places.iter().enumerate() {
+        let mut unit = vec![Vector::zeros(); at.len()];
+        unit[*node][*axis] = 1.0;
+        cloth.system.product(&unit, &mut scratch);
+        for (row, (other, along)) in places.iter().enumerate() {
+            let masses = cloth.system.mass_kg[*node] * cloth.system.mass_kg[*other];
+            stiffness[(row, column)] = scratch[*other][*along] / masses.sqrt();
+        }
+    }
+    let squares = stiffness.symmetric_eigenvalues();
+    let mut hz: Vec<f64> = squares.iter().map(|square| square.max(0.0).sqrt()).collect();
+    hz.sort_by(f64::total_cmp);
+    hz.iter().map(|omega| omega / std::f64::consts::TAU).collect()
+}
+
+#[test]
+fn a_hanging_strip_swings_at_the_roots_of_bessels_function() {
+    let length = 0.2_f64;
+    let roots = [2.404_826, 5.520_078, 8.653_728];
+    let off_percent = |n: usize| {
+        let mut strip = strip(n, length, Fabric::plain(RHO, 1e5, 0.0, 0.0));
+        assert!(strip.settle_to_rest().unwrap());
+        let found = frequencies_hz(&mut strip, &[2]);
+        // Both columns swing alike.
+        [0, 1, 2].map(|nth| {
+            let hz = roots[nth] * (GRAVITY / length).sqrt() / (4.0 * std::f64::consts::PI);
+            100.0 * (found[2 * nth] / hz - 1.0)
+        })
+    };
+    let (coarse, fine) = (off_percent(25), off_percent(50));
+    for (nth, expected) in [-0.05, -0.6, -2.5].into_iter().enumerate() {
+        assert!((coarse[nth] - expected).abs() < 0.06, "{nth}: {}", coarse[nth]);
+        assert!((coarse[nth] / fine[nth] - 4.0).abs() < 0.4, "{coarse:?} {fine:?}");
+    }
+}
+
+#[test]
+fn waves_of_a_taut_and_of_an_elastic_strip_have_their_speeds() {
+    let (length, n, stiffness) = (0.2, 20, 1000.0);
+    let grid = ([n + 1, 2], [length, 0.01]);
+    let fabric = Fabric::plain(RHO, stiffness, 0.0, 0.0);
+    let mut strip = cloth(grid, fabric, &Pins::Ends, (Integrator::Explicit, 1e-5));
+    let h = length / n as f64;
+    let strain = 0.01;
+    strip.x.iter_mut().for_each(|x| x.x *= 1.0 + strain);
+    let mode = |nth: usize| (nth as f64 * std::f64::consts::PI / (2.0 * n as f64)).sin();
+    // In material coordinates: the spring's rate across is T/ℓ.
+    let across = 2.0 / h * (stiffness * strain / (1.0 + strain) / RHO).sqrt();
+    let along = 2.0 / h * (stiffness / RHO).sqrt();
+    for (axis, omega) in [(2, across), (0, along)] {
+        let found = frequencies_hz(&mut strip, &[axis]);
+        for nth in 1..6 {
+            let hz = omega * mode(nth) / std::f64::consts::TAU;
+            let off = found[2 * nth - 2] / hz - 1.0;
+            assert!(off.abs() < 1e-9, "{axis} {nth}: {off}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! The cloth against closed forms, orders, energy and extreme cases.
 
 mod closed_forms;
+mod motion;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
 use crate::fabric::{Fabric, Tension};
