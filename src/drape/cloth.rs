@@ -129,12 +129,27 @@ impl Cloth {
         cloth
     }
 
+    /// Puts fingers where they are wanted, at rest.
+    pub(crate) fn place_fingers(&mut self, targets: &[Vector]) {
+        let n_cloth = self.system.sheet.mesh.n_vertices();
+        for (nth, (finger, target)) in self.system.fingers.iter_mut().zip(targets).enumerate() {
+            if System::is_finite(&[*target]) {
+                finger.target = *target;
+                self.x[n_cloth + nth] = *target;
+                self.v[n_cloth + nth] = Vector::zeros();
+            }
+        }
+        self.restart();
+    }
+
     /// Forgets what was before: places or velocities were set from outside.
     pub(crate) fn restart(&mut self) {
         self.n_past = 0;
         self.is_staggered = false;
         self.rests_s = 0.0;
-        let Self { system, x, newton, .. } = self;
+        let Self {
+            system, x, newton, ..
+        } = self;
         system.lag.sigma = 0.0;
         for finger in &mut system.fingers {
             finger.begin(&system.lag);
@@ -189,7 +204,8 @@ impl Cloth {
     /// Whether everything rests, and nobody comes near.
     fn sleeps(&self, targets: &[Vector]) -> bool {
         let fingers = self.system.fingers.iter().zip(targets);
-        let mut calls = fingers.map(|(finger, target)| finger.target != *target || finger.is_near());
+        let mut calls =
+            fingers.map(|(finger, target)| finger.target != *target || finger.is_near());
         self.rests_s >= SLEEPS_AFTER_S && !calls.any(|calls| calls)
     }
 
@@ -205,8 +221,16 @@ impl Cloth {
             v.norm() > slow || moved.norm() > near
         };
         let is_moving = self.v.iter().enumerate().any(moves);
-        self.rests_s = if is_moving { 0.0 } else { self.rests_s + step_s };
-        let touched = self.system.fingers.iter().any(|finger| finger.press_n() > 0.0);
+        self.rests_s = if is_moving {
+            0.0
+        } else {
+            self.rests_s + step_s
+        };
+        let touched = self
+            .system
+            .fingers
+            .iter()
+            .any(|finger| finger.press_n() > 0.0);
         // The formula of second order would look back across the event.
         let is_new = touched && !self.touched;
         self.n_past = if is_new { 0 } else { (self.n_past + 1).min(2) };
@@ -234,7 +258,11 @@ impl Cloth {
         // What was evaluated is where the step begins.
         self.angles.copy_from_slice(&self.system.sheet.shear.angles);
         self.remember();
-        let push_s = if self.is_staggered { step_s } else { 0.5 * step_s };
+        let push_s = if self.is_staggered {
+            step_s
+        } else {
+            0.5 * step_s
+        };
         self.is_staggered = true;
         let Self { system, x, v, .. } = self;
         for node in 0..x.len() {
@@ -244,7 +272,11 @@ impl Cloth {
             }
             let mass = system.mass_kg[node];
             let is_cloth = node < system.sheet.mesh.n_vertices();
-            let gravity = if is_cloth { self.gravity } else { Vector::zeros() };
+            let gravity = if is_cloth {
+                self.gravity
+            } else {
+                Vector::zeros()
+            };
             v[node] += (gravity - self.newton.grad[node] / mass) * push_s;
             x[node] += v[node] * step_s;
         }
@@ -275,7 +307,13 @@ impl Cloth {
         if !outcome.is_converged && order == 2 {
             // Cut short, the second order gains energy; the first loses some.
             self.counters.redone += 1;
-            let again = self.solve(1, Stop { max_steps: 1, ..stop });
+            let again = self.solve(
+                1,
+                Stop {
+                    max_steps: 1,
+                    ..stop
+                },
+            );
             outcome.n_steps += again.n_steps;
             outcome.n_linear += again.n_linear;
         }
@@ -289,14 +327,26 @@ impl Cloth {
     fn solve(&mut self, order: usize, stop: Stop) -> Outcome {
         self.prepare(order);
         self.guess();
-        let Self { system, newton, next, .. } = self;
+        let Self {
+            system,
+            newton,
+            next,
+            ..
+        } = self;
         newton.minimise(system, next, stop)
     }
 
     /// What the step knows: weights, free motion, what velocity is measured from.
     fn prepare(&mut self, order: usize) {
         let step_s = self.stepping.step_s;
-        let Self { system, x, v, past, gravity, .. } = self;
+        let Self {
+            system,
+            x,
+            v,
+            past,
+            gravity,
+            ..
+        } = self;
         let lag = &mut system.lag;
         let n_cloth = system.sheet.mesh.n_vertices();
         let share = if order == 2 { 2.0 / 3.0 } else { 1.0 };
@@ -306,16 +356,28 @@ impl Cloth {
         lag.sigma = 1.0 / reach_s;
         for node in 0..x.len() {
             let back = |now: Vector, before: Vector| {
-                if order == 2 { (now * 4.0 - before) / 3.0 } else { now }
+                if order == 2 {
+                    (now * 4.0 - before) / 3.0
+                } else {
+                    now
+                }
             };
             let hat = back(x[node], past[0].x[node]);
-            let fall = if node < n_cloth { *gravity * reach_s } else { Vector::zeros() };
+            let fall = if node < n_cloth {
+                *gravity * reach_s
+            } else {
+                Vector::zeros()
+            };
             lag.hat[node] = hat;
             lag.free[node] = hat + (back(v[node], past[0].v[node]) + fall) * reach_s;
         }
         let angles = self.angles.iter().zip(&past[0].angles);
         for (angle, (now, before)) in lag.angles.iter_mut().zip(angles) {
-            *angle = if order == 2 { (now * 4.0 - before) / 3.0 } else { *now };
+            *angle = if order == 2 {
+                (now * 4.0 - before) / 3.0
+            } else {
+                *now
+            };
         }
         for finger in &mut system.fingers {
             finger.begin(&system.lag);
@@ -355,7 +417,9 @@ impl Cloth {
             return;
         }
         self.remember();
-        let Self { system, x, v, next, .. } = self;
+        let Self {
+            system, x, v, next, ..
+        } = self;
         self.angles.copy_from_slice(&system.sheet.shear.angles);
         let lag = &system.lag;
         for node in 0..x.len() {
@@ -370,7 +434,9 @@ impl Cloth {
 
     /// Energy of all, J: in motion, stored, and in the field of gravity.
     pub(crate) fn energy_j(&mut self) -> f64 {
-        let Self { system, x, newton, .. } = self;
+        let Self {
+            system, x, newton, ..
+        } = self;
         system.evaluate(x, &mut newton.grad);
         system.kinetic_j(&self.v) + system.energy.stored + system.height_j(x, self.gravity)
     }

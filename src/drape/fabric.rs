@@ -63,7 +63,11 @@ impl Tension {
             let over = strain - self.max_strain;
             let [energy, tension, tangent] = self.top;
             let more = tangent * over;
-            return [energy + (tension + 0.5 * more) * over, tension + more, tangent];
+            return [
+                energy + (tension + 0.5 * more) * over,
+                tension + more,
+                tangent,
+            ];
         }
         let grown = (self.rate * strain).exp() - 1.0;
         let per_rate = k / self.rate;
@@ -103,6 +107,7 @@ pub(crate) struct Compression {
     pub(crate) yield_m: f64,
     /// Exponent of the curve.
     exponent: f64,
+    linearity: f64,
 }
 
 impl Compression {
@@ -115,7 +120,13 @@ impl Compression {
             thickness_m,
             yield_m,
             exponent: exponent(linearity),
+            linearity,
         }
+    }
+
+    /// Its linearity LC.
+    pub(crate) fn linearity(&self) -> f64 {
+        self.linearity
     }
 
     /// How much thinner it is under a pressure, m; never thinner than a tenth.
@@ -193,7 +204,13 @@ mod tests {
 
     #[test]
     fn linearities_have_the_exponents_of_the_table() {
-        let table = [(0.5, 3.594), (0.6, 2.672), (0.7, 1.906), (0.8, 1.230), (0.9, 0.604)];
+        let table = [
+            (0.5, 3.594),
+            (0.6, 2.672),
+            (0.7, 1.906),
+            (0.8, 1.230),
+            (0.9, 0.604),
+        ];
         for (linearity, a) in table {
             assert!((exponent(linearity) - a).abs() < 1e-3, "{linearity}");
         }
@@ -206,14 +223,23 @@ mod tests {
         let curve = Tension::new(490.33, 0.05, 0.7);
         let [energy, tension, _] = curve.at(0.05);
         assert!((tension - 490.33).abs() < 1e-9);
-        assert!((energy - 0.7 * 490.33 * 0.05 / 2.0).abs() < 1e-9, "{energy}");
+        assert!(
+            (energy - 0.7 * 490.33 * 0.05 / 2.0).abs() < 1e-9,
+            "{energy}"
+        );
         for strain in [-0.02, -1e-9, 1e-4, 0.03, 0.05, 0.08] {
             let step = 1e-6;
             let [low, high] = [strain - step, strain + step].map(|strain| curve.at(strain));
             let [_, tension, tangent] = curve.at(strain);
-            assert!(((high[0] - low[0]) / (2.0 * step) - tension).abs() < 1e-3, "{strain}");
+            assert!(
+                ((high[0] - low[0]) / (2.0 * step) - tension).abs() < 1e-3,
+                "{strain}"
+            );
             let slope = (high[1] - low[1]) / (2.0 * step);
-            assert!((slope / tangent - 1.0).abs() < 1e-3, "{strain}: {slope} {tangent}");
+            assert!(
+                (slope / tangent - 1.0).abs() < 1e-3,
+                "{strain}: {slope} {tangent}"
+            );
         }
     }
 

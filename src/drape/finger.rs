@@ -141,7 +141,11 @@ impl Finger {
             // It keeps the side that it came from until it is away.
             Some(gap) if gap.abs() < 2.0 * REACH_M => self.side.or_else(|| {
                 let is_clear = gap.abs() > self.half_thickness_m;
-                Some(if is_clear { gap.signum() } else { self.own_side })
+                Some(if is_clear {
+                    gap.signum()
+                } else {
+                    self.own_side
+                })
             }),
             _ => None,
         };
@@ -285,7 +289,10 @@ impl Finger {
 
     /// Force of the pad on the cloth along its normals, N.
     pub(crate) fn press_n(&self) -> f64 {
-        self.points.iter().map(|point| POINT_M2 * point.pressure_pa).sum()
+        self.points
+            .iter()
+            .map(|point| POINT_M2 * point.pressure_pa)
+            .sum()
     }
 
     /// Whether it is so near that the cloth has to be awake.
@@ -296,7 +303,11 @@ impl Finger {
     /// Stiffness over mass that its points add at most where they touch, 1/s².
     pub(crate) fn stiffness_per_kg(&self, density_kg_per_m2: f64) -> f64 {
         let touches = self.points.iter().any(|point| point.spot.is_some());
-        if touches { (PULP_PA_PER_M + ALONG_PA_PER_M) / density_kg_per_m2 } else { 0.0 }
+        if touches {
+            (PULP_PA_PER_M + ALONG_PA_PER_M) / density_kg_per_m2
+        } else {
+            0.0
+        }
     }
 }
 

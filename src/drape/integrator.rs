@@ -83,6 +83,11 @@ mod tests {
         assert_eq!(of(2601, 0.1e-3), (Integrator::Bdf2, 2e-3));
         assert_eq!(of(10_201, 0.1e-3), (Integrator::Bdf2, 1.0 / 240.0));
         assert_eq!("bdf2".parse(), Ok(Integrator::Bdf2));
-        assert!("rk4".parse::<Integrator>().unwrap_err().contains("explicit, ie"));
+        assert!(
+            "rk4"
+                .parse::<Integrator>()
+                .unwrap_err()
+                .contains("explicit, ie")
+        );
     }
 }

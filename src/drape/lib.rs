@@ -23,7 +23,9 @@ mod cloth;
 mod error;
 mod fabric;
 mod finger;
+mod hands;
 mod integrator;
+mod kes;
 mod membrane;
 mod mesh;
 mod newton;
@@ -31,15 +33,22 @@ mod pad;
 mod place;
 mod plate;
 mod precondition;
+mod run;
+mod scene;
 mod sheet;
 mod slip;
 mod statics;
 mod system;
+mod tester;
 
 pub use cloth::DrapeCounters;
 pub use error::DrapeError;
 pub use fabric::Fabric;
+pub use hands::{Hand, HandPath};
 pub use integrator::Integrator;
+pub use run::{Drape, FingerRow};
+pub use scene::DrapeScene;
+pub use tester::{TestedFigure, test_fabric};
 
 /// Acceleration of gravity, m/s².
 pub(crate) const GRAVITY: f64 = 9.806_65;

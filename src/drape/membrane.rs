@@ -60,7 +60,11 @@ impl Stretch {
                 let span = x[b] - x[a];
                 let length = span.norm();
                 let strain = length / h - 1.0;
-                let direction = if length > 0.0 { span / length } else { Vector::zeros() };
+                let direction = if length > 0.0 {
+                    span / length
+                } else {
+                    Vector::zeros()
+                };
                 let [stored, mut tension, mut tangent] = self.tension.at(strain);
                 let (elements, law) = &self.loops;
                 let slip = elements.at(edge, strain, *law);
@@ -68,7 +72,11 @@ impl Stretch {
                 energy.lost += slip.lost * h * width;
                 tension += slip.force;
                 tangent += slip.tangent;
-                largest = [largest[0].max(tangent), largest[1].max(tension), largest[2].max(strain)];
+                largest = [
+                    largest[0].max(tangent),
+                    largest[1].max(tension),
+                    largest[2].max(strain),
+                ];
                 let force = direction * (tension * width);
                 grad[a] -= force;
                 grad[b] += force;
@@ -254,7 +262,11 @@ impl Shear {
     /// The stiffness that a small motion meets, and its damped part, N/m.
     pub(crate) fn stiffest_n_per_m(&self) -> [f64; 2] {
         let slip = self.laws.iter().map(|law| law.stiffness);
-        let slip = if self.elements.is_empty() { 0.0 } else { slip.fold(0.0, f64::max) };
+        let slip = if self.elements.is_empty() {
+            0.0
+        } else {
+            slip.fold(0.0, f64::max)
+        };
         [self.stiffness + slip, self.stiffness * self.viscosity_s]
     }
 }

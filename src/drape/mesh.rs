@@ -73,7 +73,10 @@ impl Mesh {
     ) -> Result<Self, DrapeError> {
         for side in 0..2 {
             DrapeError::within(("size", 1e3 * size_m[side], "mm"), [1.0, 1e4])?;
-            DrapeError::within(("grid", n[side] as f64, "vertices a side"), [2.0, MAX_SIDE as f64])?;
+            DrapeError::within(
+                ("grid", n[side] as f64, "vertices a side"),
+                [2.0, MAX_SIDE as f64],
+            )?;
         }
         let h = [0, 1].map(|side| size_m[side] / (n[side] - 1) as f64);
         let places = || (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| [i, j]));
@@ -118,7 +121,11 @@ impl Mesh {
 
     /// Width that a line along an axis stands for, m: half at free edges.
     pub(crate) fn width_m(&self, axis: usize, [row, column]: [usize; 2]) -> f64 {
-        let (line, n) = if axis == 0 { (row, self.n[1]) } else { (column, self.n[0]) };
+        let (line, n) = if axis == 0 {
+            (row, self.n[1])
+        } else {
+            (column, self.n[0])
+        };
         self.h[1 - axis] * half_at_ends(line, n)
     }
 
@@ -130,18 +137,30 @@ impl Mesh {
         let cell = [0, 1].map(|side| scaled[side].floor().min(most[side] - 1.0));
         is_on.then(|| {
             let index = cell.map(selvedge_foundation::numerics::to_index);
-            (index[1] * self.n[0] + index[0], [scaled[0] - cell[0], scaled[1] - cell[1]])
+            (
+                index[1] * self.n[0] + index[0],
+                [scaled[0] - cell[0], scaled[1] - cell[1]],
+            )
         })
     }
 
     /// The four corners of the cell that begins at a vertex.
     pub(crate) fn corners(&self, vertex: usize) -> [usize; 4] {
-        [vertex, vertex + 1, vertex + self.n[0], vertex + self.n[0] + 1]
+        [
+            vertex,
+            vertex + 1,
+            vertex + self.n[0],
+            vertex + self.n[0] + 1,
+        ]
     }
 }
 
 fn half_at_ends(index: usize, n: usize) -> f64 {
-    if index == 0 || index + 1 == n { 0.5 } else { 1.0 }
+    if index == 0 || index + 1 == n {
+        0.5
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]

@@ -60,7 +60,12 @@ impl Newton {
     }
 
     /// Goes from `x` to the lowest place of the system's function.
-    pub(crate) fn minimise(&mut self, system: &mut System, x: &mut [Vector], stop: Stop) -> Outcome {
+    pub(crate) fn minimise(
+        &mut self,
+        system: &mut System,
+        x: &mut [Vector],
+        stop: Stop,
+    ) -> Outcome {
         let mut outcome = Outcome::default();
         system.look(x);
         let mut value = system.evaluate(x, &mut self.grad);

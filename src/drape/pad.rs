@@ -111,7 +111,10 @@ mod tests {
             let middle = (f64::from(step) + 0.5) * 1e-6;
             work += thick.at(middle)[1] * 1e-6;
         }
-        assert!((work / thick.at(6e-3)[0] - 1.0).abs() < 1e-9, "beyond the table too");
+        assert!(
+            (work / thick.at(6e-3)[0] - 1.0).abs() < 1e-9,
+            "beyond the table too"
+        );
         assert_eq!(thick.at(-1e-3), [0.0; 3]);
         assert_eq!(thick.at(f64::NAN), [0.0; 3]);
     }

@@ -20,12 +20,7 @@ impl Spot {
         let mut spot = Self {
             place,
             vertices: mesh.corners(cell),
-            weights: [
-                (1.0 - s) * (1.0 - t),
-                s * (1.0 - t),
-                (1.0 - s) * t,
-                s * t,
-            ],
+            weights: [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t],
             normal: Vector::z(),
         };
         let [x_u, x_w] = spot.tangents(mesh, x);
@@ -134,7 +129,12 @@ mod tests {
         let from_afar = find(&mesh, &x, at, Some([0.0, 0.1])).unwrap();
         assert!((from_afar.place[0] - spot.place[0]).abs() < 1e-9);
         assert!(find(&mesh, &x, Vector::new(-0.01, 0.05, 0.0), None).is_none());
-        let moved = spot.material(&mesh, &x, Vector::new(0.002, 0.01, 0.0)).unwrap();
-        assert!(moved[0].abs() < 1e-12 && (moved[1] - 0.01).abs() < 1e-12, "{moved:?}");
+        let moved = spot
+            .material(&mesh, &x, Vector::new(0.002, 0.01, 0.0))
+            .unwrap();
+        assert!(
+            moved[0].abs() < 1e-12 && (moved[1] - 0.01).abs() < 1e-12,
+            "{moved:?}"
+        );
     }
 }

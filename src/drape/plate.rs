@@ -23,14 +23,23 @@ pub(crate) struct Bend {
 }
 
 impl Bend {
-    pub(crate) fn new(axis: usize, rigidity: f64, loop_n: f64, viscosity_s: f64, mesh: &Mesh) -> Self {
+    pub(crate) fn new(
+        axis: usize,
+        rigidity: f64,
+        loop_n: f64,
+        viscosity_s: f64,
+        mesh: &Mesh,
+    ) -> Self {
         let [rows, columns] = mesh.spans(axis, 2);
         let n = if loop_n > 0.0 { rows * columns } else { 0 };
         Self {
             axis,
             rigidity_n_m: rigidity,
             viscosity_s,
-            loops: (SlipElements::new(n), SlipLaw::reached_in(0.5 * loop_n, REACH_PER_M)),
+            loops: (
+                SlipElements::new(n),
+                SlipLaw::reached_in(0.5 * loop_n, REACH_PER_M),
+            ),
             tangents: vec![0.0; n],
         }
     }
@@ -48,7 +57,11 @@ impl Bend {
             (0..columns).map(move |column| {
                 let a = row * mesh.n[0] + column;
                 let width = mesh.width_m(axis, [row, column]);
-                (row * columns + column, width, [a, a + stride, a + 2 * stride])
+                (
+                    row * columns + column,
+                    width,
+                    [a, a + stride, a + 2 * stride],
+                )
             })
         })
     }
@@ -124,8 +137,15 @@ impl Bend {
 
     /// The rigidity that a small motion meets, and its damped part, N·m and N·m·s.
     pub(crate) fn stiffest_n_m(&self) -> [f64; 2] {
-        let slip = if self.loops.0.is_empty() { 0.0 } else { self.loops.1.stiffness };
-        [self.rigidity_n_m + slip, self.rigidity_n_m * self.viscosity_s]
+        let slip = if self.loops.0.is_empty() {
+            0.0
+        } else {
+            self.loops.1.stiffness
+        };
+        [
+            self.rigidity_n_m + slip,
+            self.rigidity_n_m * self.viscosity_s,
+        ]
     }
 }
 

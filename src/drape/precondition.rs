@@ -60,7 +60,9 @@ impl LinePreconditioner {
     /// Stiffness in all directions alike.
     #[inline]
     pub(crate) fn add_everywhere(&mut self, vertex: usize, stiffness: f64) {
-        self.diagonals[vertex].iter_mut().for_each(|entry| *entry += stiffness);
+        self.diagonals[vertex]
+            .iter_mut()
+            .for_each(|entry| *entry += stiffness);
     }
 
     #[inline]
@@ -96,7 +98,13 @@ impl LinePreconditioner {
                 *coupling = ratio;
             }
             let pinned = is_pinned[vertex];
-            let inverse = |entry: f64| if pinned || entry <= 0.0 { 0.0 } else { entry.recip() };
+            let inverse = |entry: f64| {
+                if pinned || entry <= 0.0 {
+                    0.0
+                } else {
+                    entry.recip()
+                }
+            };
             let diagonal = &mut self.diagonals[vertex];
             // The next along the line has been told above.
             *diagonal = diagonal.map(inverse);
@@ -146,8 +154,16 @@ pub(crate) fn frame(mesh: &Mesh, x: &[Vector], vertex: usize) -> [Vector; 3] {
     let at = [vertex % mesh.n[0], vertex / mesh.n[0]];
     let along = |axis: usize| {
         let stride = mesh.stride(axis);
-        let before = if at[axis] > 0 { vertex - stride } else { vertex };
-        let after = if at[axis] + 1 < mesh.n[axis] { vertex + stride } else { vertex };
+        let before = if at[axis] > 0 {
+            vertex - stride
+        } else {
+            vertex
+        };
+        let after = if at[axis] + 1 < mesh.n[axis] {
+            vertex + stride
+        } else {
+            vertex
+        };
         (x[after] - x[before]).try_normalize(0.0)
     };
     let frame = along(0).zip(along(1)).and_then(|(u, w)| {

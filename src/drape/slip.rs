@@ -58,7 +58,9 @@ impl SlipLaw {
 impl SlipElements {
     /// So many, at rest at 0.
     pub(crate) fn new(n: usize) -> Self {
-        Self { rests: vec![0.0; n] }
+        Self {
+            rests: vec![0.0; n],
+        }
     }
 
     /// What the element `index` answers to a value; nothing where there are none.

@@ -3,6 +3,7 @@
 //! A cloth that may move in its own plane has no stiffness there at first, so every solution is
 //! anchored to the last by a little inertia, which is let go as it settles.
 
+use super::DrapeError;
 use super::cloth::{Cloth, EXACT, Stepping};
 use super::integrator::Integrator;
 use super::mesh::{Mesh, Vector};
@@ -10,7 +11,6 @@ use super::newton::Stop;
 use super::place::Spot;
 use super::sheet::Sheet;
 use super::system::System;
-use super::DrapeError;
 
 /// Sides of fewer vertices are solved at once.
 const LEAST_SIDE: usize = 9;
@@ -93,7 +93,11 @@ impl Cloth {
             system.lag.sigma = 0.0;
             let n_cloth = system.sheet.mesh.n_vertices();
             for node in 0..x.len() {
-                let fall = if node < n_cloth { self.gravity } else { Vector::zeros() };
+                let fall = if node < n_cloth {
+                    self.gravity
+                } else {
+                    Vector::zeros()
+                };
                 system.lag.free[node] = x[node] + fall * (step_s * step_s);
                 system.lag.hat[node] = x[node];
             }

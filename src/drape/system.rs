@@ -37,7 +37,11 @@ impl System {
 
     /// Whether a node is held where it is.
     pub(crate) fn is_held(&self, node: usize) -> bool {
-        self.sheet.mesh.is_pinned.get(node).is_some_and(|pinned| *pinned)
+        self.sheet
+            .mesh
+            .is_pinned
+            .get(node)
+            .is_some_and(|pinned| *pinned)
     }
 
     /// Finds what fingers touch now; says whether any touches.

@@ -8,7 +8,12 @@ const RHO: f64 = 0.2;
 /// A strip of `n` edges, 10 mm wide, hung at its upper end.
 fn strip(n: usize, length_m: f64, fabric: Fabric) -> Cloth {
     let (grid, size) = ([2, n + 1], [0.01, length_m]);
-    cloth((grid, size), fabric, &Pins::Top, (Integrator::ImplicitEuler, 1e-3))
+    cloth(
+        (grid, size),
+        fabric,
+        &Pins::Top,
+        (Integrator::ImplicitEuler, 1e-3),
+    )
 }
 
 #[test]
@@ -60,7 +65,9 @@ fn a_slack_strip_hangs_as_a_catenary() {
     // A yarn that hardly stretches is come to by way of softer ones.
     for stiffness in [1e3, 1e4, 1e5, 1e6] {
         let stretch = &mut strip.system.sheet.stretch;
-        stretch.iter_mut().for_each(|one| one.tension = Tension::linear(stiffness));
+        stretch
+            .iter_mut()
+            .for_each(|one| one.tension = Tension::linear(stiffness));
         assert!(strip.relax(), "{stiffness}");
     }
     let lowest = -strip.x[50].y;
@@ -77,18 +84,32 @@ fn a_cantilever_bends_as_the_elastica() {
     let spacing = 5e-3;
     // Two columns are held: the clamp is midway between them.
     let (n_free, length) = (40, 40.5_f64 * spacing);
-    for (gamma, chord_deg) in [(1.0, 7.1), (5.0, 30.358), (8.004, 41.5), (20.0, 61.786), (50.0, 74.898)] {
+    for (gamma, chord_deg) in [
+        (1.0, 7.1),
+        (5.0, 30.358),
+        (8.004, 41.5),
+        (20.0, 61.786),
+        (50.0, 74.898),
+    ] {
         let rigidity = RHO * GRAVITY * length.powi(3) / gamma;
         let fabric = Fabric::plain(RHO, 1e5, 0.0, rigidity);
         let size = [(n_free + 1) as f64 * spacing, spacing];
         let grid = ([n_free + 2, 2], size);
-        let mut strip = cloth(grid, fabric, &Pins::Columns(2), (Integrator::ImplicitEuler, 1e-3));
+        let mut strip = cloth(
+            grid,
+            fabric,
+            &Pins::Columns(2),
+            (Integrator::ImplicitEuler, 1e-3),
+        );
         // Gravity across the cloth.
         strip.gravity = Vector::new(0.0, 0.0, -GRAVITY);
         assert!(strip.settle_to_rest().unwrap(), "{gamma}");
         let tip = strip.x[n_free + 1];
         let angle = (-tip.z).atan2(tip.x - 0.5 * spacing).to_degrees();
-        assert!((angle / chord_deg - 1.0).abs() < 5e-3, "{gamma}: {angle} {chord_deg}");
+        assert!(
+            (angle / chord_deg - 1.0).abs() < 5e-3,
+            "{gamma}: {angle} {chord_deg}"
+        );
     }
 }
 
@@ -114,9 +135,14 @@ fn frequencies_hz(cloth: &mut Cloth, axes: &[usize]) -> Vec<f64> {
         }
     }
     let squares = stiffness.symmetric_eigenvalues();
-    let mut hz: Vec<f64> = squares.iter().map(|square| square.max(0.0).sqrt()).collect();
+    let mut hz: Vec<f64> = squares
+        .iter()
+        .map(|square| square.max(0.0).sqrt())
+        .collect();
     hz.sort_by(f64::total_cmp);
-    hz.iter().map(|omega| omega / std::f64::consts::TAU).collect()
+    hz.iter()
+        .map(|omega| omega / std::f64::consts::TAU)
+        .collect()
 }
 
 #[test]
@@ -135,8 +161,15 @@ fn a_hanging_strip_swings_at_the_roots_of_bessels_function() {
     };
     let (coarse, fine) = (off_percent(25), off_percent(50));
     for (nth, expected) in [-0.05, -0.6, -2.5].into_iter().enumerate() {
-        assert!((coarse[nth] - expected).abs() < 0.06, "{nth}: {}", coarse[nth]);
-        assert!((coarse[nth] / fine[nth] - 4.0).abs() < 0.4, "{coarse:?} {fine:?}");
+        assert!(
+            (coarse[nth] - expected).abs() < 0.06,
+            "{nth}: {}",
+            coarse[nth]
+        );
+        assert!(
+            (coarse[nth] / fine[nth] - 4.0).abs() < 0.4,
+            "{coarse:?} {fine:?}"
+        );
     }
 }
 

@@ -46,7 +46,10 @@ fn implicit_euler_is_of_first_order_and_bdf2_of_second() {
             rms_m(&cloth, &reference.x)
         });
         let found = [0, 1].map(|nth: usize| (errors[nth] / errors[nth + 1]).log2());
-        assert!((found[1] - order).abs() < 0.25, "{integrator:?}: {errors:?} {found:?}");
+        assert!(
+            (found[1] - order).abs() < 0.25,
+            "{integrator:?}: {errors:?} {found:?}"
+        );
     }
 }
 
@@ -57,16 +60,30 @@ fn a_free_cloth_keeps_its_momentum_and_a_moved_one_feels_no_force() {
     let mut cloth = cloth(grid, fabric, &Pins::None, (Integrator::Explicit, 1e-4));
     cloth.gravity = Vector::zeros();
     let turn = nalgebra::Rotation3::new(Vector::new(0.3, -1.2, 0.7));
-    cloth.x.iter_mut().for_each(|x| *x = turn * *x + Vector::new(1.0, 2.0, 3.0));
+    cloth
+        .x
+        .iter_mut()
+        .for_each(|x| *x = turn * *x + Vector::new(1.0, 2.0, 3.0));
     cloth.restart();
-    let force = cloth.newton.grad.iter().map(Vector::norm).fold(0.0, f64::max);
+    let force = cloth
+        .newton
+        .grad
+        .iter()
+        .map(Vector::norm)
+        .fold(0.0, f64::max);
     assert!(force < 1e-12, "{force} N of a rigid motion");
     for (node, v) in cloth.v.iter_mut().enumerate() {
         let phase = node as f64;
         *v = Vector::new(phase.sin(), (2.0 * phase).cos(), (3.0 * phase).sin());
     }
     let momenta = |cloth: &Cloth| {
-        let nodes = || cloth.system.mass_kg.iter().zip(cloth.x.iter().zip(&cloth.v));
+        let nodes = || {
+            cloth
+                .system
+                .mass_kg
+                .iter()
+                .zip(cloth.x.iter().zip(&cloth.v))
+        };
         let along: Vector = nodes().map(|(mass, (_, v))| v * *mass).sum();
         let about: Vector = nodes().map(|(mass, (x, v))| x.cross(v) * *mass).sum();
         [along, about]
@@ -76,7 +93,10 @@ fn a_free_cloth_keeps_its_momentum_and_a_moved_one_feels_no_force() {
     let after = momenta(&cloth);
     let scale: f64 = cloth.system.mass_kg.iter().sum();
     for (before, after) in before.iter().zip(&after) {
-        assert!((before - after).norm() < 1e-12 * scale.max(1.0), "{before} {after}");
+        assert!(
+            (before - after).norm() < 1e-12 * scale.max(1.0),
+            "{before} {after}"
+        );
     }
 }
 
@@ -103,7 +123,12 @@ fn explicit_energy_is_bounded_over_a_million_steps() {
 fn no_implicit_step_gains_energy() {
     for integrator in [Integrator::ImplicitEuler, Integrator::Bdf2] {
         for step_s in [0.5e-3, 2e-3, 10e-3] {
-            let mut cloth = cloth(([10, 10], [0.2; 2]), shirting(), &Pins::Corners, (integrator, step_s));
+            let mut cloth = cloth(
+                ([10, 10], [0.2; 2]),
+                shirting(),
+                &Pins::Corners,
+                (integrator, step_s),
+            );
             cloth.stepping.gain = crate::cloth::LIVE;
             tilt(&mut cloth, 80.0);
             let scale = cloth.system.sheet.scale_j();
@@ -123,7 +148,10 @@ fn an_explicit_step_beyond_its_limit_is_refused_with_it() {
     let limit_s = cloth.limit_s();
     let before = cloth.x.clone();
     let error = cloth.step(&[]).unwrap_err().to_string();
-    assert!(error.contains(&format!("at most {:.3} ms", 1e3 * limit_s)), "{error}");
+    assert!(
+        error.contains(&format!("at most {:.3} ms", 1e3 * limit_s)),
+        "{error}"
+    );
     assert_eq!(cloth.x, before, "nothing moved");
     // The largest of a soft cloth is what the wave along its yarns says.
     let h = 0.02;
@@ -133,9 +161,18 @@ fn an_explicit_step_beyond_its_limit_is_refused_with_it() {
 
 #[test]
 fn a_cloth_that_rests_sleeps() {
-    let mut cloth = cloth(([6, 6], [0.1; 2]), shirting(), &Pins::Top, (Integrator::Bdf2, 2e-3));
+    let mut cloth = cloth(
+        ([6, 6], [0.1; 2]),
+        shirting(),
+        &Pins::Top,
+        (Integrator::Bdf2, 2e-3),
+    );
     cloth.settle_to_rest().unwrap();
     run(&mut cloth, 1.0);
     assert_eq!(cloth.counters.steps, 500);
-    assert!((245..=255).contains(&cloth.counters.asleep), "{:?}", cloth.counters);
+    assert!(
+        (245..=255).contains(&cloth.counters.asleep),
+        "{:?}",
+        cloth.counters
+    );
 }
