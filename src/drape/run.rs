@@ -211,7 +211,7 @@ mod tests {
                 assert!((pushed[0] + pushed[1]).abs() < 0.05, "{pushed:?}");
             }
         }
-        assert!(most >= 24, "{most} points felt it");
+        assert!(most >= 12, "{most} points felt it");
         assert_eq!(drape.finger(0).n_contacts, 0);
         let [end_j, work_j] = drape.energy_j();
         assert!(

@@ -1,0 +1,281 @@
+//! `selvedge drape`: a hanging cloth under two fingers, step by step; and its testers.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use super::output::{self, TableOut};
+use super::terminal::{self, Meter};
+use super::{CliError, signals};
+use selvedge_drape::{
+    Drape, DrapeCounters, DrapeError, DrapeScene, Hand, HandPath, Integrator, test_fabric,
+};
+use selvedge_foundation::files::to_json_string;
+use selvedge_foundation::numerics::to_whole;
+use selvedge_foundation::progress::Cancelled;
+use selvedge_foundation::quantity::fixed;
+
+/// Shapes are written as often as a display is given amplitudes, s.
+const MESH_EVERY_S: f64 = 0.025;
+/// Most steps of one run.
+const MAX_STEPS: f64 = 2e7;
+/// What can be lost from the last step by rounding, in steps.
+const LAST_STEP_SLACK: f64 = 1e-6;
+
+/// What hangs, who touches it, and what to write.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(super) struct DrapeArgs {
+    /// Scene file of a hanging cloth
+    #[arg(required = true)]
+    scene: Option<PathBuf>,
+    /// Hands: t_s and per finger x_mm,y_mm,z_mm,opening_mm (without it: the shape at rest)
+    #[arg(long, value_name = "FINGERS.csv")]
+    path: Option<PathBuf>,
+    /// Forces on the fingers, a row a step; without --path the shape at rest (standard output if no
+    /// file is asked for)
+    #[arg(long, value_name = "F.csv")]
+    out: Option<PathBuf>,
+    /// Where every vertex is, forty times a second
+    #[arg(long, value_name = "M.csv")]
+    mesh: Option<PathBuf>,
+    /// How to step: explicit, ie, bdf2 or auto (the scene's)
+    #[arg(long, value_name = "METHOD")]
+    integrator: Option<Integrator>,
+    /// Length of a step, ms (the scene's, or by the integrator)
+    #[arg(long, value_name = "MS")]
+    dt: Option<f64>,
+    /// Steps, iterations, energy and what was left out, as JSON
+    #[arg(long, value_name = "S.json")]
+    stats: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<DrapeCommand>,
+}
+
+/// What else there is.
+#[derive(Debug, Subcommand)]
+enum DrapeCommand {
+    /// The Kawabata testers on the simulated cloth, beside the figures that went in
+    Test {
+        /// A textile's id, or a scene file of a hanging cloth
+        fabric: String,
+    },
+}
+
+/// What `--stats` writes.
+#[derive(Debug, Serialize)]
+struct StatsFile<'a> {
+    program: &'static str,
+    version: &'static str,
+    scene: &'a Path,
+    path: Option<&'a Path>,
+    vertices: [usize; 2],
+    integrator: &'static str,
+    why: &'a str,
+    step_ms: f64,
+    simulated_s: f64,
+    /// At the start, and the largest by which it rose above that and the hands' work.
+    energy_start_j: f64,
+    energy_gained_j: f64,
+    work_j: f64,
+    counters: DrapeCounters,
+}
+
+/// Lets it hang, and touches it.
+pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
+    if let Some(DrapeCommand::Test { fabric }) = &args.command {
+        return test(fabric);
+    }
+    let Some(place) = args.scene.as_deref() else {
+        return Err(CliError::Input("no scene is named; give one".to_owned()));
+    };
+    let scene = DrapeScene::read(place)?;
+    scene.notes().iter().for_each(|note| terminal::notice(note));
+    let mut drape = Drape::new(&scene, args.integrator, args.dt.map(|ms| 1e-3 * ms))?;
+    let (integrator, why) = drape.integrator();
+    terminal::notice(&format!("{}: {why}", integrator.name()));
+    let stop = signals::stop_flag()?;
+    let energy = match &args.path {
+        Some(path) => {
+            let hands = HandPath::read(path, &scene)?;
+            follow(args, &mut drape, &hands, &stop)?
+        }
+        None => {
+            let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
+            mesh.write(&drape)?;
+            mesh.0.finish()?;
+            [drape.energy_j()[0], 0.0]
+        }
+    };
+    match &args.stats {
+        Some(place) => write_stats(args, place, &mut drape, energy),
+        None => Ok(()),
+    }
+}
+
+/// Leads the fingers along their path; says the energy at the start and the most that was gained.
+fn follow(
+    args: &DrapeArgs,
+    drape: &mut Drape,
+    path: &HandPath,
+    stop: &Arc<AtomicBool>,
+) -> Result<[f64; 2], CliError> {
+    let [start_s, end_s] = path.span_s();
+    let step_s = drape.step_s();
+    let n_steps = ((end_s - start_s) / step_s + LAST_STEP_SLACK).floor();
+    if n_steps > MAX_STEPS {
+        let what = format!("the path takes {n_steps} steps of {} ms", 1e3 * step_s);
+        return Err(CliError::Input(format!(
+            "{what}; give a shorter one, or a larger --dt"
+        )));
+    }
+    let mut table = TableOut::new(args.out.as_deref(), &FORCE_COLUMNS)?;
+    let mut mesh = args
+        .mesh
+        .as_deref()
+        .map(|path| MeshOut::new(Some(path)))
+        .transpose()?;
+    let mut hands: Vec<Hand> = drape.start_hands();
+    path.at(start_s, &mut hands);
+    drape.place(&hands);
+    let [start_j, _] = drape.energy_j();
+    let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
+    let mut meter = Meter::new("draping");
+    for nth in 1..=to_whole::<u64>(n_steps) {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Cancelled.into());
+        }
+        if let Some(mesh) = mesh.as_mut().filter(|_| drape.t_s() >= next_mesh - 1e-9) {
+            mesh.write(drape)?;
+            next_mesh += MESH_EVERY_S;
+        }
+        path.at(start_s + nth as f64 * step_s, &mut hands);
+        drape.step(&hands)?;
+        let [energy_j, work_j] = drape.energy_j();
+        gained_j = gained_j.max(energy_j - start_j - work_j);
+        write_forces(&mut table, drape, energy_j)?;
+        meter.show(nth as f64 / n_steps, drape.integrator().0.name());
+    }
+    if let Some(mut mesh) = mesh {
+        mesh.write(drape)?;
+        mesh.0.finish()?;
+    }
+    table.finish()?;
+    Ok([start_j, gained_j])
+}
+
+const FORCE_COLUMNS: [&str; 9] = [
+    "t_s",
+    "finger",
+    "fx_n",
+    "fy_n",
+    "fz_n",
+    "n_contacts",
+    "slip_mm_per_s",
+    "energy_j",
+    "iterations",
+];
+
+/// A row for each finger; one of no finger where there is none.
+fn write_forces(table: &mut TableOut, drape: &Drape, energy_j: f64) -> Result<(), CliError> {
+    let n_fingers = drape.start_hands().len().max(1);
+    for finger in 0..n_fingers {
+        let felt = drape.finger(finger);
+        let rows = table.rows();
+        rows.number(drape.t_s()).number(finger);
+        felt.force_n.iter().for_each(|force| {
+            rows.number(force);
+        });
+        rows.number(felt.n_contacts)
+            .number(felt.slip_mm_per_s)
+            .number(energy_j)
+            .number(drape.iterations());
+        rows.end_row()?;
+    }
+    Ok(())
+}
+
+/// A table of shapes.
+struct MeshOut(TableOut);
+
+impl MeshOut {
+    fn new(path: Option<&Path>) -> Result<Self, CliError> {
+        let header = ["t_s", "i", "j", "x_mm", "y_mm", "z_mm"];
+        Ok(Self(TableOut::new(path, &header)?))
+    }
+
+    fn write(&mut self, drape: &Drape) -> Result<(), CliError> {
+        let [n_warp, _] = drape.grid();
+        for (vertex, place) in drape.places_mm().enumerate() {
+            let rows = self.0.rows();
+            rows.number(drape.t_s())
+                .number(vertex % n_warp)
+                .number(vertex / n_warp);
+            for mm in place {
+                rows.number(mm);
+            }
+            rows.end_row()?;
+        }
+        Ok(())
+    }
+}
+
+fn write_stats(
+    args: &DrapeArgs,
+    place: &Path,
+    drape: &mut Drape,
+    [energy_start_j, energy_gained_j]: [f64; 2],
+) -> Result<(), CliError> {
+    let [_, work_j] = drape.energy_j();
+    let (integrator, why) = drape.integrator();
+    let file = StatsFile {
+        program: "selvedge",
+        version: env!("CARGO_PKG_VERSION"),
+        scene: args.scene.as_deref().unwrap_or_else(|| Path::new("")),
+        path: args.path.as_deref(),
+        vertices: drape.grid(),
+        integrator: integrator.name(),
+        why,
+        step_ms: 1e3 * drape.step_s(),
+        simulated_s: drape.t_s(),
+        energy_start_j,
+        energy_gained_j,
+        work_j,
+        counters: *drape.counters(),
+    };
+    output::write_text(Some(place), &to_json_string(&file, place)?)
+}
+
+/// Prints what the simulated testers find.
+fn test(fabric: &str) -> Result<(), CliError> {
+    let path = Path::new(fabric);
+    let scene = if path.is_file() {
+        DrapeScene::read(path)
+    } else {
+        DrapeScene::of_textile(fabric)
+    };
+    let scene = scene.map_err(|error| match error {
+        DrapeError::Textile(error) => CliError::Input(error.to_string()),
+        other => other.into(),
+    })?;
+    scene.notes().iter().for_each(|note| terminal::notice(note));
+    let mut text = format!(
+        "{:10} {:>10} {:>10} {:>8}  unit\n",
+        "figure", "given", "found", "off %"
+    );
+    for figure in test_fabric(&scene)? {
+        let off = 100.0 * (figure.found / figure.given - 1.0);
+        text.push_str(&format!(
+            "{:10} {:>10} {:>10} {:>8}  {}\n",
+            figure.name,
+            fixed(figure.given, 4),
+            fixed(figure.found, 4),
+            fixed(off, 2),
+            figure.unit
+        ));
+    }
+    output::print(&text)
+}
