@@ -182,13 +182,15 @@ impl Cloth {
         }
         for (finger, target) in self.system.fingers.iter_mut().zip(targets) {
             self.counters.targets_held += u64::from(!System::is_finite(&[*target]));
-            self.work_j += finger.lead(*target, &self.x, step_s);
+            finger.lead(*target, step_s);
         }
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
             _ => self.implicit(if self.n_past > 0 { 2 } else { 1 }),
         }
+        let fingers = self.system.fingers.iter();
+        self.work_j += fingers.map(|finger| finger.work_j(step_s)).sum::<f64>();
         self.end(step_s);
         Ok(())
     }

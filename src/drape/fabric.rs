@@ -77,11 +77,6 @@ impl Tension {
             k * (1.0 + grown),
         ]
     }
-
-    /// The largest tangent that it can have, N/m.
-    pub(crate) fn steepest_n_per_m(&self) -> f64 {
-        self.at_rest_n_per_m.max(self.top[2])
-    }
 }
 
 /// The exponent a of a curve `(e^{as} − 1)/(e^a − 1)` of this linearity: twice the area below it,

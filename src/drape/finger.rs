@@ -104,9 +104,9 @@ impl Finger {
         }
     }
 
-    /// Leads it towards a place over a step, not faster than it may; says the work that the hand
-    /// does on the spring, J. A place that is no number leaves it where it is.
-    pub(crate) fn lead(&mut self, to: Vector, x: &[Vector], step_s: f64) -> f64 {
+    /// Leads it towards a place over a step, not faster than it may. A place that is no number
+    /// leaves it where it is.
+    pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
         let way = to - self.target;
         let most = MAX_SPEED_M_PER_S * step_s;
         let length = way.norm();
@@ -117,10 +117,13 @@ impl Finger {
         } else {
             way
         };
-        let stretched = self.target - x[self.node] + moved * 0.5;
         self.target += moved;
         self.target_speed = moved / step_s;
-        COUPLING_N_PER_M * stretched.dot(&moved)
+    }
+
+    /// Work that the hand did in the step that ends, J.
+    pub(crate) fn work_j(&self, step_s: f64) -> f64 {
+        -self.coupling.force.dot(&self.target_speed) * step_s
     }
 
     /// Begins a step: the coupling's spring and damper become one spring.
@@ -203,19 +206,12 @@ impl Finger {
     /// The coupling's energy: what the spring holds is stored, the rest is damping's.
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
         let off = x[self.node] - self.coupling.centre;
-        let (stiffness, length) = (self.coupling.stiffness, off.norm());
-        let is_strong = stiffness * length > MAX_FORCE_N;
-        let (value, tangent) = if is_strong {
-            let reach = MAX_FORCE_N / stiffness;
-            (MAX_FORCE_N * (length - 0.5 * reach), MAX_FORCE_N / length)
-        } else {
-            (0.5 * stiffness * length * length, stiffness)
-        };
+        let (value, tangent) = bounded_spring(self.coupling.stiffness, off.norm());
         self.coupling.force = off * tangent;
         self.coupling.tangent = tangent;
         grad[self.node] += self.coupling.force;
-        let stretched = (x[self.node] - self.target).norm_squared();
-        let stored = 0.5 * COUPLING_N_PER_M * stretched;
+        let stretched = (x[self.node] - self.target).norm();
+        let (stored, _) = bounded_spring(COUPLING_N_PER_M, stretched);
         Energy {
             stored,
             lost: value - stored,
@@ -357,4 +353,13 @@ impl Point {
         (0..2).for_each(|axis| self.slipped_m[axis] += moved[axis]);
         Spot::new(mesh, x, place)
     }
+}
+
+/// Energy of a spring that never pulls with more than the largest force, and its force per length.
+fn bounded_spring(stiffness: f64, length: f64) -> (f64, f64) {
+    if stiffness * length <= MAX_FORCE_N {
+        return (0.5 * stiffness * length * length, stiffness);
+    }
+    let reach = MAX_FORCE_N / stiffness;
+    (MAX_FORCE_N * (length - 0.5 * reach), MAX_FORCE_N / length)
 }

@@ -207,7 +207,9 @@ impl Twist {
     pub(crate) fn precondition(self, mesh: &Mesh, lag: &Lag, lines: &mut LinePreconditioner) {
         let stiffness = self.stiffness(mesh) * (1.0 + lag.sigma * self.viscosity_s);
         for corners in Self::cells(mesh) {
-            corners.map(|corner| lines.add_everywhere(corner, stiffness));
+            for corner in corners {
+                lines.add_everywhere(corner, stiffness);
+            }
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The cloth against closed forms, orders, energy and extreme cases.
 
 mod closed_forms;
+mod extremes;
+mod fingers;
 mod motion;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
