@@ -17,9 +17,12 @@ use selvedge_foundation::files::to_json_string;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
 use selvedge_foundation::quantity::fixed;
+use selvedge_render::MaterialContact;
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::TICKS_PER_S;
 
 /// Shapes are written as often as a display is given amplitudes, s.
-const MESH_EVERY_S: f64 = 0.025;
+const MESH_EVERY_S: f64 = 1.0 / TICKS_PER_S;
 /// Most steps of one run.
 const MAX_STEPS: f64 = 2e7;
 /// What can be lost from the last step by rounding, in steps.
@@ -42,6 +45,9 @@ pub(super) struct DrapeArgs {
     /// Where every vertex is, forty times a second
     #[arg(long, value_name = "M.csv")]
     mesh: Option<PathBuf>,
+    /// Amplitudes of the contactors on both pads, one row a contactor a tick; places are the cloth's
+    #[arg(long, value_name = "A.csv", requires = "path")]
+    amplitudes: Option<PathBuf>,
     /// How to step: explicit, ie, bdf2 or auto (the scene's)
     #[arg(long, value_name = "METHOD")]
     integrator: Option<Integrator>,
@@ -96,12 +102,21 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
     scene.notes().iter().for_each(|note| terminal::notice(note));
     let mut drape = Drape::new(&scene, args.integrator, args.dt.map(|ms| 1e-3 * ms))?;
     let (integrator, why) = drape.integrator();
-    terminal::notice(&format!("{}: {why}", integrator.name()));
+    let step_ms = 1e3 * drape.step_s();
+    terminal::notice(&format!(
+        "{} at {} ms: {why}",
+        integrator.name(),
+        fixed(step_ms, 3)
+    ));
     let stop = signals::stop_flag()?;
     let energy = match &args.path {
         Some(path) => {
             let hands = HandPath::read(path, &scene)?;
-            follow(args, &mut drape, &hands, &stop)?
+            let felt = args.amplitudes.as_deref();
+            let felt = felt
+                .map(|path| AmplitudesOut::new(path, &scene))
+                .transpose()?;
+            follow((args, felt), &mut drape, &hands, &stop)?
         }
         None => {
             let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
@@ -118,7 +133,7 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
 
 /// Leads the fingers along their path; says the energy at the start and the most that was gained.
 fn follow(
-    args: &DrapeArgs,
+    (args, mut felt): (&DrapeArgs, Option<AmplitudesOut>),
     drape: &mut Drape,
     path: &HandPath,
     stop: &Arc<AtomicBool>,
@@ -157,14 +172,79 @@ fn follow(
         let [energy_j, work_j] = drape.energy_j();
         gained_j = gained_j.max(energy_j - start_j - work_j);
         write_forces(&mut table, drape, energy_j)?;
+        if let Some(felt) = &mut felt {
+            felt.take(drape)?;
+        }
         meter.show(nth as f64 / n_steps, drape.integrator().0.name());
     }
     if let Some(mut mesh) = mesh {
         mesh.write(drape)?;
         mesh.0.finish()?;
     }
+    felt.map_or(Ok(()), |felt| felt.table.finish())?;
     table.finish()?;
     Ok([start_j, gained_j])
+}
+
+/// What the contactors are given at every tick of their displays.
+struct AmplitudesOut {
+    table: TableOut,
+    renderer: ArrayRenderer,
+    textile: String,
+    n_fingers: usize,
+    tick: u64,
+}
+
+impl AmplitudesOut {
+    fn new(path: &Path, scene: &DrapeScene) -> Result<Self, CliError> {
+        let header = [
+            "tick",
+            "t_s",
+            "display",
+            "contactor",
+            "x_mm",
+            "y_mm",
+            "textile",
+            "a40_um",
+            "a320_um",
+        ];
+        let rendered = scene.render_scene()?;
+        Ok(Self {
+            n_fingers: rendered.displays.len(),
+            renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
+            table: TableOut::new(Some(path), &header)?,
+            textile: scene.textile().unwrap_or_default().to_owned(),
+            tick: 0,
+        })
+    }
+
+    /// Renders the tick that a step has come to, if it has.
+    fn take(&mut self, drape: &mut Drape) -> Result<(), CliError> {
+        if drape.t_s() < (self.tick + 1) as f64 / TICKS_PER_S - 1e-9 {
+            return Ok(());
+        }
+        self.tick += 1;
+        let mut contacts = [None; 24];
+        for display in 0..self.n_fingers {
+            drape.tick_contacts(display, &mut contacts);
+            let frame = self.renderer.touch((display, 0), &contacts);
+            let amplitudes = frame.map_or(&[][..], |frame| frame.amplitudes_um());
+            for (contactor, (contact, felt)) in contacts.iter().zip(amplitudes).enumerate() {
+                let rows = self.table.rows();
+                rows.number(self.tick).number(drape.t_s());
+                rows.number(display).number(contactor);
+                if let Some(MaterialContact { place_mm, .. }) = contact {
+                    rows.number(place_mm[0])
+                        .number(place_mm[1])
+                        .text(&self.textile);
+                } else {
+                    rows.text("").text("").text("");
+                }
+                rows.number(felt[0]).number(felt[1]).end_row()?;
+            }
+        }
+        Ok(())
+    }
 }
 
 const FORCE_COLUMNS: [&str; 9] = [

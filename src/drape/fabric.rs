@@ -69,13 +69,9 @@ impl Tension {
                 tangent,
             ];
         }
-        let grown = (self.rate * strain).exp() - 1.0;
-        let per_rate = k / self.rate;
-        [
-            per_rate * (grown / self.rate - strain),
-            per_rate * grown,
-            k * (1.0 + grown),
-        ]
+        let tangent = k * (self.rate * strain).exp();
+        let tension = (tangent - k) / self.rate;
+        [(tension - k * strain) / self.rate, tension, tangent]
     }
 }
 
@@ -86,9 +82,12 @@ pub(crate) fn exponent(linearity: f64) -> f64 {
         return 0.0;
     }
     // Below 0.001 the difference of the two terms has no digits left; there it is 1 − a/6.
-    let area = |a: f64| match a.abs() < 1e-3 {
-        true => 1.0 - a / 6.0,
-        false => 2.0 * (a.recip() - a.exp_m1().recip()),
+    let area = |a: f64| {
+        if a.abs() < 1e-3 {
+            1.0 - a / 6.0
+        } else {
+            2.0 * (a.recip() - a.exp_m1().recip())
+        }
     };
     bisected([-20.0, 60.0], 100, |a| area(a) > linearity)
 }

@@ -50,9 +50,9 @@ impl HandPath {
                 second.each_ref().map(String::as_str)
             };
             if finger.is_mirrored {
-                optional.extend(names)
+                optional.extend(names);
             } else {
-                required.extend(names)
+                required.extend(names);
             }
         }
         let table = Table::read(&text, path, &required, &optional)?;

@@ -37,20 +37,12 @@ impl Integrator {
         };
         match self {
             Self::Auto if safe_s >= LEAST_EXPLICIT_S => {
-                let step_s = safe_s.min(1e-3);
-                let why = format!(
-                    "explicit at {:.3} ms: stable up to {:.3} ms",
-                    1e3 * step_s,
-                    1e3 * limit_s
-                );
-                (Self::Explicit, step_s, why)
+                let why = format!("explicit steps are stable up to {:.3} ms", 1e3 * limit_s);
+                (Self::Explicit, safe_s.min(1e-3), why)
             }
             Self::Auto => {
-                let why = format!(
-                    "bdf2 at {:.2} ms: {size}, and explicit steps would need less than {:.3} ms",
-                    1e3 * largest_s,
-                    1e3 * LEAST_EXPLICIT_S.min(limit_s)
-                );
+                let limit_ms = 1e3 * limit_s;
+                let why = format!("{size}; explicit steps are stable only up to {limit_ms:.3} ms");
                 (Self::Bdf2, largest_s, why)
             }
             Self::Explicit => (self, safe_s.min(1e-3), "as asked".to_owned()),

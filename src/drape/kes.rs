@@ -107,14 +107,16 @@ impl Fabric {
 
 fn compression(figures: &Figures) -> Result<Compression, DrapeError> {
     let figure = |key: &str| figures.get(key).copied();
-    let thickness = figure("t0_mm").or(figure("thickness_mm")).unwrap_or(0.5);
+    let thickness = figure("t0_mm")
+        .or_else(|| figure("thickness_mm"))
+        .unwrap_or(0.5);
     DrapeError::within(("thickness T0", thickness, "mm"), [0.01, 20.0])?;
     let linearity = figure("lc").unwrap_or(0.4);
     DrapeError::within(("LC", linearity, ""), [0.1, 1.5])?;
     let of_energy = figure("wc_gf_cm_per_cm2")
         .map(|wc| 2e3 * wc * N_PER_M / (linearity * Compression::TESTER_PA));
     let yields = of_energy
-        .or(figure("tm_mm").map(|tm| thickness - tm))
+        .or_else(|| figure("tm_mm").map(|tm| thickness - tm))
         .unwrap_or(0.0);
     DrapeError::within(("yield T0 − TM", yields, "mm"), [0.0, 0.9 * thickness])?;
     Ok(Compression::new(1e-3 * thickness, 1e-3 * yields, linearity))

@@ -22,6 +22,7 @@
 mod cloth;
 mod error;
 mod fabric;
+mod felt;
 mod finger;
 mod hands;
 mod integrator;
@@ -38,6 +39,7 @@ mod scene;
 mod sheet;
 mod slip;
 mod statics;
+mod stepping;
 mod system;
 mod tester;
 

@@ -1,6 +1,7 @@
 //! The grid of a cloth: which vertices there are, how heavy they are, which are pinned.
 //!
-//! Vertex (i, j) lies at material place (i h_u, j h_w), i along the warp; its number is j n_u + i.
+//! Vertex (i, j) lies at the material place `(i h_u, j h_w)`, i along the warp; its number is
+//! `j n_u + i`.
 //! At rest u runs along x to the right, w along y upwards, in the plane z = 0.
 
 use nalgebra::Vector3;

@@ -51,7 +51,7 @@ impl LinePreconditioner {
         let whole = (along + across).max(0.0);
         for vertex in ends {
             let diagonal = &mut self.diagonals[vertex];
-            diagonal.iter_mut().for_each(|entry| *entry += across);
+            *diagonal = diagonal.map(|entry| entry + across);
             diagonal[axis] += whole - across;
         }
         self.couplings[ends[0]][axis] -= whole;
@@ -118,9 +118,8 @@ impl LinePreconditioner {
     pub(crate) fn apply(&mut self, r: &[Vector], z: &mut [Vector]) {
         let n = self.frames.len();
         let [n_u, _] = self.n;
-        for vertex in 0..n {
-            let [u, w, normal] = &self.frames[vertex];
-            let mut turned = [u.dot(&r[vertex]), w.dot(&r[vertex]), normal.dot(&r[vertex])];
+        for (vertex, (frame, r)) in self.frames.iter().zip(r).enumerate() {
+            let mut turned = frame.map(|axis| axis.dot(r));
             if vertex > 0 {
                 turned[0] -= self.couplings[vertex - 1][0] * self.scratch[vertex - 1][0];
             }

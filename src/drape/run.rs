@@ -1,21 +1,25 @@
 //! A scene in motion, seen from outside: in millimetres, step by step.
 
 use super::cloth::{Cloth, DrapeCounters};
+use super::finger::{Finger, Point};
 use super::hands::Hand;
 use super::integrator::Integrator;
 use super::mesh::Vector;
+use super::scene::FingerSpec;
 use super::{DrapeError, DrapeScene};
 
 /// A hanging cloth that is stepped.
 #[derive(Debug, Clone)]
 pub struct Drape {
     cloth: Cloth,
-    specs: Vec<super::scene::FingerSpec>,
+    specs: Vec<FingerSpec>,
     why: String,
     t_s: f64,
     targets: Vec<Vector>,
     /// How far every point of each finger had slipped a step ago, m.
     slipped_m: Vec<Vec<[f64; 2]>>,
+    /// The same for contactors at the last tick of the displays.
+    ticked_m: Vec<[[f64; 2]; 24]>,
     newton_before: u64,
 }
 
@@ -48,9 +52,10 @@ impl Drape {
             let mend = "give another grid, or figures nearer to a cloth's";
             return Err(DrapeError::input("the cloth comes to no rest", mend));
         }
-        let slipped = |finger: &super::finger::Finger| vec![[0.0; 2]; finger.points.len()];
+        let slipped = |finger: &Finger| vec![[0.0; 2]; finger.points.len()];
         Ok(Self {
             slipped_m: cloth.fingers().iter().map(slipped).collect(),
+            ticked_m: vec![[[0.0; 2]; 24]; scene.fingers().len()],
             specs: scene.fingers().to_vec(),
             targets: vec![Vector::zeros(); scene.fingers().len()],
             newton_before: cloth.counters.newton,
@@ -62,7 +67,7 @@ impl Drape {
 
     /// The hands where the scene lets them start.
     pub fn start_hands(&self) -> Vec<Hand> {
-        let hand = |spec: &super::scene::FingerSpec| Hand {
+        let hand = |spec: &FingerSpec| Hand {
             centre_mm: spec.start_mm,
             opening_mm: spec.opening_mm,
         };
@@ -135,6 +140,14 @@ impl Drape {
         }
     }
 
+    pub(crate) fn points(&self, finger: usize) -> Option<&[Point]> {
+        Some(&self.cloth.fingers().get(finger)?.points)
+    }
+
+    pub(crate) fn ticked_mut(&mut self, finger: usize) -> &mut [[f64; 2]; 24] {
+        &mut self.ticked_m[finger]
+    }
+
     /// Energy of cloth and fingers, J, and the work that hands did since the start.
     pub fn energy_j(&mut self) -> [f64; 2] {
         [self.cloth.energy_j(), self.cloth.work_j]
@@ -202,7 +215,9 @@ mod tests {
             } else {
                 60.0
             };
-            hands.iter_mut().for_each(|hand| hand.opening_mm = opening);
+            for hand in &mut hands {
+                hand.opening_mm = opening;
+            }
             drape.step(&hands).unwrap();
             most = most.max(drape.finger(0).n_contacts);
             if step == 599 {
@@ -218,5 +233,39 @@ mod tests {
             end_j <= start_j + work_j + 1e-4,
             "{start_j} {end_j} {work_j}"
         );
+    }
+
+    #[test]
+    fn a_step_allocates_nothing_with_whatever_method() {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");
+        let scene = DrapeScene::read(&path).unwrap();
+        for (integrator, step_s) in [
+            (Integrator::Explicit, 5e-6),
+            (Integrator::ImplicitEuler, 2e-3),
+            (Integrator::Bdf2, 2e-3),
+        ] {
+            let mut drape = Drape::new(&scene, Some(integrator), Some(step_s)).unwrap();
+            let mut hands = drape.start_hands();
+            for hand in &mut hands {
+                hand.opening_mm = 0.5;
+            }
+            drape.place(&hands);
+            let mut contacts = [None; 24];
+            let mut felt = 0;
+            for step in 0..40 {
+                let rubbed = 0.05 * f64::from(step);
+                for hand in &mut hands {
+                    hand.opening_mm = -rubbed;
+                }
+                hands[0].centre_mm[0] += 0.5;
+                assert_no_alloc::assert_no_alloc(|| {
+                    drape.step(&hands).unwrap();
+                    drape.tick_contacts(0, &mut contacts);
+                    felt += drape.finger(0).n_contacts + contacts.iter().flatten().count();
+                });
+            }
+            assert!(felt > 40, "{integrator:?}: {felt}");
+        }
     }
 }

@@ -14,7 +14,7 @@ use super::sheet::{Losses, Sheet};
 use super::system::System;
 use super::{DrapeError, Fabric};
 use selvedge_foundation::files::{self, Flaw};
-use selvedge_textile::Library;
+use selvedge_textile::{Library, is_of_the_program};
 
 /// Mechanical figures of the textiles that are part of the program.
 const FABRICS: &str = include_str!("../../assets/drape/fabrics.toml");
@@ -28,6 +28,8 @@ const MAX_FINGERS: usize = 2;
 pub struct DrapeScene {
     name: String,
     textile: Option<String>,
+    /// Where its library is; `None` is that of the program.
+    pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],
     grid: Option<[usize; 2]>,
     pins: Pins,
@@ -113,8 +115,15 @@ impl DrapeScene {
             return Err(files::FileError::content(path, line, what, mend).into());
         }
         let beside = path.parent().unwrap_or_else(|| Path::new(""));
+        let library = keys.library.as_ref().map(|library| {
+            if is_of_the_program(library) {
+                library.clone()
+            } else {
+                beside.join(library)
+            }
+        });
         let figures = match &keys.textile {
-            Some(id) => figures_of(id, keys.library.as_deref().map(|at| beside.join(at)))
+            Some(id) => figures_of(id, library.as_deref())
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
             None => Figures::new(),
         };
@@ -128,6 +137,7 @@ impl DrapeScene {
         }
         let mut scene = Self::from_keys(keys, fabric).map_err(wrong)?;
         scene.notes = notes;
+        scene.library_folder = library;
         // What makes no grid is told where it stands.
         scene
             .mesh()
@@ -144,6 +154,7 @@ impl DrapeScene {
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
+            library_folder: None,
             size_mm: usual_size_mm(),
             grid: None,
             pins: Pins::Top,
@@ -170,20 +181,7 @@ impl DrapeScene {
             }
             Some(GridKey::Vertices(vertices)) => Some(vertices),
         };
-        let pins = match keys.pins.as_deref() {
-            None | Some("top") => Pins::Top,
-            Some("corners") => Pins::Corners,
-            Some("frame") => Pins::Frame,
-            Some("none") => Pins::None,
-            Some(word) => {
-                let mend = "give \"top\", \"corners\", \"frame\" or \"none\"";
-                return Err(Flaw::new(
-                    ("", 0, "pins"),
-                    format!("the pins are \"{word}\""),
-                    mend,
-                ));
-            }
-        };
+        let pins = pins_of(keys.pins.as_deref())?;
         let named: Result<Integrator, String> =
             keys.integrator.as_deref().unwrap_or("auto").parse();
         let integrator = named
@@ -205,6 +203,7 @@ impl DrapeScene {
         Ok(Self {
             name: keys.name,
             textile: keys.textile,
+            library_folder: None,
             size_mm: keys.size_mm,
             grid,
             pins,
@@ -279,7 +278,7 @@ impl DrapeScene {
         let asked = integrator.unwrap_or(self.integrator);
         let (chosen, usual_s, why) = asked.chosen(n_vertices, limit_s);
         let step_s = step_s
-            .or(self.step_ms.map(|ms| 1e-3 * ms))
+            .or_else(|| self.step_ms.map(|ms| 1e-3 * ms))
             .unwrap_or(usual_s);
         DrapeError::within(("step", 1e3 * step_s, "ms"), [1e-3, 1e3])?;
         let fingers = self.fingers.iter().enumerate().map(|(nth, spec)| {
@@ -327,7 +326,7 @@ impl FingerSpec {
         let numbers = [keys.rotation_deg, keys.opening_mm]
             .into_iter()
             .chain(keys.start_mm);
-        if numbers.into_iter().any(|x| !(x.abs() <= 1e4)) {
+        if numbers.into_iter().any(|x| x.is_nan() || x.abs() > 1e4) {
             return flaw(
                 "start_mm",
                 "this is no place".to_owned(),
@@ -350,15 +349,29 @@ impl FingerSpec {
     }
 }
 
+fn pins_of(word: Option<&str>) -> Result<Pins, Flaw> {
+    match word {
+        None | Some("top") => Ok(Pins::Top),
+        Some("corners") => Ok(Pins::Corners),
+        Some("frame") => Ok(Pins::Frame),
+        Some("none") => Ok(Pins::None),
+        Some(word) => {
+            let mend = "give \"top\", \"corners\", \"frame\" or \"none\"";
+            let what = format!("the pins are \"{word}\"");
+            Err(Flaw::new(("", 0, "pins"), what, mend))
+        }
+    }
+}
+
 /// An error of a value as one of the place where it stands.
 fn placed(place: files::Place, error: &DrapeError) -> Flaw {
     Flaw::described(place, &error.to_string(), "correct it")
 }
 
 /// Mechanical figures of a textile: those of the program, below those that its own manifest states.
-fn figures_of(id: &str, library: Option<PathBuf>) -> Result<Figures, DrapeError> {
+fn figures_of(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
     let library = match library {
-        Some(folder) => Library::named(&folder, None)?,
+        Some(folder) => Library::named(folder, None)?,
         None => Library::shipped()?,
     };
     let own = library.manifest(id)?.measured;
@@ -373,7 +386,8 @@ fn figures_of(id: &str, library: Option<PathBuf>) -> Result<Figures, DrapeError>
 #[derive(Default, Deserialize)]
 struct FabricKeys {
     #[serde(default, rename = "class")]
-    _class: String,
+    #[expect(dead_code, reason = "for those who read the file")]
+    class: String,
     #[serde(flatten)]
     figures: Figures,
 }
@@ -393,7 +407,7 @@ mod tests {
             files::keys_from_str(FABRICS, Path::new("fabrics.toml")).unwrap();
         for (id, entry) in entries {
             let odd = entry.figures.keys().find(|key| !kes::is_known(key));
-            assert!(odd.is_none() && !entry._class.is_empty(), "{id}: {odd:?}");
+            assert!(odd.is_none(), "{id}: {odd:?}");
         }
     }
 

@@ -123,12 +123,13 @@ impl Sheet {
     /// Looks at where the cloth is, and how fast, when a step begins.
     pub(crate) fn begin(&mut self, lag: &mut Lag, x: &[Vector], v: &[Vector]) {
         if self.losses.has_air || self.losses.has_hysteresis {
-            for vertex in 0..self.mesh.n_vertices() {
+            let speeds = v.iter().take(self.mesh.n_vertices());
+            for (vertex, v) in speeds.enumerate() {
                 let [_, _, normal] = frame(&self.mesh, x, vertex);
                 lag.normals[vertex] = normal;
                 if self.losses.has_air {
                     let area = self.mesh.mass_kg[vertex] / self.fabric.density_kg_per_m2;
-                    lag.drag[vertex] = DRAG_KG_PER_M3 * area * normal.dot(&v[vertex]).abs();
+                    lag.drag[vertex] = DRAG_KG_PER_M3 * area * normal.dot(v).abs();
                 }
             }
         }

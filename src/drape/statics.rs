@@ -30,14 +30,7 @@ impl Cloth {
     pub(crate) fn settle_to_rest(&mut self) -> Result<bool, DrapeError> {
         let mesh = &self.system.sheet.mesh;
         if mesh.n.iter().all(|n| *n >= LEAST_SIDE) {
-            let n = mesh.n.map(|n| n.div_ceil(2));
-            let coarse_mesh = Mesh {
-                n,
-                h: [0, 1].map(|side| mesh.size_m()[side] / (n[side] - 1) as f64),
-                mass_kg: Vec::new(),
-                is_pinned: Vec::new(),
-            };
-            self.start_from(coarse_mesh)?;
+            self.start_from(mesh.n.map(|n| n.div_ceil(2)))?;
         }
         let rests = self.relax();
         self.v.fill(Vector::zeros());
@@ -46,12 +39,12 @@ impl Cloth {
     }
 
     /// Solves on a coarser grid of the same cloth and takes its shape.
-    fn start_from(&mut self, coarse: Mesh) -> Result<(), DrapeError> {
+    fn start_from(&mut self, n: [usize; 2]) -> Result<(), DrapeError> {
         let fine = &self.system.sheet;
         let size_m = fine.mesh.size_m();
         let density = fine.fabric.density_kg_per_m2;
         let none = super::mesh::Pins::None;
-        let mut mesh = Mesh::new(coarse.n, size_m, density, &none)?;
+        let mut mesh = Mesh::new(n, size_m, density, &none)?;
         // A coarse vertex is held where the fine one nearest to it is.
         for vertex in 0..mesh.n_vertices() {
             let at = [vertex % mesh.n[0], vertex / mesh.n[0]];
@@ -92,14 +85,14 @@ impl Cloth {
             system.lag.mu = 1.0 / (step_s * step_s);
             system.lag.sigma = 0.0;
             let n_cloth = system.sheet.mesh.n_vertices();
-            for node in 0..x.len() {
+            for (node, x) in x.iter().enumerate() {
                 let fall = if node < n_cloth {
                     self.gravity
                 } else {
                     Vector::zeros()
                 };
-                system.lag.free[node] = x[node] + fall * (step_s * step_s);
-                system.lag.hat[node] = x[node];
+                system.lag.free[node] = x + fall * (step_s * step_s);
+                system.lag.hat[node] = *x;
             }
             for finger in &mut system.fingers {
                 finger.begin(&system.lag);

@@ -64,10 +64,9 @@ fn a_slack_strip_hangs_as_a_catenary() {
     strip.restart();
     // A yarn that hardly stretches is come to by way of softer ones.
     for stiffness in [1e3, 1e4, 1e5, 1e6] {
-        let stretch = &mut strip.system.sheet.stretch;
-        stretch
-            .iter_mut()
-            .for_each(|one| one.tension = Tension::linear(stiffness));
+        for stretch in &mut strip.system.sheet.stretch {
+            stretch.tension = Tension::linear(stiffness);
+        }
         assert!(strip.relax(), "{stiffness}");
     }
     let lowest = -strip.x[50].y;

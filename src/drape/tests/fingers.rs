@@ -3,9 +3,13 @@
 use super::*;
 use crate::finger::Finger;
 
+/// Vertices along a side, and the one in the middle.
+const SIDE: usize = 15;
+const MIDDLE: usize = SIDE / 2 * (SIDE + 1);
+
 /// A cloth with these pins and fingers of these sides, centred above it, 10 mm away.
 fn touched(fabric: Fabric, pins: &Pins, sides: &[f64], step_s: f64) -> Cloth {
-    let (n, size_m) = ([26, 26], [0.1, 0.1]);
+    let (n, size_m) = ([SIDE, SIDE], [0.1, 0.1]);
     let mesh = Mesh::new(n, size_m, fabric.density_kg_per_m2, pins).unwrap();
     let n_vertices = mesh.n_vertices();
     let fingers = sides.iter().enumerate().map(|(nth, side)| {
@@ -15,7 +19,7 @@ fn touched(fabric: Fabric, pins: &Pins, sides: &[f64], step_s: f64) -> Cloth {
     let sheet = Sheet::new(mesh, fabric, LOSSLESS);
     let system = System::new(sheet, fingers.collect());
     let mut stepping = Stepping::new(Integrator::Bdf2, step_s);
-    stepping.gain = EXACT;
+    stepping.gain = 1e-2 * crate::cloth::LIVE;
     Cloth::new(system, stepping)
 }
 
@@ -150,7 +154,7 @@ fn a_cloth_that_moves_with_its_fingers_is_silent() {
         .fingers()
         .iter()
         .flat_map(|finger| &finger.points)
-        .map(|one| one.is_felt());
+        .map(crate::finger::Point::is_felt);
     for ((before, after), felt) in before.iter().zip(counted(&cloth)).zip(felt) {
         assert!(!felt || *before == after, "{before:?} {after:?}");
     }
@@ -188,14 +192,14 @@ fn a_finger_does_not_pass_through_and_comes_back_on_either_side_past_an_edge() {
         let n: u32 = selvedge_foundation::numerics::to_whole(50.0 / speed);
         lead(&mut cloth, &[deep], n);
         wait(&mut cloth, 300);
-        let (middle, pad) = (cloth.x[13 * 26 + 13], apex(&cloth, 0));
-        // Pulp under 5 N yields by √(F/πk_f√(R_xR_y)) = 5.7 mm.
+        let (middle, pad) = (cloth.x[MIDDLE], apex(&cloth, 0));
+        // Friction on its slopes holds the rest of 5 N. Pulp under all of it yields by √(F/πk_f√(R_xR_y)) = 5.7 mm.
         assert!(
             pad.z > middle.z - 6.5e-3,
             "{speed}: pad {pad}, cloth {middle}"
         );
         assert!(
-            cloth.fingers()[0].press_n() > 4.5,
+            cloth.fingers()[0].press_n() > 2.5,
             "{}",
             cloth.fingers()[0].press_n()
         );
@@ -210,7 +214,7 @@ fn a_finger_does_not_pass_through_and_comes_back_on_either_side_past_an_edge() {
             lead(&mut cloth, &[to], 400);
         }
         wait(&mut cloth, 300);
-        let (middle, pad) = (cloth.x[13 * 26 + 13], apex(&cloth, 0));
+        let (middle, pad) = (cloth.x[MIDDLE], apex(&cloth, 0));
         assert!(
             middle.z > 3e-3 && pad.z < middle.z + 1e-3,
             "from behind: {pad} {middle}"

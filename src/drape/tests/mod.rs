@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod extremes;
+mod felt;
 mod fingers;
 mod motion;
 
@@ -11,6 +12,10 @@ use crate::integrator::Integrator;
 use crate::mesh::{Mesh, Pins, Vector};
 use crate::sheet::{Losses, Sheet};
 use crate::system::System;
+
+/// Aborts the tests where something allocates that says it does not.
+#[global_allocator]
+static ALLOCATOR: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
 
 /// Without air, hysteresis and damping.
 const LOSSLESS: Losses = Losses {
