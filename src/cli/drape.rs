@@ -45,10 +45,10 @@ pub(super) struct DrapeArgs {
     /// Where every vertex is, forty times a second
     #[arg(long, value_name = "M.csv")]
     mesh: Option<PathBuf>,
-    /// Amplitudes of the contactors on both pads, one row a contactor a tick; places are the cloth's
+    /// Amplitudes of the contactors on both pads, a row a contactor a tick; places are the cloth's
     #[arg(long, value_name = "A.csv", requires = "path")]
     amplitudes: Option<PathBuf>,
-    /// How to step: explicit, ie, bdf2 or auto (the scene's)
+    /// How to step: explicit, ie, bdf2, xpbd or auto (the scene's)
     #[arg(long, value_name = "METHOD")]
     integrator: Option<Integrator>,
     /// Length of a step, ms (the scene's, or by the integrator)

@@ -94,6 +94,8 @@ pub(crate) struct Cloth {
     pub(crate) work_j: f64,
     pub(crate) next: Vec<Vector>,
     pub(crate) trial: Vec<Vector>,
+    /// 1/mass of the cloth's vertices, 0 of pinned ones, 1/kg.
+    pub(crate) per_kg: Vec<f64>,
 }
 
 impl Cloth {
@@ -107,7 +109,11 @@ impl Cloth {
             v: zeros.clone(),
             angles: system.sheet.shear.angles.clone(),
         };
+        let mesh = &system.sheet.mesh;
+        let vertices = mesh.mass_kg.iter().zip(&mesh.is_pinned);
+        let per_kg = vertices.map(|(kg, pinned)| if *pinned { 0.0 } else { kg.recip() });
         let mut cloth = Self {
+            per_kg: per_kg.collect(),
             newton: Newton::new(&system),
             system,
             stepping,
@@ -187,6 +193,7 @@ impl Cloth {
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
+            Integrator::Xpbd => self.project(),
             _ => self.implicit(if self.n_past > 0 { 2 } else { 1 }),
         }
         let fingers = self.system.fingers.iter();

@@ -263,8 +263,8 @@ impl Finger {
         lines.add_proxy(proxy, own);
     }
 
-    /// Ends a step: anchors slip to where friction holds them, new ones are set, and those of points
-    /// that left are given up.
+    /// Ends a step: anchors slip to where friction holds them, new ones are set, and those of
+    /// points that left are given up.
     pub(crate) fn settle(&mut self, mesh: &Mesh, x: &[Vector]) {
         self.look(mesh, x);
         let Some(side) = self.side else { return };

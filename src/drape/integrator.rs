@@ -12,6 +12,8 @@ named! {
         ImplicitEuler = "ie",
         /// The second backward difference formula.
         Bdf2 = "bdf2",
+        /// Positions moved by constraints, once a step: for pictures only.
+        Xpbd = "xpbd",
         /// By counts of vertices and the explicit limit.
         #[default]
         Auto = "auto",
@@ -46,6 +48,7 @@ impl Integrator {
                 (Self::Bdf2, largest_s, why)
             }
             Self::Explicit => (self, safe_s.min(1e-3), "as asked".to_owned()),
+            Self::Xpbd => (self, 1.0 / 2400.0, "as asked".to_owned()),
             _ => (self, largest_s, "as asked".to_owned()),
         }
     }

@@ -42,6 +42,7 @@ mod statics;
 mod stepping;
 mod system;
 mod tester;
+mod xpbd;
 
 pub use cloth::DrapeCounters;
 pub use error::DrapeError;

@@ -281,7 +281,7 @@ fn spread(out: &mut [Vector], [c00, c10, c01, c11]: [usize; 4], far: Vector, nea
 
 /// Shear angle of a cell, and how it follows its corners 11 and 10.
 #[inline]
-fn angle_of(mesh: &Mesh, [x00, x10, x01, x11]: [Vector; 4]) -> (f64, Vector, Vector) {
+pub(crate) fn angle_of(mesh: &Mesh, [x00, x10, x01, x11]: [Vector; 4]) -> (f64, Vector, Vector) {
     let (across, along) = (x11 - x00, x10 - x01);
     let x_u = (across + along) * (0.5 / mesh.h[0]);
     let x_w = (across - along) * (0.5 / mesh.h[1]);

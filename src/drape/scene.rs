@@ -281,6 +281,14 @@ impl DrapeScene {
             .or_else(|| self.step_ms.map(|ms| 1e-3 * ms))
             .unwrap_or(usual_s);
         DrapeError::within(("step", 1e3 * step_s, "ms"), [1e-3, 1e3])?;
+        let why = if chosen == Integrator::Xpbd {
+            format!(
+                "yarns act {:.3} times softer: for pictures only",
+                sheet.softening(step_s)
+            )
+        } else {
+            why
+        };
         let fingers = self.fingers.iter().enumerate().map(|(nth, spec)| {
             let form = (spec.side, spec.rotation_deg);
             let start = spec.target(spec.start_mm, spec.opening_mm);
@@ -448,11 +456,13 @@ mod tests {
                 ":2: there is no figure weight_mg_per_cm2",
             ),
             (
-                "textile = \"denim\"\n[[finger]]\nside = \"left\"\nstart_mm = [0, 0, 0]\nopening_mm = 9\n",
+                "textile = \"denim\"\n[[finger]]\nside = \"left\"\nstart_mm = [0, 0, 0]\n\
+                 opening_mm = 9\n",
                 ":4: the side is \"left\"; give \"front\"",
             ),
             (
-                "textile = \"denim\"\n[[finger]]\nmapping = \"mirrored\"\nstart_mm = [0, 0, 0]\nopening_mm = 9\n",
+                "textile = \"denim\"\n[[finger]]\nmapping = \"mirrored\"\nstart_mm = [0, 0, 0]\n\
+                 opening_mm = 9\n",
                 ":4: the mapping is \"mirrored\"",
             ),
         ] {

@@ -107,8 +107,8 @@ mod tests {
             elements.settle(0, value, law);
         }
         assert_eq!(at_zero, [-2.0, 2.0, -2.0], "there and back");
-        // f times the way slipped: two turns of 4 less the four reaches that turn round, the first of
-        // which begins at rest.
+        // f times the way slipped: two turns of 4 less the reaches where it turns round, the first
+        // of which begins at rest.
         assert!((lost - 2.0 * (8.0 - 0.1 - 4.0 * 0.2)).abs() < 0.1, "{lost}");
     }
 }

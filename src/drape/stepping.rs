@@ -56,7 +56,7 @@ impl Cloth {
     }
 
     /// Moves what is now into the past.
-    fn remember(&mut self) {
+    pub(crate) fn remember(&mut self) {
         self.past.swap(0, 1);
         let past = &mut self.past[0];
         past.x.copy_from_slice(&self.x);

@@ -119,8 +119,8 @@ fn figure(name: impl Into<String>, unit: &'static str, [given, found]: [f64; 2])
     }
 }
 
-/// EMT, LT, WT and RT along an axis. The loading branch is read without hysteresis' part by the mean
-/// of the ways there and back.
+/// EMT, LT, WT and RT along an axis; all but RT of the mean of the ways there and back, so that
+/// hysteresis has no part in them.
 fn stretch(
     fabric: &Fabric,
     (axis, side): (usize, &str),

@@ -176,3 +176,26 @@ fn a_cloth_that_rests_sleeps() {
         cloth.counters
     );
 }
+
+#[test]
+fn one_pass_of_positions_is_softer_as_told() {
+    let (stiffness, length, step_s) = (5e3, 0.2, 1.0 / 2400.0);
+    let grid = ([2, 26], [0.008, length]);
+    let fabric = Fabric::plain(0.2, stiffness, 0.0, 0.0);
+    let mut strip = cloth(grid, fabric, &Pins::Top, (Integrator::Xpbd, step_s));
+    let softening = strip.system.sheet.softening(step_s);
+    assert!(softening > 60.0, "{softening}");
+    let (mut low, n) = (0.0, 4000);
+    for step in 0..2 * n {
+        strip.step(&[]).unwrap();
+        if step >= n {
+            low += strip.x[0].y / f64::from(n);
+        }
+    }
+    let grown = 0.2 * crate::GRAVITY * length * length / (2.0 * stiffness);
+    let found = -low / grown;
+    assert!(
+        (found / softening - 1.0).abs() < 0.11,
+        "{found} {softening}"
+    );
+}
