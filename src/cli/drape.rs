@@ -21,6 +21,8 @@ use selvedge_render::MaterialContact;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::TICKS_PER_S;
 
+const PATH_HELP: &str =
+    "Hands: t_s and per finger x_mm,y_mm,z_mm,opening_mm (without it: the shape at rest)";
 /// Shapes are written as often as a display is given amplitudes, s.
 const MESH_EVERY_S: f64 = 1.0 / TICKS_PER_S;
 /// Most steps of one run.
@@ -35,8 +37,7 @@ pub(super) struct DrapeArgs {
     /// Scene file of a hanging cloth
     #[arg(required = true)]
     scene: Option<PathBuf>,
-    /// Hands: t_s and per finger x_mm,y_mm,z_mm,opening_mm (without it: the shape at rest)
-    #[arg(long, value_name = "FINGERS.csv")]
+    #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
     path: Option<PathBuf>,
     /// Forces on the fingers, a row a step; without --path the shape at rest (standard output if no
     /// file is asked for)
@@ -109,21 +110,18 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
         fixed(step_ms, 3)
     ));
     let stop = signals::stop_flag()?;
-    let energy = match &args.path {
-        Some(path) => {
-            let hands = HandPath::read(path, &scene)?;
-            let felt = args.amplitudes.as_deref();
-            let felt = felt
-                .map(|path| AmplitudesOut::new(path, &scene))
-                .transpose()?;
-            follow((args, felt), &mut drape, &hands, &stop)?
-        }
-        None => {
-            let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
-            mesh.write(&drape)?;
-            mesh.0.finish()?;
-            [drape.energy_j()[0], 0.0]
-        }
+    let energy = if let Some(path) = &args.path {
+        let hands = HandPath::read(path, &scene)?;
+        let felt = args.amplitudes.as_deref();
+        let felt = felt
+            .map(|path| AmplitudesOut::new(path, &scene))
+            .transpose()?;
+        follow((args, felt), &mut drape, &hands, &stop)?
+    } else {
+        let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
+        mesh.write(&drape)?;
+        mesh.0.finish()?;
+        [drape.energy_j()[0], 0.0]
     };
     match &args.stats {
         Some(place) => write_stats(args, place, &mut drape, energy),
@@ -342,20 +340,21 @@ fn test(fabric: &str) -> Result<(), CliError> {
         other => other.into(),
     })?;
     scene.notes().iter().for_each(|note| terminal::notice(note));
-    let mut text = format!(
-        "{:10} {:>10} {:>10} {:>8}  unit\n",
-        "figure", "given", "found", "off %"
-    );
-    for figure in test_fabric(&scene)? {
+    let head = ["figure", "given", "found", "off %", "unit"].map(str::to_owned);
+    let rows = test_fabric(&scene)?.into_iter().map(|figure| {
         let off = 100.0 * (figure.found / figure.given - 1.0);
-        text.push_str(&format!(
-            "{:10} {:>10} {:>10} {:>8}  {}\n",
+        [
             figure.name,
             fixed(figure.given, 4),
             fixed(figure.found, 4),
             fixed(off, 2),
-            figure.unit
-        ));
-    }
+            figure.unit.to_owned(),
+        ]
+    });
+    let line = |[name, given, found, off, unit]: [String; 5]| {
+        let line = format!("{name:10} {given:>10} {found:>10} {off:>8}  {unit}");
+        line.trim_end().to_owned() + "\n"
+    };
+    let text: String = std::iter::once(head).chain(rows).map(line).collect();
     output::print(&text)
 }
