@@ -6,6 +6,7 @@
 use std::io;
 
 use selvedge_device::{BridgeError, SinkError};
+use selvedge_drape::DrapeError;
 use selvedge_engine::{AudioError, EngineError};
 use selvedge_experiment::ExperimentError;
 use selvedge_foundation::files::FileError;
@@ -45,6 +46,9 @@ pub(crate) enum CliError {
     /// Something that cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A hanging cloth.
+    #[error(transparent)]
+    Drape(#[from] DrapeError),
     /// A device.
     #[error(transparent)]
     Bridge(#[from] BridgeError),
@@ -83,6 +87,7 @@ impl CliError {
             Self::Textile(error) => code_of_textile(error),
             Self::Picture(error) => code_of_picture(error),
             Self::Scene(error) => code_of_scene(error),
+            Self::Drape(error) => code_of_drape(error),
             Self::Bridge(error) => code_of_bridge(error),
             Self::Engine(error) => code_of_engine(error),
             Self::Sink(error) => code_of_sink(error),
@@ -145,6 +150,15 @@ fn code_of_scene(error: &SceneError) -> u8 {
         SceneError::File(error) => code_of_file(error),
         SceneError::Textile(error) => code_of_textile(error),
         SceneError::Value { .. } => 2,
+    }
+}
+
+fn code_of_drape(error: &DrapeError) -> u8 {
+    match error {
+        DrapeError::File(error) => code_of_file(error),
+        DrapeError::Textile(error) => code_of_textile(error),
+        DrapeError::Scene(error) => code_of_scene(error),
+        _ => 2,
     }
 }
 

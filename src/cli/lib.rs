@@ -22,6 +22,7 @@ mod bridge_kit;
 mod bridge_show;
 mod certify;
 mod doctor;
+mod drape;
 mod experiment;
 mod failure;
 mod figure;
@@ -104,6 +105,8 @@ enum Command {
     Render(render::RenderArgs),
     /// A stylus over a surface: place, force, friction, vibration and energy at every step
     Probe(probe::ProbeArgs),
+    /// A hanging cloth under two fingers: forces, slip and shape at every step
+    Drape(drape::DrapeArgs),
     /// Draw a whole exploration on one page: the way, amplitudes, spectra, levels, a caption
     Figure(figure::FigureArgs),
     /// Play an exploration in real time on a device
@@ -168,6 +171,7 @@ fn run(cli: Cli) -> Result<(), CliError> {
         None => workbench::open(cli.scene.as_deref()),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Probe(args)) => probe::run(&args),
+        Some(Command::Drape(args)) => drape::run(&args),
         Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Play(args)) => play::run(&args),
         Some(Command::Textile(command)) => textile::run(&command),

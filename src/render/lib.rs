@@ -36,6 +36,6 @@ pub use error::RenderError;
 pub use error_meter::ErrorMeter;
 pub use gains::GainTerms;
 pub use input::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-pub use plan::{Counters, Rule};
+pub use plan::{Counters, MaterialContact, Rule};
 pub use replay::{Replay, replay, replay_pair};
 pub use stats::{Histogram, LevelError, RunStats};

@@ -35,7 +35,7 @@ use table::TableEvaluator;
 use std::sync::Arc;
 
 use super::gains::Gains;
-use super::plan::{Contacts, Counters, DisplayPlan, ScenePlan, finite_pose};
+use super::plan::{Contacts, Counters, DisplayPlan, MaterialContact, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};
 use crate::scene::Pose;
 use selvedge_foundation::geometry::Point;
@@ -187,6 +187,32 @@ impl ArrayRenderer {
         });
         frame.owners.copy_from_slice(&display.owners);
         frame.round();
+    }
+
+    /// Renders a tick of one display whose contactors touch one textile (its place in the list)
+    /// each by itself, as on a cloth that hangs; those without a contact are silent. Other displays
+    /// keep their frames.
+    pub fn touch(
+        &mut self,
+        (display, textile): (usize, usize),
+        contacts: &[Option<MaterialContact>],
+    ) -> Option<&DisplayFrame> {
+        let (plan, frame) = (
+            self.displays.get_mut(display)?,
+            self.frames.get_mut(display)?,
+        );
+        self.counters.ticks += 1;
+        self.evaluator.begin_tick();
+        frame.begin();
+        let is_known = textile < self.plan.textiles.len();
+        if let Some(contacts) = plan.lay(textile, contacts).filter(|_| is_known) {
+            let factors = self.gains.factors(textile);
+            let evaluator = &mut self.evaluator;
+            evaluator.evaluate(&self.plan, &contacts, factors, frame, &mut self.counters);
+        }
+        frame.owners.copy_from_slice(&plan.owners);
+        frame.round();
+        Some(frame)
     }
 
     /// Silences contactors of one display in the frames of the last tick: those whose place in

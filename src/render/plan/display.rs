@@ -29,6 +29,15 @@ pub(crate) struct DisplayPlan {
     uncovered: Option<usize>,
 }
 
+/// What a contactor touches by itself, where no pose tells it: of a cloth that is no plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaterialContact {
+    /// The place on the cloth along its warp and weft, mm.
+    pub place_mm: [f64; 2],
+    /// How fast the contactor slips over it along warp and weft, mm/s of the cloth's own length.
+    pub velocity_mm_per_s: [f64; 2],
+}
+
 /// Where a display's centre is in a textile's frame, and how it lies there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placing {
@@ -170,6 +179,36 @@ impl DisplayPlan {
                 motion: motion.map_or(each, Motion::Together),
                 n_contactors,
             }
+        })
+    }
+
+    /// Gives a textile the contactors that touch it by themselves; `None` when there are none.
+    pub(crate) fn lay(
+        &mut self,
+        number: usize,
+        contacts: &[Option<MaterialContact>],
+    ) -> Option<Contacts<'_>> {
+        self.forget();
+        self.owners.fill(OUTSIDE);
+        self.n_owned = 0;
+        for (contactor, contact) in contacts.iter().take(self.owners.len()).enumerate() {
+            let Some(contact) =
+                contact.filter(|contact| contact.place_mm.iter().all(|mm| mm.is_finite()))
+            else {
+                continue;
+            };
+            [self.u_mm[contactor], self.w_mm[contactor]] = contact.place_mm;
+            let velocity = contact.velocity_mm_per_s;
+            [self.velocity_u[contactor], self.velocity_w[contactor]] = velocity;
+            self.owners[contactor] = owner_of(number);
+            self.n_owned += 1;
+        }
+        (self.n_owned > 0).then(|| Contacts {
+            textile: number,
+            owners: &self.owners,
+            places_mm: [&self.u_mm, &self.w_mm],
+            motion: Motion::Turning(&self.velocity_u, &self.velocity_w),
+            n_contactors: self.n_owned,
         })
     }
 

@@ -14,6 +14,7 @@ mod point;
 
 pub(super) use contact::{Contacts, Feel, Motion, OUTSIDE, TextilePlan};
 pub use counters::{Counters, Rule};
+pub use display::MaterialContact;
 pub(super) use display::{DisplayPlan, finite_pose};
 pub(super) use motion::{Axis, Component};
 pub(super) use point::{PointGrid, PointIndex, nearest_mm, whole_part};

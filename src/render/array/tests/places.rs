@@ -327,3 +327,45 @@ fn a_turned_cloth_is_felt_within_its_corners_as_without_them_and_nowhere_else() 
         }
     }
 }
+
+#[test]
+fn contactors_that_touch_by_themselves_feel_what_a_moving_display_would() {
+    for method in METHODS {
+        let scene = one_cloth();
+        let mut flat = renderer(&scene, method);
+        let mut hung = renderer(&scene, method);
+        let moving = pose([40.3, 51.2], [90.0, -35.0]);
+        let frame = flat.tick(&[moving])[0].clone();
+        let contact = |contactor: usize| {
+            let place = frame.contactor_position(contactor);
+            MaterialContact {
+                place_mm: [place.x_mm, place.y_mm],
+                velocity_mm_per_s: [90.0, -35.0],
+            }
+        };
+        let mut contacts: Vec<_> = (0..24).map(|contactor| Some(contact(contactor))).collect();
+        let touched = hung.touch((0, 0), &contacts).unwrap();
+        assert_eq!(touched.amplitudes_um(), frame.amplitudes_um(), "{method:?}");
+        contacts[3] = None;
+        contacts[4] = Some(MaterialContact {
+            place_mm: [f64::NAN, 0.0],
+            velocity_mm_per_s: [90.0, 0.0],
+        });
+        let touched = hung.touch((0, 0), &contacts[..20]).unwrap();
+        for contactor in 0..24 {
+            let is_felt = contactor < 20 && contactor != 3 && contactor != 4;
+            assert_eq!(
+                touched.amplitudes_um()[contactor][1] > 0.0,
+                is_felt,
+                "{contactor}"
+            );
+            assert_eq!(touched.textile(contactor), is_felt.then_some(0));
+        }
+        assert!(hung.touch((7, 0), &contacts).is_none(), "no such display");
+        let silent = hung.touch((0, 7), &contacts).unwrap();
+        assert!(
+            silent.amplitudes_um().iter().all(|a| *a == [0.0; 2]),
+            "no such textile"
+        );
+    }
+}

@@ -1,0 +1,360 @@
+//! `selvedge drape`: a hanging cloth under two fingers, step by step; and its testers.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use super::output::{self, TableOut};
+use super::terminal::{self, Meter};
+use super::{CliError, signals};
+use selvedge_drape::{
+    Drape, DrapeCounters, DrapeError, DrapeScene, Hand, HandPath, Integrator, test_fabric,
+};
+use selvedge_foundation::files::to_json_string;
+use selvedge_foundation::numerics::to_whole;
+use selvedge_foundation::progress::Cancelled;
+use selvedge_foundation::quantity::fixed;
+use selvedge_render::MaterialContact;
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::TICKS_PER_S;
+
+const PATH_HELP: &str =
+    "Hands: t_s and per finger x_mm,y_mm,z_mm,opening_mm (without it: the shape at rest)";
+/// Shapes are written as often as a display is given amplitudes, s.
+const MESH_EVERY_S: f64 = 1.0 / TICKS_PER_S;
+/// Most steps of one run.
+const MAX_STEPS: f64 = 2e7;
+/// What can be lost from the last step by rounding, in steps.
+const LAST_STEP_SLACK: f64 = 1e-6;
+
+/// What hangs, who touches it, and what to write.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(super) struct DrapeArgs {
+    /// Scene file of a hanging cloth
+    #[arg(required = true)]
+    scene: Option<PathBuf>,
+    #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
+    path: Option<PathBuf>,
+    /// Forces on the fingers, a row a step; without --path the shape at rest (standard output if no
+    /// file is asked for)
+    #[arg(long, value_name = "F.csv")]
+    out: Option<PathBuf>,
+    /// Where every vertex is, forty times a second
+    #[arg(long, value_name = "M.csv")]
+    mesh: Option<PathBuf>,
+    /// Amplitudes of the contactors on both pads, a row a contactor a tick; places are the cloth's
+    #[arg(long, value_name = "A.csv", requires = "path")]
+    amplitudes: Option<PathBuf>,
+    /// How to step: explicit, ie, bdf2, xpbd or auto (the scene's)
+    #[arg(long, value_name = "METHOD")]
+    integrator: Option<Integrator>,
+    /// Length of a step, ms (the scene's, or by the integrator)
+    #[arg(long, value_name = "MS")]
+    dt: Option<f64>,
+    /// Steps, iterations, energy and what was left out, as JSON
+    #[arg(long, value_name = "S.json")]
+    stats: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<DrapeCommand>,
+}
+
+/// What else there is.
+#[derive(Debug, Subcommand)]
+enum DrapeCommand {
+    /// The Kawabata testers on the simulated cloth, beside the figures that went in
+    Test {
+        /// A textile's id, or a scene file of a hanging cloth
+        fabric: String,
+    },
+}
+
+/// What `--stats` writes.
+#[derive(Debug, Serialize)]
+struct StatsFile<'a> {
+    program: &'static str,
+    version: &'static str,
+    scene: &'a Path,
+    path: Option<&'a Path>,
+    vertices: [usize; 2],
+    integrator: &'static str,
+    why: &'a str,
+    step_ms: f64,
+    simulated_s: f64,
+    /// At the start, and the largest by which it rose above that and the hands' work.
+    energy_start_j: f64,
+    energy_gained_j: f64,
+    work_j: f64,
+    counters: DrapeCounters,
+}
+
+/// Lets it hang, and touches it.
+pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
+    if let Some(DrapeCommand::Test { fabric }) = &args.command {
+        return test(fabric);
+    }
+    let Some(place) = args.scene.as_deref() else {
+        return Err(CliError::Input("no scene is named; give one".to_owned()));
+    };
+    let scene = DrapeScene::read(place)?;
+    scene.notes().iter().for_each(|note| terminal::notice(note));
+    let mut drape = Drape::new(&scene, args.integrator, args.dt.map(|ms| 1e-3 * ms))?;
+    let (integrator, why) = drape.integrator();
+    let step_ms = 1e3 * drape.step_s();
+    terminal::notice(&format!(
+        "{} at {} ms: {why}",
+        integrator.name(),
+        fixed(step_ms, 3)
+    ));
+    let stop = signals::stop_flag()?;
+    let energy = if let Some(path) = &args.path {
+        let hands = HandPath::read(path, &scene)?;
+        let felt = args.amplitudes.as_deref();
+        let felt = felt
+            .map(|path| AmplitudesOut::new(path, &scene))
+            .transpose()?;
+        follow((args, felt), &mut drape, &hands, &stop)?
+    } else {
+        let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
+        mesh.write(&drape)?;
+        mesh.0.finish()?;
+        [drape.energy_j()[0], 0.0]
+    };
+    match &args.stats {
+        Some(place) => write_stats(args, place, &mut drape, energy),
+        None => Ok(()),
+    }
+}
+
+/// Leads the fingers along their path; says the energy at the start and the most that was gained.
+fn follow(
+    (args, mut felt): (&DrapeArgs, Option<AmplitudesOut>),
+    drape: &mut Drape,
+    path: &HandPath,
+    stop: &Arc<AtomicBool>,
+) -> Result<[f64; 2], CliError> {
+    let [start_s, end_s] = path.span_s();
+    let step_s = drape.step_s();
+    let n_steps = ((end_s - start_s) / step_s + LAST_STEP_SLACK).floor();
+    if n_steps > MAX_STEPS {
+        let what = format!("the path takes {n_steps} steps of {} ms", 1e3 * step_s);
+        return Err(CliError::Input(format!(
+            "{what}; give a shorter one, or a larger --dt"
+        )));
+    }
+    let mut table = TableOut::new(args.out.as_deref(), &FORCE_COLUMNS)?;
+    let mut mesh = args
+        .mesh
+        .as_deref()
+        .map(|path| MeshOut::new(Some(path)))
+        .transpose()?;
+    let mut hands: Vec<Hand> = drape.start_hands();
+    path.at(start_s, &mut hands);
+    drape.place(&hands);
+    let [start_j, _] = drape.energy_j();
+    let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
+    let mut meter = Meter::new("draping");
+    for nth in 1..=to_whole::<u64>(n_steps) {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Cancelled.into());
+        }
+        if let Some(mesh) = mesh.as_mut().filter(|_| drape.t_s() >= next_mesh - 1e-9) {
+            mesh.write(drape)?;
+            next_mesh += MESH_EVERY_S;
+        }
+        path.at(start_s + nth as f64 * step_s, &mut hands);
+        drape.step(&hands)?;
+        let [energy_j, work_j] = drape.energy_j();
+        gained_j = gained_j.max(energy_j - start_j - work_j);
+        write_forces(&mut table, drape, energy_j)?;
+        if let Some(felt) = &mut felt {
+            felt.take(drape)?;
+        }
+        meter.show(nth as f64 / n_steps, drape.integrator().0.name());
+    }
+    if let Some(mut mesh) = mesh {
+        mesh.write(drape)?;
+        mesh.0.finish()?;
+    }
+    felt.map_or(Ok(()), |felt| felt.table.finish())?;
+    table.finish()?;
+    Ok([start_j, gained_j])
+}
+
+/// What the contactors are given at every tick of their displays.
+struct AmplitudesOut {
+    table: TableOut,
+    renderer: ArrayRenderer,
+    textile: String,
+    n_fingers: usize,
+    tick: u64,
+}
+
+impl AmplitudesOut {
+    fn new(path: &Path, scene: &DrapeScene) -> Result<Self, CliError> {
+        let header = [
+            "tick",
+            "t_s",
+            "display",
+            "contactor",
+            "x_mm",
+            "y_mm",
+            "textile",
+            "a40_um",
+            "a320_um",
+        ];
+        let rendered = scene.render_scene()?;
+        Ok(Self {
+            n_fingers: rendered.displays.len(),
+            renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
+            table: TableOut::new(Some(path), &header)?,
+            textile: scene.textile().unwrap_or_default().to_owned(),
+            tick: 0,
+        })
+    }
+
+    /// Renders the tick that a step has come to, if it has.
+    fn take(&mut self, drape: &mut Drape) -> Result<(), CliError> {
+        if drape.t_s() < (self.tick + 1) as f64 / TICKS_PER_S - 1e-9 {
+            return Ok(());
+        }
+        self.tick += 1;
+        let mut contacts = [None; 24];
+        for display in 0..self.n_fingers {
+            drape.tick_contacts(display, &mut contacts);
+            let frame = self.renderer.touch((display, 0), &contacts);
+            let amplitudes = frame.map_or(&[][..], |frame| frame.amplitudes_um());
+            for (contactor, (contact, felt)) in contacts.iter().zip(amplitudes).enumerate() {
+                let rows = self.table.rows();
+                rows.number(self.tick).number(drape.t_s());
+                rows.number(display).number(contactor);
+                if let Some(MaterialContact { place_mm, .. }) = contact {
+                    rows.number(place_mm[0])
+                        .number(place_mm[1])
+                        .text(&self.textile);
+                } else {
+                    rows.text("").text("").text("");
+                }
+                rows.number(felt[0]).number(felt[1]).end_row()?;
+            }
+        }
+        Ok(())
+    }
+}
+
+const FORCE_COLUMNS: [&str; 9] = [
+    "t_s",
+    "finger",
+    "fx_n",
+    "fy_n",
+    "fz_n",
+    "n_contacts",
+    "slip_mm_per_s",
+    "energy_j",
+    "iterations",
+];
+
+/// A row for each finger; one of no finger where there is none.
+fn write_forces(table: &mut TableOut, drape: &Drape, energy_j: f64) -> Result<(), CliError> {
+    let n_fingers = drape.start_hands().len().max(1);
+    for finger in 0..n_fingers {
+        let felt = drape.finger(finger);
+        let rows = table.rows();
+        rows.number(drape.t_s()).number(finger);
+        felt.force_n.iter().for_each(|force| {
+            rows.number(force);
+        });
+        rows.number(felt.n_contacts)
+            .number(felt.slip_mm_per_s)
+            .number(energy_j)
+            .number(drape.iterations());
+        rows.end_row()?;
+    }
+    Ok(())
+}
+
+/// A table of shapes.
+struct MeshOut(TableOut);
+
+impl MeshOut {
+    fn new(path: Option<&Path>) -> Result<Self, CliError> {
+        let header = ["t_s", "i", "j", "x_mm", "y_mm", "z_mm"];
+        Ok(Self(TableOut::new(path, &header)?))
+    }
+
+    fn write(&mut self, drape: &Drape) -> Result<(), CliError> {
+        let [n_warp, _] = drape.grid();
+        for (vertex, place) in drape.places_mm().enumerate() {
+            let rows = self.0.rows();
+            rows.number(drape.t_s())
+                .number(vertex % n_warp)
+                .number(vertex / n_warp);
+            for mm in place {
+                rows.number(mm);
+            }
+            rows.end_row()?;
+        }
+        Ok(())
+    }
+}
+
+fn write_stats(
+    args: &DrapeArgs,
+    place: &Path,
+    drape: &mut Drape,
+    [energy_start_j, energy_gained_j]: [f64; 2],
+) -> Result<(), CliError> {
+    let [_, work_j] = drape.energy_j();
+    let (integrator, why) = drape.integrator();
+    let file = StatsFile {
+        program: "selvedge",
+        version: env!("CARGO_PKG_VERSION"),
+        scene: args.scene.as_deref().unwrap_or_else(|| Path::new("")),
+        path: args.path.as_deref(),
+        vertices: drape.grid(),
+        integrator: integrator.name(),
+        why,
+        step_ms: 1e3 * drape.step_s(),
+        simulated_s: drape.t_s(),
+        energy_start_j,
+        energy_gained_j,
+        work_j,
+        counters: *drape.counters(),
+    };
+    output::write_text(Some(place), &to_json_string(&file, place)?)
+}
+
+/// Prints what the simulated testers find.
+fn test(fabric: &str) -> Result<(), CliError> {
+    let path = Path::new(fabric);
+    let scene = if path.is_file() {
+        DrapeScene::read(path)
+    } else {
+        DrapeScene::of_textile(fabric)
+    };
+    let scene = scene.map_err(|error| match error {
+        DrapeError::Textile(error) => CliError::Input(error.to_string()),
+        other => other.into(),
+    })?;
+    scene.notes().iter().for_each(|note| terminal::notice(note));
+    let head = ["figure", "given", "found", "off %", "unit"].map(str::to_owned);
+    let rows = test_fabric(&scene)?.into_iter().map(|figure| {
+        let off = 100.0 * (figure.found / figure.given - 1.0);
+        [
+            figure.name,
+            fixed(figure.given, 4),
+            fixed(figure.found, 4),
+            fixed(off, 2),
+            figure.unit.to_owned(),
+        ]
+    });
+    let line = |[name, given, found, off, unit]: [String; 5]| {
+        let line = format!("{name:10} {given:>10} {found:>10} {off:>8}  {unit}");
+        line.trim_end().to_owned() + "\n"
+    };
+    let text: String = std::iter::once(head).chain(rows).map(line).collect();
+    output::print(&text)
+}

@@ -1,0 +1,365 @@
+//! A finger on the cloth: a proxy that a spring pulls to where the hand wants it, and its pad.
+//!
+//! What points of the pad touch is found anew at every Newton step and held during its line search.
+//! Friction holds each point by a spring to an anchor in the cloth; the anchor slips where the
+//! spring pulls more than friction holds, and only that is felt as motion.
+
+use super::mesh::{Mesh, Vector};
+use super::pad::{self, POINT_M2, PULP_PA_PER_M, Pulp, REACH_M};
+use super::place::{Spot, find};
+use super::precondition::LinePreconditioner;
+use super::sheet::{Energy, Lag};
+
+/// Stiffness of the coupling between hand and proxy, N/m.
+const COUPLING_N_PER_M: f64 = 500.0;
+/// The largest force that it gives, N.
+pub(crate) const MAX_FORCE_N: f64 = 5.0;
+/// The fastest that the proxy is led, m/s.
+pub(crate) const MAX_SPEED_M_PER_S: f64 = 1.0;
+/// Stiffness of a point along the cloth, Pa/m.
+const ALONG_PA_PER_M: f64 = 0.5 * PULP_PA_PER_M;
+/// A point under less than this feels nothing, Pa.
+const LEAST_PA: f64 = 50.0;
+
+/// A finger.
+#[derive(Debug, Clone)]
+pub(crate) struct Finger {
+    /// Its proxy among the nodes.
+    node: usize,
+    /// Where the hand wants it, m, and how fast that moves, m/s.
+    pub(crate) target: Vector,
+    target_speed: Vector,
+    /// The side of the cloth that it is on by itself, and the one that it came to: +1 is the face.
+    own_side: f64,
+    side: Option<f64>,
+    /// Where its lowest point is above the cloth.
+    below: Option<Spot>,
+    pub(crate) points: Vec<Point>,
+    pulp: Pulp,
+    friction: f64,
+    half_thickness_m: f64,
+    coupling: Coupling,
+}
+
+/// The coupling as one spring to one place, in a step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Coupling {
+    stiffness: f64,
+    centre: Vector,
+    /// Force on the hand, N.
+    force: Vector,
+    tangent: f64,
+}
+
+/// A point of the pad.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Point {
+    offset: Vector,
+    /// What it is above, with the cloth's normal there.
+    pub(crate) spot: Option<Spot>,
+    /// Where it holds on to the cloth.
+    pub(crate) anchor: Option<Spot>,
+    /// How far the anchor slipped along warp and weft since it was last asked, m.
+    pub(crate) slipped_m: [f64; 2],
+    pub(crate) pressure_pa: f64,
+    /// What friction can hold in this Newton step, N.
+    holds_n: f64,
+    normal_tangent: f64,
+    /// Tangent along the cloth, and its direction of slip if it slips.
+    along: (f64, Option<Vector>),
+}
+
+impl Finger {
+    /// Mass of a proxy, kg.
+    pub(crate) const MASS_KG: f64 = 0.02;
+
+    pub(crate) fn new(
+        node: usize,
+        (own_side, rotation_deg): (f64, f64),
+        fabric: &super::Fabric,
+        start: Vector,
+    ) -> Self {
+        let point = |offset| Point {
+            offset,
+            spot: None,
+            anchor: None,
+            slipped_m: [0.0; 2],
+            pressure_pa: 0.0,
+            holds_n: 0.0,
+            normal_tangent: 0.0,
+            along: (0.0, None),
+        };
+        Self {
+            node,
+            target: start,
+            target_speed: Vector::zeros(),
+            own_side,
+            side: None,
+            below: None,
+            points: pad::points(rotation_deg).map(point).collect(),
+            pulp: Pulp::new(&fabric.compression),
+            friction: fabric.friction,
+            half_thickness_m: 0.5 * fabric.compression.thickness_m,
+            coupling: Coupling::default(),
+        }
+    }
+
+    /// Leads it towards a place over a step, not faster than it may. A place that is no number
+    /// leaves it where it is.
+    pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
+        let way = to - self.target;
+        let most = MAX_SPEED_M_PER_S * step_s;
+        let length = way.norm();
+        let moved = if !length.is_finite() {
+            Vector::zeros()
+        } else if length > most {
+            way * (most / length)
+        } else {
+            way
+        };
+        self.target += moved;
+        self.target_speed = moved / step_s;
+    }
+
+    /// Work that the hand did in the step that ends, J.
+    pub(crate) fn work_j(&self, step_s: f64) -> f64 {
+        -self.coupling.force.dot(&self.target_speed) * step_s
+    }
+
+    /// Begins a step: the coupling's spring and damper become one spring.
+    pub(crate) fn begin(&mut self, lag: &Lag) {
+        let damping = 2.0 * (COUPLING_N_PER_M * Self::MASS_KG).sqrt();
+        let stiffness = COUPLING_N_PER_M + damping * lag.sigma;
+        let damped = lag.hat[self.node] * lag.sigma + self.target_speed;
+        self.coupling.stiffness = stiffness;
+        self.coupling.centre = (self.target * COUPLING_N_PER_M + damped * damping) / stiffness;
+    }
+
+    /// Finds what it touches; says whether that is anything.
+    pub(crate) fn look(&mut self, mesh: &Mesh, x: &[Vector]) -> bool {
+        let apex = x[self.node];
+        self.below = find(mesh, x, apex, self.below.map(|spot| spot.place));
+        let gap = self.below.map(|spot| spot.normal.dot(&(apex - spot.at(x))));
+        self.side = match gap {
+            // It keeps the side that it came from until it is away.
+            Some(gap) if gap.abs() < 2.0 * REACH_M => self.side.or_else(|| {
+                let is_clear = gap.abs() > self.half_thickness_m;
+                Some(if is_clear {
+                    gap.signum()
+                } else {
+                    self.own_side
+                })
+            }),
+            _ => None,
+        };
+        let mut touches = false;
+        for point in &mut self.points {
+            let Some((side, below)) = self.side.zip(self.below) else {
+                (point.spot, point.anchor, point.pressure_pa) = (None, None, 0.0);
+                continue;
+            };
+            let at = apex + point.offset_on(side);
+            let warm = point.spot.map_or(below.place, |spot| spot.place);
+            point.spot = find(mesh, x, at, Some(warm));
+            let pressure = point.spot.map_or(0.0, |spot| {
+                let overlap = self.half_thickness_m - side * spot.normal.dot(&(at - spot.at(x)));
+                self.pulp.at(overlap)[1]
+            });
+            point.pressure_pa = pressure;
+            point.holds_n = self.friction * pressure * POINT_M2;
+            touches |= pressure > 0.0;
+        }
+        touches
+    }
+
+    pub(crate) fn evaluate(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
+        let mut energy = self.couple(x, grad);
+        let Some(side) = self.side else {
+            return energy;
+        };
+        for point in &mut self.points {
+            let at = x[self.node] + point.offset_on(side);
+            let Some(spot) = point.spot else {
+                (point.normal_tangent, point.along) = (0.0, (0.0, None));
+                continue;
+            };
+            let normal = spot.normal * side;
+            let overlap = self.half_thickness_m - normal.dot(&(at - spot.at(x)));
+            let [stored, pressure, slope] = self.pulp.at(overlap);
+            point.pressure_pa = pressure;
+            point.normal_tangent = POINT_M2 * slope;
+            energy.stored += POINT_M2 * stored;
+            let push = normal * (POINT_M2 * pressure);
+            grad[self.node] -= push;
+            spot.add(grad, push);
+            point.along = (0.0, None);
+            if let Some(anchor) = point.anchor {
+                let (part, force) = point.rub(at - anchor.at(x));
+                energy += part;
+                grad[self.node] += force;
+                anchor.add(grad, -force);
+            }
+        }
+        energy
+    }
+
+    /// The coupling's energy: what the spring holds is stored, the rest is damping's.
+    fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
+        let off = x[self.node] - self.coupling.centre;
+        let (value, tangent) = bounded_spring(self.coupling.stiffness, off.norm());
+        self.coupling.force = off * tangent;
+        self.coupling.tangent = tangent;
+        grad[self.node] += self.coupling.force;
+        let stretched = (x[self.node] - self.target).norm();
+        let (stored, _) = bounded_spring(COUPLING_N_PER_M, stretched);
+        Energy {
+            stored,
+            lost: value - stored,
+        }
+    }
+
+    pub(crate) fn product(&self, p: &[Vector], out: &mut [Vector]) {
+        out[self.node] += p[self.node] * self.coupling.tangent;
+        for point in &self.points {
+            let Some(spot) = point.spot.filter(|_| point.normal_tangent > 0.0) else {
+                continue;
+            };
+            let normal = spot.normal;
+            let pressed = normal.dot(&(p[self.node] - spot.at(p)));
+            let push = normal * (point.normal_tangent * pressed);
+            out[self.node] += push;
+            spot.add(out, -push);
+            if let (Some(anchor), (tangent, slips)) = (point.anchor, point.along)
+                && tangent > 0.0
+            {
+                let moved = p[self.node] - anchor.at(p);
+                let mut along = moved - normal * normal.dot(&moved);
+                if let Some(direction) = slips {
+                    along -= direction * direction.dot(&along);
+                }
+                let force = along * tangent;
+                out[self.node] += force;
+                anchor.add(out, -force);
+            }
+        }
+    }
+
+    pub(crate) fn precondition(&self, proxy: usize, lines: &mut LinePreconditioner) {
+        let mut own = Vector::repeat(self.coupling.tangent);
+        for point in &self.points {
+            if let Some(spot) = point.spot.filter(|_| point.normal_tangent > 0.0) {
+                own += spot.normal.map(|axis| axis * axis * point.normal_tangent);
+                for (vertex, weight) in spot.shares() {
+                    lines.add_normal(vertex, weight * weight * point.normal_tangent);
+                }
+                if let Some(anchor) = point.anchor {
+                    own += spot.normal.map(|axis| (1.0 - axis * axis) * point.along.0);
+                    for (vertex, weight) in anchor.shares() {
+                        lines.add_everywhere(vertex, weight * weight * point.along.0);
+                    }
+                }
+            }
+        }
+        lines.add_proxy(proxy, own);
+    }
+
+    /// Ends a step: anchors slip to where friction holds them, new ones are set, and those of
+    /// points that left are given up.
+    pub(crate) fn settle(&mut self, mesh: &Mesh, x: &[Vector]) {
+        self.look(mesh, x);
+        let Some(side) = self.side else { return };
+        for point in &mut self.points {
+            let at = x[self.node] + point.offset_on(side);
+            let touched = point.spot.filter(|_| point.pressure_pa > 0.0);
+            point.anchor = touched.and_then(|spot| match point.anchor {
+                None => Some(spot),
+                Some(anchor) => point.slip(mesh, x, (anchor, at)),
+            });
+        }
+    }
+
+    /// Force on the hand, N.
+    pub(crate) fn force_n(&self) -> Vector {
+        self.coupling.force
+    }
+
+    /// Force of the pad on the cloth along its normals, N.
+    pub(crate) fn press_n(&self) -> f64 {
+        self.points
+            .iter()
+            .map(|point| POINT_M2 * point.pressure_pa)
+            .sum()
+    }
+
+    /// Whether it is so near that the cloth has to be awake.
+    pub(crate) fn is_near(&self) -> bool {
+        self.side.is_some()
+    }
+
+    /// Stiffness over mass that its points add at most where they touch, 1/s².
+    pub(crate) fn stiffness_per_kg(&self, density_kg_per_m2: f64) -> f64 {
+        let touches = self.points.iter().any(|point| point.spot.is_some());
+        if touches {
+            (PULP_PA_PER_M + ALONG_PA_PER_M) / density_kg_per_m2
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Point {
+    /// Whether what it moves over is felt.
+    pub(crate) fn is_felt(&self) -> bool {
+        self.spot.is_some() && self.pressure_pa >= LEAST_PA
+    }
+
+    fn offset_on(&self, side: f64) -> Vector {
+        Vector::new(self.offset.x, self.offset.y, side * self.offset.z)
+    }
+
+    /// Friction's part at so much from the anchor: its energy, and the force on the finger's node.
+    fn rub(&mut self, from_anchor: Vector) -> (Energy, Vector) {
+        let Some(spot) = self.spot else {
+            return (Energy::default(), Vector::zeros());
+        };
+        let along = from_anchor - spot.normal * spot.normal.dot(&from_anchor);
+        let (stiffness, length) = (ALONG_PA_PER_M * POINT_M2, along.norm());
+        if stiffness * length <= self.holds_n {
+            self.along = (stiffness, None);
+            let stored = 0.5 * stiffness * length * length;
+            return (Energy { stored, lost: 0.0 }, along * stiffness);
+        }
+        let reach = self.holds_n / stiffness;
+        self.along = (self.holds_n / length, Some(along / length));
+        let energy = Energy {
+            stored: 0.5 * self.holds_n * reach,
+            lost: self.holds_n * (length - reach),
+        };
+        (energy, along * (self.holds_n / length))
+    }
+
+    /// Where an anchor is held after a step; `None` off the cloth.
+    fn slip(&mut self, mesh: &Mesh, x: &[Vector], (anchor, at): (Spot, Vector)) -> Option<Spot> {
+        let spot = self.spot?;
+        let off = at - anchor.at(x);
+        let along = off - spot.normal * spot.normal.dot(&off);
+        let held = self.holds_n / (ALONG_PA_PER_M * POINT_M2);
+        let over = along.norm() - held;
+        if over <= 0.0 {
+            return Some(anchor);
+        }
+        let moved = anchor.material(mesh, x, along * (over / along.norm()))?;
+        let place = [0, 1].map(|axis| anchor.place[axis] + moved[axis]);
+        (0..2).for_each(|axis| self.slipped_m[axis] += moved[axis]);
+        Spot::new(mesh, x, place)
+    }
+}
+
+/// Energy of a spring that never pulls with more than the largest force, and its force per length.
+fn bounded_spring(stiffness: f64, length: f64) -> (f64, f64) {
+    if stiffness * length <= MAX_FORCE_N {
+        return (0.5 * stiffness * length * length, stiffness);
+    }
+    let reach = MAX_FORCE_N / stiffness;
+    (MAX_FORCE_N * (length - 0.5 * reach), MAX_FORCE_N / length)
+}

@@ -1,0 +1,271 @@
+//! A scene in motion, seen from outside: in millimetres, step by step.
+
+use super::cloth::{Cloth, DrapeCounters};
+use super::finger::{Finger, Point};
+use super::hands::Hand;
+use super::integrator::Integrator;
+use super::mesh::Vector;
+use super::scene::FingerSpec;
+use super::{DrapeError, DrapeScene};
+
+/// A hanging cloth that is stepped.
+#[derive(Debug, Clone)]
+pub struct Drape {
+    cloth: Cloth,
+    specs: Vec<FingerSpec>,
+    why: String,
+    t_s: f64,
+    targets: Vec<Vector>,
+    /// How far every point of each finger had slipped a step ago, m.
+    slipped_m: Vec<Vec<[f64; 2]>>,
+    /// The same for contactors at the last tick of the displays.
+    ticked_m: Vec<[[f64; 2]; 24]>,
+    newton_before: u64,
+}
+
+/// What a finger feels after a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FingerRow {
+    /// Force on the hand, N.
+    pub force_n: [f64; 3],
+    /// Points of its pad that feel the cloth.
+    pub n_contacts: usize,
+    /// How fast these slip over the cloth on average, mm/s of the cloth's own length.
+    pub slip_mm_per_s: f64,
+    /// Force of the pad across the cloth, N.
+    pub press_n: f64,
+}
+
+impl Drape {
+    /// A scene's cloth where it comes to rest, fingers where they start. An integrator or a step in
+    /// s takes the place of the scene's.
+    ///
+    /// # Errors
+    /// A step that cannot be.
+    pub fn new(
+        scene: &DrapeScene,
+        integrator: Option<Integrator>,
+        step_s: Option<f64>,
+    ) -> Result<Self, DrapeError> {
+        let (mut cloth, why) = scene.cloth(integrator, step_s)?;
+        if scene.is_hung() && !cloth.settle_to_rest()? {
+            let mend = "give another grid, or figures nearer to a cloth's";
+            return Err(DrapeError::input("the cloth comes to no rest", mend));
+        }
+        let slipped = |finger: &Finger| vec![[0.0; 2]; finger.points.len()];
+        Ok(Self {
+            slipped_m: cloth.fingers().iter().map(slipped).collect(),
+            ticked_m: vec![[[0.0; 2]; 24]; scene.fingers().len()],
+            specs: scene.fingers().to_vec(),
+            targets: vec![Vector::zeros(); scene.fingers().len()],
+            newton_before: cloth.counters.newton,
+            t_s: 0.0,
+            cloth,
+            why,
+        })
+    }
+
+    /// The hands where the scene lets them start.
+    pub fn start_hands(&self) -> Vec<Hand> {
+        let hand = |spec: &FingerSpec| Hand {
+            centre_mm: spec.start_mm,
+            opening_mm: spec.opening_mm,
+        };
+        self.specs.iter().map(hand).collect()
+    }
+
+    /// Puts the fingers where hands are, before the first step: nothing flies there.
+    pub fn place(&mut self, hands: &[Hand]) {
+        self.aim(hands);
+        self.cloth.place_fingers(&self.targets);
+    }
+
+    fn aim(&mut self, hands: &[Hand]) {
+        for ((target, spec), hand) in self.targets.iter_mut().zip(&self.specs).zip(hands) {
+            *target = spec.target(hand.centre_mm, hand.opening_mm);
+        }
+    }
+
+    /// Takes a step towards where hands are. Allocates nothing.
+    ///
+    /// # Errors
+    /// An explicit step beyond its limit; nothing has moved then.
+    pub fn step(&mut self, hands: &[Hand]) -> Result<(), DrapeError> {
+        self.aim(hands);
+        for (before, finger) in self.slipped_m.iter_mut().zip(self.cloth.fingers()) {
+            for (before, point) in before.iter_mut().zip(&finger.points) {
+                *before = point.slipped_m;
+            }
+        }
+        self.newton_before = self.cloth.counters.newton;
+        self.cloth.step(&self.targets)?;
+        self.t_s += self.step_s();
+        Ok(())
+    }
+
+    /// Time since the start, s.
+    pub fn t_s(&self) -> f64 {
+        self.t_s
+    }
+
+    /// Length of a step, s.
+    pub fn step_s(&self) -> f64 {
+        self.cloth.stepping.step_s
+    }
+
+    /// How it is stepped, and why.
+    pub fn integrator(&self) -> (Integrator, &str) {
+        (self.cloth.stepping.integrator, &self.why)
+    }
+
+    /// What a finger feels.
+    pub fn finger(&self, index: usize) -> FingerRow {
+        let Some(finger) = self.cloth.fingers().get(index) else {
+            return FingerRow::default();
+        };
+        let felt = finger.points.iter().zip(&self.slipped_m[index]);
+        let felt = felt.filter(|(point, _)| point.is_felt());
+        let (mut n_contacts, mut slipped_m) = (0, 0.0);
+        for (point, before) in felt {
+            n_contacts += 1;
+            let moved = [0, 1].map(|axis| point.slipped_m[axis] - before[axis]);
+            slipped_m += moved[0].hypot(moved[1]);
+        }
+        let mean_m = slipped_m / (n_contacts.max(1) as f64);
+        FingerRow {
+            force_n: finger.force_n().into(),
+            n_contacts,
+            slip_mm_per_s: 1e3 * mean_m / self.step_s(),
+            press_n: finger.press_n(),
+        }
+    }
+
+    pub(crate) fn points(&self, finger: usize) -> Option<&[Point]> {
+        Some(&self.cloth.fingers().get(finger)?.points)
+    }
+
+    pub(crate) fn ticked_mut(&mut self, finger: usize) -> &mut [[f64; 2]; 24] {
+        &mut self.ticked_m[finger]
+    }
+
+    /// Energy of cloth and fingers, J, and the work that hands did since the start.
+    pub fn energy_j(&mut self) -> [f64; 2] {
+        [self.cloth.energy_j(), self.cloth.work_j]
+    }
+
+    /// Newton steps of the last step.
+    pub fn iterations(&self) -> u64 {
+        self.cloth.counters.newton - self.newton_before
+    }
+
+    /// Vertices along warp and weft.
+    pub fn grid(&self) -> [usize; 2] {
+        self.cloth.system.sheet.mesh.n
+    }
+
+    /// Where the vertices are, mm, row by row along the warp.
+    pub fn places_mm(&self) -> impl ExactSizeIterator<Item = [f64; 3]> + '_ {
+        let n = self.cloth.system.sheet.mesh.n_vertices();
+        self.cloth.x[..n].iter().map(|x| (*x * 1e3).into())
+    }
+
+    /// What was done.
+    pub fn counters(&self) -> &DrapeCounters {
+        &self.cloth.counters
+    }
+
+    /// The largest strain along warp and weft now.
+    pub fn strains(&self) -> [f64; 2] {
+        self.cloth
+            .system
+            .sheet
+            .stretch
+            .each_ref()
+            .map(|one| one.largest_strain)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn the_shipped_cloth_is_pinched_and_let_go() {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");
+        let scene = DrapeScene::read(&path).unwrap();
+        let mut drape = Drape::new(&scene, None, None).unwrap();
+        let places: Vec<[f64; 3]> = drape.places_mm().collect();
+        let lowest = places
+            .iter()
+            .map(|place| place[1])
+            .fold(f64::INFINITY, f64::min);
+        assert!(
+            (-2.0..0.0).contains(&lowest),
+            "{lowest} mm: it hangs by its weight"
+        );
+        let mut hands = drape.start_hands();
+        drape.place(&hands);
+        let [start_j, _] = drape.energy_j();
+        let mut most = 0;
+        for step in 0..800 {
+            let opening = if step < 600 {
+                60.0 - 0.2 * f64::from(step.min(310))
+            } else {
+                60.0
+            };
+            for hand in &mut hands {
+                hand.opening_mm = opening;
+            }
+            drape.step(&hands).unwrap();
+            most = most.max(drape.finger(0).n_contacts);
+            if step == 599 {
+                let pushed = [0, 1].map(|finger| drape.finger(finger).force_n[2]);
+                assert!(pushed[0] > 0.1 && pushed[1] < -0.1, "{pushed:?}");
+                assert!((pushed[0] + pushed[1]).abs() < 0.05, "{pushed:?}");
+            }
+        }
+        assert!(most >= 12, "{most} points felt it");
+        assert_eq!(drape.finger(0).n_contacts, 0);
+        let [end_j, work_j] = drape.energy_j();
+        assert!(
+            end_j <= start_j + work_j + 1e-4,
+            "{start_j} {end_j} {work_j}"
+        );
+    }
+
+    #[test]
+    fn a_step_allocates_nothing_with_whatever_method() {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");
+        let scene = DrapeScene::read(&path).unwrap();
+        for (integrator, step_s) in [
+            (Integrator::Explicit, 5e-6),
+            (Integrator::ImplicitEuler, 2e-3),
+            (Integrator::Bdf2, 2e-3),
+        ] {
+            let mut drape = Drape::new(&scene, Some(integrator), Some(step_s)).unwrap();
+            let mut hands = drape.start_hands();
+            for hand in &mut hands {
+                hand.opening_mm = 0.5;
+            }
+            drape.place(&hands);
+            let mut contacts = [None; 24];
+            let mut felt = 0;
+            for step in 0..40 {
+                let rubbed = 0.05 * f64::from(step);
+                for hand in &mut hands {
+                    hand.opening_mm = -rubbed;
+                }
+                hands[0].centre_mm[0] += 0.5;
+                assert_no_alloc::assert_no_alloc(|| {
+                    drape.step(&hands).unwrap();
+                    drape.tick_contacts(0, &mut contacts);
+                    felt += drape.finger(0).n_contacts + contacts.iter().flatten().count();
+                });
+            }
+            assert!(felt > 40, "{integrator:?}: {felt}");
+        }
+    }
+}

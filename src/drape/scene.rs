@@ -1,0 +1,490 @@
+//! The scene file `NAME.drape.toml`: which cloth hangs how, and which fingers are there.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::cloth::{Cloth, Stepping};
+use super::finger::Finger;
+use super::integrator::Integrator;
+use super::kes::{self, Figures};
+use super::mesh::{Mesh, Pins, Vector};
+use super::sheet::{Losses, Sheet};
+use super::system::System;
+use super::{DrapeError, Fabric};
+use selvedge_foundation::files::{self, Flaw};
+use selvedge_textile::{Library, is_of_the_program};
+
+/// Mechanical figures of the textiles that are part of the program.
+const FABRICS: &str = include_str!("../../assets/drape/fabrics.toml");
+/// Widest spacing of a grid that is chosen, m.
+const LIVE_SPACING_M: f64 = 8e-3;
+/// Most fingers.
+const MAX_FINGERS: usize = 2;
+
+/// A cloth that hangs, and fingers.
+#[derive(Debug, Clone)]
+pub struct DrapeScene {
+    name: String,
+    textile: Option<String>,
+    /// Where its library is; `None` is that of the program.
+    pub(crate) library_folder: Option<PathBuf>,
+    size_mm: [f64; 2],
+    grid: Option<[usize; 2]>,
+    pins: Pins,
+    losses: Losses,
+    /// How it is stepped if nobody says otherwise.
+    integrator: Integrator,
+    step_ms: Option<f64>,
+    fabric: Fabric,
+    /// What is to be told of its figures.
+    notes: Vec<String>,
+    fingers: Vec<FingerSpec>,
+}
+
+/// A finger of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FingerSpec {
+    /// +1 in front of the cloth, −1 behind it.
+    pub(crate) side: f64,
+    pub(crate) rotation_deg: f64,
+    pub(crate) start_mm: [f64; 3],
+    pub(crate) opening_mm: f64,
+    /// It does what the first finger does.
+    pub(crate) is_mirrored: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneKeys {
+    name: String,
+    library: Option<PathBuf>,
+    textile: Option<String>,
+    #[serde(default = "usual_size_mm")]
+    size_mm: [f64; 2],
+    grid: Option<GridKey>,
+    pins: Option<String>,
+    air: Option<bool>,
+    hysteresis: Option<bool>,
+    friction: Option<f64>,
+    integrator: Option<String>,
+    step_ms: Option<f64>,
+    #[serde(default)]
+    measured: Figures,
+    #[serde(default, rename = "finger")]
+    fingers: Vec<FingerKeys>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum GridKey {
+    Word(String),
+    Vertices([usize; 2]),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FingerKeys {
+    display: Option<String>,
+    side: Option<String>,
+    mapping: Option<String>,
+    #[serde(default)]
+    rotation_deg: f64,
+    start_mm: [f64; 3],
+    opening_mm: f64,
+}
+
+fn usual_size_mm() -> [f64; 2] {
+    [200.0; 2]
+}
+
+impl DrapeScene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// One line: what is wrong, where, and how to mend it.
+    pub fn read(path: &Path) -> Result<Self, DrapeError> {
+        let text = files::read_text(path)?;
+        let keys: SceneKeys = files::keys_from_str(&text, path)?;
+        let wrong = |flaw: Flaw| DrapeError::from(flaw.in_file(&text, path));
+        if let Some(key) = keys.measured.keys().find(|key| !kes::is_known(key)) {
+            let line = files::line_of_key(&text, "measured", 0, key);
+            let what = format!("unknown figure \"{key}\"");
+            let mend = "name one of the Kawabata testers with its unit, such as emt_percent";
+            return Err(files::FileError::content(path, line, what, mend).into());
+        }
+        let beside = path.parent().unwrap_or_else(|| Path::new(""));
+        let library = keys.library.as_ref().map(|library| {
+            if is_of_the_program(library) {
+                library.clone()
+            } else {
+                beside.join(library)
+            }
+        });
+        let figures = match &keys.textile {
+            Some(id) => figures_of(id, library.as_deref())
+                .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
+            None => Figures::new(),
+        };
+        let figures = figures.into_iter().chain(keys.measured.clone()).collect();
+        let (mut fabric, notes) = Fabric::of_figures(&figures)
+            .map_err(|error| wrong(placed(("measured", 0, ""), &error)))?;
+        if let Some(friction) = keys.friction {
+            DrapeError::within(("friction", friction, ""), [0.0, 10.0])
+                .map_err(|error| wrong(placed(("", 0, "friction"), &error)))?;
+            fabric.friction = friction;
+        }
+        let mut scene = Self::from_keys(keys, fabric).map_err(wrong)?;
+        scene.notes = notes;
+        scene.library_folder = library;
+        // What makes no grid is told where it stands.
+        scene
+            .mesh()
+            .map_err(|error| wrong(placed(("", 0, "size_mm"), &error)))?;
+        Ok(scene)
+    }
+
+    /// A scene of a textile of the library alone: 200 × 200 mm, pinned at its top.
+    ///
+    /// # Errors
+    /// A textile that is unknown, or whose figures are.
+    pub fn of_textile(id: &str) -> Result<Self, DrapeError> {
+        let (fabric, notes) = Fabric::of_figures(&figures_of(id, None)?)?;
+        Ok(Self {
+            name: id.to_owned(),
+            textile: Some(id.to_owned()),
+            library_folder: None,
+            size_mm: usual_size_mm(),
+            grid: None,
+            pins: Pins::Top,
+            losses: Losses::default(),
+            integrator: Integrator::Auto,
+            step_ms: None,
+            fabric,
+            notes,
+            fingers: Vec::new(),
+        })
+    }
+
+    fn from_keys(keys: SceneKeys, fabric: Fabric) -> Result<Self, Flaw> {
+        let grid = match keys.grid {
+            None => None,
+            Some(GridKey::Word(word)) if word == "auto" => None,
+            Some(GridKey::Word(word)) => {
+                let mend = "give \"auto\", or vertices along warp and weft such as [26, 26]";
+                return Err(Flaw::new(
+                    ("", 0, "grid"),
+                    format!("the grid is \"{word}\""),
+                    mend,
+                ));
+            }
+            Some(GridKey::Vertices(vertices)) => Some(vertices),
+        };
+        let pins = pins_of(keys.pins.as_deref())?;
+        let named: Result<Integrator, String> =
+            keys.integrator.as_deref().unwrap_or("auto").parse();
+        let integrator = named
+            .map_err(|mend| Flaw::new(("", 0, "integrator"), "this is no integrator", mend))?;
+        if keys.step_ms.is_some_and(|ms| !(1e-3..=1e3).contains(&ms)) {
+            let mend = "give 0.001 to 1000 ms";
+            return Err(Flaw::new(("", 0, "step_ms"), "this is no step", mend));
+        }
+        if keys.fingers.len() > MAX_FINGERS {
+            let what = format!("there are {} fingers", keys.fingers.len());
+            return Err(Flaw::new(
+                ("finger", MAX_FINGERS, ""),
+                what,
+                "give two at most",
+            ));
+        }
+        let fingers = keys.fingers.into_iter().enumerate();
+        let fingers = fingers.map(|(nth, keys)| FingerSpec::from_keys(keys, nth));
+        Ok(Self {
+            name: keys.name,
+            textile: keys.textile,
+            library_folder: None,
+            size_mm: keys.size_mm,
+            grid,
+            pins,
+            losses: Losses {
+                has_air: keys.air.unwrap_or(true),
+                has_hysteresis: keys.hysteresis.unwrap_or(false),
+                ..Losses::default()
+            },
+            integrator,
+            step_ms: keys.step_ms,
+            fabric,
+            notes: Vec::new(),
+            fingers: fingers.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What people call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The textile that it is of, if it is one of a library.
+    pub fn textile(&self) -> Option<&str> {
+        self.textile.as_deref()
+    }
+
+    /// Width and height at rest, mm.
+    pub fn size_mm(&self) -> [f64; 2] {
+        self.size_mm
+    }
+
+    /// What is odd about its figures: a line each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Whether anything holds it, so that it comes to rest.
+    pub(crate) fn is_hung(&self) -> bool {
+        self.pins != Pins::None
+    }
+
+    /// Its mechanical laws.
+    pub fn fabric(&self) -> &Fabric {
+        &self.fabric
+    }
+
+    pub(crate) fn fingers(&self) -> &[FingerSpec] {
+        &self.fingers
+    }
+
+    fn mesh(&self) -> Result<Mesh, DrapeError> {
+        let size_m = self.size_mm.map(|mm| 1e-3 * mm);
+        let spacing_m = self.fabric.spacing_m(LIVE_SPACING_M);
+        let chosen = |side: usize| {
+            let cells = (size_m[side] / spacing_m - 1e-9).ceil().clamp(1.0, 399.0);
+            selvedge_foundation::numerics::to_index(cells) + 1
+        };
+        let n = self.grid.unwrap_or_else(|| [0, 1].map(chosen));
+        Mesh::new(n, size_m, self.fabric.density_kg_per_m2, &self.pins)
+    }
+
+    /// The cloth and its fingers where they start, stepped as asked or as the scene says; with why.
+    pub(crate) fn cloth(
+        &self,
+        integrator: Option<Integrator>,
+        step_s: Option<f64>,
+    ) -> Result<(Cloth, String), DrapeError> {
+        let mesh = self.mesh()?;
+        let n_vertices = mesh.n_vertices();
+        let sheet = Sheet::new(mesh, self.fabric, self.losses);
+        let limit_s = sheet.limit_s(0.0);
+        let asked = integrator.unwrap_or(self.integrator);
+        let (chosen, usual_s, why) = asked.chosen(n_vertices, limit_s);
+        let step_s = step_s
+            .or_else(|| self.step_ms.map(|ms| 1e-3 * ms))
+            .unwrap_or(usual_s);
+        DrapeError::within(("step", 1e3 * step_s, "ms"), [1e-3, 1e3])?;
+        let why = if chosen == Integrator::Xpbd {
+            format!(
+                "yarns act {:.3} times softer: for pictures only",
+                sheet.softening(step_s)
+            )
+        } else {
+            why
+        };
+        let fingers = self.fingers.iter().enumerate().map(|(nth, spec)| {
+            let form = (spec.side, spec.rotation_deg);
+            let start = spec.target(spec.start_mm, spec.opening_mm);
+            Finger::new(n_vertices + nth, form, &self.fabric, start)
+        });
+        let system = System::new(sheet, fingers.collect());
+        Ok((Cloth::new(system, Stepping::new(chosen, step_s)), why))
+    }
+}
+
+impl FingerSpec {
+    fn from_keys(keys: FingerKeys, nth: usize) -> Result<Self, Flaw> {
+        let flaw = |key, what: String, mend: &str| Err(Flaw::new(("finger", nth, key), what, mend));
+        if let Some(display) = keys.display.filter(|display| display != "exeter-24") {
+            let what = format!("the display is \"{display}\"");
+            return flaw(
+                "display",
+                what,
+                "give \"exeter-24\": a pad has its 24 contactors",
+            );
+        }
+        let side = match keys.side.as_deref() {
+            None => [1.0, -1.0][nth.min(1)],
+            Some("front") => 1.0,
+            Some("back") => -1.0,
+            Some(side) => {
+                let what = format!("the side is \"{side}\"");
+                return flaw("side", what, "give \"front\" or \"back\"");
+            }
+        };
+        let is_mirrored = match keys.mapping.as_deref() {
+            None | Some("path") => false,
+            Some("mirrored") if nth > 0 => true,
+            Some(mapping) => {
+                let what = format!("the mapping is \"{mapping}\"");
+                return flaw(
+                    "mapping",
+                    what,
+                    "give \"path\"; a second finger may be \"mirrored\"",
+                );
+            }
+        };
+        let numbers = [keys.rotation_deg, keys.opening_mm]
+            .into_iter()
+            .chain(keys.start_mm);
+        if numbers.into_iter().any(|x| x.is_nan() || x.abs() > 1e4) {
+            return flaw(
+                "start_mm",
+                "this is no place".to_owned(),
+                "give numbers up to 10000",
+            );
+        }
+        Ok(Self {
+            side,
+            rotation_deg: keys.rotation_deg,
+            start_mm: keys.start_mm,
+            opening_mm: keys.opening_mm,
+            is_mirrored,
+        })
+    }
+
+    /// Where the lowest point of its pad is wanted, m: half the opening from the centre of a grasp.
+    pub(crate) fn target(&self, centre_mm: [f64; 3], opening_mm: f64) -> Vector {
+        let [x_mm, y_mm, z_mm] = centre_mm;
+        Vector::new(x_mm, y_mm, z_mm + self.side * 0.5 * opening_mm) * 1e-3
+    }
+}
+
+fn pins_of(word: Option<&str>) -> Result<Pins, Flaw> {
+    match word {
+        None | Some("top") => Ok(Pins::Top),
+        Some("corners") => Ok(Pins::Corners),
+        Some("frame") => Ok(Pins::Frame),
+        Some("none") => Ok(Pins::None),
+        Some(word) => {
+            let mend = "give \"top\", \"corners\", \"frame\" or \"none\"";
+            let what = format!("the pins are \"{word}\"");
+            Err(Flaw::new(("", 0, "pins"), what, mend))
+        }
+    }
+}
+
+/// An error of a value as one of the place where it stands.
+fn placed(place: files::Place, error: &DrapeError) -> Flaw {
+    Flaw::described(place, &error.to_string(), "correct it")
+}
+
+/// Mechanical figures of a textile: those of the program, below those that its own manifest states.
+fn figures_of(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
+    let library = match library {
+        Some(folder) => Library::named(folder, None)?,
+        None => Library::shipped()?,
+    };
+    let own = library.manifest(id)?.measured;
+    let path = Path::new("fabrics.toml");
+    let mut known: BTreeMap<String, FabricKeys> = files::keys_from_str(FABRICS, path)?;
+    let known = known.remove(id).unwrap_or_default();
+    let own = own.into_iter().filter(|(key, _)| kes::is_known(key));
+    Ok(known.figures.into_iter().chain(own).collect())
+}
+
+/// An entry of the figures of the program.
+#[derive(Default, Deserialize)]
+struct FabricKeys {
+    #[serde(default, rename = "class")]
+    #[expect(dead_code, reason = "for those who read the file")]
+    class: String,
+    #[serde(flatten)]
+    figures: Figures,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_scratch::ScratchFolder;
+
+    #[test]
+    fn every_shipped_textile_has_figures_that_fit() {
+        for id in Library::shipped().unwrap().ids() {
+            let scene = DrapeScene::of_textile(id).unwrap();
+            assert_eq!(scene.notes(), &[] as &[String], "{id}");
+        }
+        let entries: BTreeMap<String, FabricKeys> =
+            files::keys_from_str(FABRICS, Path::new("fabrics.toml")).unwrap();
+        for (id, entry) in entries {
+            let odd = entry.figures.keys().find(|key| !kes::is_known(key));
+            assert!(odd.is_none(), "{id}: {odd:?}");
+        }
+    }
+
+    #[test]
+    fn wrong_scenes_name_the_line_and_the_mend() {
+        let folder = ScratchFolder::made("drape-scene");
+        let path = folder.join("a.drape.toml");
+        for (text, expected) in [
+            ("textile = \"denim\"\nsize = 3\n", ":3: unknown field"),
+            ("textile = \"velvet\"\n", ":2: "),
+            (
+                "textile = \"denim\"\npins = \"left\"\n",
+                ":3: the pins are \"left\"; give",
+            ),
+            ("textile = \"denim\"\ngrid = \"fine\"\n", ":3: the grid is"),
+            (
+                "textile = \"denim\"\ngrid = [1, 9]\n",
+                "the grid is 1 vertices a side; give 2 to 400",
+            ),
+            (
+                "textile = \"denim\"\nstep_ms = nan\n",
+                ":3: this is no step",
+            ),
+            (
+                "textile = \"denim\"\nfriction = -1.0\n",
+                ":3: the friction is -1",
+            ),
+            (
+                "textile = \"denim\"\n[measured]\nemt_percent = 0\n",
+                ":3: the EMT is 0 %",
+            ),
+            (
+                "textile = \"denim\"\n[measured]\nb = 1\n",
+                ":4: unknown figure \"b\"",
+            ),
+            (
+                "[measured]\nlt = 0.7\n",
+                ":2: there is no figure weight_mg_per_cm2",
+            ),
+            (
+                "textile = \"denim\"\n[[finger]]\nside = \"left\"\nstart_mm = [0, 0, 0]\n\
+                 opening_mm = 9\n",
+                ":4: the side is \"left\"; give \"front\"",
+            ),
+            (
+                "textile = \"denim\"\n[[finger]]\nmapping = \"mirrored\"\nstart_mm = [0, 0, 0]\n\
+                 opening_mm = 9\n",
+                ":4: the mapping is \"mirrored\"",
+            ),
+        ] {
+            std::fs::write(&path, format!("name = \"a\"\n{text}")).unwrap();
+            let error = DrapeScene::read(&path).unwrap_err().to_string();
+            assert!(error.contains(expected) && error.contains("; "), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn the_shipped_scene_is_read() {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");
+        let scene = DrapeScene::read(&path).unwrap();
+        assert_eq!(
+            (scene.name(), scene.textile()),
+            ("Denim under two fingers", Some("denim"))
+        );
+        let (cloth, why) = scene.cloth(None, None).unwrap();
+        assert_eq!(cloth.fingers().len(), 2);
+        assert_eq!(cloth.stepping.integrator, Integrator::Bdf2, "{why}");
+        assert!(scene.fingers()[1].is_mirrored);
+    }
+}

@@ -1,0 +1,128 @@
+//! A step's function as a whole: inertia, the cloth, and the fingers on it.
+
+use super::finger::Finger;
+use super::mesh::Vector;
+use super::newton::dot;
+use super::precondition::LinePreconditioner;
+use super::sheet::{Energy, Lag, Sheet};
+
+/// The nodes that a step is solved for: the cloth's vertices, then a proxy of each finger.
+#[derive(Debug, Clone)]
+pub(crate) struct System {
+    pub(crate) sheet: Sheet,
+    pub(crate) fingers: Vec<Finger>,
+    pub(crate) lag: Lag,
+    pub(crate) mass_kg: Vec<f64>,
+    /// Energy of the place that was evaluated last.
+    pub(crate) energy: Energy,
+}
+
+impl System {
+    pub(crate) fn new(sheet: Sheet, fingers: Vec<Finger>) -> Self {
+        let mut mass_kg = sheet.mesh.mass_kg.clone();
+        mass_kg.extend(fingers.iter().map(|_| Finger::MASS_KG));
+        let lag = sheet.lag(mass_kg.len());
+        Self {
+            sheet,
+            fingers,
+            lag,
+            mass_kg,
+            energy: Energy::default(),
+        }
+    }
+
+    pub(crate) fn n_nodes(&self) -> usize {
+        self.mass_kg.len()
+    }
+
+    /// Whether a node is held where it is.
+    pub(crate) fn is_held(&self, node: usize) -> bool {
+        self.sheet
+            .mesh
+            .is_pinned
+            .get(node)
+            .is_some_and(|pinned| *pinned)
+    }
+
+    /// Finds what fingers touch now; says whether any touches.
+    pub(crate) fn look(&mut self, x: &[Vector]) -> bool {
+        let sheet = &self.sheet;
+        let mut touches = false;
+        for finger in &mut self.fingers {
+            touches |= finger.look(&sheet.mesh, x);
+        }
+        touches
+    }
+
+    /// Its value and gradient; that of held nodes is 0.
+    pub(crate) fn evaluate(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
+        let value = self.evaluate_all(x, grad);
+        for (grad, pinned) in grad.iter_mut().zip(&self.sheet.mesh.is_pinned) {
+            if *pinned {
+                *grad = Vector::zeros();
+            }
+        }
+        value
+    }
+
+    /// The same with what pins hold against.
+    pub(crate) fn evaluate_all(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
+        let lag = &self.lag;
+        let mut inertia = 0.0;
+        for (node, grad) in grad.iter_mut().enumerate() {
+            let off = x[node] - lag.free[node];
+            let weight = lag.mu * self.mass_kg[node];
+            inertia += 0.5 * weight * off.norm_squared();
+            *grad = off * weight;
+        }
+        self.energy = self.sheet.evaluate(x, lag, grad);
+        for finger in &mut self.fingers {
+            self.energy += finger.evaluate(x, grad);
+        }
+        inertia + self.energy.stored + self.energy.lost
+    }
+
+    /// The tangent's product; held nodes neither move nor answer.
+    pub(crate) fn product(&self, p: &[Vector], out: &mut [Vector]) {
+        for (node, out) in out.iter_mut().enumerate() {
+            *out = p[node] * (self.lag.mu * self.mass_kg[node]);
+        }
+        self.sheet.product(p, &self.lag, out);
+        for finger in &self.fingers {
+            finger.product(p, out);
+        }
+        for (out, pinned) in out.iter_mut().zip(&self.sheet.mesh.is_pinned) {
+            if *pinned {
+                *out = Vector::zeros();
+            }
+        }
+    }
+
+    pub(crate) fn precondition(&self, x: &[Vector], lines: &mut LinePreconditioner) {
+        let mesh = &self.sheet.mesh;
+        lines.begin(mesh, x, |node| self.lag.mu * self.mass_kg[node]);
+        self.sheet.precondition(&self.lag, lines);
+        for (proxy, finger) in self.fingers.iter().enumerate() {
+            finger.precondition(proxy, lines);
+        }
+        lines.factor(&mesh.is_pinned);
+    }
+
+    /// Kinetic energy, J.
+    pub(crate) fn kinetic_j(&self, v: &[Vector]) -> f64 {
+        let each = self.mass_kg.iter().zip(v);
+        each.map(|(mass, v)| 0.5 * mass * v.norm_squared()).sum()
+    }
+
+    /// Energy in the field of gravity, J; 0 at y = 0.
+    pub(crate) fn height_j(&self, x: &[Vector], gravity: Vector) -> f64 {
+        let cloth = &self.sheet.mesh.mass_kg;
+        let weighted = |(mass, at): (&f64, &Vector)| -mass * gravity.dot(at);
+        cloth.iter().zip(x).map(weighted).sum()
+    }
+
+    /// Whether all places are numbers.
+    pub(crate) fn is_finite(x: &[Vector]) -> bool {
+        dot(x, x).is_finite()
+    }
+}

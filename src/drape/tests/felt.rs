@@ -1,0 +1,99 @@
+//! What a display is given on a cloth that hangs, against the same cloth lying flat.
+
+use crate::{Drape, DrapeScene, Hand};
+use selvedge_foundation::geometry::{Point, Velocity};
+use selvedge_render::MaterialContact;
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::Pose;
+use selvedge_scratch::ScratchFolder;
+
+/// One finger on a cloth in a frame that hardly gives way.
+const TAUT: &str = r#"
+name = "Taut"
+textile = "wool-twill"
+size_mm = [100.0, 100.0]
+grid = [26, 26]
+pins = "frame"
+air = false
+integrator = "bdf2"
+step_ms = 1.0
+[measured]
+weight_mg_per_cm2 = 20.0
+emt_percent = 0.01
+b_gf_cm2_per_cm = 1000.0
+[[finger]]
+start_mm = [30.0, 50.0, 0.0]
+opening_mm = 20.0
+"#;
+
+fn taut() -> DrapeScene {
+    let folder = ScratchFolder::made("taut");
+    let path = folder.join("taut.drape.toml");
+    std::fs::write(&path, TAUT).unwrap();
+    DrapeScene::read(&path).unwrap()
+}
+
+#[test]
+fn a_taut_cloth_rubbed_at_a_constant_velocity_is_felt_as_a_flat_one() {
+    let scene = taut();
+    let mut drape = Drape::new(&scene, None, None).unwrap();
+    let rendered = scene.render_scene().unwrap();
+    let accuracy = Accuracy::default();
+    let mut hung = ArrayRenderer::prepare(&rendered, Method::Reference, &accuracy).unwrap();
+    let mut flat = ArrayRenderer::prepare(&rendered, Method::Reference, &accuracy).unwrap();
+    let speed = 40.0;
+    let at = |t_s: f64| Hand {
+        centre_mm: [30.0 + speed * (t_s - 0.4).max(0.0), 50.0, 0.0],
+        opening_mm: 20.0 - (100.0 * t_s).min(22.0),
+    };
+    let mut contacts: [Option<MaterialContact>; 24] = [None; 24];
+    let (mut worst_db, mut n_compared) = (0.0_f64, 0);
+    for step in 1..=1200_u32 {
+        drape.step(&[at(1e-3 * f64::from(step))]).unwrap();
+        if !step.is_multiple_of(25) {
+            continue;
+        }
+        drape.tick_contacts(0, &mut contacts);
+        let moved = contacts
+            .iter()
+            .flatten()
+            .any(|contact| contact.velocity_mm_per_s != [0.0; 2]);
+        assert!(
+            step > 400 || !moved,
+            "{step}: it presses, and nothing slips"
+        );
+        let felt = hung.touch((0, 0), &contacts).unwrap().clone();
+        if step < 800 {
+            continue;
+        }
+        // The flat display is where the pad is: its lag behind the hand is that of its coupling.
+        let touching = contacts
+            .iter()
+            .enumerate()
+            .find_map(|(nth, one)| Some((nth, (*one)?)));
+        let (contactor, contact) = touching.expect("it touches");
+        let offset = felt.contactor_position(contactor) - felt.position();
+        let pose = Pose {
+            position: Point::new(contact.place_mm[0], contact.place_mm[1])
+                + selvedge_foundation::geometry::Displacement::new(-offset.x_mm, -offset.y_mm),
+            velocity: Velocity::new(speed, 0.0),
+            ..Pose::default()
+        };
+        let expected = &flat.tick(&[pose])[0];
+        for (contactor, contact) in contacts.iter().enumerate() {
+            for band in 0..2 {
+                let (a, b) = (
+                    felt.amplitude_um(contactor)[band],
+                    expected.amplitude_um(contactor)[band],
+                );
+                if contact.is_some() && b > 1e-3 {
+                    let db = (20.0 * (a / b).log10()).abs();
+                    worst_db = worst_db.max(db);
+                    n_compared += 1;
+                }
+            }
+        }
+    }
+    assert!(n_compared > 200, "{n_compared}");
+    assert!(worst_db < 0.05, "{worst_db} dB");
+}

@@ -1,0 +1,201 @@
+//! Motion: order, energy, momentum.
+
+use super::*;
+
+/// A small cloth pinned at its top that is let go at 46°.
+fn swing(integrator: Integrator, step_s: f64) -> Cloth {
+    let fabric = Fabric::plain(0.2, 100.0, 20.0, 1e-5);
+    let grid = ([6, 6], [0.1, 0.1]);
+    let mut cloth = cloth(grid, fabric, &Pins::Top, (integrator, step_s));
+    tilt(&mut cloth, 46.0);
+    cloth
+}
+
+/// Turns a cloth about its upper edge.
+fn tilt(cloth: &mut Cloth, degrees: f64) {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let top = cloth.system.sheet.mesh.size_m()[1];
+    for x in &mut cloth.x {
+        let down = top - x.y;
+        *x = Vector::new(x.x, top - down * cosine, down * sine);
+    }
+    cloth.restart();
+}
+
+fn run(cloth: &mut Cloth, seconds: f64) {
+    let n: u32 = selvedge_foundation::numerics::to_whole((seconds / cloth.stepping.step_s).round());
+    (0..n).for_each(|_| cloth.step(&[]).unwrap());
+}
+
+fn rms_m(a: &Cloth, b: &[Vector]) -> f64 {
+    let squares: f64 = a.x.iter().zip(b).map(|(a, b)| (a - b).norm_squared()).sum();
+    (squares / a.x.len() as f64).sqrt()
+}
+
+#[test]
+fn implicit_euler_is_of_first_order_and_bdf2_of_second() {
+    let mut reference = swing(Integrator::Explicit, 1e-3);
+    reference.stepping.step_s = 2e-6;
+    run(&mut reference, 0.08);
+    for (integrator, order) in [(Integrator::ImplicitEuler, 1.0), (Integrator::Bdf2, 2.0)] {
+        let errors = [0.2e-3, 0.1e-3, 0.05e-3].map(|step_s| {
+            let mut cloth = swing(integrator, step_s);
+            cloth.stepping.gain = 1e-12;
+            run(&mut cloth, 0.08);
+            assert_eq!(cloth.counters.redone, 0);
+            rms_m(&cloth, &reference.x)
+        });
+        let found = [0, 1].map(|nth: usize| (errors[nth] / errors[nth + 1]).log2());
+        assert!(
+            (found[1] - order).abs() < 0.25,
+            "{integrator:?}: {errors:?} {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_free_cloth_keeps_its_momentum_and_a_moved_one_feels_no_force() {
+    let fabric = Fabric::plain(0.2, 100.0, 20.0, 1e-5);
+    let grid = ([6, 5], [0.1, 0.08]);
+    let mut cloth = cloth(grid, fabric, &Pins::None, (Integrator::Explicit, 1e-4));
+    cloth.gravity = Vector::zeros();
+    let turn = nalgebra::Rotation3::new(Vector::new(0.3, -1.2, 0.7));
+    cloth
+        .x
+        .iter_mut()
+        .for_each(|x| *x = turn * *x + Vector::new(1.0, 2.0, 3.0));
+    cloth.restart();
+    let force = cloth
+        .newton
+        .grad
+        .iter()
+        .map(Vector::norm)
+        .fold(0.0, f64::max);
+    assert!(force < 1e-12, "{force} N of a rigid motion");
+    for (node, v) in cloth.v.iter_mut().enumerate() {
+        let phase = node as f64;
+        *v = Vector::new(phase.sin(), (2.0 * phase).cos(), (3.0 * phase).sin());
+    }
+    let momenta = |cloth: &Cloth| {
+        let nodes = || {
+            cloth
+                .system
+                .mass_kg
+                .iter()
+                .zip(cloth.x.iter().zip(&cloth.v))
+        };
+        let along: Vector = nodes().map(|(mass, (_, v))| v * *mass).sum();
+        let about: Vector = nodes().map(|(mass, (x, v))| x.cross(v) * *mass).sum();
+        [along, about]
+    };
+    let before = momenta(&cloth);
+    run(&mut cloth, 0.2);
+    let after = momenta(&cloth);
+    let scale: f64 = cloth.system.mass_kg.iter().sum();
+    for (before, after) in before.iter().zip(&after) {
+        assert!(
+            (before - after).norm() < 1e-12 * scale.max(1.0),
+            "{before} {after}"
+        );
+    }
+}
+
+#[test]
+fn explicit_energy_is_bounded_over_a_million_steps() {
+    let fabric = Fabric::plain(0.2, 100.0, 20.0, 1e-5);
+    let grid = ([3, 3], [0.03, 0.03]);
+    let mut cloth = cloth(grid, fabric, &Pins::Top, (Integrator::Explicit, 1e-4));
+    cloth.stepping.step_s = 0.5 * cloth.limit_s();
+    tilt(&mut cloth, 46.0);
+    let scale = cloth.system.sheet.scale_j();
+    let start = cloth.energy_j();
+    let mut most = 0.0_f64;
+    for step in 0..1_000_000 {
+        cloth.step(&[]).unwrap();
+        if step % 97 == 0 {
+            most = most.max((cloth.energy_j() - start).abs() / scale);
+        }
+    }
+    assert!(most < 0.05, "{most} of its weight times its length");
+}
+
+#[test]
+fn no_implicit_step_gains_energy() {
+    for integrator in [Integrator::ImplicitEuler, Integrator::Bdf2] {
+        for step_s in [0.5e-3, 2e-3, 10e-3] {
+            let mut cloth = cloth(
+                ([10, 10], [0.2; 2]),
+                shirting(),
+                &Pins::Corners,
+                (integrator, step_s),
+            );
+            cloth.stepping.gain = crate::cloth::LIVE;
+            tilt(&mut cloth, 80.0);
+            let scale = cloth.system.sheet.scale_j();
+            let start = cloth.energy_j();
+            for _ in 0..200 {
+                cloth.step(&[]).unwrap();
+                let gained = (cloth.energy_j() - start) / scale;
+                assert!(gained < 0.01, "{integrator:?} {step_s}: {gained}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_explicit_step_beyond_its_limit_is_refused_with_it() {
+    let mut cloth = swing(Integrator::Explicit, 1.0);
+    let limit_s = cloth.limit_s();
+    let before = cloth.x.clone();
+    let error = cloth.step(&[]).unwrap_err().to_string();
+    assert!(
+        error.contains(&format!("at most {:.3} ms", 1e3 * limit_s)),
+        "{error}"
+    );
+    assert_eq!(cloth.x, before, "nothing moved");
+    // The largest of a soft cloth is what the wave along its yarns says.
+    let h = 0.02;
+    let wave = h * (0.2_f64 / 120.0).sqrt();
+    assert!((limit_s / wave - 1.0).abs() < 1e-9, "{limit_s} {wave}");
+}
+
+#[test]
+fn a_cloth_that_rests_sleeps() {
+    let mut cloth = cloth(
+        ([6, 6], [0.1; 2]),
+        shirting(),
+        &Pins::Top,
+        (Integrator::Bdf2, 2e-3),
+    );
+    cloth.settle_to_rest().unwrap();
+    run(&mut cloth, 1.0);
+    assert_eq!(cloth.counters.steps, 500);
+    assert!(
+        (245..=255).contains(&cloth.counters.asleep),
+        "{:?}",
+        cloth.counters
+    );
+}
+
+#[test]
+fn one_pass_of_positions_is_softer_as_told() {
+    let (stiffness, length, step_s) = (5e3, 0.2, 1.0 / 2400.0);
+    let grid = ([2, 26], [0.008, length]);
+    let fabric = Fabric::plain(0.2, stiffness, 0.0, 0.0);
+    let mut strip = cloth(grid, fabric, &Pins::Top, (Integrator::Xpbd, step_s));
+    let softening = strip.system.sheet.softening(step_s);
+    assert!(softening > 60.0, "{softening}");
+    let (mut low, n) = (0.0, 4000);
+    for step in 0..2 * n {
+        strip.step(&[]).unwrap();
+        if step >= n {
+            low += strip.x[0].y / f64::from(n);
+        }
+    }
+    let grown = 0.2 * crate::GRAVITY * length * length / (2.0 * stiffness);
+    let found = -low / grown;
+    assert!(
+        (found / softening - 1.0).abs() < 0.11,
+        "{found} {softening}"
+    );
+}

@@ -1,0 +1,141 @@
+//! Position-based dynamics with compliance (XPBD), one pass a step: for pictures, and to compare.
+//!
+//! A pass answers as a stiffness `K/(1 + K dt²/ρh²)` would, so a cloth of stiff yarns looks right
+//! and pulls far too little: no finger feels it, and how much softer it is is said.
+
+use super::cloth::Cloth;
+use super::mesh::Vector;
+use super::sheet::Sheet;
+
+impl Sheet {
+    /// By how much yarns seem softer in one pass of a step: `1 + K dt²/ρh²` of the stiffer ones.
+    pub(crate) fn softening(&self, step_s: f64) -> f64 {
+        let h = self.mesh.h[0].min(self.mesh.h[1]);
+        let [warp, weft] = self
+            .stretch
+            .each_ref()
+            .map(|one| one.tension.at_rest_n_per_m);
+        1.0 + warp.max(weft) * step_s * step_s / (self.fabric.density_kg_per_m2 * h * h)
+    }
+}
+
+/// How readily every vertex moves: 1/kg, 0 where it is pinned, and the step's square, s².
+struct Moves {
+    per_kg: Vec<f64>,
+    step_s2: f64,
+}
+
+impl Moves {
+    /// Moves vertices along the gradient of a constraint of this value and compliance.
+    fn solve<const N: usize>(
+        &self,
+        x: &mut [Vector],
+        gradient: [(usize, Vector); N],
+        (value, compliance): (f64, f64),
+    ) {
+        let weigh = |(vertex, along): &(usize, Vector)| self.per_kg[*vertex] * along.norm_squared();
+        let weight: f64 = gradient.iter().map(weigh).sum();
+        let divisor = weight + compliance / self.step_s2;
+        if divisor > 0.0 {
+            for (vertex, along) in gradient {
+                x[vertex] -= along * (self.per_kg[vertex] * value / divisor);
+            }
+        }
+    }
+}
+
+impl Cloth {
+    /// One step: free motion, then every constraint once. Fingers are led, and touch nothing.
+    pub(crate) fn project(&mut self) {
+        let step_s = self.stepping.step_s;
+        self.remember();
+        let Self { system, x, v, .. } = self;
+        let mesh = &system.sheet.mesh;
+        for node in 0..x.len() {
+            let is_pinned = mesh.is_pinned.get(node).copied();
+            match is_pinned {
+                Some(true) => v[node] = Vector::zeros(),
+                Some(false) => v[node] += self.gravity * step_s,
+                None => {
+                    v[node] = (system.fingers[node - mesh.n_vertices()].target - x[node]) / step_s;
+                }
+            }
+            x[node] += v[node] * step_s;
+        }
+        let moves = Moves {
+            per_kg: std::mem::take(&mut self.per_kg),
+            step_s2: step_s * step_s,
+        };
+        pull(&system.sheet, &moves, x);
+        shear(&system.sheet, &moves, x);
+        bend(&system.sheet, &moves, x);
+        self.per_kg = moves.per_kg;
+        for (node, x) in x.iter().enumerate() {
+            v[node] = (x - self.past[0].x[node]) / step_s;
+        }
+    }
+}
+
+/// Edges: `C = ℓ − h`, compliance `h/(K b)`.
+fn pull(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
+    let mesh = &sheet.mesh;
+    for axis in 0..2 {
+        let ([rows, columns], stride) = (mesh.spans(axis, 1), mesh.stride(axis));
+        let (h, stiffness) = (mesh.h[axis], sheet.stretch[axis].tension.at_rest_n_per_m);
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |at| (row, at))) {
+            let a = row * mesh.n[0] + column;
+            let b = a + stride;
+            let span = x[b] - x[a];
+            let length = span.norm();
+            if length > 0.0 {
+                let along = span / length;
+                let compliance = h / (stiffness * mesh.width_m(axis, [row, column]));
+                moves.solve(x, [(a, -along), (b, along)], (length - h, compliance));
+            }
+        }
+    }
+}
+
+/// Cells: `C = γ`, compliance `1/(G h²)`.
+fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
+    let mesh = &sheet.mesh;
+    if sheet.fabric.shear_n_per_m <= 0.0 {
+        return;
+    }
+    let compliance = 1.0 / (sheet.fabric.shear_n_per_m * mesh.h[0] * mesh.h[1]);
+    for row in 0..mesh.n[1] - 1 {
+        for column in 0..mesh.n[0] - 1 {
+            let corners = mesh.corners(row * mesh.n[0] + column);
+            let (angle, far, near) =
+                super::membrane::angle_of(mesh, corners.map(|corner| x[corner]));
+            let [c00, c10, c01, c11] = corners;
+            let gradient = [(c11, far), (c00, -far), (c10, near), (c01, -near)];
+            moves.solve(x, gradient, (angle, compliance));
+        }
+    }
+}
+
+/// Bends: `C = |x₋ − 2x₀ + x₊|`, compliance `h³/(B b)`.
+fn bend(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
+    let mesh = &sheet.mesh;
+    for axis in 0..2 {
+        let ([rows, columns], stride) = (mesh.spans(axis, 2), mesh.stride(axis));
+        let rigidity = sheet.fabric.bending_n_m[axis];
+        if rigidity <= 0.0 {
+            continue;
+        }
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |at| (row, at))) {
+            let a = row * mesh.n[0] + column;
+            let (b, c) = (a + stride, a + 2 * stride);
+            let bent = x[a] - x[b] * 2.0 + x[c];
+            let size = bent.norm();
+            if size > 0.0 {
+                let along = bent / size;
+                let width = mesh.width_m(axis, [row, column]);
+                let compliance = mesh.h[axis].powi(3) / (rigidity * width);
+                let gradient = [(a, along), (b, along * -2.0), (c, along)];
+                moves.solve(x, gradient, (size, compliance));
+            }
+        }
+    }
+}
