@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::DrapeError;
 use super::fabric::{Compression, Fabric, Tension};
-use selvedge_textile::known_figures;
+use selvedge_textile::KnownFigure;
 
 /// Figures by their keys.
 pub(crate) type Figures = BTreeMap<String, f64>;
@@ -30,7 +30,7 @@ pub(crate) const FINGER_FRICTION: f64 = 0.4;
 
 /// Whether a figure may be given at all.
 pub(crate) fn is_known(key: &str) -> bool {
-    key == LOAD || known_figures().any(|figure| figure.key == key)
+    key == LOAD || KnownFigure::all().any(|figure| figure.key == key)
 }
 
 /// A figure along warp and weft.
