@@ -84,8 +84,9 @@ impl Bootstrap {
         })
     }
 
-    /// Standard errors of several numbers of subjects at once: their standard deviations over draws of
-    /// subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats included.
+    /// Standard errors of several numbers of subjects at once: their standard deviations over draws
+    /// of subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats
+    /// included.
     ///
     /// # Errors
     /// Fewer than 2 subjects or 20 draws, or more than half of the draws without the numbers; the

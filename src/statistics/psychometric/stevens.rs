@@ -56,9 +56,9 @@ impl Stevens {
     /// Fits power laws to estimates in any order, several a stimulus where they were repeated.
     ///
     /// # Errors
-    /// No estimates, stimuli or estimates that are not above zero (with subject and stimulus), fewer
-    /// than two stimuli, a subject that lacks a stimulus (with their list): its modulus could not be
-    /// told from what it was asked.
+    /// No estimates, stimuli or estimates that are not above zero (with subject and stimulus),
+    /// fewer than two stimuli, a subject that lacks a stimulus (with their list): its modulus could
+    /// not be told from what it was asked.
     pub fn fit(estimates: &[Estimate], level: f64) -> Computed<Self> {
         let (stimuli, subjects) = collected(estimates)?;
         let ln_stimuli: Vec<f64> = stimuli.iter().map(|x| x.ln()).collect();
