@@ -98,7 +98,8 @@ impl Bootstrap {
     ) -> Computed<Vec<f64>> {
         if n_subjects < 2 || n_draws < 20 {
             let reason = format!(
-                "an error over subjects needs two of them and 20 draws, not {n_subjects} and {n_draws}"
+                "an error over subjects needs two of them and 20 draws, not {n_subjects} and \
+                 {n_draws}"
             );
             return undefined(reason);
         }

@@ -63,8 +63,8 @@ impl Stevens {
         let (stimuli, subjects) = collected(estimates)?;
         let ln_stimuli: Vec<f64> = stimuli.iter().map(|x| x.ln()).collect();
         let n = subjects.len() as f64;
-        // Moduli are equal once every subject's mean logarithm is the group's; the means over subjects
-        // are the same before and after, their scatter is not.
+        // Moduli are equal once every subject's mean logarithm is the group's; the means over
+        // subjects are the same before and after, their scatter is not.
         let ln_mean = |place: usize| subjects.iter().map(|(_, logs)| logs[place]).sum::<f64>() / n;
         let ln_means: Vec<f64> = (0..stimuli.len()).map(ln_mean).collect();
         let group = power_law(&ln_stimuli, &ln_means, level)?;
