@@ -264,8 +264,8 @@ fn grid(items: &[usize], n_columns: usize, gap_mm: f64) -> Layout {
 }
 
 impl Layout {
-    /// What the experimenter lays on the table for a task: the position, `None` for what is compared
-    /// with, and the cloth.
+    /// What the experimenter lays on the table for a task: the position, `None` for what is
+    /// compared with, and the cloth.
     pub fn on_the_table(design: &Design, task: &Task) -> Vec<(Option<usize>, String)> {
         let composition = &design.composition;
         let is_adjusted = matches!(composition.response.form, Form::Adjustment(_));

@@ -5,8 +5,8 @@ use selvedge_foundation::quantity::factor_of_gain;
 use selvedge_textile::tactile::Band;
 
 impl Design {
-    /// The vibrations of a design that are stronger than an array may play, a line each; `limit_um` are
-    /// its largest amplitudes at 40 and 320 Hz, µm.
+    /// The vibrations of a design that are stronger than an array may play, a line each; `limit_um`
+    /// are its largest amplitudes at 40 and 320 Hz, µm.
     pub fn over_limits(&self, limit_um: [f64; 2]) -> Vec<String> {
         let limit_of = |band: Band| limit_um[usize::from(band == Band::High)];
         let stimuli = self.stimuli.iter().filter_map(|one| match one.source {

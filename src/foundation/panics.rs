@@ -24,8 +24,8 @@ impl std::fmt::Debug for OnPanic {
 }
 
 impl OnPanic {
-    /// Does `act` whenever any thread of this process panics, on that thread and before the panic is
-    /// reported, until what this returns is dropped.
+    /// Does `act` whenever any thread of this process panics, on that thread and before the panic
+    /// is reported, until what this returns is dropped.
     ///
     /// Several acts are done in the order in which they were asked for. An act must not panic, must
     /// not take what the panicking thread may hold, and should be done within a moment.

@@ -84,8 +84,9 @@ impl Bootstrap {
         })
     }
 
-    /// Standard errors of several numbers of subjects at once: their standard deviations over draws of
-    /// subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats included.
+    /// Standard errors of several numbers of subjects at once: their standard deviations over draws
+    /// of subjects with replacement. The statistic gets the numbers of subjects 0…n−1, repeats
+    /// included.
     ///
     /// # Errors
     /// Fewer than 2 subjects or 20 draws, or more than half of the draws without the numbers; the
@@ -97,7 +98,8 @@ impl Bootstrap {
     ) -> Computed<Vec<f64>> {
         if n_subjects < 2 || n_draws < 20 {
             let reason = format!(
-                "an error over subjects needs two of them and 20 draws, not {n_subjects} and {n_draws}"
+                "an error over subjects needs two of them and 20 draws, not {n_subjects} and \
+                 {n_draws}"
             );
             return undefined(reason);
         }

@@ -63,8 +63,8 @@ pub struct Trial {
 }
 
 impl Certificate {
-    /// Tries the device at the end of a line. `progress` hears the name of each section as it begins.
-    /// Whatever happens, the last thing that the device hears is a STOP.
+    /// Tries the device at the end of a line. `progress` hears the name of each section as it
+    /// begins. Whatever happens, the last thing that the device hears is a STOP.
     pub fn of(
         line: &mut dyn Line,
         trial: Trial,

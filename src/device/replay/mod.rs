@@ -38,8 +38,8 @@ const AFTER_S: f64 = 0.01;
 const MAX_WAITING: usize = 20_000;
 
 impl ReplayedLink {
-    /// Replays every link of a log, one after the other; `each` is told of every tick. The contactors'
-    /// full scale is that of the device.
+    /// Replays every link of a log, one after the other; `each` is told of every tick. The
+    /// contactors' full scale is that of the device.
     ///
     /// # Errors
     /// The file cannot be read or is no session log: one line with its place. What `each` says.

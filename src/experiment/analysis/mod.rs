@@ -75,8 +75,8 @@ use what_counts::describe_proof;
 pub const UNREAD: &str = "unread";
 
 impl Analysis {
-    /// Analyses every session in a folder. A log that cannot be read, since a later version wrote it or
-    /// it was damaged, is listed with its reason, and the others are analysed.
+    /// Analyses every session in a folder. A log that cannot be read, since a later version wrote
+    /// it or it was damaged, is listed with its reason, and the others are analysed.
     ///
     /// # Errors
     /// The folder or all of its logs cannot be read, there are no sessions, or it was cancelled.

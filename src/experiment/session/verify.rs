@@ -86,8 +86,8 @@ pub struct Verified {
 }
 
 impl Found {
-    /// Looks whether sessions were held with the textiles that are at hand now: of logs that name what
-    /// their trials were made from, where the library of their design can be opened.
+    /// Looks whether sessions were held with the textiles that are at hand now: of logs that name
+    /// what their trials were made from, where the library of their design can be opened.
     ///
     /// # Errors
     /// It was cancelled.

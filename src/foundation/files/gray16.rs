@@ -157,8 +157,8 @@ impl GrayImage {
         Ok(bytes)
     }
 
-    /// Decodes a grey TIFF of at most `most` pixels; the lines `key value` of its description are its
-    /// texts. `path` only names it in errors.
+    /// Decodes a grey TIFF of at most `most` pixels; the lines `key value` of its description are
+    /// its texts. `path` only names it in errors.
     ///
     /// # Errors
     /// What is no grey TIFF, is damaged, packed in a way that is not read, or is larger.

@@ -58,8 +58,8 @@ pub fn is_picture(head: &[u8]) -> bool {
 }
 
 impl Rgb16Image {
-    /// Decodes a picture of at most 64 million pixels to red, green and blue of 16 bits. `path` only
-    /// names it in errors.
+    /// Decodes a picture of at most 64 million pixels to red, green and blue of 16 bits. `path`
+    /// only names it in errors.
     ///
     /// # Errors
     /// What is no such picture, is damaged, or is larger.

@@ -10,8 +10,8 @@ pub struct QuadraticPeak {
 }
 
 impl QuadraticPeak {
-    /// The peak of nine samples, rows first, whose middle one is a local maximum. Where the surface has
-    /// no top within a sample of the middle (a ridge, a plateau), the middle itself.
+    /// The peak of nine samples, rows first, whose middle one is a local maximum. Where the surface
+    /// has no top within a sample of the middle (a ridge, a plateau), the middle itself.
     pub fn of(values: &[[f64; 3]; 3]) -> Self {
         let middle = values[1][1];
         let column = |i: usize| values[0][i] + values[1][i] + values[2][i];

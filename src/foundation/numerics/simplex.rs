@@ -13,8 +13,8 @@ pub struct Lowest<const N: usize> {
 const MAX_EVALUATIONS: usize = 2000;
 
 impl<const N: usize> Lowest<N> {
-    /// Walks downhill from `start` with a simplex whose edges are `steps`, until its values agree to
-    /// about 1e-12; infinite values are walls.
+    /// Walks downhill from `start` with a simplex whose edges are `steps`, until its values agree
+    /// to about 1e-12; infinite values are walls.
     ///
     /// A simplex can shrink onto a slope: search again from what was found where that matters.
     pub fn of(

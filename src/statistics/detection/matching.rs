@@ -15,12 +15,13 @@ pub(crate) fn abx_share(d_prime: f64) -> f64 {
 }
 
 impl Choice {
-    /// d′ of one subject who calls pairs different whose sensations lie farther apart than a criterion
-    /// k (Macmillan & Creelman 2005, chapter 9): F = 2 Φ(−k/√2), H = Φ((d′ − k)/√2) + Φ((−d′ − k)/√2).
+    /// d′ of one subject who calls pairs different whose sensations lie farther apart than a
+    /// criterion k (Macmillan & Creelman 2005, chapter 9): F = 2 Φ(−k/√2), H = Φ((d′ − k)/√2) +
+    /// Φ((−d′ − k)/√2).
     ///
-    /// `hits` are different pairs called different and how many there were, `false_alarms` likewise of
-    /// same ones. Both rates are corrected log-linearly; the interval follows from Wilson's of the
-    /// hits, the criterion as it was found.
+    /// `hits` are different pairs called different and how many there were, `false_alarms` likewise
+    /// of same ones. Both rates are corrected log-linearly; the interval follows from Wilson's of
+    /// the hits, the criterion as it was found.
     ///
     /// # Errors
     /// No pairs of one kind, or more called different than there were.

@@ -23,7 +23,8 @@ pub struct Roc {
 }
 
 impl Roc {
-    /// From how often each rating was given, `sure it is not` first, to signals and to other trials.
+    /// From how often each rating was given, `sure it is not` first, to signals and to other
+    /// trials.
     ///
     /// # Errors
     /// Fewer than two ratings, lists of different lengths, no trials of one kind.

@@ -97,10 +97,11 @@ impl YesNo {
 impl GroupDPrime {
     /// d′ of a group, from the answers of each subject.
     ///
-    /// The mean of subjects' own d′ is too small where trials are few: the correction draws shares to
-    /// one half, 5 % at d′ = 2.7 of 16 trials each. Here both rates are means over subjects,
+    /// The mean of subjects' own d′ is too small where trials are few: the correction draws shares
+    /// to one half, 5 % at d′ = 2.7 of 16 trials each. Here both rates are means over subjects,
     /// uncorrected, and z of each is less what subjects who differ bend it by, as in
-    /// [`super::Relation::group`]. The interval is Student's, of what every subject's rates move it by.
+    /// [`super::Relation::group`]. The interval is Student's, of what every subject's rates move it
+    /// by.
     ///
     /// # Errors
     /// Fewer than two subjects, one without two trials of each kind, a rate that is 0 or 1 in all.

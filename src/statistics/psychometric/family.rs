@@ -13,8 +13,8 @@ named! {
         Logistic = "logistic",
         /// The cumulative Gaussian.
         Normal = "normal",
-        /// 1 − exp(−eᶻ) over the logarithm of the stimulus, which must be above zero. Its width is a
-        /// difference of natural logarithms.
+        /// 1 − exp(−eᶻ) over the logarithm of the stimulus, which must be above zero. Its width is
+        /// a difference of natural logarithms.
         Weibull = "Weibull",
         /// 1 − exp(−eᶻ) over the stimulus as it is: the Weibull function of a stimulus in decibels.
         Gumbel = "Gumbel",

@@ -56,15 +56,15 @@ impl Stevens {
     /// Fits power laws to estimates in any order, several a stimulus where they were repeated.
     ///
     /// # Errors
-    /// No estimates, stimuli or estimates that are not above zero (with subject and stimulus), fewer
-    /// than two stimuli, a subject that lacks a stimulus (with their list): its modulus could not be
-    /// told from what it was asked.
+    /// No estimates, stimuli or estimates that are not above zero (with subject and stimulus),
+    /// fewer than two stimuli, a subject that lacks a stimulus (with their list): its modulus could
+    /// not be told from what it was asked.
     pub fn fit(estimates: &[Estimate], level: f64) -> Computed<Self> {
         let (stimuli, subjects) = collected(estimates)?;
         let ln_stimuli: Vec<f64> = stimuli.iter().map(|x| x.ln()).collect();
         let n = subjects.len() as f64;
-        // Moduli are equal once every subject's mean logarithm is the group's; the means over subjects
-        // are the same before and after, their scatter is not.
+        // Moduli are equal once every subject's mean logarithm is the group's; the means over
+        // subjects are the same before and after, their scatter is not.
         let ln_mean = |place: usize| subjects.iter().map(|(_, logs)| logs[place]).sum::<f64>() / n;
         let ln_means: Vec<f64> = (0..stimuli.len()).map(ln_mean).collect();
         let group = power_law(&ln_stimuli, &ln_means, level)?;

@@ -56,8 +56,8 @@ impl PlackettLuce {
         )
     }
 
-    /// The most likely worths of `n_items` items from rankings, each the indices of two items or more,
-    /// best first; items that a ranking leaves out say nothing in it.
+    /// The most likely worths of `n_items` items from rankings, each the indices of two items or
+    /// more, best first; items that a ranking leaves out say nothing in it.
     ///
     /// By Newton's method on log-worths, to 1e-10; the peak is where Hunter's MM (2004) ends.
     ///

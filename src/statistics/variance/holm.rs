@@ -14,8 +14,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Every condition against every other by paired t tests, one list of values a condition, subjects
-    /// in the same order in each.
+    /// Every condition against every other by paired t tests, one list of values a condition,
+    /// subjects in the same order in each.
     ///
     /// # Errors
     /// Fewer than two conditions. A pair that cannot be computed says so itself.

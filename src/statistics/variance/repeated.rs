@@ -40,8 +40,8 @@ impl Repeated {
     /// Two crossed factors within subjects: A against A×S, B against B×S, A×B against A×B×S.
     ///
     /// # Errors
-    /// A table with other than two factors, missing cells (with their list), fewer than two subjects
-    /// or levels.
+    /// A table with other than two factors, missing cells (with their list), fewer than two
+    /// subjects or levels.
     pub fn two_way(table: &Crossed) -> Computed<Self> {
         let [a, b] = table.factors.as_slice() else {
             return Err(wrong_factors(table, "two"));

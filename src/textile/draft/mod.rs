@@ -168,8 +168,8 @@ impl Manifest {
         }
     }
 
-    /// The recipe that restores a textile from its warp and its weft profile: what repeats in them and
-    /// the spectrum of the rest.
+    /// The recipe that restores a textile from its warp and its weft profile: what repeats in them
+    /// and the spectrum of the rest.
     ///
     /// # Errors
     /// A textile whose profiles are too short.

@@ -17,8 +17,8 @@ use selvedge_foundation::progress::Progress;
 impl Index {
     /// Builds every textile of the library `from` into the folder `to`.
     ///
-    /// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that are
-    /// no models are copied. The work is shared among `n_threads`, which changes no byte.
+    /// Writes its index, with this default tuning. Manifests of recipes are enough; textiles that
+    /// are no models are copied. The work is shared among `n_threads`, which changes no byte.
     pub fn build(
         from: &Library,
         to: &Path,

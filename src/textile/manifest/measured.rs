@@ -129,8 +129,8 @@ impl KnownFigure {
 }
 
 impl Figure {
-    /// The figures of a manifest for people: the known ones in the testers' order, then the others by
-    /// their keys.
+    /// The figures of a manifest for people: the known ones in the testers' order, then the others
+    /// by their keys.
     pub fn all_of(measured: &BTreeMap<String, f64>) -> Vec<Self> {
         let known: Vec<KnownFigure> = KnownFigure::all().collect();
         let is_other = |key: &&String| known.iter().all(|figure| figure.key != **key);

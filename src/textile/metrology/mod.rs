@@ -83,8 +83,8 @@ impl Measured {
     ///
     /// # Errors
     /// One line: a format that is not read, a damaged file, a size beyond
-    /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that must
-    /// be given, no height at all.
+    /// [`MAX_POINTS`](crate::surface::MAX_POINTS), steps that are not even, a unit or step that
+    /// must be given, no height at all.
     pub fn open(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Self, TextileError> {
         let of_text = || is_text(bytes).then_some(text::read as Reader);
         let Some(reader) = reader_of(bytes).or_else(of_text) else {

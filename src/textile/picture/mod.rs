@@ -4,8 +4,8 @@
 //! A pipeline of stages: [`Picture::load`] a picture, perhaps a [`Picture::part`] of it or
 //! [`Picture::rectified`]; [`even_light`]; the [`Autocorrelation`]; its [`Maxima`]; the
 //! [`Directions`] they lie in; the [`Lattice`]; the [`Tile`]. Each takes what the one before made.
-//! [`Analysis::of`] runs them all. *No lattice* is an answer, with its reason. Physical scale is never
-//! guessed: everything here is in pixels.
+//! [`Analysis::of`] runs them all. *No lattice* is an answer, with its reason. Physical scale is
+//! never guessed: everything here is in pixels.
 
 mod analysis;
 mod autocorrelation;

@@ -23,8 +23,8 @@ const MIN_GAIN: f64 = 1e-3;
 const FINEST_PX: f64 = 1e-3;
 
 impl Tile {
-    /// The tile whose vectors near `basis` make the folded variance of a picture largest, and the share
-    /// of the picture's variance that it explains.
+    /// The tile whose vectors near `basis` make the folded variance of a picture largest, and the
+    /// share of the picture's variance that it explains.
     ///
     /// Never less than the tile of `basis`. `step` hears how far it is, 0…1, and may stop it.
     ///

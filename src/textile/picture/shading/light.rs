@@ -83,9 +83,9 @@ const AGREE: f64 = 0.1;
 impl LightEstimate {
     /// Estimates light and albedo of a picture (after Zheng & Chellappa 1991).
     ///
-    /// It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and albedo
-    /// follow from mean and mean square of the brightness; the tilt from the mean direction of its
-    /// gradient, or where that says nothing, from the axis along which it changes most.
+    /// It takes normals to lie as on a ball and the albedo to be even: no cloth does. Slant and
+    /// albedo follow from mean and mean square of the brightness; the tilt from the mean direction
+    /// of its gradient, or where that says nothing, from the axis along which it changes most.
     ///
     /// # Errors
     /// An empty or black tile.

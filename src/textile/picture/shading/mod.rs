@@ -40,8 +40,8 @@ impl Shape {
     /// Heights from brightness 0…1 under a light; row 0 is the lowest y.
     ///
     /// # Errors
-    /// Brightness that is empty, too large, outside 0…1 or black; a light that the method cannot use;
-    /// options out of range; cancelled.
+    /// Brightness that is empty, too large, outside 0…1 or black; a light that the method cannot
+    /// use; options out of range; cancelled.
     pub fn from_shading(
         brightness: &Grid<f64>,
         light: Light,

@@ -268,8 +268,9 @@ impl FourierTemplate {
         Ok(keys_to_string(&TemplateFile { template }, path)?)
     }
 
-    /// The five templates that are part of the program. They are invented: smooth spectra with a peak,
-    /// scaled to the range of standard deviations that Wall & Harwin print, not measured on textile.
+    /// The five templates that are part of the program. They are invented: smooth spectra with a
+    /// peak, scaled to the range of standard deviations that Wall & Harwin print, not measured on
+    /// textile.
     pub fn examples() -> Result<Vec<Self>, TextileError> {
         Self::list_from_toml(EXAMPLES, Path::new("the example templates"))
     }
