@@ -5,11 +5,17 @@
 //! knits. A "warp" bending figure bends warp yarns.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
 
 use super::DrapeError;
 use super::fabric::{Compression, Fabric, Tension};
-use selvedge_textile::KnownFigure;
+use selvedge_foundation::files;
+use selvedge_textile::{KnownFigure, Library};
 
+/// Mechanical figures of the textiles that are part of the program.
+const FABRICS: &str = include_str!("../../assets/drape/fabrics.toml");
 /// Figures by their keys.
 pub(crate) type Figures = BTreeMap<String, f64>;
 
@@ -151,6 +157,30 @@ fn odd(figures: &Figures, (emt, lt, load): ([f64; 2], [f64; 2], f64), weight: f6
     lines
 }
 
+/// Mechanical figures of a textile: those of the program, below those that its own manifest states.
+pub(crate) fn of_textile(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
+    let library = match library {
+        Some(folder) => Library::named(folder, None)?,
+        None => Library::shipped()?,
+    };
+    let own = library.manifest(id)?.measured;
+    let path = Path::new("fabrics.toml");
+    let mut known: BTreeMap<String, FabricKeys> = files::keys_from_str(FABRICS, path)?;
+    let known = known.remove(id).unwrap_or_default();
+    let own = own.into_iter().filter(|(key, _)| is_known(key));
+    Ok(known.figures.into_iter().chain(own).collect())
+}
+
+/// An entry of the figures of the program.
+#[derive(Default, Deserialize)]
+struct FabricKeys {
+    #[serde(default, rename = "class")]
+    #[expect(dead_code, reason = "for those who read the file")]
+    class: String,
+    #[serde(flatten)]
+    figures: Figures,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -225,5 +255,16 @@ mod tests {
         let (fabric, _) = Fabric::of_figures(&given).unwrap();
         let expected = Tension::new(490.3325, 0.05, 0.7).at_rest_n_per_m;
         assert!((fabric.tension[0].at_rest_n_per_m / expected - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_figures_of_the_program_are_known_ones() {
+        let entries: BTreeMap<String, FabricKeys> =
+            files::keys_from_str(FABRICS, Path::new("fabrics.toml")).unwrap();
+        assert_eq!(entries.len(), 16);
+        for (id, entry) in entries {
+            let odd = entry.figures.keys().find(|key| !is_known(key));
+            assert!(odd.is_none(), "{id}: {odd:?}");
+        }
     }
 }

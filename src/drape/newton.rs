@@ -59,16 +59,19 @@ impl Newton {
         }
     }
 
-    /// Goes from `x` to the lowest place of the system's function.
+    /// Goes from `x` to the lowest place of the system's function; `known` is its value there, if
+    /// `x` is what was evaluated last, into `grad`.
     pub(crate) fn minimise(
         &mut self,
         system: &mut System,
-        x: &mut [Vector],
+        (x, known): (&mut [Vector], Option<f64>),
         stop: Stop,
     ) -> Outcome {
         let mut outcome = Outcome::default();
-        system.look(x);
-        let mut value = system.evaluate(x, &mut self.grad);
+        let mut value = known.unwrap_or_else(|| {
+            system.look(x);
+            system.evaluate(x, &mut self.grad)
+        });
         while outcome.n_steps < stop.max_steps {
             outcome.n_linear += self.solve(system, x);
             outcome.n_steps += 1;

@@ -1,6 +1,5 @@
 //! The scene file `NAME.drape.toml`: which cloth hangs how, and which fingers are there.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -14,10 +13,8 @@ use super::sheet::{Losses, Sheet};
 use super::system::System;
 use super::{DrapeError, Fabric};
 use selvedge_foundation::files::{self, Flaw};
-use selvedge_textile::{Library, is_of_the_program};
+use selvedge_textile::is_of_the_program;
 
-/// Mechanical figures of the textiles that are part of the program.
-const FABRICS: &str = include_str!("../../assets/drape/fabrics.toml");
 /// Widest spacing of a grid that is chosen, m.
 const LIVE_SPACING_M: f64 = 8e-3;
 /// Most fingers.
@@ -123,7 +120,7 @@ impl DrapeScene {
             }
         });
         let figures = match &keys.textile {
-            Some(id) => figures_of(id, library.as_deref())
+            Some(id) => kes::of_textile(id, library.as_deref())
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
             None => Figures::new(),
         };
@@ -150,7 +147,7 @@ impl DrapeScene {
     /// # Errors
     /// A textile that is unknown, or whose figures are.
     pub fn of_textile(id: &str) -> Result<Self, DrapeError> {
-        let (fabric, notes) = Fabric::of_figures(&figures_of(id, None)?)?;
+        let (fabric, notes) = Fabric::of_figures(&kes::of_textile(id, None)?)?;
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
@@ -376,46 +373,17 @@ fn placed(place: files::Place, error: &DrapeError) -> Flaw {
     Flaw::described(place, &error.to_string(), "correct it")
 }
 
-/// Mechanical figures of a textile: those of the program, below those that its own manifest states.
-fn figures_of(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
-    let library = match library {
-        Some(folder) => Library::named(folder, None)?,
-        None => Library::shipped()?,
-    };
-    let own = library.manifest(id)?.measured;
-    let path = Path::new("fabrics.toml");
-    let mut known: BTreeMap<String, FabricKeys> = files::keys_from_str(FABRICS, path)?;
-    let known = known.remove(id).unwrap_or_default();
-    let own = own.into_iter().filter(|(key, _)| kes::is_known(key));
-    Ok(known.figures.into_iter().chain(own).collect())
-}
-
-/// An entry of the figures of the program.
-#[derive(Default, Deserialize)]
-struct FabricKeys {
-    #[serde(default, rename = "class")]
-    #[expect(dead_code, reason = "for those who read the file")]
-    class: String,
-    #[serde(flatten)]
-    figures: Figures,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use selvedge_scratch::ScratchFolder;
+    use selvedge_textile::Library;
 
     #[test]
     fn every_shipped_textile_has_figures_that_fit() {
         for id in Library::shipped().unwrap().ids() {
             let scene = DrapeScene::of_textile(id).unwrap();
             assert_eq!(scene.notes(), &[] as &[String], "{id}");
-        }
-        let entries: BTreeMap<String, FabricKeys> =
-            files::keys_from_str(FABRICS, Path::new("fabrics.toml")).unwrap();
-        for (id, entry) in entries {
-            let odd = entry.figures.keys().find(|key| !kes::is_known(key));
-            assert!(odd.is_none(), "{id}: {odd:?}");
         }
     }
 

@@ -97,7 +97,7 @@ impl Cloth {
             for finger in &mut system.fingers {
                 finger.begin(&system.lag);
             }
-            let outcome = self.newton.minimise(system, x, stop);
+            let outcome = self.newton.minimise(system, (x, None), stop);
             self.counters.newton += u64::from(outcome.n_steps);
             self.counters.linear += u64::from(outcome.n_linear);
             let is_calm = outcome.is_converged && outcome.n_steps <= 1 && step_s >= LONGEST_S;

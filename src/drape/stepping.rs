@@ -95,14 +95,14 @@ impl Cloth {
     /// Finds where the step leads, into `next`.
     fn solve(&mut self, order: usize, stop: Stop) -> Outcome {
         self.prepare(order);
-        self.guess();
+        let known = self.guess();
         let Self {
             system,
             newton,
             next,
             ..
         } = self;
-        newton.minimise(system, next, stop)
+        newton.minimise(system, (next, known), stop)
     }
 
     /// What the step knows: weights, free motion, what velocity is measured from.
@@ -153,10 +153,11 @@ impl Cloth {
         }
     }
 
-    /// The lowest of where it is, where its velocity leads and where its last steps lead.
-    fn guess(&mut self) {
+    /// The lowest of where it is, where its velocity leads and where its last steps lead; its value
+    /// if it was the last to be evaluated.
+    fn guess(&mut self) -> Option<f64> {
         let step_s = self.stepping.step_s;
-        let mut lowest = f64::INFINITY;
+        let (mut lowest, mut last) = (f64::INFINITY, f64::INFINITY);
         let n_guesses = if self.n_past > 1 { 3 } else { 2 };
         for guess in 0..n_guesses {
             for node in 0..self.x.len() {
@@ -171,11 +172,13 @@ impl Cloth {
             }
             self.system.look(&self.trial);
             let value = self.system.evaluate(&self.trial, &mut self.newton.grad);
+            last = value;
             if value < lowest {
                 lowest = value;
                 self.next.copy_from_slice(&self.trial);
             }
         }
+        (last <= lowest && last.is_finite()).then_some(last)
     }
 
     /// Takes what was found; keeps the old where it is no number.
