@@ -85,6 +85,8 @@ fn a_trial_waits_for_its_stylus_and_is_void_without_it() {
     }
     present(&mut window);
     stroked(&mut window, 0);
+    // The finger rests: what the array would play of a stroke without its stylus is another reason.
+    window.pass(20);
     window.workbench.bench.feel_stylus(None);
     window.pass(4);
     let rows = rows(&folder);
