@@ -4,8 +4,8 @@
 //! What differs: pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024; the
 //! first layer has 4 channels where theirs has 32, and none more than 64 where theirs have 512;
 //! answers start from the mean magnitude of each bin (theirs has to find that the mean is 108);
-//! the rate of learning is ten times theirs, since there are as many rounds as ten minutes have room
-//! for; at inference batch statistics are those of training and nothing is dropped.
+//! the rate of learning is ten times theirs, since there are as many rounds as ten minutes have
+//! room for; at inference batch statistics are those of training and nothing is dropped.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig, ConvTranspose2d, ConvTranspose2dConfig};

@@ -8,8 +8,8 @@
 //!
 //! Picture and trace have the same scale and the same frames, so a bin of the strip's spectra
 //! stands for the same wavenumber at the same place as that of the answer: nothing has to be learnt
-//! of where it is. Frames may be any number. The level that is told is the mean of the network's and
-//! of a ridge regression's, which knows less and errs less on families that were never seen.
+//! of where it is. Frames may be any number. The level that is told is the mean of the network's
+//! and of a ridge regression's, which knows less and errs less on families never seen.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig};
