@@ -36,7 +36,7 @@ pub(super) fn levels(
     let on = vec![(Arc::clone(textile.surface()), Some(setup))];
     let drive = (settings.rate_hz, settings.um_per_n);
     let mut drive = StylusDrive::prepare(on, drive, &Filters::default()).map_err(refused)?;
-    Ok(Levels::of_amplitudes(Direction::ALL.map(|direction| {
+    Ok(Levels::of_amplitudes(&Direction::ALL.map(|direction| {
         drive.leave();
         let mut um = Vec::new();
         for nth in 0..N_BEFORE + N_TICKS {

@@ -147,7 +147,7 @@ impl Column<'_> {
     pub(super) fn exact(&self, from: Motion, step_s: f64) -> Motion {
         let (mut at, mut t_s) = (from, 0.0);
         // A wall that rings is cut into pieces of one length: their responses are found once.
-        let mut ringing: Option<([f64; 2], Kernel)> = None;
+        let mut ringing: Option<([u64; 2], Kernel)> = None;
         for _ in 0..MAX_PIECES {
             let (start, begun_s) = (at, t_s);
             let piece = self.piece(start, (begun_s, step_s));
@@ -169,7 +169,7 @@ impl Column<'_> {
                     .map(of)
                     .fold(f64::INFINITY, f64::min)
             };
-            let of = [piece.k, piece.c];
+            let of = [piece.k, piece.c].map(f64::to_bits);
             let known = ringing.filter(|(known, _)| !is_whole && *known == of);
             let kernel = known.map_or_else(|| after(length_s), |(_, kernel)| kernel);
             if !is_whole {

@@ -233,20 +233,7 @@ pub(super) fn dilated(
     let mut rested = heights_mm.clone();
     if reach.iter().all(|reach| *reach <= NEAR) {
         let sphere = Sphere::new(radius_mm, step_mm, reach);
-        let work = |around: &mut Around, nth: usize, rows: &mut [f64]| {
-            around.look(&sphere, (n[0], nth * RUN, rows.len() / n[0]), &at);
-            for (w, out) in rows.chunks_mut(n[0]).enumerate() {
-                around.rest(&sphere, w, out);
-            }
-        };
-        let pieces = (n[0] * RUN, n_threads());
-        in_pieces(
-            rested.values_mut(),
-            pieces.0,
-            pieces.1,
-            Around::default,
-            work,
-        );
+        dilated_near(&mut rested, &sphere, &at);
         return Ok(rested);
     }
     let [least, most] = SIDES;
@@ -291,6 +278,25 @@ pub(super) fn dilated(
         work,
     );
     Ok(rested)
+}
+
+/// The same for a sphere that covers few points about each, run by run.
+fn dilated_near(rested: &mut Grid<f64>, sphere: &Sphere, at: &(impl Fn([isize; 2]) -> f64 + Sync)) {
+    let width = rested.width();
+    let work = |around: &mut Around, nth: usize, rows: &mut [f64]| {
+        around.look(sphere, (width, nth * RUN, rows.len() / width), at);
+        for (w, out) in rows.chunks_mut(width).enumerate() {
+            around.rest(sphere, w, out);
+        }
+    };
+    let n_values = width * RUN;
+    in_pieces(
+        rested.values_mut(),
+        n_values,
+        n_threads(),
+        Around::default,
+        work,
+    );
 }
 
 #[cfg(test)]

@@ -38,11 +38,11 @@ impl Levels {
                 .map(|point| at(point).map(f64::sqrt))
                 .collect::<Vec<_>>()
         });
-        Self::of_amplitudes(by_direction)
+        Self::of_amplitudes(&by_direction)
     }
 
     /// The figures of amplitudes `[A40, A320]` in µm along the four principal directions.
-    pub fn of_amplitudes(by_direction: [Vec<[f64; 2]>; 4]) -> Self {
+    pub fn of_amplitudes(by_direction: &[Vec<[f64; 2]>; 4]) -> Self {
         let mut levels = Self {
             mean_um: [0.0; 2],
             cv: [0.0; 2],

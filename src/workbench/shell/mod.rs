@@ -17,7 +17,6 @@ pub(crate) mod frame;
 pub(crate) mod guide;
 pub(crate) mod header;
 pub(crate) mod headless;
-pub(crate) mod held_moves;
 pub(crate) mod help;
 pub(crate) mod inbox;
 pub(crate) mod inspect;

@@ -19,7 +19,6 @@ use winit::window::WindowId;
 use crate::bench::error::AppError;
 use crate::bench::stage::StageOptions;
 use crate::shell::ear::{Ear, Ears, Shared, listener};
-use crate::shell::held_moves::HeldMoves;
 use crate::shell::opening_window::{Opening, begin, viewport};
 use selvedge_engine::StopSwitch;
 
@@ -126,8 +125,7 @@ fn open_window(
         &event_loop,
     );
     let ear = Ear::new(shared, Instant::now());
-    let held = is_stage.then(HeldMoves::default);
-    let outcome = event_loop.run_app(&mut Stamping { app, ear, held });
+    let outcome = event_loop.run_app(&mut Stamping { app, ear });
     if let Some(error) = failure.borrow_mut().take() {
         return Err(error);
     }
@@ -149,33 +147,11 @@ fn keep_freed_memory() {
 struct Stamping<'a> {
     app: EframeWinitApplication<'a>,
     ear: Ear,
-    /// Movements that the toolkit has not heard of yet; on a stage alone.
-    held: Option<HeldMoves>,
-}
-
-impl Stamping<'_> {
-    /// Lets the toolkit hear of movements that it has not heard of yet.
-    fn tell_moves(&mut self, event_loop: &ActiveEventLoop) {
-        for (id, event) in self.held.iter_mut().flat_map(HeldMoves::take) {
-            self.app.window_event(event_loop, id, event);
-        }
-    }
 }
 
 impl ApplicationHandler<UserEvent> for Stamping<'_> {
     fn window_event(&mut self, event_loop: &ActiveEventLoop, id: WindowId, event: WindowEvent) {
-        let now = Instant::now();
-        self.ear.listen(now, id, &event);
-        let event = match &mut self.held {
-            Some(held) => held.hold(now, id, event),
-            None => Some(event),
-        };
-        let Some(event) = event else { return };
-        // A frame that is drawn now was asked for by somebody else; what it is told would ask for
-        // another.
-        if event != WindowEvent::RedrawRequested {
-            self.tell_moves(event_loop);
-        }
+        self.ear.listen(Instant::now(), id, &event);
         self.app.window_event(event_loop, id, event);
     }
 
@@ -185,12 +161,6 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
         self.ear.pending_motion.wakes(Instant::now());
-        let now = Instant::now();
-        // A frame was planned for now, or others come so fast that none is planned.
-        let is_planned = matches!(cause, StartCause::ResumeTimeReached { .. });
-        if is_planned || self.held.as_ref().is_some_and(|held| held.is_due(now)) {
-            self.tell_moves(event_loop);
-        }
         self.app.new_events(event_loop, cause);
     }
 
@@ -199,10 +169,7 @@ impl ApplicationHandler<UserEvent> for Stamping<'_> {
     }
 
     fn device_event(&mut self, event_loop: &ActiveEventLoop, id: DeviceId, event: DeviceEvent) {
-        // The toolkit draws a frame for each, and a stage needs none of them.
-        if self.held.is_none() {
-            self.app.device_event(event_loop, id, event);
-        }
+        self.app.device_event(event_loop, id, event);
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
