@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn a_tip_that_leaves_within_rounding_leaves_once() {
         let mut spring = Spring::NONE;
-        (spring.k, spring.b) = (1e9, 1732.050_807_568_877_4);
+        (spring.k, spring.b) = (1e9, 1_732.050_807_568_877_4);
         let height_m = 1.681_474_723_892_1e-4;
         let rise_m_per_s = -4.060_321_957_064_915e-4;
         let step_s = 9.001_086_838_893_561e-4;
