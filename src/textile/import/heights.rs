@@ -54,7 +54,7 @@ impl HeightImport {
     /// Reads a file's bytes. `path` names it in errors and, by its last part, in the textile.
     ///
     /// # Errors
-    /// As [`crate::metrology::open`]; a map or profile shorter than one window; a profile that is
+    /// As where the file is opened; a map or profile shorter than one window; a profile that is
     /// to be felt at every point.
     pub fn of(bytes: &[u8], path: &Path, options: &ImportOptions) -> Result<Self, TextileError> {
         let file = path.file_name().unwrap_or_default();

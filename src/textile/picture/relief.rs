@@ -59,7 +59,7 @@ impl Relief {
     /// Finds the heights of a tile under a light, or under the light that the picture suggests.
     ///
     /// # Errors
-    /// See [`super::shading::shape_from_shading`].
+    /// See `shading`.
     pub fn of(
         tile: &Tile,
         px_per_mm: Option<f64>,
