@@ -16,7 +16,7 @@ pub struct RankTrial {
 }
 
 impl RankTrial {
-    /// The alternatives, most alike first, as [`plackett_luce`](super::plackett_luce()) takes them.
+    /// The alternatives, most alike first, as `plackett_luce` takes them.
     pub fn best_first(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.alternatives.len().min(self.ranks.len())).collect();
         order.sort_by_key(|&place| self.ranks[place]);

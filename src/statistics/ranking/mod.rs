@@ -1,6 +1,6 @@
 //! Scales from rankings and paired comparisons, and tables of what was ranked or taken for what.
 //!
-//! [`plackett_luce()`] for rankings of any length, [`bradley_terry()`] for pairs, [`thurstone()`]
+//! `plackett_luce` for rankings of any length, `bradley_terry` for pairs, `thurstone`
 //! and [`Mosteller::of`] on the normal scale: each by maximum likelihood (but the last) with errors
 //! from the observed information. A scale has no zero of its own: values sum to zero. Where an
 //! estimate would be infinite the groups of items that cause it are named ([`Connection`]); only a

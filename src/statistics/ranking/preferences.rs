@@ -51,11 +51,11 @@ impl Preferences {
     }
 
     /// Every ranking, best first, taken apart into its pairs. They are not independent: errors of
-    /// a scale from them are too small, and [`plackett_luce`](super::plackett_luce()) has the right
+    /// a scale from them are too small, and `plackett_luce` has the right
     /// ones.
     ///
     /// # Errors
-    /// As [`plackett_luce`](super::plackett_luce()).
+    /// As `plackett_luce`.
     pub fn of_rankings<R: AsRef<[usize]>>(n_items: usize, rankings: &[R]) -> Computed<Self> {
         check_rankings(n_items, rankings)?;
         let mut all = Self::new(n_items);
