@@ -14,7 +14,7 @@ start
 n_lines=0
 comes_to() { tail -n "+$((n_lines + 1))" "$work/device.csv" 2> /dev/null | grep -q "$1"; }
 await_state() {
-  await 20 comes_to "$1" || fail "$2"
+  await 20 comes_to "$1" || fail "$2; the device said last: $(tail -n 3 "$work/device.csv" | tr '\n' ' ')"
   n_lines=$(wc -l < "$work/device.csv")
 }
 # It moves by itself from the start: paused by Esc, moved on by Space, recorded without a device armed.
