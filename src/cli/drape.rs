@@ -8,6 +8,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use super::output::{self, TableOut};
+use super::render_out::AMPLITUDE_COLUMNS;
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
 use selvedge_drape::{
@@ -195,22 +196,11 @@ struct AmplitudesOut {
 
 impl AmplitudesOut {
     fn new(path: &Path, scene: &DrapeScene) -> Result<Self, CliError> {
-        let header = [
-            "tick",
-            "t_s",
-            "display",
-            "contactor",
-            "x_mm",
-            "y_mm",
-            "textile",
-            "a40_um",
-            "a320_um",
-        ];
         let rendered = scene.render_scene()?;
         Ok(Self {
             n_fingers: rendered.displays.len(),
             renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
-            table: TableOut::new(Some(path), &header)?,
+            table: TableOut::new(Some(path), &AMPLITUDE_COLUMNS)?,
             textile: scene.textile().unwrap_or_default().to_owned(),
             tick: 0,
         })

@@ -15,7 +15,8 @@ use selvedge_engine::{ClipKind, ClipWriter, side_by_side};
 use selvedge_render::array::DisplayFrame;
 use selvedge_render::scene::LoadedScene;
 
-const HEADER: [&str; 9] = [
+/// Columns of amplitudes: what a contactor is given at a tick, and where it is.
+pub(super) const AMPLITUDE_COLUMNS: [&str; 9] = [
     "tick",
     "t_s",
     "display",
@@ -38,7 +39,7 @@ impl<'a> AmplitudeTable<'a> {
     /// A table in a file, or on standard output.
     pub(super) fn new(path: Option<&Path>, loaded: &'a LoadedScene) -> Result<Self, CliError> {
         Ok(Self {
-            out: TableOut::new(path, &HEADER)?,
+            out: TableOut::new(path, &AMPLITUDE_COLUMNS)?,
             loaded,
         })
     }

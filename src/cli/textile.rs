@@ -92,10 +92,11 @@ pub(super) struct FromLibrary {
 
 impl FromLibrary {
     pub(super) fn open(&self) -> Result<Library, CliError> {
-        Ok(match &self.library {
-            Some(name) => Library::named(name, selvedge_workbench::build_cache().as_ref())?,
-            None => Library::shipped()?,
-        })
+        let cache = selvedge_workbench::build_cache();
+        Ok(Library::named_or_shipped(
+            self.library.as_deref(),
+            cache.as_ref(),
+        )?)
     }
 }
 

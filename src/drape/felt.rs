@@ -1,6 +1,5 @@
 //! From the pads to the tactile renderer: what each contactor touches, and how it slips.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use super::pad::contactors;
@@ -23,10 +22,7 @@ impl DrapeScene {
             let mend = "name a textile in the scene";
             return Err(DrapeError::input("the cloth has no surface to feel", mend));
         };
-        let library = match self.library() {
-            Some(folder) => Library::named(folder, None)?,
-            None => Library::shipped()?,
-        };
+        let library = Library::named_or_shipped(self.library_folder.as_deref(), None)?;
         let display = || Display {
             geometry: Geometry::Array(ArrayLayout::Exeter24),
             rotation_deg: 0.0,
@@ -46,10 +42,6 @@ impl DrapeScene {
             scene,
             Arc::new(library),
         )?))
-    }
-
-    fn library(&self) -> Option<&Path> {
-        self.library_folder.as_deref()
     }
 }
 

@@ -159,11 +159,9 @@ fn odd(figures: &Figures, (emt, lt, load): ([f64; 2], [f64; 2], f64), weight: f6
 
 /// Mechanical figures of a textile: those of the program, below those that its own manifest states.
 pub(crate) fn of_textile(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
-    let library = match library {
-        Some(folder) => Library::named(folder, None)?,
-        None => Library::shipped()?,
-    };
-    let own = library.manifest(id)?.measured;
+    let own = Library::named_or_shipped(library, None)?
+        .manifest(id)?
+        .measured;
     let path = Path::new("fabrics.toml");
     let mut known: BTreeMap<String, FabricKeys> = files::keys_from_str(FABRICS, path)?;
     let known = known.remove(id).unwrap_or_default();

@@ -111,14 +111,9 @@ impl Stretch {
     }
 
     pub(crate) fn precondition(&self, mesh: &Mesh, lines: &mut LinePreconditioner) {
-        let [rows, columns] = mesh.spans(self.axis, 1);
         let stride = mesh.stride(self.axis);
-        for row in 0..rows {
-            for column in 0..columns {
-                let edge = &self.edges[row * columns + column];
-                let a = row * mesh.n[0] + column;
-                lines.add_edge(self.axis, [a, a + stride], [edge.along, edge.across]);
-            }
+        for (edge, (_, a, _)) in self.edges.iter().zip(mesh.lines(self.axis, 1)) {
+            lines.add_edge(self.axis, [a, a + stride], [edge.along, edge.across]);
         }
     }
 
@@ -127,13 +122,11 @@ impl Stretch {
         if self.loops.0.is_empty() {
             return;
         }
-        let [rows, columns] = mesh.spans(self.axis, 1);
         let stride = mesh.stride(self.axis);
         let (elements, law) = &mut self.loops;
-        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |c| (row, c))) {
-            let a = row * mesh.n[0] + column;
+        for (edge, a, _) in mesh.lines(self.axis, 1) {
             let strain = (x[a + stride] - x[a]).norm() / mesh.h[self.axis] - 1.0;
-            elements.settle(row * columns + column, strain, *law);
+            elements.settle(edge, strain, *law);
         }
     }
 }

@@ -51,19 +51,9 @@ impl Bend {
 
     /// Index, width and three vertices of every place along the lines.
     fn places<'a>(&self, mesh: &'a Mesh) -> impl Iterator<Item = (usize, f64, [usize; 3])> + 'a {
-        let axis = self.axis;
-        let ([rows, columns], stride) = (mesh.spans(axis, 2), mesh.stride(axis));
-        (0..rows).flat_map(move |row| {
-            (0..columns).map(move |column| {
-                let a = row * mesh.n[0] + column;
-                let width = mesh.width_m(axis, [row, column]);
-                (
-                    row * columns + column,
-                    width,
-                    [a, a + stride, a + 2 * stride],
-                )
-            })
-        })
+        let stride = mesh.stride(self.axis);
+        let lines = mesh.lines(self.axis, 2);
+        lines.map(move |(index, a, width)| (index, width, [a, a + stride, a + 2 * stride]))
     }
 
     pub(crate) fn evaluate(

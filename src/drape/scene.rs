@@ -13,7 +13,7 @@ use super::sheet::{Losses, Sheet};
 use super::system::System;
 use super::{DrapeError, Fabric};
 use selvedge_foundation::files::{self, Flaw};
-use selvedge_textile::is_of_the_program;
+use selvedge_textile::Library;
 
 /// Widest spacing of a grid that is chosen, m.
 const LIVE_SPACING_M: f64 = 8e-3;
@@ -112,13 +112,8 @@ impl DrapeScene {
             return Err(files::FileError::content(path, line, what, mend).into());
         }
         let beside = path.parent().unwrap_or_else(|| Path::new(""));
-        let library = keys.library.as_ref().map(|library| {
-            if is_of_the_program(library) {
-                library.clone()
-            } else {
-                beside.join(library)
-            }
-        });
+        let library = keys.library.as_ref();
+        let library = library.map(|name| Library::place(name, beside));
         let figures = match &keys.textile {
             Some(id) => kes::of_textile(id, library.as_deref())
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
@@ -377,7 +372,6 @@ fn placed(place: files::Place, error: &DrapeError) -> Flaw {
 mod tests {
     use super::*;
     use selvedge_scratch::ScratchFolder;
-    use selvedge_textile::Library;
 
     #[test]
     fn every_shipped_textile_has_figures_that_fit() {

@@ -80,16 +80,15 @@ impl Cloth {
 fn pull(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     let mesh = &sheet.mesh;
     for axis in 0..2 {
-        let ([rows, columns], stride) = (mesh.spans(axis, 1), mesh.stride(axis));
+        let stride = mesh.stride(axis);
         let (h, stiffness) = (mesh.h[axis], sheet.stretch[axis].tension.at_rest_n_per_m);
-        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |at| (row, at))) {
-            let a = row * mesh.n[0] + column;
+        for (_, a, width) in mesh.lines(axis, 1) {
             let b = a + stride;
             let span = x[b] - x[a];
             let length = span.norm();
             if length > 0.0 {
                 let along = span / length;
-                let compliance = h / (stiffness * mesh.width_m(axis, [row, column]));
+                let compliance = h / (stiffness * width);
                 moves.solve(x, [(a, -along), (b, along)], (length - h, compliance));
             }
         }
@@ -119,19 +118,17 @@ fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
 fn bend(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     let mesh = &sheet.mesh;
     for axis in 0..2 {
-        let ([rows, columns], stride) = (mesh.spans(axis, 2), mesh.stride(axis));
+        let stride = mesh.stride(axis);
         let rigidity = sheet.fabric.bending_n_m[axis];
         if rigidity <= 0.0 {
             continue;
         }
-        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |at| (row, at))) {
-            let a = row * mesh.n[0] + column;
+        for (_, a, width) in mesh.lines(axis, 2) {
             let (b, c) = (a + stride, a + 2 * stride);
             let bent = x[a] - x[b] * 2.0 + x[c];
             let size = bent.norm();
             if size > 0.0 {
                 let along = bent / size;
-                let width = mesh.width_m(axis, [row, column]);
                 let compliance = mesh.h[axis].powi(3) / (rigidity * width);
                 let gradient = [(a, along), (b, along * -2.0), (c, along)];
                 moves.solve(x, gradient, (size, compliance));

@@ -233,8 +233,8 @@ fn slope_share(examples: &[Example]) -> f64 {
 
 /// The level of friction as the ridge regression has it: a weight a standardised figure, and their
 /// constant.
-pub(crate) fn linear_level(examples: &[Example]) -> Vec<f64> {
-    let ridge = Ridge::fitted(examples, &scales(examples));
+pub(crate) fn linear_level(examples: &[Example], scales: &[[f64; 2]]) -> Vec<f64> {
+    let ridge = Ridge::fitted(examples, scales);
     ridge.weights.column(0).iter().map(|w| 0.01 * w).collect()
 }
 

@@ -211,18 +211,10 @@ fn textile_ids(experiment: &Experiment<'_>) -> Result<Vec<String>, String> {
 
 /// The library of a design, sought beside the logs.
 fn library(experiment: &Experiment<'_>, options: &Options) -> Result<Library, TextileError> {
-    let Some(name) = &experiment.design.library else {
-        return Library::shipped();
-    };
-    if selvedge_textile::is_of_the_program(name) {
-        return Library::named(name, options.cache.as_ref());
-    }
-    let beside = experiment
-        .sessions
-        .first()
-        .and_then(|found| found.log.parent());
-    let path = beside.unwrap_or_else(|| Path::new(".")).join(name);
-    Library::named(&path, options.cache.as_ref())
+    let first = experiment.sessions.first();
+    let beside = first.and_then(|found| found.log.parent());
+    let folder = beside.unwrap_or_else(|| Path::new("."));
+    (experiment.design).open_library(folder, options.cache.as_ref())
 }
 
 /// What follows from levels.

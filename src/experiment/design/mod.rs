@@ -38,7 +38,7 @@ pub use parameter::{Scale, TunedParameter};
 
 use crate::named::named;
 use selvedge_textile::tactile::{Band, Tuning};
-use selvedge_textile::{BuildCache, Library, TextileError, is_of_the_program};
+use selvedge_textile::{BuildCache, Library, TextileError};
 
 macro_rules! shipped {
     ($name:literal) => {
@@ -136,11 +136,11 @@ impl Design {
         folder: &Path,
         cache: Option<&BuildCache>,
     ) -> Result<Library, TextileError> {
-        match &self.library {
-            None => Library::shipped(),
-            Some(name) if is_of_the_program(name) => Library::named(name, cache),
-            Some(name) => Library::named(&folder.join(name), cache),
-        }
+        let place = self
+            .library
+            .as_ref()
+            .map(|name| Library::place(name, folder));
+        Library::named_or_shipped(place.as_deref(), cache)
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::ExperimentError;
 use selvedge_render::RenderError;
 use selvedge_render::contact::{FeltSurface, Tip};
-use selvedge_render::stylus::{StylusDrive, StylusSettings};
+use selvedge_render::stylus::StylusSettings;
 use selvedge_textile::Textile;
 use selvedge_textile::surface::Direction;
 use selvedge_textile::tactile::{Filters, LEVEL_SPEED_MM_PER_S, Levels};
@@ -34,8 +34,7 @@ pub(super) fn levels(
     };
     let setup = settings.setup(felt.contact(tip).map_err(refused)?);
     let on = vec![(Arc::clone(textile.surface()), Some(setup))];
-    let drive = (settings.rate_hz, settings.um_per_n);
-    let mut drive = StylusDrive::prepare(on, drive, &Filters::default()).map_err(refused)?;
+    let mut drive = settings.drive(on, &Filters::default()).map_err(refused)?;
     Ok(Levels::of_amplitudes(&Direction::ALL.map(|direction| {
         drive.leave();
         let mut um = Vec::new();

@@ -20,7 +20,7 @@ use burn::tensor::{Device, Tensor};
 use selvedge_foundation::numerics::{Grid, to_single};
 
 use super::weights::{tensor, values};
-use crate::baseline::linear_level;
+use crate::baseline::{linear_level, scales};
 use crate::example::Example;
 use crate::picture::{Looks, N_CHANNELS, N_FIGURES};
 use crate::signal::{Course, N_BINS};
@@ -191,13 +191,14 @@ impl Inputs {
 
 impl Scales {
     pub(super) fn of(examples: &[Example]) -> Self {
-        let figures = crate::baseline::scales(examples).into_iter();
+        let figures = scales(examples);
+        let level = linear_level(examples, &figures).into_iter();
         let channel = |n: usize| of_bins(examples.iter().map(move |e| &e.looks.channels[n]));
         Self {
-            figures: figures.map(|scale| scale.map(to_single)).collect(),
+            figures: figures.iter().map(|scale| scale.map(to_single)).collect(),
             channels: (0..N_CHANNELS).map(channel).collect(),
             logs: of_bins(examples.iter().map(|e| &e.course.log_magnitudes)),
-            level: linear_level(examples).into_iter().map(to_single).collect(),
+            level: level.map(to_single).collect(),
         }
     }
 

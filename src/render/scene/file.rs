@@ -17,7 +17,7 @@ use super::{ArrayLayout, Geometry, SceneError};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_foundation::geometry::{Displacement, Point};
 use selvedge_textile::tactile::{Filters, Tuning};
-use selvedge_textile::{elsewhere, id_in, is_of_the_program};
+use selvedge_textile::{Library, elsewhere, id_in};
 
 /// A scene: a workspace of textiles, the displays that explore it, filters and tuning.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -191,14 +191,9 @@ impl Scene {
     /// The library's folder as seen from where the program runs, for a scene file at `path`. A
     /// library of the program keeps its name.
     pub fn library_folder(&self, path: &Path) -> Option<PathBuf> {
-        let folder = self.library.as_ref()?;
-        if is_of_the_program(folder) {
-            return Some(folder.clone());
-        }
-        Some(
-            path.parent()
-                .map_or_else(|| folder.clone(), |beside| beside.join(folder)),
-        )
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        let name = self.library.as_ref()?;
+        Some(Library::place(name, folder))
     }
 
     fn from_keys(keys: SceneKeys) -> Result<Self, Flaw> {

@@ -1,14 +1,19 @@
 //! What holds a stylus and how it is computed: chosen in a window, kept per user, or stated by a
 //! design.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
+use super::StylusDrive;
 use crate::RenderError;
 use crate::contact::{
     Contact, ContactLaw, DeviceSpec, ForceParts, Hand, Sampling, Standing, Stepper, StylusSetup,
     WallCase,
 };
 use selvedge_foundation::numerics::to_index;
+use selvedge_textile::surface::Surface;
+use selvedge_textile::tactile::Filters;
 
 /// Everything that is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -143,6 +148,18 @@ impl StylusSettings {
             Some(why) => Err(RenderError::stylus("the stylus cannot be held", why)),
             None => Ok(()),
         }
+    }
+
+    /// What drives a device by its vibration on such textiles.
+    ///
+    /// # Errors
+    /// As [`StylusDrive::prepare`].
+    pub fn drive(
+        &self,
+        on: Vec<(Arc<Surface>, Option<StylusSetup>)>,
+        filters: &Filters,
+    ) -> Result<StylusDrive, RenderError> {
+        StylusDrive::prepare(on, (self.rate_hz, self.um_per_n), filters)
     }
 
     /// All of a run of a tip on a surface.

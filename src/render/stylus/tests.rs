@@ -103,8 +103,7 @@ fn what_is_given_as_force_alone_vibrates_not_at_all() {
     let settings = StylusSettings::default();
     let led_um = |setup: StylusSetup| {
         let on = vec![(Arc::clone(&surface), Some(setup))];
-        let drive = (settings.rate_hz, settings.um_per_n);
-        let mut drive = StylusDrive::prepare(on, drive, &Filters::default()).unwrap();
+        let mut drive = settings.drive(on, &Filters::default()).unwrap();
         let mut n_steps = 0;
         for nth in 0..8 {
             n_steps += drive.follow(Some((0, [2.5 * f64::from(nth), 0.0])));

@@ -2,9 +2,8 @@
 //! the odds that one item is preferred to another is the difference of their abilities.
 
 use super::choices::{Choices, Prior};
-use super::connection::number;
 use super::deviance::Deviance;
-use super::newton::{LogLikelihood as _, maximise};
+use super::newton::LogLikelihood as _;
 use super::preferences::Preferences;
 use super::scale::Scale;
 use crate::Computed;
@@ -43,10 +42,7 @@ impl BradleyTerry {
                 }
             }
         }
-        let mut all = prior.choices(n_items)?;
-        all.merge(&choices);
-        all.connection().check(number)?;
-        let peak = maximise(&all, vec![0.0; n_items])?;
+        let peak = choices.peak(prior)?;
         Ok(Self {
             scale: Scale::of(&peak.at, &peak.covariance),
             log_likelihood: choices.value(&peak.at),

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::connection::Connection;
-use super::newton::LogLikelihood;
+use super::connection::{Connection, number};
+use super::newton::{LogLikelihood, Peak, maximise};
 use crate::{Computed, undefined};
 
 /// What is known of worths before anything was compared.
@@ -94,8 +94,20 @@ impl Choices {
         }
     }
 
+    /// Where the worths are most likely, with what a prior adds.
+    ///
+    /// # Errors
+    /// Groups of items without finite worths; a search that does not settle.
+    pub(super) fn peak(&self, prior: Prior) -> Computed<Peak> {
+        let n_items = self.wins.len();
+        let mut all = prior.choices(n_items)?;
+        all.merge(self);
+        all.connection().check(number)?;
+        maximise(&all, vec![0.0; n_items])
+    }
+
     /// How they hang together.
-    pub(super) fn connection(&self) -> Connection {
+    fn connection(&self) -> Connection {
         let n = self.wins.len();
         Connection::of(n, |i, j| self.is_above[i * n + j])
     }

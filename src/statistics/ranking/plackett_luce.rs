@@ -2,9 +2,8 @@
 //! the next among the rest, each with a probability that is its share of the worth there.
 
 use super::choices::{Choices, Prior, shares};
-use super::connection::number;
 use super::deviance::likelihood_ratio;
-use super::newton::{LogLikelihood as _, maximise};
+use super::newton::LogLikelihood as _;
 use super::preferences::check_rankings;
 use super::scale::Scale;
 use crate::{Computed, Named, Outcome, undefined};
@@ -70,10 +69,7 @@ impl PlackettLuce {
         for ranking in rankings {
             choices.add_ranking(ranking.as_ref());
         }
-        let mut all = prior.choices(n_items)?;
-        all.merge(&choices);
-        all.connection().check(number)?;
-        let peak = maximise(&all, vec![0.0; n_items])?;
+        let peak = choices.peak(prior)?;
         Ok(Self {
             scale: Scale::of(&peak.at, &peak.covariance),
             n_rankings: rankings.len(),

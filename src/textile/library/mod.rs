@@ -90,6 +90,27 @@ impl Library {
         Ok(library.with_cache(cache))
     }
 
+    /// The same; the shipped one where none is named.
+    ///
+    /// # Errors
+    /// As [`Self::named`].
+    pub fn named_or_shipped(
+        name: Option<&Path>,
+        cache: Option<&BuildCache>,
+    ) -> Result<Self, TextileError> {
+        name.map_or_else(Self::shipped, |name| Self::named(name, cache))
+    }
+
+    /// What a file in `folder` calls `name`, as seen from where the program runs: a library of the
+    /// program keeps its name.
+    pub fn place(name: &Path, folder: &Path) -> PathBuf {
+        if is_of_the_program(name) {
+            name.to_owned()
+        } else {
+            folder.join(name)
+        }
+    }
+
     /// The same, with a place for what is built of other libraries.
     #[must_use]
     pub fn with_cache(self, cache: Option<&BuildCache>) -> Self {

@@ -47,10 +47,9 @@ impl Materials {
         (display, rendering): (Display, Rendering),
     ) -> Result<Self, AppError> {
         let scene = all_at_once(design, &display);
-        let library = Arc::new(match scene.library_folder(path) {
-            None => Library::shipped()?,
-            Some(folder) => Library::named(&folder, build_cache().as_ref())?,
-        });
+        let folder = scene.library_folder(path);
+        let library = Library::named_or_shipped(folder.as_deref(), build_cache().as_ref())?;
+        let library = Arc::new(library);
         let items = crate::bench::library_shelf::items_of(&library, None);
         let library_view = LibraryView::new(Arc::clone(&library), items);
         let loaded = LoadedScene::load(scene, library)?;
@@ -132,8 +131,8 @@ impl Materials {
             });
             (Arc::clone(textile.surface()), setup)
         });
-        let drive = (stylus.rate_hz, stylus.um_per_n);
-        StylusDrive::prepare(led.collect(), drive, &loaded.scene().filters).map(Some)
+        let drive = stylus.drive(led.collect(), &loaded.scene().filters);
+        drive.map(Some)
     }
 }
 

@@ -104,8 +104,7 @@ impl ThroughDevice {
                 && same.all(|same| same)
         });
         if !is_given {
-            let drive = (settings.rate_hz, settings.um_per_n);
-            match StylusDrive::prepare(setups, drive, &filters) {
+            match settings.drive(setups, &filters) {
                 Ok(drive) => bench.feel_stylus(Some((drive, settings.words()))),
                 Err(error) => {
                     self.notes.push(error.to_string());

@@ -13,9 +13,6 @@ use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState, Lin
 use selvedge_foundation::numerics::to_single;
 use selvedge_render::array::{ContactTrace, Touch};
 
-/// The largest drive code.
-pub(crate) const FULL_CODE: u16 = u16::MAX;
-
 /// One contactor at one tick, explained.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Explanation {

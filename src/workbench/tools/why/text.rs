@@ -3,8 +3,8 @@
 use crate::bench::export::Sheet;
 use crate::bench::on_finger::OnFinger;
 use crate::bench::perceptual_level::felt_words;
-use crate::tools::why::explanation::{Explanation, FULL_CODE};
-use selvedge_device::Calibration;
+use crate::tools::why::explanation::Explanation;
+use selvedge_device::{Calibration, FULL_CODE};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::GainTerms;
 use selvedge_render::array::DirectionTrace;
