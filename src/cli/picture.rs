@@ -230,9 +230,12 @@ fn summary(analysis: &Analysis, px_per_mm: Option<f64>, out: &Path) -> String {
         format!("({x}, {y}) {unit}")
     };
     format!(
-        "{out}: repeats by {} and {}, confidence {}, explains {} of the variance\n",
+        "{out}: repeats by {} and {}{}, confidence {}, explains {} of the variance\n",
         vector(lattice.p1_px),
         vector(lattice.p2_px),
+        lattice
+            .weave_name()
+            .map_or_else(String::new, |name| format!(" ({name})")),
         fixed(lattice.confidence, 2),
         fixed(*explained_variance, 2),
     )

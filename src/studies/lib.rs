@@ -72,6 +72,7 @@ pub fn studies() -> Vec<Study> {
         shading::STUDY,
         picture::AUTOCORRELATION,
         picture::LATTICE,
+        picture::WEAVES,
         picture::SCALE,
         picture::ROUTE,
         bimorph::STUDY,

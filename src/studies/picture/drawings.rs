@@ -160,7 +160,7 @@ impl Drawing {
 }
 
 /// Brings values to a mean of 0 and a standard deviation of 1.
-fn standardised(grid: &mut Grid<f64>) {
+pub(super) fn standardised(grid: &mut Grid<f64>) {
     let n = grid.values().len().max(1) as f64;
     let mean = grid.values().iter().sum::<f64>() / n;
     let square = grid.values().iter().map(|x| (x - mean).powi(2));

@@ -14,11 +14,14 @@ mod spoilt;
 mod sweeps;
 #[cfg(test)]
 mod tests;
+mod weaves;
+mod woven;
 
 pub(crate) use autocorrelation::STUDY as AUTOCORRELATION;
 pub(crate) use lattice::STUDY as LATTICE;
 pub(crate) use route::STUDY as ROUTE;
 pub(crate) use scale::STUDY as SCALE;
+pub(crate) use weaves::STUDY as WEAVES;
 
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;

@@ -106,12 +106,12 @@ impl Spoilt {
     }
 }
 
-fn in_8_bits(level: f64) -> f64 {
+pub(super) fn in_8_bits(level: f64) -> f64 {
     level.round().clamp(0.0, 255.0)
 }
 
 /// A Gaussian of standard deviation `sigma_px`; edges go on as they end.
-fn blurred(picture: &Grid<f64>, sigma_px: f64) -> Grid<f64> {
+pub(super) fn blurred(picture: &Grid<f64>, sigma_px: f64) -> Grid<f64> {
     if sigma_px <= 0.0 {
         return picture.clone();
     }
@@ -165,7 +165,7 @@ fn turned(a: &Block) -> Block {
 
 /// What the quantisation of a JPEG leaves of a picture: cosine transforms of 8 × 8 pixels, rounded
 /// to the steps of a quality. Coding itself loses nothing and is left out.
-fn compressed(picture: &Grid<f64>, quality: f64) -> Grid<f64> {
+pub(super) fn compressed(picture: &Grid<f64>, quality: f64) -> Grid<f64> {
     let scale = if quality < 50.0 {
         50.0 / quality.max(1.0)
     } else {

@@ -2,7 +2,8 @@
 //!
 //! Candidates come from the directions (mean concentration and Hough) and from pairs of maxima; the
 //! one that explains the maxima best is checked against finer and coarser lattices, fitted to all
-//! maxima by least squares and reduced.
+//! maxima by least squares and reduced. Whether it is one at all, and whether it is the repeat of a
+//! weave or only its threads, is for what it predicts where it was not looked at.
 
 use serde::Serialize;
 
@@ -10,9 +11,11 @@ use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, Place, length, mix};
 use super::candidates::{Candidate, Method, judge, pairs, tolerance_px};
 use super::directions::Directions;
+use super::held_out::{self, HeldOut, Repeat};
 use super::maxima::Maxima;
 use super::multiples::{Evidence, coarser, finer};
 use super::significant::SignificantMaxima;
+use super::weave_name::weave_name;
 
 /// Below this score the maxima are not those of a lattice.
 const MIN_SCORE: f64 = 0.6;
@@ -20,6 +23,21 @@ const MIN_SCORE: f64 = 0.6;
 const MIN_LEVEL: f64 = 0.05;
 /// Between lattice points the correlation must fall by at least this share of its mean there.
 const MIN_CONTRAST: f64 = 0.12;
+/// What is explained where it was not looked at must be this share of the variance, and this share of
+/// it without looking along the same threads.
+const MIN_EXPLAINED: f64 = 0.05;
+const MIN_APART: f64 = 0.4;
+/// Maxima that a lattice explains badly may be those of bent cloth, if it is predicted this well.
+const MIN_EXPLAINED_OF_POOR: f64 = 0.3;
+/// Where a picture holds too few cells for that, the score must be higher.
+const MIN_SCORE_OF_FEW: f64 = 0.9;
+/// A coarser lattice must explain more by this factor, one that is another by that, each from this
+/// many neighbours.
+const MIN_GAIN_OF_COARSER: f64 = 1.015;
+const MIN_GAIN_OF_OTHER: f64 = 1.15;
+const MIN_NEIGHBOURS: usize = 9;
+/// Candidates whose threads are looked for.
+const N_STARTS: usize = 8;
 /// A picture must hold this many cells.
 const MIN_CELLS: f64 = 5.0;
 /// A picture smaller than this on one side cannot hold two repeats that are distinguished.
@@ -60,6 +78,15 @@ pub enum NoLattice {
         /// Mean correlation at the points of the best lattice.
         level: f64,
     },
+    /// Maxima that predict nothing.
+    #[error(
+        "nothing repeats: the cells of the best lattice explain {share:.2} of what is beside them, \
+         where {MIN_EXPLAINED} is needed"
+    )]
+    NotPredicted {
+        /// Share of the variance.
+        share: f64,
+    },
     /// Stripes, not threads that cross.
     #[error(
         "the picture repeats along one direction only: along the other it is as even between \
@@ -86,15 +113,16 @@ pub struct Lattice {
     pub p1_px: Place,
     /// The longer vector, px.
     pub p2_px: Place,
-    /// 0 to 1: the score, lowered by a faint contrast and by a method of directions that disagrees.
+    /// The share of generated cloths with evidence like this whose lattice was right.
     pub confidence: f64,
     /// What proposed it.
     pub method: &'static str,
-    /// Whether the directions by mean concentration span the same lattice (or the one it was found
-    /// to be a multiple of).
-    pub(crate) concentration_agrees: bool,
-    /// Whether the directions by Hough transform do.
-    pub(crate) hough_agrees: bool,
+    /// The lattice from thread to thread, where it is finer.
+    #[serde(skip)]
+    pub thread_grid: Option<Basis>,
+    /// Share of the variance that cells explain in the cells beside them; `None` where the picture
+    /// holds too few.
+    pub held_out: Option<f64>,
     /// Mean correlation at its points within a few periods.
     pub level: f64,
     /// The largest of the mean correlations half-way between its points.
@@ -109,6 +137,11 @@ impl Lattice {
     /// Its vectors.
     pub fn basis(&self) -> Basis {
         Basis::new(self.p1_px, self.p2_px)
+    }
+
+    /// What weavers call it, as far as it tells.
+    pub fn weave_name(&self) -> Option<String> {
+        weave_name(&self.thread_grid?, &self.basis())
     }
 
     /// The same lattice with other vectors, refined ones for example.
@@ -147,38 +180,47 @@ impl Lattice {
             maxima,
             significant,
         };
-        let (first, method) = best(&evidence, directions)?;
-        if first.score() < MIN_SCORE {
+        let candidates = candidates(&evidence, directions)?;
+        let (first, method) = candidates[0];
+        let mut starts: Vec<Basis> = Vec::new();
+        for (candidate, _) in &candidates {
+            for basis in [finer(&evidence, candidate.basis), candidate.basis] {
+                let is_known = |known: &Basis| known.distance_to(&basis) < 0.08 * known.shorter();
+                if starts.len() < N_STARTS && !starts.iter().any(is_known) {
+                    starts.push(basis);
+                }
+            }
+        }
+        let by_heights = coarser(&evidence, finer(&evidence, first.basis));
+        let repeat = held_out::repeat(&evidence, &starts);
+        let (basis, agreement) = agreed(&evidence, by_heights, repeat.as_ref());
+        let [explained, apart] = held_out::explained(&evidence, &basis);
+        if first.score() < MIN_SCORE && explained.share < MIN_EXPLAINED_OF_POOR {
             return Err(NoLattice::NotResolved {
                 score: first.score(),
             });
         }
-        let basis = coarser(&evidence, finer(&evidence, first.basis));
         let (level, between) = levels(&evidence, &basis)?;
         let cells = 4.0 * rho.reach()[0] as f64 * rho.reach()[1] as f64 / basis.area();
         if cells < MIN_CELLS {
             return Err(NoLattice::TooFewRepeats { cells });
         }
-        let tolerance = 0.15 * first.basis.shorter();
-        let agrees = |other: Option<Basis>| {
-            let same = |b: Basis| {
-                [basis, first.basis]
-                    .iter()
-                    .any(|a| a.distance_to(&b.reduced()) < tolerance)
-            };
-            other.is_some_and(same)
-        };
-        let concentration_agrees = agrees(directions.by_concentration.basis);
-        let hough_agrees = agrees(directions.by_hough.basis);
-        let contrast = ((level - between) / level).clamp(0.0, 1.0);
-        let n_agree = f64::from(u8::from(concentration_agrees) + u8::from(hough_agrees));
+        let is_known = explained.n_neighbours > 0;
+        let is_predicted = explained.share >= MIN_EXPLAINED
+            && (apart.n_neighbours == 0 || apart.share >= MIN_APART * explained.share);
+        let is_sure = apart.n_neighbours > 0 || first.score() >= MIN_SCORE_OF_FEW;
+        if (is_known && !is_predicted) || !is_sure {
+            let share = explained.share.min(apart.share);
+            return Err(NoLattice::NotPredicted { share });
+        }
+        let agreement = if is_known { agreement } else { Agreement::Few };
         Ok(Self {
             p1_px: basis.p1,
             p2_px: basis.p2,
-            confidence: first.score() * (2.0 * contrast).min(1.0).sqrt() * (0.8 + 0.1 * n_agree),
+            confidence: agreement.confidence(),
             method: method.name(),
-            concentration_agrees,
-            hough_agrees,
+            thread_grid: held_out::thread_grid(&evidence, &starts, &basis),
+            held_out: is_known.then_some(explained.share),
             level,
             level_between: between,
             cover: first.cover,
@@ -187,11 +229,70 @@ impl Lattice {
     }
 }
 
-/// The candidate that explains the maxima best; of equals the one from directions.
-fn best(
+/// How the two ways to the repeat of a weave agree: by heights of maxima, and by what is predicted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Agreement {
+    /// They do.
+    Same,
+    /// What is predicted is clearly better by another lattice.
+    Predicted,
+    /// It is not clear.
+    Heights,
+    /// Too few cells to predict any.
+    Few,
+}
+
+impl Agreement {
+    /// The share of generated cloths that were right, of those with a lattice that were judged so
+    /// (the study of lattices counts it).
+    fn confidence(self) -> f64 {
+        match self {
+            Self::Same => 0.98,
+            Self::Predicted => 0.85,
+            Self::Heights => 0.65,
+            Self::Few => 0.5,
+        }
+    }
+}
+
+/// The lattice that is to be believed, and why.
+fn agreed(
+    evidence: &Evidence<'_>,
+    by_heights: Basis,
+    repeat: Option<&Repeat>,
+) -> (Basis, Agreement) {
+    let Some(repeat) = repeat else {
+        return (by_heights, Agreement::Heights);
+    };
+    let basis = repeat.basis;
+    if by_heights.distance_to(&basis) < 0.12 * basis.shorter() {
+        return (by_heights, Agreement::Same);
+    }
+    let [before, _] = held_out::explained(evidence, &by_heights);
+    let is_better = |factor: f64, of: &HeldOut| {
+        repeat.explained.share >= factor * of.share
+            && repeat.explained.n_neighbours >= MIN_NEIGHBOURS
+    };
+    let is_coarser = held_out::holds(&by_heights, &basis);
+    let takes = repeat.stands_out
+        && if is_coarser {
+            is_better(MIN_GAIN_OF_COARSER, &before)
+        } else {
+            before.n_neighbours >= MIN_NEIGHBOURS && is_better(MIN_GAIN_OF_OTHER, &before)
+        };
+    if takes {
+        (basis, Agreement::Predicted)
+    } else {
+        (by_heights, Agreement::Heights)
+    }
+}
+
+/// Candidates, at least one: those that explain the maxima best first, of equals those from
+/// directions.
+fn candidates(
     evidence: &Evidence<'_>,
     directions: &Directions,
-) -> Result<(Candidate, Method), NoLattice> {
+) -> Result<Vec<(Candidate, Method)>, NoLattice> {
     let significant = evidence.significant;
     if significant.all().is_empty() {
         return Err(NoLattice::NothingRepeats);
@@ -216,20 +317,18 @@ fn best(
         let bonus = if *method == Method::Pair { 0.0 } else { 0.02 };
         found.score() + bonus
     };
-    let all = from_directions.chain(from_pairs);
-    let best = all.fold(None, |best: Option<(Candidate, Method)>, next| match best {
-        Some(best) if rank(&best) >= rank(&next) => Some(best),
-        _ => Some(next),
-    });
-    best.ok_or_else(|| {
-        if are_on_a_line(significant) {
+    let mut all: Vec<(Candidate, Method)> = from_directions.chain(from_pairs).collect();
+    all.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    if all.is_empty() {
+        return Err(if are_on_a_line(significant) {
             NoLattice::Parallel
         } else if significant.all().len() > 2 {
             NoLattice::NotResolved { score: 0.0 }
         } else {
             NoLattice::NothingRepeats
-        }
-    })
+        });
+    }
+    Ok(all)
 }
 
 /// Whether all maxima, and there are some, lie about on one line through the origin.

@@ -14,6 +14,7 @@ pub mod brightness;
 mod candidates;
 mod colour;
 mod directions;
+mod held_out;
 mod lattice;
 mod light;
 mod maxima;
@@ -27,6 +28,7 @@ pub mod shading;
 mod significant;
 mod source;
 mod tile;
+mod weave_name;
 
 #[cfg(test)]
 mod tests;

@@ -240,7 +240,7 @@ impl Heights {
 }
 
 /// All lattices of whole numbers that are coarser by a factor.
-fn sublattices(factor: isize) -> Vec<[[isize; 2]; 2]> {
+pub(super) fn sublattices(factor: isize) -> Vec<[[isize; 2]; 2]> {
     let divisors = (1..=factor).filter(|a| factor % a == 0);
     let rows = divisors.flat_map(|a| (0..factor / a).map(move |b| [[a, b], [0, factor / a]]));
     rows.collect()

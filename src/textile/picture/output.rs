@@ -146,6 +146,11 @@ fn reported(analysis: &Analysis, about: &About) -> impl Serialize {
         },
         px_per_mm: about.px_per_mm,
         lattice: lattice,
+        thread_grid: lattice.and_then(|l| l.thread_grid).map(|grid| object! {
+            p1_px: grid.p1,
+            p2_px: grid.p2,
+        }),
+        weave: lattice.and_then(|l| l.weave_name()),
         reason: analysis.found.as_ref().err().map(ToString::to_string),
         p1_mm: vector_mm(0),
         p2_mm: vector_mm(1),

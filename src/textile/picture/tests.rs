@@ -243,6 +243,66 @@ fn a_weave_repeats_from_every_second_thread_to_every_second() {
     );
 }
 
+/// A weave of threads 9 and 8 px apart, turned: at crossing (i, j) the warp lies on top where
+/// `(shift·i + j) mod repeat` is 0, and is brighter by a little; threads differ, the camera is noisy.
+fn woven([shift, repeat]: [f64; 2], random: &mut Random) -> (Grid<f64>, Basis, Basis) {
+    let (s, c) = 0.2_f64.sin_cos();
+    let threads = Basis::new([9.0 * c, 9.0 * s], [-8.0 * s, 8.0 * c]);
+    let truth = Basis::new(threads.place([1.0, -shift]), threads.place([0.0, repeat])).reduced();
+    let yarns: Vec<f64> = (0..400).map(|_| 0.02 * random.normal()).collect();
+    let picture = drawn(300, 280, |x, y| {
+        let [u, v] = threads.coordinates([x, y]);
+        let is_warp = (shift * u.floor() + v.floor()).rem_euclid(repeat) < 1.0;
+        let at = if is_warp { u } else { v };
+        let round = (PI * (at - at.floor())).sin();
+        let number = selvedge_foundation::numerics::to_index(at.floor() + 150.0);
+        let own = yarns[2 * number.min(199) + usize::from(is_warp)];
+        let bright = if is_warp { 0.08 } else { 0.0 };
+        0.3 + (0.25 + bright + own) * round + 0.05 * random.normal()
+    });
+    (picture, threads, truth)
+}
+
+#[test]
+fn the_repeat_of_a_weave_is_told_from_its_threads_and_named() {
+    let mut random = Random::new(9);
+    for (weave, name) in [
+        ([1.0, 3.0], "twill of 3 threads"),
+        ([2.0, 5.0], "satin of 5 threads"),
+        ([3.0, 8.0], "satin of 8 threads"),
+    ] {
+        let (picture, threads, truth) = woven(weave, &mut random);
+        let lattice = analysed(picture).found.unwrap().lattice;
+        let off = lattice.basis().distance_to(&truth);
+        assert!(off < 0.3, "{name}: {lattice:?}, off {off}");
+        let grid = lattice.thread_grid;
+        let grid = grid.unwrap_or_else(|| panic!("{name}: no threads, {lattice:?}"));
+        let off = grid.reduced().distance_to(&threads.reduced());
+        assert!(off < 0.3, "{name}: threads {grid:?}, off {off}");
+        assert_eq!(lattice.weave_name().as_deref(), Some(name));
+        assert!(lattice.held_out.unwrap() > 0.2, "{lattice:?}");
+    }
+}
+
+#[test]
+fn pictures_that_repeat_nowhere_get_no_lattice() {
+    let mut random = Random::new(11);
+    let mut n_invented = 0;
+    for _ in 0..12 {
+        let bumps: Vec<[f64; 3]> = (0..160)
+            .map(|_| [240.0, 240.0, 1.0].map(|most| random.uniform_in(0.0, most)))
+            .collect();
+        let picture = drawn(240, 240, |x, y| {
+            let bump = |[at_x, at_y, height]: &[f64; 3]| {
+                height * (-((x - at_x).powi(2) + (y - at_y).powi(2)) / 50.0).exp()
+            };
+            0.2 + 0.3 * bumps.iter().map(bump).sum::<f64>()
+        });
+        n_invented += usize::from(analysed(picture).found.is_ok());
+    }
+    assert!(n_invented <= 1, "{n_invented} of 12 were given a lattice");
+}
+
 /// The reason why a picture has no lattice.
 fn reason(luminance: Grid<f64>) -> NoLattice {
     analysed(luminance).found.unwrap_err()

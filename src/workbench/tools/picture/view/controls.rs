@@ -195,6 +195,12 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
                     Tone::Quiet,
                 );
             }
+            let words = match (lattice.weave_name(), lattice.thread_grid) {
+                (Some(name), _) => name,
+                (None, Some(_)) => "threads cross in a repeat without a name".to_owned(),
+                (None, None) => "no finer grid of threads is seen".to_owned(),
+            };
+            note(ui, &words, Tone::Quiet);
             let share = tiled
                 .flat_part
                 .map_or(tiled.explained_variance, |(_, share)| share);
