@@ -273,12 +273,12 @@ impl WallCase {
             ),
             (Standing::Unstable, true) => {
                 let rate = self.needed_rate_hz().map_or_else(
-                    || "no rate up to 1 MHz helps".to_owned(),
-                    |hz| format!("sample at {} Hz or more", rounded(hz.ceil())),
+                    || "; no rate up to 1 MHz helps".to_owned(),
+                    |hz| format!(", or sample at {} Hz or more", rounded(hz.ceil())),
                 );
                 format!(
                     "no method can hold {k} N/m sampled at {hz} Hz: the loop itself grows above \
-                     {limit} N/m; lower the stiffness, add damping, or: {rate}"
+                     {limit} N/m; lower the stiffness or add damping{rate}"
                 )
             }
             (Standing::Unstable, false) => format!(

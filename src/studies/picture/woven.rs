@@ -1,8 +1,8 @@
 //! Weaves as a camera sees them, and pictures that repeat nowhere.
 //!
-//! Yarns are shaded round, dive between floats, differ among themselves in brightness and place, and
-//! show their twist. Nothing here is drawn by the models of textiles, so that the lattice is judged by
-//! pictures that the program did not make.
+//! Yarns are shaded round, dive between floats, differ among themselves in brightness and place,
+//! and show their twist. Nothing here is drawn by the models of textiles, so that the lattice is
+//! judged by pictures that the program did not make.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,10 +1,11 @@
-//! What a lattice predicts of a picture where it was not looked at: the evidence for threads and for
-//! the repeat of their weave.
+//! What a lattice predicts of a picture where it was not looked at: the evidence for threads and
+//! for the repeat of their weave.
 //!
 //! Every pixel is predicted from the same place in the cells around it, its own left out. The share
-//! of the variance that this explains follows from the autocorrelation at lattice points alone: with
-//! `a` the mean of ρ(l) over n neighbours and `b` that of ρ(l − l′), the best multiple of their mean
-//! explains a²/b. Finer lattices that are wrong lose by `a`, coarser ones by few neighbours in `b`.
+//! of the variance that this explains follows from the autocorrelation at lattice points alone:
+//! with `a` the mean of ρ(l) over n neighbours and `b` that of ρ(l − l′), the best multiple of
+//! their mean explains a²/b. Finer lattices that are wrong lose by `a`, coarser ones by few
+//! neighbours in `b`.
 //!
 //! A weave repeats nearly from thread to thread. Its repeat is the coarser lattice whose points
 //! stand out from all its other cosets, by a gap that is larger than chance. Threads differ among
@@ -108,8 +109,8 @@ fn finest(lattices: &[Basis]) -> Vec<Basis> {
     finest
 }
 
-/// The grid of threads in which a lattice repeats: of those looked at and those around it the finest
-/// whose points are maxima.
+/// The grid of threads in which a lattice repeats: of those looked at and those around it the
+/// finest whose points are maxima.
 pub(super) fn thread_grid(
     evidence: &Evidence<'_>,
     lattices: &[Basis],

@@ -23,8 +23,8 @@ const MIN_SCORE: f64 = 0.6;
 const MIN_LEVEL: f64 = 0.05;
 /// Between lattice points the correlation must fall by at least this share of its mean there.
 const MIN_CONTRAST: f64 = 0.12;
-/// What is explained where it was not looked at must be this share of the variance, and this share of
-/// it without looking along the same threads.
+/// What is explained where it was not looked at must be this share of the variance, and this share
+/// of it without looking along the same threads.
 const MIN_EXPLAINED: f64 = 0.05;
 const MIN_APART: f64 = 0.4;
 /// Maxima that a lattice explains badly may be those of bent cloth, if it is predicted this well.

@@ -244,7 +244,8 @@ fn a_weave_repeats_from_every_second_thread_to_every_second() {
 }
 
 /// A weave of threads 9 and 8 px apart, turned: at crossing (i, j) the warp lies on top where
-/// `(shift·i + j) mod repeat` is 0, and is brighter by a little; threads differ, the camera is noisy.
+/// `(shift·i + j) mod repeat` is 0, and is brighter by a little; threads differ, the camera has
+/// noise.
 fn woven([shift, repeat]: [f64; 2], random: &mut Random) -> (Grid<f64>, Basis, Basis) {
     let (s, c) = 0.2_f64.sin_cos();
     let threads = Basis::new([9.0 * c, 9.0 * s], [-8.0 * s, 8.0 * c]);

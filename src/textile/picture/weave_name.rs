@@ -2,8 +2,8 @@
 
 use super::basis::{Basis, generated, greatest_divisor, whole};
 
-/// The name of the weave that repeats by `repeat` in threads that cross by `threads`, if the lattice
-/// alone tells it: a satin of 5 and its sateen look alike.
+/// The name of the weave that repeats by `repeat` in threads that cross by `threads`, if the
+/// lattice alone tells it: a satin of 5 and its sateen look alike.
 pub(super) fn weave_name(threads: &Basis, repeat: &Basis) -> Option<String> {
     let steps = [repeat.p1, repeat.p2].map(|vector| threads.coordinates(vector).map(whole));
     let [[across, shift], [_, down]] = generated(&steps)?;
