@@ -5,6 +5,7 @@ mod extremes;
 mod felt;
 mod fingers;
 mod motion;
+mod speed;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
 use crate::fabric::{Fabric, Tension};
@@ -14,6 +15,7 @@ use crate::sheet::{Losses, Sheet};
 use crate::system::System;
 
 /// Aborts the tests where something allocates that says it does not.
+#[cfg(debug_assertions)]
 #[global_allocator]
 static ALLOCATOR: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
 
@@ -36,6 +38,17 @@ fn cloth(
     stepping.gain = EXACT;
     stepping.max_steps = 60;
     Cloth::new(System::new(sheet, Vec::new()), stepping)
+}
+
+/// Turns a cloth about its upper edge.
+fn tilt(cloth: &mut Cloth, degrees: f64) {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let top = cloth.system.sheet.mesh.size_m()[1];
+    for x in &mut cloth.x {
+        let down = top - x.y;
+        *x = Vector::new(x.x, top - down * cosine, down * sine);
+    }
+    cloth.restart();
 }
 
 /// A shirting, as its figures would have it.

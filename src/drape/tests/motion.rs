@@ -11,17 +11,6 @@ fn swing(integrator: Integrator, step_s: f64) -> Cloth {
     cloth
 }
 
-/// Turns a cloth about its upper edge.
-fn tilt(cloth: &mut Cloth, degrees: f64) {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
-    let top = cloth.system.sheet.mesh.size_m()[1];
-    for x in &mut cloth.x {
-        let down = top - x.y;
-        *x = Vector::new(x.x, top - down * cosine, down * sine);
-    }
-    cloth.restart();
-}
-
 fn run(cloth: &mut Cloth, seconds: f64) {
     let n: u32 = selvedge_foundation::numerics::to_whole((seconds / cloth.stepping.step_s).round());
     (0..n).for_each(|_| cloth.step(&[]).unwrap());
