@@ -11,8 +11,9 @@ use selvedge_foundation::numerics::bisected;
 pub(crate) struct Tension {
     /// Tangent at rest `k₀`, N/m.
     pub(crate) at_rest_n_per_m: f64,
-    /// `a/ε_m`; 0 is a straight line.
+    /// `a/ε_m` and its inverse; 0 is a straight line.
     rate: f64,
+    per_rate: f64,
     /// Strain `ε_m` up to which it was measured.
     pub(crate) max_strain: f64,
     /// Energy, tension and tangent there.
@@ -33,6 +34,7 @@ impl Tension {
         let mut curve = Self {
             at_rest_n_per_m: force_n_per_m * rate / a.exp_m1(),
             rate,
+            per_rate: rate.recip(),
             max_strain: f64::INFINITY,
             top: [0.0; 3],
         };
@@ -46,6 +48,7 @@ impl Tension {
         Self {
             at_rest_n_per_m: tangent_n_per_m,
             rate: 0.0,
+            per_rate: 0.0,
             max_strain: f64::INFINITY,
             top: [0.0; 3],
         }
@@ -70,8 +73,8 @@ impl Tension {
             ];
         }
         let tangent = k * (self.rate * strain).exp();
-        let tension = (tangent - k) / self.rate;
-        [(tension - k * strain) / self.rate, tension, tangent]
+        let tension = (tangent - k) * self.per_rate;
+        [(tension - k * strain) * self.per_rate, tension, tangent]
     }
 }
 

@@ -39,6 +39,7 @@ mod scene;
 mod sheet;
 mod slip;
 mod statics;
+mod stencil;
 mod stepping;
 mod system;
 mod tester;

@@ -4,6 +4,7 @@
 //! and pulls far too little: no finger feels it, and how much softer it is is said.
 
 use super::cloth::Cloth;
+use super::membrane::angle_of;
 use super::mesh::Vector;
 use super::sheet::Sheet;
 
@@ -101,13 +102,13 @@ fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     if sheet.fabric.shear_n_per_m <= 0.0 {
         return;
     }
+    let halves = mesh.h.map(|h| 0.5 / h);
     let compliance = 1.0 / (sheet.fabric.shear_n_per_m * mesh.h[0] * mesh.h[1]);
     for row in 0..mesh.n[1] - 1 {
         for column in 0..mesh.n[0] - 1 {
             let corners = mesh.corners(row * mesh.n[0] + column);
-            let (angle, far, near) =
-                super::membrane::angle_of(mesh, corners.map(|corner| x[corner]));
             let [c00, c10, c01, c11] = corners;
+            let (angle, far, near) = angle_of(halves, [x[c11] - x[c00], x[c10] - x[c01]]);
             let gradient = [(c11, far), (c00, -far), (c10, near), (c01, -near)];
             moves.solve(x, gradient, (angle, compliance));
         }

@@ -145,10 +145,18 @@ fn contact(n: usize, cloth: &mut Cloth) {
         for finger in &mut *fingers {
             finger.look(&sheet.mesh, &x);
             finger.evaluate(&x, &mut out);
-            points += finger.points.iter().filter(|one| one.pressure_pa > 0.0).count();
+            points += finger
+                .points
+                .iter()
+                .filter(|one| one.pressure_pa > 0.0)
+                .count();
         }
     });
-    let product = seconds(500, || fingers.iter().for_each(|finger| finger.product(&x, &mut out)));
+    let product = seconds(500, || {
+        fingers
+            .iter()
+            .for_each(|finger| finger.product(&x, &mut out))
+    });
     println!(
         "{n}²: {points} points that touch: {:.1} µs a Newton step, {:.2} µs a product",
         1e6 * took,
