@@ -1,16 +1,40 @@
 //! What joins neighbours on a grid, row by row: differences in, forces out.
 //!
 //! A law of the cloth is a function of a difference of places; what it answers is spread over the
-//! same vertices by the transposed difference. Rows are slices of their own, so that nothing is
-//! looked up by its index inside.
+//! same vertices by the transposed difference. Rows are slices, so that nothing is looked up by its
+//! index inside, and each law is called at one place only, so that the compiler puts it there.
+
+use std::cell::Cell;
 
 use super::mesh::{Mesh, Vector, half_at_ends};
 
+/// Adds to a sum that lies in a cell.
+#[inline]
+fn add(sum: &Cell<Vector>, more: Vector) {
+    sum.set(sum.get() + more);
+}
+
 impl Mesh {
-    /// Two rows of every field that lie one above the other.
-    fn two_rows<'a>(&self, field: &'a [Vector], row: usize) -> (&'a [Vector], &'a [Vector]) {
-        let n = self.n[0];
-        field[row * n..(row + 2) * n].split_at(n)
+    /// Widths of what joins `reach + 1` vertices along an axis, row by row: of which vertices it
+    /// begins, and the width of the row's first, other and last ones, m.
+    fn rows(
+        &self,
+        axis: usize,
+        reach: usize,
+    ) -> impl Iterator<Item = (std::ops::Range<usize>, [f64; 2])> + '_ {
+        let [rows, columns] = self.spans(axis, reach);
+        let whole = self.h[1 - axis];
+        let rows = if columns == 0 { 0 } else { rows };
+        (0..rows).map(move |row| {
+            let own = whole * half_at_ends(row, self.n[1]);
+            let widths = if axis == 0 {
+                [own; 2]
+            } else {
+                [0.5 * whole, whole]
+            };
+            let first = row * self.n[0];
+            (first..first + columns, widths)
+        })
     }
 
     /// Every edge along an axis: of its item, its span and the width that it stands for, m, the
@@ -23,32 +47,22 @@ impl Mesh {
         items: impl IntoIterator<Item = T>,
         mut force: impl FnMut(T, Vector, f64) -> Vector,
     ) {
-        let ([n, n_rows], mut items) = (self.n, items.into_iter());
-        if axis == 0 {
-            for row in 0..n_rows {
-                let width = self.width_m(0, [row, 0]);
-                let (x, out) = (&x[row * n..][..n], &mut out[row * n..][..n]);
-                let mut before = Vector::zeros();
-                for ((pair, out), item) in x.windows(2).zip(&mut *out).zip(&mut items) {
-                    let pulled = force(item, pair[1] - pair[0], width);
-                    *out += before - pulled;
-                    before = pulled;
-                }
-                out[n - 1] += before;
-            }
-            return;
-        }
-        for row in 0..n_rows - 1 {
-            let (low, high) = self.two_rows(x, row);
-            let (out_low, out_high) = out[row * n..][..2 * n].split_at_mut(n);
-            let ends = low.iter().zip(high).zip(out_low.iter_mut().zip(out_high));
-            for (column, (((low, high), (out_low, out_high)), item)) in
-                ends.zip(&mut items).enumerate()
-            {
-                let width = self.h[0] * half_at_ends(column, n);
-                let pulled = force(item, high - low, width);
-                *out_low -= pulled;
-                *out_high += pulled;
+        let (stride, mut items) = (self.stride(axis), items.into_iter());
+        let out = Cell::from_mut(out).as_slice_of_cells();
+        for (row, [at_ends, inside]) in self.rows(axis, 1) {
+            let next = row.start + stride..row.end + stride;
+            let last = row.len() - 1;
+            let spans = x[row.clone()].iter().zip(&x[next.clone()]);
+            let ends = out[row].iter().zip(&out[next]);
+            for (nth, (((a, b), (from, to)), item)) in spans.zip(ends).zip(&mut items).enumerate() {
+                let width = if nth == 0 || nth == last {
+                    at_ends
+                } else {
+                    inside
+                };
+                let pulled = force(item, b - a, width);
+                add(from, -pulled);
+                add(to, pulled);
             }
         }
     }
@@ -64,7 +78,7 @@ impl Mesh {
     ) {
         let ([n, n_rows], mut items) = (self.n, items.into_iter());
         for row in 0..n_rows - 1 {
-            let (low, high) = self.two_rows(x, row);
+            let [low, high] = [row, row + 1].map(|row| &x[row * n..][..n]);
             let (out_low, out_high) = out[row * n..][..2 * n].split_at_mut(n);
             // What the cell before does to the vertices that it shares with the next.
             let mut before = [Vector::zeros(); 2];
@@ -91,42 +105,37 @@ impl Mesh {
         (fields, out): ([&[Vector]; N], &mut [Vector]),
         mut force: impl FnMut([usize; 2], [Vector; N], f64) -> Vector,
     ) {
-        let [n, n_rows] = self.n;
+        let stride = self.stride(axis);
+        let out = Cell::from_mut(out).as_slice_of_cells();
         let mut place = 0;
-        if axis == 0 {
-            for row in 0..n_rows {
-                let width = self.width_m(0, [row, 0]);
-                let fields = fields.map(|field| &field[row * n..][..n]);
-                let out = &mut out[row * n..][..n];
-                for end in 2..n {
-                    let bent = fields.map(|x| x[end - 2] - x[end - 1] * 2.0 + x[end]);
-                    let pushed = force([place, row * n + end - 1], bent, width);
-                    out[end - 2] += pushed;
-                    out[end - 1] -= pushed * 2.0;
-                    out[end] += pushed;
-                    place += 1;
-                }
-            }
-            return;
-        }
-        for row in 2..n_rows {
-            let first = (row - 2) * n;
-            let fields = fields.map(|field| {
-                let (below, rest) = field[first..first + 3 * n].split_at(n);
-                let (middle, above) = rest.split_at(n);
-                [below, middle, above].map(|row| &row[..n])
-            });
-            let (below, rest) = out[first..first + 3 * n].split_at_mut(n);
-            let (middle, above) = rest.split_at_mut(n);
-            let (below, middle, above) = (&mut below[..n], &mut middle[..n], &mut above[..n]);
+        for (row, [at_ends, inside]) in self.rows(axis, 2) {
+            let n = row.len();
+            let starts = [0, 1, 2].map(|nth| row.start + nth * stride);
+            let fields = fields.map(|field| starts.map(|start| &field[start..][..n]));
+            let [a, b, c] = starts.map(|start| &out[start..][..n]);
+            // What is still to be added to the two vertices that lie ahead.
+            let mut ahead = [Vector::zeros(); 2];
             for column in 0..n {
-                let width = self.h[0] * half_at_ends(column, n);
-                let bent = fields.map(|[a, b, c]| a[column] - b[column] * 2.0 + c[column]);
-                let pushed = force([place, first + n + column], bent, width);
-                below[column] += pushed;
-                middle[column] -= pushed * 2.0;
-                above[column] += pushed;
+                let is_end = column == 0 || column + 1 == n;
+                let width = if is_end { at_ends } else { inside };
+                let mut bent = [Vector::zeros(); N];
+                for (bent, [a, b, c]) in bent.iter_mut().zip(&fields) {
+                    *bent = a[column] - b[column] * 2.0 + c[column];
+                }
+                let pushed = force([place, starts[1] + column], bent, width);
                 place += 1;
+                if axis == 0 {
+                    add(&a[column], ahead[0] + pushed);
+                    ahead = [ahead[1] - pushed * 2.0, pushed];
+                    continue;
+                }
+                add(&a[column], pushed);
+                add(&b[column], pushed * -2.0);
+                add(&c[column], pushed);
+            }
+            if axis == 0 {
+                add(&b[n - 1], ahead[0]);
+                add(&c[n - 1], ahead[1]);
             }
         }
     }
@@ -141,20 +150,23 @@ impl Mesh {
     ) {
         let [n, n_rows] = self.n;
         for row in 0..n_rows - 1 {
-            let fields = fields.map(|field| {
-                let (low, high) = self.two_rows(field, row);
-                [&low[..n], &high[..n]]
-            });
+            let starts = [row * n, (row + 1) * n];
+            let fields = fields.map(|field| starts.map(|start| &field[start..][..n]));
             let (out_low, out_high) = out[row * n..][..2 * n].split_at_mut(n);
-            let (out_low, out_high) = (&mut out_low[..n], &mut out_high[..n]);
-            let across = |column: usize| fields.map(|[low, high]| low[column] - high[column]);
-            let (mut left, mut before) = (across(0), Vector::zeros());
+            let mut left = fields.map(|[low, high]| low[0] - high[0]);
+            let mut before = Vector::zeros();
             for column in 1..n {
-                let right = across(column);
-                let pushed = force(std::array::from_fn(|field| left[field] - right[field]));
+                let mut twisted = [Vector::zeros(); N];
+                for ((twisted, left), [low, high]) in twisted.iter_mut().zip(&mut left).zip(&fields)
+                {
+                    let right = low[column] - high[column];
+                    *twisted = *left - right;
+                    *left = right;
+                }
+                let pushed = force(twisted);
                 out_low[column - 1] += pushed - before;
                 out_high[column - 1] += before - pushed;
-                (left, before) = (right, pushed);
+                before = pushed;
             }
             out_low[n - 1] -= before;
             out_high[n - 1] += before;
