@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use super::output::{self, TableOut};
-use super::render_out::AMPLITUDE_COLUMNS;
+use super::render_out::{AMPLITUDE_COLUMNS, write_amplitudes};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
 use selvedge_drape::{
@@ -215,9 +215,10 @@ impl AmplitudesOut {
         let mut contacts = [None; 24];
         for display in 0..self.n_fingers {
             drape.tick_contacts(display, &mut contacts);
-            let frame = self.renderer.touch((display, 0), &contacts);
-            let amplitudes = frame.map_or(&[][..], |frame| frame.amplitudes_um());
-            for (contactor, (contact, felt)) in contacts.iter().zip(amplitudes).enumerate() {
+            let Some(frame) = self.renderer.touch((display, 0), &contacts) else {
+                continue;
+            };
+            for (contactor, contact) in contacts.iter().enumerate() {
                 let rows = self.table.rows();
                 rows.number(self.tick).number(drape.t_s());
                 rows.number(display).number(contactor);
@@ -228,7 +229,8 @@ impl AmplitudesOut {
                 } else {
                     rows.text("").text("").text("");
                 }
-                rows.number(felt[0]).number(felt[1]).end_row()?;
+                write_amplitudes(&mut self.table, frame, contactor);
+                self.table.rows().end_row()?;
             }
         }
         Ok(())

@@ -88,6 +88,8 @@ pub(crate) struct Cloth {
     touched: bool,
     /// Whether velocities are those between two places, as explicit steps have them.
     pub(crate) is_staggered: bool,
+    /// Whether the place now is what was evaluated last.
+    is_evaluated: bool,
     rests_s: f64,
     pub(crate) counters: DrapeCounters,
     /// Work that hands did, J.
@@ -124,6 +126,7 @@ impl Cloth {
             n_past: 0,
             touched: false,
             is_staggered: false,
+            is_evaluated: false,
             rests_s: 0.0,
             counters: DrapeCounters::default(),
             work_j: 0.0,
@@ -162,6 +165,7 @@ impl Cloth {
         }
         system.look(x);
         system.evaluate(x, &mut newton.grad);
+        self.is_evaluated = true;
         self.angles.copy_from_slice(&system.sheet.shear.angles);
         for past in &mut self.past {
             past.x.copy_from_slice(x);
@@ -190,6 +194,11 @@ impl Cloth {
             self.counters.targets_held += u64::from(!System::is_finite(&[*target]));
             finger.lead(*target, step_s);
         }
+        // What moves by its forces at the start is not evaluated where it ends.
+        self.is_evaluated = !matches!(
+            self.stepping.integrator,
+            Integrator::Explicit | Integrator::Xpbd
+        );
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
@@ -251,7 +260,10 @@ impl Cloth {
         let Self {
             system, x, newton, ..
         } = self;
-        system.evaluate(x, &mut newton.grad);
+        if !self.is_evaluated {
+            system.evaluate(x, &mut newton.grad);
+            self.is_evaluated = true;
+        }
         system.kinetic_j(&self.v) + system.energy.stored + system.height_j(x, self.gravity)
     }
 

@@ -14,7 +14,6 @@ pub struct Drape {
     cloth: Cloth,
     specs: Vec<FingerSpec>,
     why: String,
-    t_s: f64,
     targets: Vec<Vector>,
     /// How far every point of each finger had slipped a step ago, m.
     slipped_m: Vec<Vec<[f64; 2]>>,
@@ -59,7 +58,6 @@ impl Drape {
             specs: scene.fingers().to_vec(),
             targets: vec![Vector::zeros(); scene.fingers().len()],
             newton_before: cloth.counters.newton,
-            t_s: 0.0,
             cloth,
             why,
         })
@@ -99,13 +97,12 @@ impl Drape {
         }
         self.newton_before = self.cloth.counters.newton;
         self.cloth.step(&self.targets)?;
-        self.t_s += self.step_s();
         Ok(())
     }
 
     /// Time since the start, s.
     pub fn t_s(&self) -> f64 {
-        self.t_s
+        self.cloth.counters.steps as f64 * self.step_s()
     }
 
     /// Length of a step, s.

@@ -111,6 +111,26 @@ fn a_dragged_finger_slips_at_the_force_that_friction_holds() {
 }
 
 #[test]
+fn energy_that_a_step_left_is_that_of_where_it_ended() {
+    for integrator in [Integrator::Bdf2, Integrator::Explicit] {
+        let mut cloth = plate(&[1.0]);
+        lead(&mut cloth, &[Vector::new(0.05, 0.05, -2e-3)], 300);
+        cloth.stepping.integrator = integrator;
+        cloth.stepping.step_s = 1e-5;
+        lead(&mut cloth, &[Vector::new(0.052, 0.05, -2e-3)], 500);
+        let left_j = cloth.energy_j();
+        let (x, mut grad) = (cloth.x.clone(), cloth.x.clone());
+        cloth.system.evaluate(&x, &mut grad);
+        let here_j = cloth.energy_j();
+        assert!(left_j > 1e-5, "{left_j}");
+        assert!(
+            (left_j / here_j - 1.0).abs() < 1e-3,
+            "{integrator:?}: {left_j} {here_j}"
+        );
+    }
+}
+
+#[test]
 fn a_pinch_holds_twice_what_one_side_holds() {
     for (share, holds) in [(0.95, true), (1.05, false)] {
         // As stiff as a board: what hangs below the pads does not wrinkle away from them.
