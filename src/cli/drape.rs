@@ -50,7 +50,7 @@ pub(super) struct DrapeArgs {
     /// Amplitudes of the contactors on both pads, a row a contactor a tick; places are the cloth's
     #[arg(long, value_name = "A.csv", requires = "path")]
     amplitudes: Option<PathBuf>,
-    /// How to step: explicit, ie, bdf2, xpbd or auto (the scene's)
+    /// How to step: explicit, ie, bdf2, xpbd, pd or auto (the scene's)
     #[arg(long, value_name = "METHOD")]
     integrator: Option<Integrator>,
     /// Length of a step, ms (the scene's, or by the integrator)

@@ -6,6 +6,7 @@ use super::finger::Finger;
 use super::integrator::Integrator;
 use super::mesh::Vector;
 use super::newton::Newton;
+use super::projective::Projection;
 use super::system::System;
 use super::{DrapeError, GRAVITY};
 
@@ -98,6 +99,8 @@ pub(crate) struct Cloth {
     pub(crate) trial: Vec<Vector>,
     /// 1/mass of the cloth's vertices, 0 of pinned ones, 1/kg.
     pub(crate) per_kg: Vec<f64>,
+    /// What projective dynamics factors once.
+    pub(crate) projection: Option<Projection>,
 }
 
 impl Cloth {
@@ -114,8 +117,11 @@ impl Cloth {
         let mesh = &system.sheet.mesh;
         let vertices = mesh.mass_kg.iter().zip(&mesh.is_pinned);
         let per_kg = vertices.map(|(kg, pinned)| if *pinned { 0.0 } else { kg.recip() });
+        let is_projective = stepping.integrator == Integrator::Projective;
+        let projection = is_projective.then(|| Projection::new(&system.sheet, stepping.step_s));
         let mut cloth = Self {
             per_kg: per_kg.collect(),
+            projection: projection.flatten(),
             newton: Newton::new(&system),
             system,
             stepping,
@@ -197,12 +203,13 @@ impl Cloth {
         // What moves by its forces at the start is not evaluated where it ends.
         self.is_evaluated = !matches!(
             self.stepping.integrator,
-            Integrator::Explicit | Integrator::Xpbd
+            Integrator::Explicit | Integrator::Xpbd | Integrator::Projective
         );
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
-            Integrator::Xpbd => self.project(),
+            Integrator::Xpbd => self.pass_constraints(),
+            Integrator::Projective => self.project(),
             _ => self.implicit(if self.n_past > 0 { 2 } else { 1 }),
         }
         let fingers = self.system.fingers.iter();

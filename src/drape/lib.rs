@@ -34,6 +34,7 @@ mod pad;
 mod place;
 mod plate;
 mod precondition;
+mod projective;
 mod run;
 mod scene;
 mod sheet;

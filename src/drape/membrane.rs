@@ -102,6 +102,17 @@ impl Stretch {
         }
     }
 
+    /// The largest tangent of what was measured, with that of its friction, N/m.
+    pub(crate) fn stiffest_n_per_m(&self) -> f64 {
+        let [_, _, tangent] = self.tension.at(self.tension.max_strain.min(1.0));
+        let slip = if self.loops.0.is_empty() {
+            0.0
+        } else {
+            self.loops.1.stiffness
+        };
+        tangent.max(self.tension.at_rest_n_per_m) + slip
+    }
+
     /// Ends a step: what has slipped stays.
     pub(crate) fn settle(&mut self, mesh: &Mesh, x: &[Vector]) {
         if self.loops.0.is_empty() {

@@ -49,7 +49,7 @@ impl Moves {
 
 impl Cloth {
     /// One step: free motion, then every constraint once. Fingers are led, and touch nothing.
-    pub(crate) fn project(&mut self) {
+    pub(crate) fn pass_constraints(&mut self) {
         let step_s = self.stepping.step_s;
         self.remember();
         let Self { system, x, v, .. } = self;

@@ -188,3 +188,33 @@ fn one_pass_of_positions_is_softer_as_told() {
         "{found} {softening}"
     );
 }
+
+/// A cloth of 26² vertices that swings from 46° for a quarter of a second.
+fn swung(stiffness: f64, (integrator, step_s): (Integrator, f64)) -> Cloth {
+    let fabric = Fabric::plain(0.2, stiffness, 30.0, 1e-5);
+    let grid = ([26, 26], [0.2; 2]);
+    let mut cloth = cloth(grid, fabric, &Pins::Top, (integrator, step_s));
+    tilt(&mut cloth, 46.0);
+    run(&mut cloth, 0.25);
+    cloth
+}
+
+#[test]
+fn projective_dynamics_locks_what_turns_the_more_the_stiffer_it_is() {
+    for (stiffness, locked_mm) in [(1e3, 30.0), (1e4, 101.0)] {
+        // Within 0.02 mm of explicit steps at a twentieth of their limit.
+        let reference = swung(stiffness, (Integrator::Bdf2, 0.5e-3));
+        for (integrator, expected_mm) in [
+            (Integrator::Projective, locked_mm),
+            (Integrator::ImplicitEuler, 3.8),
+            (Integrator::Bdf2, 0.37),
+        ] {
+            let other = swung(stiffness, (integrator, 1.0 / 240.0));
+            let off_mm = 1e3 * rms_m(&other, &reference.x);
+            assert!(
+                (off_mm / expected_mm - 1.0).abs() < 0.12,
+                "K {stiffness} {integrator:?}: {off_mm} mm"
+            );
+        }
+    }
+}
