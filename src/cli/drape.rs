@@ -40,8 +40,8 @@ pub(super) struct DrapeArgs {
     scene: Option<PathBuf>,
     #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
     path: Option<PathBuf>,
-    /// Forces on the fingers, a row a step; without --path the shape at rest (standard output if no
-    /// file is asked for)
+    /// Forces on the fingers, a row a step or, if that is shorter, a millisecond; without --path the
+    /// shape at rest (standard output if no file is asked for)
     #[arg(long, value_name = "F.csv")]
     out: Option<PathBuf>,
     /// Where every vertex is, forty times a second
@@ -156,7 +156,8 @@ fn follow(
     path.at(start_s, &mut hands);
     drape.place(&hands);
     let [start_j, _] = drape.energy_j();
-    let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
+    let (mut gained_j, mut next_mesh, mut energy_j) = (0.0_f64, 0.0, start_j);
+    let mut between = Between::new(step_s);
     let mut meter = Meter::new("draping");
     for nth in 1..=to_whole::<u64>(n_steps) {
         if stop.load(Ordering::Relaxed) {
@@ -166,11 +167,20 @@ fn follow(
             mesh.write(drape)?;
             next_mesh += MESH_EVERY_S;
         }
-        path.at(start_s + nth as f64 * step_s, &mut hands);
+        let to_s = nth as f64 * step_s;
+        while let Some(t_s) = between.next(to_s) {
+            path.at(start_s + t_s, &mut hands);
+            drape.feel(&hands, &mut between.forces_n);
+            write_forces(&mut table, drape, (t_s, Some(&between.forces_n)), energy_j)?;
+        }
+        path.at(start_s + to_s, &mut hands);
         drape.step(&hands)?;
-        let [energy_j, work_j] = drape.energy_j();
+        let work_j;
+        [energy_j, work_j] = drape.energy_j();
         gained_j = gained_j.max(energy_j - start_j - work_j);
-        write_forces(&mut table, drape, energy_j)?;
+        if !between.is_long {
+            write_forces(&mut table, drape, (drape.t_s(), None), energy_j)?;
+        }
         if let Some(felt) = &mut felt {
             felt.take(drape)?;
         }
@@ -249,14 +259,46 @@ const FORCE_COLUMNS: [&str; 9] = [
     "iterations",
 ];
 
-/// A row for each finger; one of no finger where there is none.
-fn write_forces(table: &mut TableOut, drape: &Drape, energy_j: f64) -> Result<(), CliError> {
+/// The milliseconds within steps that are longer: hands feel the cloth at each.
+struct Between {
+    is_long: bool,
+    tick: u64,
+    forces_n: [[f64; 3]; 2],
+}
+
+impl Between {
+    fn new(step_s: f64) -> Self {
+        Self {
+            is_long: step_s > Drape::FEELS_EVERY_S * (1.0 + LAST_STEP_SLACK),
+            tick: 0,
+            forces_n: [[0.0; 3]; 2],
+        }
+    }
+
+    /// The next one up to a time, s.
+    fn next(&mut self, to_s: f64) -> Option<f64> {
+        let t_s = (self.tick + 1) as f64 * Drape::FEELS_EVERY_S;
+        let is_due = self.is_long && t_s <= to_s + LAST_STEP_SLACK * Drape::FEELS_EVERY_S;
+        self.tick += u64::from(is_due);
+        is_due.then_some(t_s)
+    }
+}
+
+/// A row for each finger; one of no finger where there is none. Forces are those of the last step
+/// if no others are given.
+fn write_forces(
+    table: &mut TableOut,
+    drape: &Drape,
+    (t_s, forces_n): (f64, Option<&[[f64; 3]; 2]>),
+    energy_j: f64,
+) -> Result<(), CliError> {
     let n_fingers = drape.start_hands().len().max(1);
     for finger in 0..n_fingers {
         let felt = drape.finger(finger);
         let rows = table.rows();
-        rows.number(drape.t_s()).number(finger);
-        felt.force_n.iter().for_each(|force| {
+        rows.number(t_s).number(finger);
+        let force_n = forces_n.map_or(felt.force_n, |forces_n| forces_n[finger]);
+        force_n.iter().for_each(|force| {
             rows.number(force);
         });
         rows.number(felt.n_contacts)

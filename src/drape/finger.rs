@@ -36,19 +36,64 @@ pub(crate) struct Finger {
     below: Option<Spot>,
     pub(crate) points: Vec<Point>,
     pulp: Pulp,
-    friction: f64,
+    pub(crate) friction: f64,
     half_thickness_m: f64,
-    coupling: Coupling,
+    pub(crate) coupling: Coupling,
 }
 
 /// The coupling as one spring to one place, in a step.
 #[derive(Debug, Clone, Copy, Default)]
-struct Coupling {
+pub(crate) struct Coupling {
     stiffness: f64,
-    centre: Vector,
+    pub(crate) centre: Vector,
     /// Force on the hand, N.
-    force: Vector,
-    tangent: f64,
+    pub(crate) force: Vector,
+    /// Force for each length from the centre, N/m.
+    pub(crate) tangent: f64,
+}
+
+impl Coupling {
+    /// Spring and damper between a hand, here and moving so, and a proxy whose velocity is
+    /// `σ (x − hat)`, as one spring.
+    pub(crate) fn new((target, speed): (Vector, Vector), hat: Vector, sigma: f64) -> Self {
+        let damping = 2.0 * (COUPLING_N_PER_M * Finger::MASS_KG).sqrt();
+        let stiffness = COUPLING_N_PER_M + damping * sigma;
+        let damped = hat * sigma + speed;
+        Self {
+            stiffness,
+            centre: (target * COUPLING_N_PER_M + damped * damping) / stiffness,
+            force: Vector::zeros(),
+            tangent: stiffness,
+        }
+    }
+
+    /// Pulls a proxy that is at `x`; says the energy.
+    pub(crate) fn pull(&mut self, x: Vector) -> f64 {
+        let off = x - self.centre;
+        let (value, tangent) = bounded_spring(self.stiffness, off.norm());
+        self.force = off * tangent;
+        self.tangent = tangent;
+        value
+    }
+
+    /// Whether it gives the largest force.
+    pub(crate) fn is_at_limit(&self) -> bool {
+        self.tangent < self.stiffness
+    }
+}
+
+/// How a place that is led towards another moves in a step, m: not faster than it may, and not at
+/// all towards one that is no number.
+pub(crate) fn led(from: Vector, to: Vector, step_s: f64) -> Vector {
+    let (way, most) = (to - from, MAX_SPEED_M_PER_S * step_s);
+    let length = way.norm();
+    if !length.is_finite() {
+        Vector::zeros()
+    } else if length > most {
+        way * (most / length)
+    } else {
+        way
+    }
 }
 
 /// A point of the pad.
@@ -107,16 +152,7 @@ impl Finger {
     /// Leads it towards a place over a step, not faster than it may. A place that is no number
     /// leaves it where it is.
     pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
-        let way = to - self.target;
-        let most = MAX_SPEED_M_PER_S * step_s;
-        let length = way.norm();
-        let moved = if !length.is_finite() {
-            Vector::zeros()
-        } else if length > most {
-            way * (most / length)
-        } else {
-            way
-        };
+        let moved = led(self.target, to, step_s);
         self.target += moved;
         self.target_speed = moved / step_s;
     }
@@ -128,11 +164,8 @@ impl Finger {
 
     /// Begins a step: the coupling's spring and damper become one spring.
     pub(crate) fn begin(&mut self, lag: &Lag) {
-        let damping = 2.0 * (COUPLING_N_PER_M * Self::MASS_KG).sqrt();
-        let stiffness = COUPLING_N_PER_M + damping * lag.sigma;
-        let damped = lag.hat[self.node] * lag.sigma + self.target_speed;
-        self.coupling.stiffness = stiffness;
-        self.coupling.centre = (self.target * COUPLING_N_PER_M + damped * damping) / stiffness;
+        let hand = (self.target, self.target_speed);
+        self.coupling = Coupling::new(hand, lag.hat[self.node], lag.sigma);
     }
 
     /// Finds what it touches; says whether that is anything.
@@ -205,10 +238,7 @@ impl Finger {
 
     /// The coupling's energy: what the spring holds is stored, the rest is damping's.
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
-        let off = x[self.node] - self.coupling.centre;
-        let (value, tangent) = bounded_spring(self.coupling.stiffness, off.norm());
-        self.coupling.force = off * tangent;
-        self.coupling.tangent = tangent;
+        let value = self.coupling.pull(x[self.node]);
         grad[self.node] += self.coupling.force;
         let stretched = (x[self.node] - self.target).norm();
         let (stored, _) = bounded_spring(COUPLING_N_PER_M, stretched);
@@ -289,6 +319,16 @@ impl Finger {
             .iter()
             .map(|point| POINT_M2 * point.pressure_pa)
             .sum()
+    }
+
+    /// Unit normal of the cloth below it, towards the finger; `None` where it touches nothing.
+    pub(crate) fn normal(&self) -> Option<Vector> {
+        let touched = self.points.iter().filter_map(|point| {
+            let spot = point.spot?;
+            Some(spot.normal * point.pressure_pa)
+        });
+        let sum: Vector = touched.sum();
+        Some(sum.try_normalize(0.0)? * self.side?)
     }
 
     /// Whether it is so near that the cloth has to be awake.

@@ -27,6 +27,7 @@ mod finger;
 mod hands;
 mod integrator;
 mod kes;
+mod local;
 mod membrane;
 mod mesh;
 mod newton;

@@ -4,6 +4,7 @@ use super::cloth::{Cloth, DrapeCounters};
 use super::finger::{Finger, Point};
 use super::hands::Hand;
 use super::integrator::Integrator;
+use super::local::{Local, TICK_S};
 use super::mesh::Vector;
 use super::scene::FingerSpec;
 use super::{DrapeError, DrapeScene};
@@ -20,6 +21,8 @@ pub struct Drape {
     /// The same for contactors at the last tick of the displays.
     ticked_m: Vec<[[f64; 2]; 24]>,
     newton_before: u64,
+    /// What is felt between long steps, and whether it knows of the last one.
+    local: (Local, bool),
 }
 
 /// What a finger feels after a step.
@@ -58,6 +61,7 @@ impl Drape {
             specs: scene.fingers().to_vec(),
             targets: vec![Vector::zeros(); scene.fingers().len()],
             newton_before: cloth.counters.newton,
+            local: (Local::new(&cloth), true),
             cloth,
             why,
         })
@@ -76,6 +80,7 @@ impl Drape {
     pub fn place(&mut self, hands: &[Hand]) {
         self.aim(hands);
         self.cloth.place_fingers(&self.targets);
+        self.local = (Local::new(&self.cloth), true);
     }
 
     fn aim(&mut self, hands: &[Hand]) {
@@ -97,7 +102,26 @@ impl Drape {
         }
         self.newton_before = self.cloth.counters.newton;
         self.cloth.step(&self.targets)?;
+        self.local.1 = false;
         Ok(())
+    }
+
+    /// Between two calls of [`Self::feel`], s.
+    pub const FEELS_EVERY_S: f64 = TICK_S;
+
+    /// Leads the fingers alone a millisecond on, by what the cloth answered in its last step: where
+    /// steps are longer than that, hands are not to wait for them. Says the forces on the hands, N.
+    /// Allocates nothing.
+    pub fn feel(&mut self, hands: &[Hand], forces_n: &mut [[f64; 3]]) {
+        self.aim(hands);
+        let (local, has_learned) = &mut self.local;
+        if !std::mem::replace(has_learned, true) {
+            local.learn(&mut self.cloth);
+        }
+        local.tick(&self.targets, self.cloth.stepping.step_s);
+        for (finger, force_n) in forces_n.iter_mut().enumerate() {
+            *force_n = local.force_n(finger).into();
+        }
     }
 
     /// Time since the start, s.
@@ -250,7 +274,7 @@ mod tests {
                 hand.opening_mm = 0.5;
             }
             drape.place(&hands);
-            let mut contacts = [None; 24];
+            let (mut contacts, mut forces_n) = ([None; 24], [[0.0; 3]; 2]);
             let mut felt = 0;
             for step in 0..40 {
                 let rubbed = 0.05 * f64::from(step);
@@ -261,6 +285,7 @@ mod tests {
                 assert_no_alloc::assert_no_alloc(|| {
                     drape.step(&hands).unwrap();
                     drape.tick_contacts(0, &mut contacts);
+                    drape.feel(&hands, &mut forces_n);
                     felt += drape.finger(0).n_contacts + contacts.iter().flatten().count();
                 });
             }

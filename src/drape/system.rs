@@ -106,6 +106,11 @@ impl System {
         }
     }
 
+    /// What a finger's node meets by its own inertia and its coupling, N/m.
+    pub(crate) fn own_stiffness(&self, finger: usize) -> f64 {
+        self.lag.mu * Finger::MASS_KG + self.fingers[finger].coupling.tangent
+    }
+
     pub(crate) fn precondition(&self, x: &[Vector], lines: &mut LinePreconditioner) {
         let mesh = &self.sheet.mesh;
         lines.begin(mesh, x, |node| self.lag.mu * self.mass_kg[node]);

@@ -4,6 +4,7 @@ mod closed_forms;
 mod extremes;
 mod felt;
 mod fingers;
+mod local;
 mod motion;
 mod speed;
 
