@@ -61,7 +61,7 @@ fn apex(cloth: &Cloth, finger: usize) -> Vector {
 #[test]
 fn a_pad_presses_a_plate_as_a_paraboloid_of_springs() {
     for side in [1.0, -1.0] {
-        for deep_mm in [1.0, 1.6, 2.2] {
+        for deep_mm in [1.0, 1.5, 1.9] {
             let mut cloth = plate(&[side]);
             lead(
                 &mut cloth,
@@ -71,7 +71,7 @@ fn a_pad_presses_a_plate_as_a_paraboloid_of_springs() {
             wait(&mut cloth, 200);
             let half = 0.25e-3;
             let overlap = half - side * apex(&cloth, 0).z;
-            assert!((0.5e-3..1.7e-3).contains(&overlap), "{overlap}");
+            assert!((0.5e-3..1.5e-3).contains(&overlap), "{overlap}");
             let springs = std::f64::consts::PI * 5e6 * (8e-3_f64 * 12e-3).sqrt();
             let expected = springs * overlap * overlap;
             let finger = &cloth.fingers()[0];
@@ -132,7 +132,7 @@ fn energy_that_a_step_left_is_that_of_where_it_ended() {
 
 #[test]
 fn a_pinch_holds_twice_what_one_side_holds() {
-    for (share, holds) in [(0.95, true), (1.05, false)] {
+    for (share, holds) in [(0.98, true), (1.02, false)] {
         // As stiff as a board: what hangs below the pads does not wrinkle away from them.
         let fabric = Fabric::plain(2.0, 1e5, 1e4, 1e-2);
         let mut cloth = touched(fabric, &Pins::None, &[1.0, -1.0], 1e-3);
