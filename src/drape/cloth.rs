@@ -157,6 +157,20 @@ impl Cloth {
         self.restart();
     }
 
+    /// Lays the cloth flat at rest, turned about its upper edge.
+    pub(crate) fn tilt(&mut self, degrees: f64) {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let Self { system, x, v, .. } = self;
+        let mesh = &system.sheet.mesh;
+        let top = mesh.size_m()[1];
+        for ((x, v), rest) in x.iter_mut().zip(v).zip(mesh.at_rest()) {
+            let down = top - rest.y;
+            *x = Vector::new(rest.x, top - down * cosine, down * sine);
+            *v = Vector::zeros();
+        }
+        self.restart();
+    }
+
     /// Forgets what was before: places or velocities were set from outside.
     pub(crate) fn restart(&mut self) {
         self.n_past = 0;

@@ -83,6 +83,21 @@ impl Drape {
         self.local = (Local::new(&self.cloth), true);
     }
 
+    /// Lays it flat, turned about its upper edge, at rest: 0° is where it hung before its weight.
+    pub fn tilt(&mut self, degrees: f64) {
+        self.cloth.tilt(degrees);
+    }
+
+    /// The longest explicit step with what is stretched now, s.
+    pub fn limit_s(&self) -> f64 {
+        self.cloth.limit_s()
+    }
+
+    /// What energies are measured by: its weight times its length, J.
+    pub fn scale_j(&self) -> f64 {
+        self.cloth.system.sheet.scale_j()
+    }
+
     fn aim(&mut self, hands: &[Hand]) {
         for ((target, spec), hand) in self.targets.iter_mut().zip(&self.specs).zip(hands) {
             *target = spec.target(hand.centre_mm, hand.opening_mm);

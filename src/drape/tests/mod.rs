@@ -41,17 +41,6 @@ fn cloth(
     Cloth::new(System::new(sheet, Vec::new()), stepping)
 }
 
-/// Turns a cloth about its upper edge.
-fn tilt(cloth: &mut Cloth, degrees: f64) {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
-    let top = cloth.system.sheet.mesh.size_m()[1];
-    for x in &mut cloth.x {
-        let down = top - x.y;
-        *x = Vector::new(x.x, top - down * cosine, down * sine);
-    }
-    cloth.restart();
-}
-
 /// A shirting, as its figures would have it.
 fn shirting() -> Fabric {
     let mut fabric = Fabric::plain(0.1, 1.0, 60.0, 5e-6);

@@ -7,7 +7,7 @@ fn swing(integrator: Integrator, step_s: f64) -> Cloth {
     let fabric = Fabric::plain(0.2, 100.0, 20.0, 1e-5);
     let grid = ([6, 6], [0.1, 0.1]);
     let mut cloth = cloth(grid, fabric, &Pins::Top, (integrator, step_s));
-    tilt(&mut cloth, 46.0);
+    cloth.tilt(46.0);
     cloth
 }
 
@@ -95,7 +95,7 @@ fn explicit_energy_is_bounded_over_a_million_steps() {
     let grid = ([3, 3], [0.03, 0.03]);
     let mut cloth = cloth(grid, fabric, &Pins::Top, (Integrator::Explicit, 1e-4));
     cloth.stepping.step_s = 0.5 * cloth.limit_s();
-    tilt(&mut cloth, 46.0);
+    cloth.tilt(46.0);
     let scale = cloth.system.sheet.scale_j();
     let start = cloth.energy_j();
     let (mut most, mut means) = (0.0_f64, [0.0; 10]);
@@ -123,7 +123,7 @@ fn no_implicit_step_gains_energy() {
                 (integrator, step_s),
             );
             cloth.stepping.gain = crate::cloth::LIVE;
-            tilt(&mut cloth, 80.0);
+            cloth.tilt(80.0);
             let scale = cloth.system.sheet.scale_j();
             let start = cloth.energy_j();
             for _ in 0..200 {
@@ -198,7 +198,7 @@ fn swung(stiffness: f64, (integrator, step_s): (Integrator, f64)) -> Cloth {
     let fabric = Fabric::plain(0.2, stiffness, 30.0, 1e-5);
     let grid = ([26, 26], [0.2; 2]);
     let mut cloth = cloth(grid, fabric, &Pins::Top, (integrator, step_s));
-    tilt(&mut cloth, 46.0);
+    cloth.tilt(46.0);
     run(&mut cloth, 0.25);
     cloth
 }

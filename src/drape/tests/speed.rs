@@ -28,7 +28,7 @@ fn falling(n: usize, (integrator, step_s): (Integrator, f64)) -> Cloth {
     let mut cloth = cloth(grid, fabric, &Pins::Top, (integrator, step_s));
     cloth.stepping.gain = crate::cloth::LIVE;
     cloth.stepping.max_steps = 20;
-    tilt(&mut cloth, 46.0);
+    cloth.tilt(46.0);
     cloth
 }
 
