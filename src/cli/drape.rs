@@ -199,7 +199,7 @@ fn follow(
 struct AmplitudesOut {
     table: TableOut,
     renderer: ArrayRenderer,
-    textile: String,
+    textiles: Vec<String>,
     n_fingers: usize,
     tick: u64,
 }
@@ -211,7 +211,7 @@ impl AmplitudesOut {
             n_fingers: rendered.displays.len(),
             renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
             table: TableOut::new(Some(path), &AMPLITUDE_COLUMNS)?,
-            textile: scene.textile().unwrap_or_default().to_owned(),
+            textiles: scene.surfaces().map(str::to_owned).collect(),
             tick: 0,
         })
     }
@@ -225,7 +225,9 @@ impl AmplitudesOut {
         let mut contacts = [None; 24];
         for display in 0..self.n_fingers {
             drape.tick_contacts(display, &mut contacts);
-            let Some(frame) = self.renderer.touch((display, 0), &contacts) else {
+            let surface = drape.surface(display);
+            let textile = self.textiles.get(surface).map_or("", String::as_str);
+            let Some(frame) = self.renderer.touch((display, surface), &contacts) else {
                 continue;
             };
             for (contactor, contact) in contacts.iter().enumerate() {
@@ -233,9 +235,7 @@ impl AmplitudesOut {
                 rows.number(self.tick).number(drape.t_s());
                 rows.number(display).number(contactor);
                 if let Some(MaterialContact { place_mm, .. }) = contact {
-                    rows.number(place_mm[0])
-                        .number(place_mm[1])
-                        .text(&self.textile);
+                    rows.number(place_mm[0]).number(place_mm[1]).text(textile);
                 } else {
                     rows.text("").text("").text("");
                 }

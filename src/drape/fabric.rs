@@ -4,6 +4,7 @@
 //! `c = F_m/(e^a − 1)`, straight on above `ε_m`, `k₀ ε` below 0. Shear and bending are linear with
 //! a friction of their own. Knows nothing of meshes; where figures come from is `kes.rs`.
 
+use super::curve::Curve;
 use selvedge_foundation::numerics::bisected;
 
 /// Stress of one yarn system by strain, per width.
@@ -17,6 +18,8 @@ pub(crate) struct Tension {
     pub(crate) max_strain: f64,
     /// Energy, tension and tangent there.
     top: [f64; 3],
+    /// What was measured in the place of all that.
+    curve: Option<Curve>,
 }
 
 impl Tension {
@@ -35,6 +38,7 @@ impl Tension {
             rate,
             max_strain: f64::INFINITY,
             top: [0.0; 3],
+            curve: None,
         };
         curve.top = curve.at(strain);
         curve.max_strain = strain;
@@ -48,12 +52,26 @@ impl Tension {
             rate: 0.0,
             max_strain: f64::INFINITY,
             top: [0.0; 3],
+            curve: None,
+        }
+    }
+
+    /// A measured curve.
+    pub(crate) fn measured(curve: Curve) -> Self {
+        let [_, _, at_rest] = curve.at(0.0);
+        Self {
+            max_strain: curve.max_strain(),
+            curve: Some(curve),
+            ..Self::linear(at_rest)
         }
     }
 
     /// Energy (J/m²), tension (N/m) and tangent (N/m) at a strain.
     #[inline]
     pub(crate) fn at(&self, strain: f64) -> [f64; 3] {
+        if let Some(curve) = &self.curve {
+            return curve.at(strain);
+        }
         let k = self.at_rest_n_per_m;
         if strain <= 0.0 || self.rate == 0.0 {
             let tension = k * strain;

@@ -331,6 +331,11 @@ impl Finger {
         Some(sum.try_normalize(0.0)? * self.side?)
     }
 
+    /// Whether it is on the back of the cloth.
+    pub(crate) fn is_behind(&self) -> bool {
+        self.side.unwrap_or(self.own_side) < 0.0
+    }
+
     /// Whether it is so near that the cloth has to be awake.
     pub(crate) fn is_near(&self) -> bool {
         self.side.is_some()

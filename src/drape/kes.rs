@@ -10,6 +10,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::DrapeError;
+use super::curve::Curve;
 use super::fabric::{Compression, Fabric, Tension};
 use selvedge_foundation::files;
 use selvedge_textile::{KnownFigure, Library};
@@ -109,6 +110,43 @@ impl Fabric {
         };
         Ok((fabric, odd(figures, (emt, lt, load), weight)))
     }
+}
+
+/// A measured tension curve along warp and weft from a table of `strain_percent`, `warp_gf_per_cm`
+/// and, unless both are alike, `weft_gf_per_cm`; with the figures that it stands for.
+///
+/// # Errors
+/// One line: what is wrong, where, and how to mend it.
+pub(crate) fn tension_curves(path: &Path) -> Result<([Tension; 2], Figures), DrapeError> {
+    let text = files::read_text(path)?;
+    let names = ["strain_percent", "warp_gf_per_cm", "weft_gf_per_cm"];
+    let table = files::Table::read(&text, path, &names[..2], &names[2..])?;
+    let strains = table.required_numbers(names[0])?;
+    let warp = table.required_numbers(names[1])?;
+    let weft = table.numbers(names[2])?;
+    let mut figures = Figures::new();
+    let mut curve = |loads: &[f64], side: &str| {
+        let points = strains.iter().zip(loads);
+        let points: Vec<[f64; 2]> = points.map(|(s, gf)| [0.01 * s, gf * N_PER_M]).collect();
+        let wrong = |error: DrapeError| {
+            let flaw = files::Flaw::described(("", 0, ""), &error.to_string(), "correct it");
+            DrapeError::from(flaw.in_file(&text, path))
+        };
+        let tension = Tension::measured(Curve::new(&points).map_err(wrong)?);
+        let [work, load, _] = tension.at(tension.max_strain);
+        figures.insert(format!("emt_{side}_percent"), 100.0 * tension.max_strain);
+        figures.insert(
+            format!("lt_{side}"),
+            work / (0.5 * load * tension.max_strain),
+        );
+        figures.insert(LOAD.to_owned(), load / N_PER_M);
+        Ok::<_, DrapeError>(tension)
+    };
+    let both = [
+        curve(&warp, "warp")?,
+        curve(weft.as_deref().unwrap_or(&warp), "weft")?,
+    ];
+    Ok((both, figures))
 }
 
 fn compression(figures: &Figures) -> Result<Compression, DrapeError> {

@@ -20,6 +20,7 @@
 )]
 
 mod cloth;
+mod curve;
 mod error;
 mod fabric;
 mod felt;

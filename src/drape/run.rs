@@ -21,6 +21,7 @@ pub struct Drape {
     /// The same for contactors at the last tick of the displays.
     ticked_m: Vec<[[f64; 2]; 24]>,
     newton_before: u64,
+    has_back: bool,
     /// What is felt between long steps, and whether it knows of the last one.
     local: (Local, bool),
 }
@@ -61,6 +62,7 @@ impl Drape {
             specs: scene.fingers().to_vec(),
             targets: vec![Vector::zeros(); scene.fingers().len()],
             newton_before: cloth.counters.newton,
+            has_back: scene.surfaces().count() > 1,
             local: (Local::new(&cloth), true),
             cloth,
             why,
@@ -182,6 +184,12 @@ impl Drape {
 
     pub(crate) fn ticked_mut(&mut self, finger: usize) -> &mut [[f64; 2]; 24] {
         &mut self.ticked_m[finger]
+    }
+
+    /// Which of the scene's surfaces a finger touches: 0, or 1 where the back is one of its own.
+    pub fn surface(&self, finger: usize) -> usize {
+        let finger = self.cloth.fingers().get(finger);
+        usize::from(self.has_back && finger.is_some_and(Finger::is_behind))
     }
 
     /// Energy of cloth and fingers, J, and the work that hands did since the start.

@@ -25,6 +25,8 @@ const MAX_FINGERS: usize = 2;
 pub struct DrapeScene {
     name: String,
     textile: Option<String>,
+    /// The textile of its back, if that is another.
+    back: Option<String>,
     /// Where its library is; `None` is that of the program.
     pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],
@@ -58,6 +60,7 @@ struct SceneKeys {
     name: String,
     library: Option<PathBuf>,
     textile: Option<String>,
+    back: Option<String>,
     #[serde(default = "usual_size_mm")]
     size_mm: [f64; 2],
     grid: Option<GridKey>,
@@ -65,6 +68,7 @@ struct SceneKeys {
     air: Option<bool>,
     hysteresis: Option<bool>,
     friction: Option<f64>,
+    tension: Option<PathBuf>,
     integrator: Option<String>,
     step_ms: Option<f64>,
     #[serde(default)]
@@ -126,9 +130,16 @@ impl DrapeScene {
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
             None => Figures::new(),
         };
-        let figures = figures.into_iter().chain(keys.measured.clone()).collect();
+        let curves = keys.tension.as_ref();
+        let curves = curves
+            .map(|name| kes::tension_curves(&beside.join(name)))
+            .transpose()?;
+        let (tension, of_curves) = curves.unzip();
+        let figures = figures.into_iter().chain(of_curves.unwrap_or_default());
+        let figures = figures.chain(keys.measured.clone()).collect();
         let (mut fabric, notes) = Fabric::of_figures(&figures)
             .map_err(|error| wrong(placed(("measured", 0, ""), &error)))?;
+        fabric.tension = tension.unwrap_or(fabric.tension);
         if let Some(friction) = keys.friction {
             DrapeError::within(("friction", friction, ""), [0.0, 10.0])
                 .map_err(|error| wrong(placed(("", 0, "friction"), &error)))?;
@@ -153,6 +164,7 @@ impl DrapeScene {
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
+            back: None,
             library_folder: None,
             size_mm: usual_size_mm(),
             grid: None,
@@ -202,6 +214,7 @@ impl DrapeScene {
         Ok(Self {
             name: keys.name,
             textile: keys.textile,
+            back: keys.back,
             library_folder: None,
             size_mm: keys.size_mm,
             grid,
@@ -227,6 +240,11 @@ impl DrapeScene {
     /// The textile that it is of, if it is one of a library.
     pub fn textile(&self) -> Option<&str> {
         self.textile.as_deref()
+    }
+
+    /// The textiles that are felt on it: its face, then its back if that is another.
+    pub fn surfaces(&self) -> impl Iterator<Item = &str> {
+        self.textile().into_iter().chain(self.back.as_deref())
     }
 
     /// Width and height at rest, mm.
@@ -439,6 +457,40 @@ mod tests {
             let error = DrapeScene::read(&path).unwrap_err().to_string();
             assert!(error.contains(expected) && error.contains("; "), "{error}");
             assert!(!error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_measured_curve_takes_the_place_of_emt_and_lt() {
+        let folder = ScratchFolder::made("drape-tension");
+        let (path, curve) = (folder.join("a.drape.toml"), folder.join("tension.csv"));
+        let text = "name = \"a\"\ntension = \"tension.csv\"\n[measured]\n\
+            weight_mg_per_cm2 = 20\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\n";
+        std::fs::write(&path, text).unwrap();
+        let rows = "strain_percent,warp_gf_per_cm,weft_gf_per_cm\n1,50,20\n2,150,60\n4,500,200\n";
+        std::fs::write(&curve, rows).unwrap();
+        let scene = DrapeScene::read(&path).unwrap();
+        for (axis, gf_per_cm) in [150.0, 60.0].into_iter().enumerate() {
+            let [_, tension, _] = scene.fabric().tension[axis].at(0.02);
+            assert!(
+                (tension / (gf_per_cm * kes::N_PER_M) - 1.0).abs() < 1e-9,
+                "{tension}"
+            );
+        }
+        assert!((scene.fabric().max_strains()[1] - 0.04).abs() < 1e-12);
+        for (rows, expected) in [
+            ("strain_percent\n1\n", "no column warp_gf_per_cm"),
+            (
+                "strain_percent,warp_gf_per_cm\n1,50\n2,40\n",
+                "does not rise; let strain",
+            ),
+        ] {
+            std::fs::write(&curve, rows).unwrap();
+            let error = DrapeScene::read(&path).unwrap_err().to_string();
+            assert!(
+                error.contains("tension.csv") && error.contains(expected),
+                "{error}"
+            );
         }
     }
 
