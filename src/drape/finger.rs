@@ -4,18 +4,13 @@
 //! Friction holds each point by a spring to an anchor in the cloth; the anchor slips where the
 //! spring pulls more than friction holds, and only that is felt as motion.
 
+use super::coupling::{Coupling, led};
 use super::mesh::{Mesh, Vector};
 use super::pad::{self, POINT_M2, PULP_PA_PER_M, Pulp, REACH_M};
 use super::place::{Spot, find};
 use super::precondition::LinePreconditioner;
 use super::sheet::{Energy, Lag};
 
-/// Stiffness of the coupling between hand and proxy, N/m.
-const COUPLING_N_PER_M: f64 = 500.0;
-/// The largest force that it gives, N.
-pub(crate) const MAX_FORCE_N: f64 = 5.0;
-/// The fastest that the proxy is led, m/s.
-pub(crate) const MAX_SPEED_M_PER_S: f64 = 1.0;
 /// Stiffness of a point along the cloth, Pa/m.
 const ALONG_PA_PER_M: f64 = 0.5 * PULP_PA_PER_M;
 /// A point under less than this feels nothing, Pa.
@@ -41,61 +36,6 @@ pub(crate) struct Finger {
     pub(crate) coupling: Coupling,
 }
 
-/// The coupling as one spring to one place, in a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Coupling {
-    stiffness: f64,
-    pub(crate) centre: Vector,
-    /// Force on the hand, N.
-    pub(crate) force: Vector,
-    /// Force for each length from the centre, N/m.
-    pub(crate) tangent: f64,
-}
-
-impl Coupling {
-    /// Spring and damper between a hand, here and moving so, and a proxy whose velocity is
-    /// `σ (x − hat)`, as one spring.
-    pub(crate) fn new((target, speed): (Vector, Vector), hat: Vector, sigma: f64) -> Self {
-        let damping = 2.0 * (COUPLING_N_PER_M * Finger::MASS_KG).sqrt();
-        let stiffness = COUPLING_N_PER_M + damping * sigma;
-        let damped = hat * sigma + speed;
-        Self {
-            stiffness,
-            centre: (target * COUPLING_N_PER_M + damped * damping) / stiffness,
-            force: Vector::zeros(),
-            tangent: stiffness,
-        }
-    }
-
-    /// Pulls a proxy that is at `x`; says the energy.
-    pub(crate) fn pull(&mut self, x: Vector) -> f64 {
-        let off = x - self.centre;
-        let (value, tangent) = bounded_spring(self.stiffness, off.norm());
-        self.force = off * tangent;
-        self.tangent = tangent;
-        value
-    }
-
-    /// Whether it gives the largest force.
-    pub(crate) fn is_at_limit(&self) -> bool {
-        self.tangent < self.stiffness
-    }
-}
-
-/// How a place that is led towards another moves in a step, m: not faster than it may, and not at
-/// all towards one that is no number.
-pub(crate) fn led(from: Vector, to: Vector, step_s: f64) -> Vector {
-    let (way, most) = (to - from, MAX_SPEED_M_PER_S * step_s);
-    let length = way.norm();
-    if !length.is_finite() {
-        Vector::zeros()
-    } else if length > most {
-        way * (most / length)
-    } else {
-        way
-    }
-}
-
 /// A point of the pad.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Point {
@@ -116,7 +56,7 @@ pub(crate) struct Point {
 
 impl Finger {
     /// Mass of a proxy, kg.
-    pub(crate) const MASS_KG: f64 = 0.02;
+    pub(crate) const MASS_KG: f64 = super::coupling::PROXY_KG;
 
     pub(crate) fn new(
         node: usize,
@@ -240,8 +180,7 @@ impl Finger {
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
         let value = self.coupling.pull(x[self.node]);
         grad[self.node] += self.coupling.force;
-        let stretched = (x[self.node] - self.target).norm();
-        let (stored, _) = bounded_spring(COUPLING_N_PER_M, stretched);
+        let stored = Coupling::stored_j((x[self.node] - self.target).norm());
         Energy {
             stored,
             lost: value - stored,
@@ -398,13 +337,4 @@ impl Point {
         (0..2).for_each(|axis| self.slipped_m[axis] += moved[axis]);
         Spot::new(mesh, x, place)
     }
-}
-
-/// Energy of a spring that never pulls with more than the largest force, and its force per length.
-fn bounded_spring(stiffness: f64, length: f64) -> (f64, f64) {
-    if stiffness * length <= MAX_FORCE_N {
-        return (0.5 * stiffness * length * length, stiffness);
-    }
-    let reach = MAX_FORCE_N / stiffness;
-    (MAX_FORCE_N * (length - 0.5 * reach), MAX_FORCE_N / length)
 }

@@ -4,7 +4,7 @@
 //! kes (figures of testers) ─▶ fabric ─┐
 //! scene (file) ─▶ mesh ───────────────┼─▶ sheet (membrane, plate, slip) ─┐
 //! path (hands) ─▶ finger (pad, place) ┴──────────────────────────────────┴─▶ system
-//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run
+//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run (local: 1 kHz between steps)
 //! ```
 //!
 //! Lengths are metres inside and millimetres at the border. The added mass of air, which is more
@@ -20,6 +20,7 @@
 )]
 
 mod cloth;
+mod coupling;
 mod curve;
 mod error;
 mod fabric;

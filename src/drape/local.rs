@@ -9,7 +9,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::cloth::Cloth;
-use super::finger::{Coupling, Finger, led};
+use super::coupling::{Coupling, led};
+use super::finger::Finger;
 use super::mesh::Vector;
 
 /// Between ticks, s.

@@ -461,40 +461,6 @@ mod tests {
     }
 
     #[test]
-    fn a_measured_curve_takes_the_place_of_emt_and_lt() {
-        let folder = ScratchFolder::made("drape-tension");
-        let (path, curve) = (folder.join("a.drape.toml"), folder.join("tension.csv"));
-        let text = "name = \"a\"\ntension = \"tension.csv\"\n[measured]\n\
-            weight_mg_per_cm2 = 20\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\n";
-        std::fs::write(&path, text).unwrap();
-        let rows = "strain_percent,warp_gf_per_cm,weft_gf_per_cm\n1,50,20\n2,150,60\n4,500,200\n";
-        std::fs::write(&curve, rows).unwrap();
-        let scene = DrapeScene::read(&path).unwrap();
-        for (axis, gf_per_cm) in [150.0, 60.0].into_iter().enumerate() {
-            let [_, tension, _] = scene.fabric().tension[axis].at(0.02);
-            assert!(
-                (tension / (gf_per_cm * kes::N_PER_M) - 1.0).abs() < 1e-9,
-                "{tension}"
-            );
-        }
-        assert!((scene.fabric().max_strains()[1] - 0.04).abs() < 1e-12);
-        for (rows, expected) in [
-            ("strain_percent\n1\n", "no column warp_gf_per_cm"),
-            (
-                "strain_percent,warp_gf_per_cm\n1,50\n2,40\n",
-                "does not rise; let strain",
-            ),
-        ] {
-            std::fs::write(&curve, rows).unwrap();
-            let error = DrapeScene::read(&path).unwrap_err().to_string();
-            assert!(
-                error.contains("tension.csv") && error.contains(expected),
-                "{error}"
-            );
-        }
-    }
-
-    #[test]
     fn the_shipped_scene_is_read() {
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");

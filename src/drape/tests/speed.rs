@@ -163,3 +163,95 @@ fn contact(n: usize, cloth: &mut Cloth) {
         1e6 * product
     );
 }
+
+/// Inverse 3 × 3 blocks on the diagonal of the tangent, read off its products: what is five apart
+/// along either axis does not meet.
+fn block_inverses(system: &System, n: usize) -> Vec<nalgebra::Matrix3<f64>> {
+    let mut blocks = vec![nalgebra::Matrix3::zeros(); n * n];
+    let zeros = vec![Vector::zeros(); n * n];
+    for colour in 0..25 {
+        let is_in = |vertex: usize| vertex % n % 5 + 5 * (vertex / n % 5) == colour;
+        for axis in 0..3 {
+            let (mut probe, mut out) = (zeros.clone(), zeros.clone());
+            (0..n * n)
+                .filter(|v| is_in(*v))
+                .for_each(|v| probe[v][axis] = 1.0);
+            system.product(&probe, &mut out);
+            for vertex in (0..n * n).filter(|v| is_in(*v)) {
+                blocks[vertex].set_column(axis, &out[vertex]);
+            }
+        }
+    }
+    let inverse = |block: &nalgebra::Matrix3<f64>| block.try_inverse().unwrap_or_default();
+    blocks.iter().map(inverse).collect()
+}
+
+/// Iterations of conjugate gradients to a thousandth.
+fn iterations(
+    system: &System,
+    side: &[Vector],
+    mut precondition: impl FnMut(&[Vector], &mut [Vector]),
+) -> u32 {
+    let dot = crate::newton::dot;
+    let (mut r, mut z) = (side.to_vec(), side.to_vec());
+    precondition(&r, &mut z);
+    let (mut p, mut out) = (z.clone(), z.clone());
+    let mut rho = dot(&r, &z);
+    let target = 1e-6 * rho;
+    for iteration in 0..5000 {
+        if rho <= target {
+            return iteration;
+        }
+        system.product(&p, &mut out);
+        let alpha = rho / dot(&p, &out);
+        r.iter_mut()
+            .zip(&out)
+            .for_each(|(r, out)| *r -= out * alpha);
+        precondition(&r, &mut z);
+        let next = dot(&r, &z);
+        p.iter_mut()
+            .zip(&z)
+            .for_each(|(p, z)| *p = z + *p * (next / rho));
+        rho = next;
+    }
+    5000
+}
+
+#[test]
+#[ignore = "prints what preconditioners need by stiffness, for people to read"]
+fn speed_of_preconditioners() {
+    let n = 51;
+    for (step_s, rate) in [(1.0 / 240.0, "240 Hz"), (1e-3, "1 kHz")] {
+        for stiffness in [1e1, 1e3, 1e4, 1e6] {
+            let fabric = Fabric::plain(0.2, stiffness, 30.0, 1e-5);
+            let grid = ([n, n], [0.2; 2]);
+            let mut cloth = cloth(grid, fabric, &Pins::Top, (Integrator::Bdf2, step_s));
+            cloth.tilt(46.0);
+            (0..10).for_each(|_| cloth.step(&[]).unwrap());
+            cloth.prepare(2);
+            let Cloth {
+                system,
+                newton,
+                x,
+                v,
+                ..
+            } = &mut cloth;
+            let start: Vec<Vector> = x.iter().zip(v).map(|(x, v)| *x + *v * step_s).collect();
+            system.evaluate(&start, &mut newton.grad);
+            system.precondition(&start, &mut newton.lines);
+            let side: Vec<Vector> = newton.grad.iter().map(|grad| -grad).collect();
+            let by_line = iterations(system, &side, |r, z| newton.lines.apply(r, z));
+            let blocks = block_inverses(system, n);
+            let by_block = iterations(system, &side, |r, z| {
+                for ((z, r), block) in z.iter_mut().zip(r).zip(&blocks) {
+                    *z = block * r;
+                }
+            });
+            println!("51², {rate}, K {stiffness:e}: block-Jacobi {by_block}, line {by_line}");
+            assert!(
+                stiffness < 1e3 || by_line < by_block,
+                "{by_line} {by_block}"
+            );
+        }
+    }
+}
