@@ -298,9 +298,9 @@ fn write_forces(
         let rows = table.rows();
         rows.number(t_s).number(finger);
         let force_n = forces_n.map_or(felt.force_n, |forces_n| forces_n[finger]);
-        force_n.iter().for_each(|force| {
+        for force in force_n {
             rows.number(force);
-        });
+        }
         rows.number(felt.n_contacts)
             .number(felt.slip_mm_per_s)
             .number(energy_j)

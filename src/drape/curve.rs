@@ -27,7 +27,7 @@ impl Curve {
                 points
                     .iter()
                     .copied()
-                    .skip_while(|point| *point == [0.0; 2]),
+                    .skip_while(|[strain, tension]| strain.max(*tension) == 0.0),
             )
             .collect();
         let is_rising = |pair: &[[f64; 2]]| (0..2).all(|of| pair[1][of] > pair[0][of]);

@@ -57,11 +57,11 @@ impl Tension {
     }
 
     /// A measured curve.
-    pub(crate) fn measured(curve: Curve) -> Self {
+    pub(crate) fn measured(curve: &Curve) -> Self {
         let [_, _, at_rest] = curve.at(0.0);
         Self {
             max_strain: curve.max_strain(),
-            curve: Some(curve),
+            curve: Some(*curve),
             ..Self::linear(at_rest)
         }
     }
@@ -103,7 +103,7 @@ impl Tension {
 #[inline]
 fn second_exponential(y: f64) -> f64 {
     if y > 1.0 {
-        return (y.exp() - 1.0 - y) / (y * y);
+        return (y.exp_m1() - y) / (y * y);
     }
     let even = [
         0.5,

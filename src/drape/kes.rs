@@ -132,7 +132,7 @@ pub(crate) fn tension_curves(path: &Path) -> Result<([Tension; 2], Figures), Dra
             let flaw = files::Flaw::described(("", 0, ""), &error.to_string(), "correct it");
             DrapeError::from(flaw.in_file(&text, path))
         };
-        let tension = Tension::measured(Curve::new(&points).map_err(wrong)?);
+        let tension = Tension::measured(&Curve::new(&points).map_err(wrong)?);
         let [work, load, _] = tension.at(tension.max_strain);
         figures.insert(format!("emt_{side}_percent"), 100.0 * tension.max_strain);
         figures.insert(

@@ -33,14 +33,14 @@ struct EdgeTangent {
 }
 
 impl Stretch {
-    pub(crate) fn new(axis: usize, tension: Tension, friction: f64, mesh: &Mesh) -> Self {
+    pub(crate) fn new(axis: usize, tension: &Tension, friction: f64, mesh: &Mesh) -> Self {
         let [rows, columns] = mesh.spans(axis, 1);
         let n = if friction > 0.0 { rows * columns } else { 0 };
         // As shear and bending, it is reached in a small part of the range.
         let reach = 0.05 * tension.max_strain.min(1.0);
         Self {
             axis,
-            tension,
+            tension: *tension,
             loops: (SlipElements::new(n), SlipLaw::reached_in(friction, reach)),
             edges: vec![EdgeTangent::default(); rows * columns],
             largest_n_per_m: [tension.at_rest_n_per_m, 0.0],

@@ -109,7 +109,7 @@ impl Cloth {
                 slope.into()
             };
             factor.solve(read, scratch, |vertex, step| {
-                next[vertex] -= Vector::from(step)
+                next[vertex] -= Vector::from(step);
             });
         }
         self.counters.newton += N_PASSES as u64;

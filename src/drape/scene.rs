@@ -145,7 +145,7 @@ impl DrapeScene {
                 .map_err(|error| wrong(placed(("", 0, "friction"), &error)))?;
             fabric.friction = friction;
         }
-        let mut scene = Self::from_keys(keys, fabric).map_err(wrong)?;
+        let mut scene = Self::from_keys(keys, &fabric).map_err(wrong)?;
         scene.notes = notes;
         scene.library_folder = library;
         // What makes no grid is told where it stands.
@@ -178,7 +178,7 @@ impl DrapeScene {
         })
     }
 
-    fn from_keys(keys: SceneKeys, fabric: Fabric) -> Result<Self, Flaw> {
+    fn from_keys(keys: SceneKeys, fabric: &Fabric) -> Result<Self, Flaw> {
         let grid = match keys.grid {
             None => None,
             Some(GridKey::Word(word)) if word == "auto" => None,
@@ -226,7 +226,7 @@ impl DrapeScene {
             },
             integrator,
             step_ms: keys.step_ms,
-            fabric,
+            fabric: *fabric,
             notes: Vec::new(),
             fingers: fingers.collect::<Result<_, _>>()?,
         })
@@ -290,7 +290,7 @@ impl DrapeScene {
     ) -> Result<(Cloth, String), DrapeError> {
         let mesh = self.mesh()?;
         let n_vertices = mesh.n_vertices();
-        let sheet = Sheet::new(mesh, self.fabric, self.losses);
+        let sheet = Sheet::new(mesh, &self.fabric, self.losses);
         let limit_s = sheet.limit_s(0.0);
         let asked = integrator.unwrap_or(self.integrator);
         let (chosen, usual_s, why) = asked.chosen(n_vertices, limit_s);

@@ -16,7 +16,7 @@ fn touched(fabric: Fabric, pins: &Pins, sides: &[f64], step_s: f64) -> Cloth {
         let start = Vector::new(0.05, 0.05, 0.01 * side);
         Finger::new(n_vertices + nth, (*side, 0.0), &fabric, start)
     });
-    let sheet = Sheet::new(mesh, fabric, LOSSLESS);
+    let sheet = Sheet::new(mesh, &fabric, LOSSLESS);
     let system = System::new(sheet, fingers.collect());
     let mut stepping = Stepping::new(Integrator::Bdf2, step_s);
     stepping.gain = 1e-2 * crate::cloth::LIVE;

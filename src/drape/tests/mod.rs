@@ -34,7 +34,7 @@ fn cloth(
     (integrator, step_s): (Integrator, f64),
 ) -> Cloth {
     let mesh = Mesh::new(n, size_m, fabric.density_kg_per_m2, pins).unwrap();
-    let sheet = Sheet::new(mesh, fabric, LOSSLESS);
+    let sheet = Sheet::new(mesh, &fabric, LOSSLESS);
     let mut stepping = Stepping::new(integrator, step_s);
     stepping.gain = EXACT;
     stepping.max_steps = 60;

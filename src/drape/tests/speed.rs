@@ -98,7 +98,7 @@ fn pinched(n: usize, step: (Integrator, f64)) -> Cloth {
     });
     let fingers = fingers.collect();
     let stepping = cloth.stepping;
-    let mut sheet = Sheet::new(sheet.mesh, sheet.fabric, Losses::default());
+    let mut sheet = Sheet::new(sheet.mesh, &sheet.fabric, Losses::default());
     sheet.losses.has_air = true;
     cloth = Cloth::new(System::new(sheet, fingers), stepping);
     cloth.settle_to_rest().unwrap();

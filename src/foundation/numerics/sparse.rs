@@ -240,8 +240,8 @@ mod tests {
                 (0..3).for_each(|of| left[*a][of] += value * x[*b][of]);
             }
             for (node, left) in left.iter().enumerate() {
-                for of in 0..3 {
-                    let residual = left[of] - side(node)[of];
+                for (left, right) in left.iter().zip(side(node)) {
+                    let residual = left - right;
                     assert!(residual.abs() < 1e-11, "{n:?} {node}: {residual}");
                 }
             }

@@ -129,7 +129,7 @@ impl Motion {
     }
 
     /// Where hands are: they close within 0.1 s, then stretch what they hold by 20 mm in 0.2 s.
-    fn hands(&self, t_s: f64) -> [Hand; 2] {
+    fn hands(t_s: f64) -> [Hand; 2] {
         let pulled = 20.0 * ((t_s - 0.1) / 0.2).clamp(0.0, 1.0);
         pinch(
             [100.0, 80.0 - pulled, 0.3 * pulled],
@@ -141,7 +141,7 @@ impl Motion {
     fn run(&self, drape: &mut Drape, n_steps: usize) -> Result<Timing, ReportError> {
         let (start, start_s) = (Instant::now(), thread_cpu_seconds());
         for _ in 0..n_steps {
-            let hands = self.hands(drape.t_s() + drape.step_s());
+            let hands = Self::hands(drape.t_s() + drape.step_s());
             drape.step(&hands[..self.sample.n_fingers])?;
         }
         let cpu_s = (thread_cpu_seconds() - start_s) / self.seconds;

@@ -57,11 +57,12 @@ impl Sample {
              air = false\n[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n{tension}\n\
              g_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
         );
-        for side in ["front", "back"].iter().take(self.n_fingers) {
-            text += &format!(
+        let finger = |side: &&str| {
+            format!(
                 "[[finger]]\nside = \"{side}\"\nstart_mm = [100.0, 80.0, 0.0]\nopening_mm = 20.0\n"
-            );
-        }
+            )
+        };
+        text.extend(["front", "back"].iter().take(self.n_fingers).map(finger));
         let scene = DrapeScene::from_text(&text, Path::new("studied.drape.toml"))?;
         let mut drape = Drape::new(&scene, Some(integrator), step_s)?;
         if self.n_fingers == 0 {

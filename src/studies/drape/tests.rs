@@ -19,8 +19,8 @@ fn bdf2_comes_nearest_at_a_given_step_and_a_sleeping_cloth_costs_next_to_nothing
         "{:#?}",
         findings.rows
     );
-    assert!(of("bdf2", "swing", "1 ms").error < bdf2.error);
-    assert!(of("bdf2", "grasp", "1 ms").error.unwrap() < 0.5);
+    assert!(of("bdf2", "swing", "1.00").error < bdf2.error);
+    assert!(of("bdf2", "grasp", "1.00").error.unwrap() < 0.5);
     let [awake, asleep] =
         ["awake", "asleep"].map(|way| of(way, "rest", "bdf2").cost.unwrap().cpu_s);
     assert!(asleep < 0.05 * awake, "{asleep} {awake}");
