@@ -40,8 +40,8 @@ pub(super) struct DrapeArgs {
     scene: Option<PathBuf>,
     #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
     path: Option<PathBuf>,
-    /// Forces on the fingers, a row a step or, if that is shorter, a millisecond; without --path the
-    /// shape at rest (standard output if no file is asked for)
+    /// Forces on the fingers, a row a step or, if that is shorter, a millisecond; without --path
+    /// the shape at rest (standard output if no file is asked for)
     #[arg(long, value_name = "F.csv")]
     out: Option<PathBuf>,
     /// Where every vertex is, forty times a second

@@ -2,9 +2,9 @@
 //! itself against what is known of the cloth.
 //!
 //! At the end of a step the cloth answers proxies with `F − D (x − x_k)`, D the Schur complement of
-//! the step's tangent on both. It pushes only, within friction's cone, and is held where it is after
-//! two steps without news. Points of a pad are 7.5e6 Pa/m stiff at most, so `D < 1500 N/m`; at 1 kHz,
-//! a tick late, the coupling's damper holds `B/(T/2 + T) = 4200 N/m`.
+//! the step's tangent on both. It pushes only, within friction's cone, and is held where it is
+//! after two steps without news. Points of a pad are 7.5e6 Pa/m stiff at most, so `D < 1500 N/m`;
+//! a tick of 1 ms late, the coupling's damper holds `B/(T/2 + T) = 4200 N/m`.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -7,8 +7,8 @@ use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::Pose;
 use selvedge_scratch::ScratchFolder;
 
-/// One finger on a cloth in a frame that hardly gives way: stiffer than the twill itself, into which
-/// a pad of 8 mN sinks so far that it slips 0.3 mm/s slower, and is felt 0.35 dB off.
+/// One finger on a cloth in a frame that hardly gives way: stiffer than the twill itself, into
+/// which a pad of 8 mN sinks so far that it slips 0.3 mm/s slower, and is felt 0.35 dB off.
 const TAUT: &str = r#"
 name = "Taut"
 textile = "wool-twill"

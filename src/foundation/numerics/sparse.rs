@@ -18,9 +18,9 @@ pub struct GridFactor {
 }
 
 impl GridFactor {
-    /// Factors the matrix that is the sum of `entries` (row, column, value; both halves) over a grid
-    /// of `n` nodes along its axes, numbered row by row. Entries join nodes at most `reach` apart
-    /// along an axis. `None` of a matrix that is not positive definite.
+    /// Factors the matrix that is the sum of `entries` (row, column, value; both halves) over a
+    /// grid of `n` nodes along its axes, numbered row by row. Entries join nodes at most `reach`
+    /// apart along an axis. `None` of a matrix that is not positive definite.
     pub fn new(
         n: [usize; 2],
         reach: usize,

@@ -13,7 +13,7 @@ use selvedge_foundation::progress::thread_cpu_seconds;
 pub(crate) const STUDY: Study = Study {
     name: "drape",
     question: "How should a hanging cloth be stepped, and what does it cost?",
-    reference: "Explicit steps of a twentieth of their limit; for the shape at rest the finest grid.",
+    reference: "Explicit steps of a twentieth of their limit; at rest the finest grid.",
     error: ("error of places, rms", "mm"),
     cost_of: "second of the cloth's",
     run,

@@ -1,4 +1,4 @@
-//! A hanging cloth: how exactly each way of stepping it answers, what that costs, and what it holds.
+//! A hanging cloth: how exactly each way of stepping it answers, at what cost, and what it holds.
 
 mod integrators;
 mod stability;
@@ -54,8 +54,8 @@ impl Sample {
         );
         let mut text = format!(
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
-             air = false\n[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n{tension}\n\
-             g_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
+             air = false\n[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
+             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
         );
         let finger = |side: &&str| {
             format!(
