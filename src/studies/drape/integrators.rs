@@ -232,13 +232,14 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
         .sqrt()
 }
 
-/// The shape at rest of a cloth in an upright frame, by its grid; and the order that follows.
+/// The shape at rest of a limp cloth in an upright frame, by its grid; and the order that follows.
 fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
     let grids = effort.pick(&[7, 13, 25][..], &[13, 25, 49, 97]);
     let hung = |n: usize| {
         let sample = Sample {
             n,
             pins: "frame",
+            stiffness_n_per_m: Some(10.0),
             ..Sample::SHIRTING
         };
         let stepped = (Integrator::ImplicitEuler, Some(1e-3));
@@ -272,7 +273,7 @@ fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
             wall_s,
             n_repeats: 1,
         };
-        let row = Row::of("rest", format!("{n}²"), "in an upright frame");
+        let row = Row::of("rest", format!("{n}²"), "in an upright frame, K 1e1 N/m");
         rows.push(row.error(error).cost(cost).size((n * n) as f64));
     }
     // Errors are against a grid that has one, too: e ∝ h^p − h_0^p.
