@@ -146,7 +146,6 @@ fn follow(
             "{what}; give a shorter one, or a larger --dt"
         )));
     }
-    let mut table = TableOut::new(args.out.as_deref(), &FORCE_COLUMNS)?;
     let mut mesh = args
         .mesh
         .as_deref()
@@ -156,8 +155,8 @@ fn follow(
     path.at(start_s, &mut hands);
     drape.place(&hands);
     let [start_j, _] = drape.energy_j();
-    let (mut gained_j, mut next_mesh, mut energy_j) = (0.0_f64, 0.0, start_j);
-    let mut between = Between::new(step_s);
+    let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
+    let mut forces = ForcesOut::new(args.out.as_deref(), (step_s, start_j))?;
     let mut meter = Meter::new("draping");
     for nth in 1..=to_whole::<u64>(n_steps) {
         if stop.load(Ordering::Relaxed) {
@@ -168,18 +167,18 @@ fn follow(
             next_mesh += MESH_EVERY_S;
         }
         let to_s = nth as f64 * step_s;
-        while let Some(t_s) = between.next(to_s) {
+        while let Some(t_s) = forces.next_between(to_s) {
             path.at(start_s + t_s, &mut hands);
-            drape.feel(&hands, &mut between.forces_n);
-            write_forces(&mut table, drape, (t_s, Some(&between.forces_n)), energy_j)?;
+            drape.feel(&hands, &mut forces.between_n);
+            forces.write(drape, t_s)?;
         }
         path.at(start_s + to_s, &mut hands);
         drape.step(&hands)?;
-        let work_j;
-        [energy_j, work_j] = drape.energy_j();
+        let [energy_j, work_j] = drape.energy_j();
         gained_j = gained_j.max(energy_j - start_j - work_j);
-        if !between.is_long {
-            write_forces(&mut table, drape, (drape.t_s(), None), energy_j)?;
+        forces.energy_j = energy_j;
+        if !forces.is_between {
+            forces.write(drape, drape.t_s())?;
         }
         if let Some(felt) = &mut felt {
             felt.take(drape)?;
@@ -191,7 +190,7 @@ fn follow(
         mesh.0.finish()?;
     }
     felt.map_or(Ok(()), |felt| felt.table.finish())?;
-    table.finish()?;
+    forces.table.finish()?;
     Ok([start_j, gained_j])
 }
 
@@ -259,55 +258,59 @@ const FORCE_COLUMNS: [&str; 9] = [
     "iterations",
 ];
 
-/// The milliseconds within steps that are longer: hands feel the cloth at each.
-struct Between {
-    is_long: bool,
+/// Forces at every step, or where those are longer at every millisecond.
+struct ForcesOut {
+    table: TableOut,
+    /// Whether steps are longer: hands feel the cloth between them.
+    is_between: bool,
     tick: u64,
-    forces_n: [[f64; 3]; 2],
+    between_n: [[f64; 3]; 2],
+    /// After the last step.
+    energy_j: f64,
 }
 
-impl Between {
-    fn new(step_s: f64) -> Self {
-        Self {
-            is_long: step_s > Drape::FEELS_EVERY_S * (1.0 + LAST_STEP_SLACK),
+impl ForcesOut {
+    fn new(path: Option<&Path>, (step_s, energy_j): (f64, f64)) -> Result<Self, CliError> {
+        Ok(Self {
+            table: TableOut::new(path, &FORCE_COLUMNS)?,
+            is_between: step_s > Drape::FEELS_EVERY_S * (1.0 + LAST_STEP_SLACK),
             tick: 0,
-            forces_n: [[0.0; 3]; 2],
-        }
+            between_n: [[0.0; 3]; 2],
+            energy_j,
+        })
     }
 
-    /// The next one up to a time, s.
-    fn next(&mut self, to_s: f64) -> Option<f64> {
+    /// The next millisecond up to a time, s.
+    fn next_between(&mut self, to_s: f64) -> Option<f64> {
         let t_s = (self.tick + 1) as f64 * Drape::FEELS_EVERY_S;
-        let is_due = self.is_long && t_s <= to_s + LAST_STEP_SLACK * Drape::FEELS_EVERY_S;
+        let is_due = self.is_between && t_s <= to_s + LAST_STEP_SLACK * Drape::FEELS_EVERY_S;
         self.tick += u64::from(is_due);
         is_due.then_some(t_s)
     }
-}
 
-/// A row for each finger; one of no finger where there is none. Forces are those of the last step
-/// if no others are given.
-fn write_forces(
-    table: &mut TableOut,
-    drape: &Drape,
-    (t_s, forces_n): (f64, Option<&[[f64; 3]; 2]>),
-    energy_j: f64,
-) -> Result<(), CliError> {
-    let n_fingers = drape.start_hands().len().max(1);
-    for finger in 0..n_fingers {
-        let felt = drape.finger(finger);
-        let rows = table.rows();
-        rows.number(t_s).number(finger);
-        let force_n = forces_n.map_or(felt.force_n, |forces_n| forces_n[finger]);
-        for force in force_n {
-            rows.number(force);
+    /// A row for each finger; one of no finger where there is none.
+    fn write(&mut self, drape: &Drape, t_s: f64) -> Result<(), CliError> {
+        let n_fingers = drape.start_hands().len().max(1);
+        for finger in 0..n_fingers {
+            let felt = drape.finger(finger);
+            let force_n = if self.is_between {
+                self.between_n[finger]
+            } else {
+                felt.force_n
+            };
+            let rows = self.table.rows();
+            rows.number(t_s).number(finger);
+            for force in force_n {
+                rows.number(force);
+            }
+            rows.number(felt.n_contacts)
+                .number(felt.slip_mm_per_s)
+                .number(self.energy_j)
+                .number(drape.iterations());
+            rows.end_row()?;
         }
-        rows.number(felt.n_contacts)
-            .number(felt.slip_mm_per_s)
-            .number(energy_j)
-            .number(drape.iterations());
-        rows.end_row()?;
+        Ok(())
     }
-    Ok(())
 }
 
 /// A table of shapes.
