@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use super::output::{self, TableOut};
-use super::render_out::AMPLITUDE_COLUMNS;
+use super::render_out::{AMPLITUDE_COLUMNS, write_amplitudes};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
 use selvedge_drape::{
@@ -40,8 +40,8 @@ pub(super) struct DrapeArgs {
     scene: Option<PathBuf>,
     #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
     path: Option<PathBuf>,
-    /// Forces on the fingers, a row a step; without --path the shape at rest (standard output if no
-    /// file is asked for)
+    /// Forces on the fingers, a row a step or, if that is shorter, a millisecond; without --path
+    /// the shape at rest (standard output if no file is asked for)
     #[arg(long, value_name = "F.csv")]
     out: Option<PathBuf>,
     /// Where every vertex is, forty times a second
@@ -50,7 +50,7 @@ pub(super) struct DrapeArgs {
     /// Amplitudes of the contactors on both pads, a row a contactor a tick; places are the cloth's
     #[arg(long, value_name = "A.csv", requires = "path")]
     amplitudes: Option<PathBuf>,
-    /// How to step: explicit, ie, bdf2, xpbd or auto (the scene's)
+    /// How to step: explicit, ie, bdf2, xpbd, pd or auto (the scene's)
     #[arg(long, value_name = "METHOD")]
     integrator: Option<Integrator>,
     /// Length of a step, ms (the scene's, or by the integrator)
@@ -146,7 +146,6 @@ fn follow(
             "{what}; give a shorter one, or a larger --dt"
         )));
     }
-    let mut table = TableOut::new(args.out.as_deref(), &FORCE_COLUMNS)?;
     let mut mesh = args
         .mesh
         .as_deref()
@@ -157,6 +156,7 @@ fn follow(
     drape.place(&hands);
     let [start_j, _] = drape.energy_j();
     let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
+    let mut forces = ForcesOut::new(args.out.as_deref(), (step_s, start_j))?;
     let mut meter = Meter::new("draping");
     for nth in 1..=to_whole::<u64>(n_steps) {
         if stop.load(Ordering::Relaxed) {
@@ -166,11 +166,20 @@ fn follow(
             mesh.write(drape)?;
             next_mesh += MESH_EVERY_S;
         }
-        path.at(start_s + nth as f64 * step_s, &mut hands);
+        let to_s = nth as f64 * step_s;
+        while let Some(t_s) = forces.next_between(to_s) {
+            path.at(start_s + t_s, &mut hands);
+            drape.feel(&hands, &mut forces.between_n);
+            forces.write(drape, t_s)?;
+        }
+        path.at(start_s + to_s, &mut hands);
         drape.step(&hands)?;
         let [energy_j, work_j] = drape.energy_j();
         gained_j = gained_j.max(energy_j - start_j - work_j);
-        write_forces(&mut table, drape, energy_j)?;
+        forces.energy_j = energy_j;
+        if !forces.is_between {
+            forces.write(drape, drape.t_s())?;
+        }
         if let Some(felt) = &mut felt {
             felt.take(drape)?;
         }
@@ -181,7 +190,7 @@ fn follow(
         mesh.0.finish()?;
     }
     felt.map_or(Ok(()), |felt| felt.table.finish())?;
-    table.finish()?;
+    forces.table.finish()?;
     Ok([start_j, gained_j])
 }
 
@@ -189,7 +198,7 @@ fn follow(
 struct AmplitudesOut {
     table: TableOut,
     renderer: ArrayRenderer,
-    textile: String,
+    textiles: Vec<String>,
     n_fingers: usize,
     tick: u64,
 }
@@ -201,7 +210,7 @@ impl AmplitudesOut {
             n_fingers: rendered.displays.len(),
             renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
             table: TableOut::new(Some(path), &AMPLITUDE_COLUMNS)?,
-            textile: scene.textile().unwrap_or_default().to_owned(),
+            textiles: scene.surfaces().map(str::to_owned).collect(),
             tick: 0,
         })
     }
@@ -215,20 +224,22 @@ impl AmplitudesOut {
         let mut contacts = [None; 24];
         for display in 0..self.n_fingers {
             drape.tick_contacts(display, &mut contacts);
-            let frame = self.renderer.touch((display, 0), &contacts);
-            let amplitudes = frame.map_or(&[][..], |frame| frame.amplitudes_um());
-            for (contactor, (contact, felt)) in contacts.iter().zip(amplitudes).enumerate() {
+            let surface = drape.surface(display);
+            let textile = self.textiles.get(surface).map_or("", String::as_str);
+            let Some(frame) = self.renderer.touch((display, surface), &contacts) else {
+                continue;
+            };
+            for (contactor, contact) in contacts.iter().enumerate() {
                 let rows = self.table.rows();
                 rows.number(self.tick).number(drape.t_s());
                 rows.number(display).number(contactor);
                 if let Some(MaterialContact { place_mm, .. }) = contact {
-                    rows.number(place_mm[0])
-                        .number(place_mm[1])
-                        .text(&self.textile);
+                    rows.number(place_mm[0]).number(place_mm[1]).text(textile);
                 } else {
                     rows.text("").text("").text("");
                 }
-                rows.number(felt[0]).number(felt[1]).end_row()?;
+                write_amplitudes(&mut self.table, frame, contactor);
+                self.table.rows().end_row()?;
             }
         }
         Ok(())
@@ -247,23 +258,59 @@ const FORCE_COLUMNS: [&str; 9] = [
     "iterations",
 ];
 
-/// A row for each finger; one of no finger where there is none.
-fn write_forces(table: &mut TableOut, drape: &Drape, energy_j: f64) -> Result<(), CliError> {
-    let n_fingers = drape.start_hands().len().max(1);
-    for finger in 0..n_fingers {
-        let felt = drape.finger(finger);
-        let rows = table.rows();
-        rows.number(drape.t_s()).number(finger);
-        felt.force_n.iter().for_each(|force| {
-            rows.number(force);
-        });
-        rows.number(felt.n_contacts)
-            .number(felt.slip_mm_per_s)
-            .number(energy_j)
-            .number(drape.iterations());
-        rows.end_row()?;
+/// Forces at every step, or where those are longer at every millisecond.
+struct ForcesOut {
+    table: TableOut,
+    /// Whether steps are longer: hands feel the cloth between them.
+    is_between: bool,
+    tick: u64,
+    between_n: [[f64; 3]; 2],
+    /// After the last step.
+    energy_j: f64,
+}
+
+impl ForcesOut {
+    fn new(path: Option<&Path>, (step_s, energy_j): (f64, f64)) -> Result<Self, CliError> {
+        Ok(Self {
+            table: TableOut::new(path, &FORCE_COLUMNS)?,
+            is_between: step_s > Drape::FEELS_EVERY_S * (1.0 + LAST_STEP_SLACK),
+            tick: 0,
+            between_n: [[0.0; 3]; 2],
+            energy_j,
+        })
     }
-    Ok(())
+
+    /// The next millisecond up to a time, s.
+    fn next_between(&mut self, to_s: f64) -> Option<f64> {
+        let t_s = (self.tick + 1) as f64 * Drape::FEELS_EVERY_S;
+        let is_due = self.is_between && t_s <= to_s + LAST_STEP_SLACK * Drape::FEELS_EVERY_S;
+        self.tick += u64::from(is_due);
+        is_due.then_some(t_s)
+    }
+
+    /// A row for each finger; one of no finger where there is none.
+    fn write(&mut self, drape: &Drape, t_s: f64) -> Result<(), CliError> {
+        let n_fingers = drape.start_hands().len().max(1);
+        for finger in 0..n_fingers {
+            let felt = drape.finger(finger);
+            let force_n = if self.is_between {
+                self.between_n[finger]
+            } else {
+                felt.force_n
+            };
+            let rows = self.table.rows();
+            rows.number(t_s).number(finger);
+            for force in force_n {
+                rows.number(force);
+            }
+            rows.number(felt.n_contacts)
+                .number(felt.slip_mm_per_s)
+                .number(self.energy_j)
+                .number(drape.iterations());
+            rows.end_row()?;
+        }
+        Ok(())
+    }
 }
 
 /// A table of shapes.

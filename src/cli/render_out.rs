@@ -56,8 +56,6 @@ impl<'a> AmplitudeTable<'a> {
                 let position = frame.contactor_position(contactor);
                 let textile = frame.textile(contactor);
                 let placed = textile.and_then(|index| self.loaded.scene().textiles.get(index));
-                let exact_um = frame.amplitude_um(contactor);
-                let single_um = frame.amplitudes_um()[contactor];
                 let row = self.out.rows();
                 row.number(tick)
                     .number(t_s)
@@ -65,15 +63,8 @@ impl<'a> AmplitudeTable<'a> {
                     .number(contactor);
                 row.number(position.x_mm).number(position.y_mm);
                 row.text(placed.map_or("", |placed| &placed.id));
-                for (exact, single) in exact_um.into_iter().zip(single_um) {
-                    // What has no more digits than f32 is written with no more.
-                    if f64::from(single).to_bits() == exact.to_bits() {
-                        row.number(single)
-                    } else {
-                        row.number(exact)
-                    };
-                }
-                row.end_row()?;
+                write_amplitudes(&mut self.out, frame, contactor);
+                self.out.rows().end_row()?;
             }
         }
         Ok(())
@@ -82,6 +73,18 @@ impl<'a> AmplitudeTable<'a> {
     /// The table is whole.
     pub(super) fn finish(self) -> Result<(), CliError> {
         self.out.finish()
+    }
+}
+
+/// The amplitudes of a contactor; what has no more digits than f32 is written with no more.
+pub(super) fn write_amplitudes(out: &mut TableOut, frame: &DisplayFrame, contactor: usize) {
+    let single_um = frame.amplitudes_um()[contactor];
+    for (exact, single) in frame.amplitude_um(contactor).into_iter().zip(single_um) {
+        if f64::from(single).to_bits() == exact.to_bits() {
+            out.rows().number(single)
+        } else {
+            out.rows().number(exact)
+        };
     }
 }
 

@@ -6,6 +6,7 @@ use super::finger::Finger;
 use super::integrator::Integrator;
 use super::mesh::Vector;
 use super::newton::Newton;
+use super::projective::Projection;
 use super::system::System;
 use super::{DrapeError, GRAVITY};
 
@@ -88,6 +89,8 @@ pub(crate) struct Cloth {
     touched: bool,
     /// Whether velocities are those between two places, as explicit steps have them.
     pub(crate) is_staggered: bool,
+    /// Whether the place now is what was evaluated last.
+    is_evaluated: bool,
     rests_s: f64,
     pub(crate) counters: DrapeCounters,
     /// Work that hands did, J.
@@ -96,6 +99,8 @@ pub(crate) struct Cloth {
     pub(crate) trial: Vec<Vector>,
     /// 1/mass of the cloth's vertices, 0 of pinned ones, 1/kg.
     pub(crate) per_kg: Vec<f64>,
+    /// What projective dynamics factors once.
+    pub(crate) projection: Option<Projection>,
 }
 
 impl Cloth {
@@ -112,8 +117,11 @@ impl Cloth {
         let mesh = &system.sheet.mesh;
         let vertices = mesh.mass_kg.iter().zip(&mesh.is_pinned);
         let per_kg = vertices.map(|(kg, pinned)| if *pinned { 0.0 } else { kg.recip() });
+        let is_projective = stepping.integrator == Integrator::Projective;
+        let projection = is_projective.then(|| Projection::new(&system.sheet, stepping.step_s));
         let mut cloth = Self {
             per_kg: per_kg.collect(),
+            projection: projection.flatten(),
             newton: Newton::new(&system),
             system,
             stepping,
@@ -124,6 +132,7 @@ impl Cloth {
             n_past: 0,
             touched: false,
             is_staggered: false,
+            is_evaluated: false,
             rests_s: 0.0,
             counters: DrapeCounters::default(),
             work_j: 0.0,
@@ -148,6 +157,20 @@ impl Cloth {
         self.restart();
     }
 
+    /// Lays the cloth flat at rest, turned about its upper edge.
+    pub(crate) fn tilt(&mut self, degrees: f64) {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let Self { system, x, v, .. } = self;
+        let mesh = &system.sheet.mesh;
+        let top = mesh.size_m()[1];
+        for ((x, v), rest) in x.iter_mut().zip(v).zip(mesh.at_rest()) {
+            let down = top - rest.y;
+            *x = Vector::new(rest.x, top - down * cosine, down * sine);
+            *v = Vector::zeros();
+        }
+        self.restart();
+    }
+
     /// Forgets what was before: places or velocities were set from outside.
     pub(crate) fn restart(&mut self) {
         self.n_past = 0;
@@ -162,6 +185,7 @@ impl Cloth {
         }
         system.look(x);
         system.evaluate(x, &mut newton.grad);
+        self.is_evaluated = true;
         self.angles.copy_from_slice(&system.sheet.shear.angles);
         for past in &mut self.past {
             past.x.copy_from_slice(x);
@@ -190,10 +214,16 @@ impl Cloth {
             self.counters.targets_held += u64::from(!System::is_finite(&[*target]));
             finger.lead(*target, step_s);
         }
+        // What moves by its forces at the start is not evaluated where it ends.
+        self.is_evaluated = !matches!(
+            self.stepping.integrator,
+            Integrator::Explicit | Integrator::Xpbd | Integrator::Projective
+        );
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
-            Integrator::Xpbd => self.project(),
+            Integrator::Xpbd => self.pass_constraints(),
+            Integrator::Projective => self.project(),
             _ => self.implicit(if self.n_past > 0 { 2 } else { 1 }),
         }
         let fingers = self.system.fingers.iter();
@@ -251,7 +281,10 @@ impl Cloth {
         let Self {
             system, x, newton, ..
         } = self;
-        system.evaluate(x, &mut newton.grad);
+        if !self.is_evaluated {
+            system.evaluate(x, &mut newton.grad);
+            self.is_evaluated = true;
+        }
         system.kinetic_j(&self.v) + system.energy.stored + system.height_j(x, self.gravity)
     }
 

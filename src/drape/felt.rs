@@ -12,29 +12,30 @@ use selvedge_render::{MaterialContact, RenderScene};
 use selvedge_textile::Library;
 
 impl DrapeScene {
-    /// What the contactors of its fingers are rendered on: the textile lying flat, a display for
-    /// each finger. Loads the textile.
+    /// What the contactors of its fingers are rendered on: the textiles of its face and, if it has
+    /// one of its own, its back lying flat, a display for each finger. Loads them.
     ///
     /// # Errors
     /// The scene names no textile, or it cannot be loaded.
     pub fn render_scene(&self) -> Result<RenderScene, DrapeError> {
-        let Some(id) = self.textile() else {
+        if self.textile().is_none() {
             let mend = "name a textile in the scene";
             return Err(DrapeError::input("the cloth has no surface to feel", mend));
-        };
+        }
         let library = Library::named_or_shipped(self.library_folder.as_deref(), None)?;
         let display = || Display {
             geometry: Geometry::Array(ArrayLayout::Exeter24),
             rotation_deg: 0.0,
         };
+        let placed = |id: &str| PlacedTextile {
+            id: id.to_owned(),
+            size_mm: self.size_mm(),
+            ..PlacedTextile::default()
+        };
         let scene = Scene {
             name: self.name().to_owned(),
             size_mm: self.size_mm(),
-            textiles: vec![PlacedTextile {
-                id: id.to_owned(),
-                size_mm: self.size_mm(),
-                ..PlacedTextile::default()
-            }],
+            textiles: self.surfaces().map(placed).collect(),
             displays: self.fingers().iter().map(|_| display()).collect(),
             ..Scene::default()
         };

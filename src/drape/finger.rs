@@ -4,18 +4,13 @@
 //! Friction holds each point by a spring to an anchor in the cloth; the anchor slips where the
 //! spring pulls more than friction holds, and only that is felt as motion.
 
+use super::coupling::{Coupling, led};
 use super::mesh::{Mesh, Vector};
 use super::pad::{self, POINT_M2, PULP_PA_PER_M, Pulp, REACH_M};
 use super::place::{Spot, find};
 use super::precondition::LinePreconditioner;
 use super::sheet::{Energy, Lag};
 
-/// Stiffness of the coupling between hand and proxy, N/m.
-const COUPLING_N_PER_M: f64 = 500.0;
-/// The largest force that it gives, N.
-pub(crate) const MAX_FORCE_N: f64 = 5.0;
-/// The fastest that the proxy is led, m/s.
-pub(crate) const MAX_SPEED_M_PER_S: f64 = 1.0;
 /// Stiffness of a point along the cloth, Pa/m.
 const ALONG_PA_PER_M: f64 = 0.5 * PULP_PA_PER_M;
 /// A point under less than this feels nothing, Pa.
@@ -36,19 +31,9 @@ pub(crate) struct Finger {
     below: Option<Spot>,
     pub(crate) points: Vec<Point>,
     pulp: Pulp,
-    friction: f64,
+    pub(crate) friction: f64,
     half_thickness_m: f64,
-    coupling: Coupling,
-}
-
-/// The coupling as one spring to one place, in a step.
-#[derive(Debug, Clone, Copy, Default)]
-struct Coupling {
-    stiffness: f64,
-    centre: Vector,
-    /// Force on the hand, N.
-    force: Vector,
-    tangent: f64,
+    pub(crate) coupling: Coupling,
 }
 
 /// A point of the pad.
@@ -71,7 +56,7 @@ pub(crate) struct Point {
 
 impl Finger {
     /// Mass of a proxy, kg.
-    pub(crate) const MASS_KG: f64 = 0.02;
+    pub(crate) const MASS_KG: f64 = super::coupling::PROXY_KG;
 
     pub(crate) fn new(
         node: usize,
@@ -107,16 +92,7 @@ impl Finger {
     /// Leads it towards a place over a step, not faster than it may. A place that is no number
     /// leaves it where it is.
     pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
-        let way = to - self.target;
-        let most = MAX_SPEED_M_PER_S * step_s;
-        let length = way.norm();
-        let moved = if !length.is_finite() {
-            Vector::zeros()
-        } else if length > most {
-            way * (most / length)
-        } else {
-            way
-        };
+        let moved = led(self.target, to, step_s);
         self.target += moved;
         self.target_speed = moved / step_s;
     }
@@ -128,11 +104,8 @@ impl Finger {
 
     /// Begins a step: the coupling's spring and damper become one spring.
     pub(crate) fn begin(&mut self, lag: &Lag) {
-        let damping = 2.0 * (COUPLING_N_PER_M * Self::MASS_KG).sqrt();
-        let stiffness = COUPLING_N_PER_M + damping * lag.sigma;
-        let damped = lag.hat[self.node] * lag.sigma + self.target_speed;
-        self.coupling.stiffness = stiffness;
-        self.coupling.centre = (self.target * COUPLING_N_PER_M + damped * damping) / stiffness;
+        let hand = (self.target, self.target_speed);
+        self.coupling = Coupling::new(hand, lag.hat[self.node], lag.sigma);
     }
 
     /// Finds what it touches; says whether that is anything.
@@ -205,13 +178,9 @@ impl Finger {
 
     /// The coupling's energy: what the spring holds is stored, the rest is damping's.
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
-        let off = x[self.node] - self.coupling.centre;
-        let (value, tangent) = bounded_spring(self.coupling.stiffness, off.norm());
-        self.coupling.force = off * tangent;
-        self.coupling.tangent = tangent;
+        let value = self.coupling.pull(x[self.node]);
         grad[self.node] += self.coupling.force;
-        let stretched = (x[self.node] - self.target).norm();
-        let (stored, _) = bounded_spring(COUPLING_N_PER_M, stretched);
+        let stored = Coupling::stored_j((x[self.node] - self.target).norm());
         Energy {
             stored,
             lost: value - stored,
@@ -291,6 +260,21 @@ impl Finger {
             .sum()
     }
 
+    /// Unit normal of the cloth below it, towards the finger; `None` where it touches nothing.
+    pub(crate) fn normal(&self) -> Option<Vector> {
+        let touched = self.points.iter().filter_map(|point| {
+            let spot = point.spot?;
+            Some(spot.normal * point.pressure_pa)
+        });
+        let sum: Vector = touched.sum();
+        Some(sum.try_normalize(0.0)? * self.side?)
+    }
+
+    /// Whether it is on the back of the cloth.
+    pub(crate) fn is_behind(&self) -> bool {
+        self.side.unwrap_or(self.own_side) < 0.0
+    }
+
     /// Whether it is so near that the cloth has to be awake.
     pub(crate) fn is_near(&self) -> bool {
         self.side.is_some()
@@ -353,13 +337,4 @@ impl Point {
         (0..2).for_each(|axis| self.slipped_m[axis] += moved[axis]);
         Spot::new(mesh, x, place)
     }
-}
-
-/// Energy of a spring that never pulls with more than the largest force, and its force per length.
-fn bounded_spring(stiffness: f64, length: f64) -> (f64, f64) {
-    if stiffness * length <= MAX_FORCE_N {
-        return (0.5 * stiffness * length * length, stiffness);
-    }
-    let reach = MAX_FORCE_N / stiffness;
-    (MAX_FORCE_N * (length - 0.5 * reach), MAX_FORCE_N / length)
 }

@@ -14,6 +14,8 @@ named! {
         Bdf2 = "bdf2",
         /// Positions moved by constraints, once a step: for pictures only.
         Xpbd = "xpbd",
+        /// Projective dynamics: one matrix factored once; locks rotation, to compare only.
+        Projective = "pd",
         /// By counts of vertices and the explicit limit.
         #[default]
         Auto = "auto",

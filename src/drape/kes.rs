@@ -10,6 +10,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::DrapeError;
+use super::curve::Curve;
 use super::fabric::{Compression, Fabric, Tension};
 use selvedge_foundation::files;
 use selvedge_textile::{KnownFigure, Library};
@@ -109,6 +110,43 @@ impl Fabric {
         };
         Ok((fabric, odd(figures, (emt, lt, load), weight)))
     }
+}
+
+/// A measured tension curve along warp and weft from a table of `strain_percent`, `warp_gf_per_cm`
+/// and, unless both are alike, `weft_gf_per_cm`; with the figures that it stands for.
+///
+/// # Errors
+/// One line: what is wrong, where, and how to mend it.
+pub(crate) fn tension_curves(path: &Path) -> Result<([Tension; 2], Figures), DrapeError> {
+    let text = files::read_text(path)?;
+    let names = ["strain_percent", "warp_gf_per_cm", "weft_gf_per_cm"];
+    let table = files::Table::read(&text, path, &names[..2], &names[2..])?;
+    let strains = table.required_numbers(names[0])?;
+    let warp = table.required_numbers(names[1])?;
+    let weft = table.numbers(names[2])?;
+    let mut figures = Figures::new();
+    let mut curve = |loads: &[f64], side: &str| {
+        let points = strains.iter().zip(loads);
+        let points: Vec<[f64; 2]> = points.map(|(s, gf)| [0.01 * s, gf * N_PER_M]).collect();
+        let wrong = |error: DrapeError| {
+            let flaw = files::Flaw::described(("", 0, ""), &error.to_string(), "correct it");
+            DrapeError::from(flaw.in_file(&text, path))
+        };
+        let tension = Tension::measured(&Curve::new(&points).map_err(wrong)?);
+        let [work, load, _] = tension.at(tension.max_strain);
+        figures.insert(format!("emt_{side}_percent"), 100.0 * tension.max_strain);
+        figures.insert(
+            format!("lt_{side}"),
+            work / (0.5 * load * tension.max_strain),
+        );
+        figures.insert(LOAD.to_owned(), load / N_PER_M);
+        Ok::<_, DrapeError>(tension)
+    };
+    let both = [
+        curve(&warp, "warp")?,
+        curve(weft.as_deref().unwrap_or(&warp), "weft")?,
+    ];
+    Ok((both, figures))
 }
 
 fn compression(figures: &Figures) -> Result<Compression, DrapeError> {
@@ -253,6 +291,40 @@ mod tests {
         let (fabric, _) = Fabric::of_figures(&given).unwrap();
         let expected = Tension::new(490.3325, 0.05, 0.7).at_rest_n_per_m;
         assert!((fabric.tension[0].at_rest_n_per_m / expected - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_measured_curve_takes_the_place_of_emt_and_lt() {
+        let folder = selvedge_scratch::ScratchFolder::made("drape-tension");
+        let (path, curve) = (folder.join("a.drape.toml"), folder.join("tension.csv"));
+        let text = "name = \"a\"\ntension = \"tension.csv\"\n[measured]\n\
+            weight_mg_per_cm2 = 20\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\n";
+        std::fs::write(&path, text).unwrap();
+        let rows = "strain_percent,warp_gf_per_cm,weft_gf_per_cm\n1,50,20\n2,150,60\n4,500,200\n";
+        std::fs::write(&curve, rows).unwrap();
+        let scene = crate::DrapeScene::read(&path).unwrap();
+        for (axis, gf_per_cm) in [150.0, 60.0].into_iter().enumerate() {
+            let [_, tension, _] = scene.fabric().tension[axis].at(0.02);
+            assert!(
+                (tension / (gf_per_cm * N_PER_M) - 1.0).abs() < 1e-9,
+                "{tension}"
+            );
+        }
+        assert!((scene.fabric().max_strains()[1] - 0.04).abs() < 1e-12);
+        for (rows, expected) in [
+            ("strain_percent\n1\n", "no column warp_gf_per_cm"),
+            (
+                "strain_percent,warp_gf_per_cm\n1,50\n2,40\n",
+                "does not rise; let strain",
+            ),
+        ] {
+            std::fs::write(&curve, rows).unwrap();
+            let error = crate::DrapeScene::read(&path).unwrap_err().to_string();
+            assert!(
+                error.contains("tension.csv") && error.contains(expected),
+                "{error}"
+            );
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! kes (figures of testers) ─▶ fabric ─┐
 //! scene (file) ─▶ mesh ───────────────┼─▶ sheet (membrane, plate, slip) ─┐
 //! path (hands) ─▶ finger (pad, place) ┴──────────────────────────────────┴─▶ system
-//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run
+//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run (local: 1 kHz between steps)
 //! ```
 //!
 //! Lengths are metres inside and millimetres at the border. The added mass of air, which is more
@@ -20,6 +20,8 @@
 )]
 
 mod cloth;
+mod coupling;
+mod curve;
 mod error;
 mod fabric;
 mod felt;
@@ -27,6 +29,7 @@ mod finger;
 mod hands;
 mod integrator;
 mod kes;
+mod local;
 mod membrane;
 mod mesh;
 mod newton;
@@ -34,11 +37,13 @@ mod pad;
 mod place;
 mod plate;
 mod precondition;
+mod projective;
 mod run;
 mod scene;
 mod sheet;
 mod slip;
 mod statics;
+mod stencil;
 mod stepping;
 mod system;
 mod tester;

@@ -173,7 +173,8 @@ impl Mesh {
     }
 }
 
-fn half_at_ends(index: usize, n: usize) -> f64 {
+#[inline]
+pub(crate) fn half_at_ends(index: usize, n: usize) -> f64 {
     if index == 0 || index + 1 == n {
         0.5
     } else {

@@ -8,6 +8,8 @@ use super::system::System;
 
 /// How far a linear system is solved: Newton corrects the rest.
 const LINEAR: f64 = 1e-2;
+/// The same of how the cloth gives way to a finger.
+const GIVES_WAY: f64 = 0.05;
 /// Most iterations of one linear system.
 const MAX_LINEAR: u32 = 600;
 /// A step has to gain this share of what its slope promises (Armijo).
@@ -123,14 +125,54 @@ impl Newton {
     /// Solves for the step by conjugate gradients; says how many iterations it took.
     fn solve(&mut self, system: &System, x: &[Vector]) -> u32 {
         system.precondition(x, &mut self.lines);
-        self.delta.fill(Vector::zeros());
         for (r, grad) in self.r.iter_mut().zip(&self.grad) {
             *r = -grad;
         }
+        self.conjugate(system, (LINEAR, system.n_nodes()))
+    }
+
+    /// What the fingers' nodes meet in the cloth when they move, N/m: the Schur complement of the
+    /// tangent at `x` on them, without their own inertia and coupling. Entry `[b][a]` is the force
+    /// that moving along a takes along b; three a finger.
+    pub(crate) fn met_by_fingers(&mut self, system: &System, x: &[Vector]) -> [[f64; 6]; 6] {
+        let n_cloth = system.sheet.mesh.n_vertices();
+        system.precondition(x, &mut self.lines);
+        let mut met = [[0.0; 6]; 6];
+        for along in 0..3 * system.fingers.len() {
+            self.p.fill(Vector::zeros());
+            self.p[n_cloth + along / 3][along % 3] = 1.0;
+            system.product(&self.p, &mut self.product);
+            let own = system.own_stiffness(along / 3);
+            let direct = self.product[n_cloth..]
+                .iter()
+                .flat_map(|force| force.iter());
+            for (row, force) in met.iter_mut().zip(direct) {
+                row[along] = *force;
+            }
+            met[along][along] -= own;
+            self.r.copy_from_slice(&self.product);
+            // The cloth gives way; its energy is exact to the square of what is left.
+            self.conjugate(system, (GIVES_WAY, n_cloth));
+            system.product(&self.delta, &mut self.product);
+            let back = self.product[n_cloth..]
+                .iter()
+                .flat_map(|force| force.iter());
+            for (row, force) in met.iter_mut().zip(back) {
+                row[along] -= force;
+            }
+        }
+        met
+    }
+
+    /// Conjugate gradients for `r`, into `delta`, as far as asked; nodes from a number on are held.
+    fn conjugate(&mut self, system: &System, (reach, held_from): (f64, usize)) -> u32 {
+        let held = held_from.min(self.r.len())..;
+        self.delta.fill(Vector::zeros());
+        self.r[held.clone()].fill(Vector::zeros());
         self.lines.apply(&self.r, &mut self.z);
         self.p.copy_from_slice(&self.z);
         let mut rho = dot(&self.r, &self.z);
-        let target = LINEAR * LINEAR * rho;
+        let target = reach * reach * rho;
         for iteration in 0..MAX_LINEAR {
             if rho <= target || rho == 0.0 {
                 return iteration;
@@ -145,6 +187,7 @@ impl Newton {
                 self.delta[index] += self.p[index] * alpha;
                 self.r[index] -= self.product[index] * alpha;
             }
+            self.r[held.clone()].fill(Vector::zeros());
             self.lines.apply(&self.r, &mut self.z);
             let next = dot(&self.r, &self.z);
             let beta = next / rho;

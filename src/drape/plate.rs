@@ -63,42 +63,43 @@ impl Bend {
         grad: &mut [Vector],
     ) -> Energy {
         let (stiffness, damped) = (self.per_width(mesh), lag.sigma * self.viscosity_s);
-        let h2 = mesh.h[self.axis].powi(2);
+        let (h, h2) = (mesh.h[self.axis], mesh.h[self.axis].powi(2));
         let mut energy = Energy::default();
-        let places = self.places(mesh);
-        let (elements, law) = &self.loops;
-        for (index, width, [a, b, c]) in places {
-            let bent = second_difference(x, [a, b, c]);
-            let off = bent - second_difference(&lag.hat, [a, b, c]);
-            let k = stiffness * width;
-            energy.stored += 0.5 * k * bent.norm_squared();
-            energy.lost += 0.5 * k * damped * off.norm_squared();
-            let mut force = (bent + off * damped) * k;
-            if !elements.is_empty() {
-                let normal = lag.normals[b];
-                let slip = elements.at(index, bent.dot(&normal) / h2, *law);
-                let area = width * mesh.h[self.axis];
-                energy.stored += area * slip.stored;
-                energy.lost += area * slip.lost;
-                force += normal * (area * slip.force / h2);
-                self.tangents[index] = area * slip.tangent / (h2 * h2);
-            }
-            add_bent(grad, [a, b, c], force);
-        }
+        let ((elements, law), tangents) = (&self.loops, &mut self.tangents);
+        let fields = [x, &lag.hat];
+        mesh.bend(
+            self.axis,
+            (fields, grad),
+            |[place, middle], [bent, hat], width| {
+                let (off, k) = (bent - hat, stiffness * width);
+                energy.stored += 0.5 * k * bent.norm_squared();
+                energy.lost += 0.5 * k * damped * off.norm_squared();
+                let mut force = (bent + off * damped) * k;
+                if let Some(kept) = tangents.get_mut(place) {
+                    let normal = lag.normals[middle];
+                    let slip = elements.at(place, bent.dot(&normal) / h2, *law);
+                    let area = width * h;
+                    energy.stored += area * slip.stored;
+                    energy.lost += area * slip.lost;
+                    force += normal * (area * slip.force / h2);
+                    *kept = area * slip.tangent / (h2 * h2);
+                }
+                force
+            },
+        );
         energy
     }
 
     pub(crate) fn product(&self, mesh: &Mesh, (p, lag): (&[Vector], &Lag), out: &mut [Vector]) {
         let stiffness = self.per_width(mesh) * (1.0 + lag.sigma * self.viscosity_s);
-        for (index, width, places) in self.places(mesh) {
-            let bent = second_difference(p, places);
+        mesh.bend(self.axis, ([p], out), |[place, middle], [bent], width| {
             let mut force = bent * (stiffness * width);
-            if let Some(tangent) = self.tangents.get(index) {
-                let normal = lag.normals[places[1]];
+            if let Some(tangent) = self.tangents.get(place) {
+                let normal = lag.normals[middle];
                 force += normal * (tangent * normal.dot(&bent));
             }
-            add_bent(out, places, force);
-        }
+            force
+        });
     }
 
     pub(crate) fn precondition(&self, mesh: &Mesh, lag: &Lag, lines: &mut LinePreconditioner) {
@@ -120,7 +121,7 @@ impl Bend {
         let places = self.places(mesh);
         let (elements, law) = &mut self.loops;
         for (index, _, [a, b, c]) in places {
-            let curvature = second_difference(x, [a, b, c]).dot(&normals[b]) / h2;
+            let curvature = (x[a] - x[b] * 2.0 + x[c]).dot(&normals[b]) / h2;
             elements.settle(index, curvature, *law);
         }
     }
@@ -137,18 +138,6 @@ impl Bend {
             self.rigidity_n_m * self.viscosity_s,
         ]
     }
-}
-
-#[inline]
-fn second_difference(x: &[Vector], [a, b, c]: [usize; 3]) -> Vector {
-    x[a] - x[b] * 2.0 + x[c]
-}
-
-#[inline]
-fn add_bent(out: &mut [Vector], [a, b, c]: [usize; 3], force: Vector) {
-    out[a] += force;
-    out[b] -= force * 2.0;
-    out[c] += force;
 }
 
 /// Twist of every cell.
@@ -177,21 +166,21 @@ impl Twist {
     ) -> Energy {
         let (stiffness, damped) = (self.stiffness(mesh), lag.sigma * self.viscosity_s);
         let mut energy = Energy::default();
-        for corners in Self::cells(mesh) {
-            let twisted = difference(x, corners);
-            let off = twisted - difference(&lag.hat, corners);
-            energy.stored += 0.5 * stiffness * twisted.norm_squared();
-            energy.lost += 0.5 * stiffness * damped * off.norm_squared();
-            add_twisted(grad, corners, (twisted + off * damped) * stiffness);
+        mesh.twist(([x, &lag.hat], grad), |[twisted, hat]| {
+            let off = twisted - hat;
+            energy.stored += twisted.norm_squared();
+            energy.lost += off.norm_squared();
+            (twisted + off * damped) * stiffness
+        });
+        Energy {
+            stored: 0.5 * stiffness * energy.stored,
+            lost: 0.5 * stiffness * damped * energy.lost,
         }
-        energy
     }
 
     pub(crate) fn product(self, mesh: &Mesh, (p, lag): (&[Vector], &Lag), out: &mut [Vector]) {
         let stiffness = self.stiffness(mesh) * (1.0 + lag.sigma * self.viscosity_s);
-        for corners in Self::cells(mesh) {
-            add_twisted(out, corners, difference(p, corners) * stiffness);
-        }
+        mesh.twist(([p], out), |[twisted]| twisted * stiffness);
     }
 
     pub(crate) fn precondition(self, mesh: &Mesh, lag: &Lag, lines: &mut LinePreconditioner) {
@@ -202,17 +191,4 @@ impl Twist {
             }
         }
     }
-}
-
-#[inline]
-fn difference(x: &[Vector], [c00, c10, c01, c11]: [usize; 4]) -> Vector {
-    x[c00] - x[c10] - x[c01] + x[c11]
-}
-
-#[inline]
-fn add_twisted(out: &mut [Vector], [c00, c10, c01, c11]: [usize; 4], force: Vector) {
-    out[c00] += force;
-    out[c10] -= force;
-    out[c01] -= force;
-    out[c11] += force;
 }

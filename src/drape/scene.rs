@@ -25,6 +25,8 @@ const MAX_FINGERS: usize = 2;
 pub struct DrapeScene {
     name: String,
     textile: Option<String>,
+    /// The textile of its back, if that is another.
+    back: Option<String>,
     /// Where its library is; `None` is that of the program.
     pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],
@@ -58,6 +60,7 @@ struct SceneKeys {
     name: String,
     library: Option<PathBuf>,
     textile: Option<String>,
+    back: Option<String>,
     #[serde(default = "usual_size_mm")]
     size_mm: [f64; 2],
     grid: Option<GridKey>,
@@ -65,6 +68,7 @@ struct SceneKeys {
     air: Option<bool>,
     hysteresis: Option<bool>,
     friction: Option<f64>,
+    tension: Option<PathBuf>,
     integrator: Option<String>,
     step_ms: Option<f64>,
     #[serde(default)]
@@ -102,11 +106,18 @@ impl DrapeScene {
     /// # Errors
     /// One line: what is wrong, where, and how to mend it.
     pub fn read(path: &Path) -> Result<Self, DrapeError> {
-        let text = files::read_text(path)?;
-        let keys: SceneKeys = files::keys_from_str(&text, path)?;
-        let wrong = |flaw: Flaw| DrapeError::from(flaw.in_file(&text, path));
+        Self::from_text(&files::read_text(path)?, path)
+    }
+
+    /// The scene of a file's text; `path` is what messages call it and what libraries lie beside.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, DrapeError> {
+        let keys: SceneKeys = files::keys_from_str(text, path)?;
+        let wrong = |flaw: Flaw| DrapeError::from(flaw.in_file(text, path));
         if let Some(key) = keys.measured.keys().find(|key| !kes::is_known(key)) {
-            let line = files::line_of_key(&text, "measured", 0, key);
+            let line = files::line_of_key(text, "measured", 0, key);
             let what = format!("unknown figure \"{key}\"");
             let mend = "name one of the Kawabata testers with its unit, such as emt_percent";
             return Err(files::FileError::content(path, line, what, mend).into());
@@ -119,15 +130,22 @@ impl DrapeScene {
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
             None => Figures::new(),
         };
-        let figures = figures.into_iter().chain(keys.measured.clone()).collect();
+        let curves = keys.tension.as_ref();
+        let curves = curves
+            .map(|name| kes::tension_curves(&beside.join(name)))
+            .transpose()?;
+        let (tension, of_curves) = curves.unzip();
+        let figures = figures.into_iter().chain(of_curves.unwrap_or_default());
+        let figures = figures.chain(keys.measured.clone()).collect();
         let (mut fabric, notes) = Fabric::of_figures(&figures)
             .map_err(|error| wrong(placed(("measured", 0, ""), &error)))?;
+        fabric.tension = tension.unwrap_or(fabric.tension);
         if let Some(friction) = keys.friction {
             DrapeError::within(("friction", friction, ""), [0.0, 10.0])
                 .map_err(|error| wrong(placed(("", 0, "friction"), &error)))?;
             fabric.friction = friction;
         }
-        let mut scene = Self::from_keys(keys, fabric).map_err(wrong)?;
+        let mut scene = Self::from_keys(keys, &fabric).map_err(wrong)?;
         scene.notes = notes;
         scene.library_folder = library;
         // What makes no grid is told where it stands.
@@ -146,6 +164,7 @@ impl DrapeScene {
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
+            back: None,
             library_folder: None,
             size_mm: usual_size_mm(),
             grid: None,
@@ -159,7 +178,7 @@ impl DrapeScene {
         })
     }
 
-    fn from_keys(keys: SceneKeys, fabric: Fabric) -> Result<Self, Flaw> {
+    fn from_keys(keys: SceneKeys, fabric: &Fabric) -> Result<Self, Flaw> {
         let grid = match keys.grid {
             None => None,
             Some(GridKey::Word(word)) if word == "auto" => None,
@@ -195,6 +214,7 @@ impl DrapeScene {
         Ok(Self {
             name: keys.name,
             textile: keys.textile,
+            back: keys.back,
             library_folder: None,
             size_mm: keys.size_mm,
             grid,
@@ -206,7 +226,7 @@ impl DrapeScene {
             },
             integrator,
             step_ms: keys.step_ms,
-            fabric,
+            fabric: *fabric,
             notes: Vec::new(),
             fingers: fingers.collect::<Result<_, _>>()?,
         })
@@ -220,6 +240,11 @@ impl DrapeScene {
     /// The textile that it is of, if it is one of a library.
     pub fn textile(&self) -> Option<&str> {
         self.textile.as_deref()
+    }
+
+    /// The textiles that are felt on it: its face, then its back if that is another.
+    pub fn surfaces(&self) -> impl Iterator<Item = &str> {
+        self.textile().into_iter().chain(self.back.as_deref())
     }
 
     /// Width and height at rest, mm.
@@ -265,7 +290,7 @@ impl DrapeScene {
     ) -> Result<(Cloth, String), DrapeError> {
         let mesh = self.mesh()?;
         let n_vertices = mesh.n_vertices();
-        let sheet = Sheet::new(mesh, self.fabric, self.losses);
+        let sheet = Sheet::new(mesh, &self.fabric, self.losses);
         let limit_s = sheet.limit_s(0.0);
         let asked = integrator.unwrap_or(self.integrator);
         let (chosen, usual_s, why) = asked.chosen(n_vertices, limit_s);

@@ -79,12 +79,12 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    pub(crate) fn new(mesh: Mesh, fabric: Fabric, losses: Losses) -> Self {
+    pub(crate) fn new(mesh: Mesh, fabric: &Fabric, losses: Losses) -> Self {
         let viscosity_s = losses.viscosity_s;
         let friction = if losses.has_hysteresis { 1.0 } else { 0.0 };
         let stretch = [0, 1].map(|axis| {
             let loss = friction * fabric.tension_friction_n_per_m[axis];
-            Stretch::new(axis, fabric.tension[axis], loss, &mesh)
+            Stretch::new(axis, &fabric.tension[axis], loss, &mesh)
         });
         let bend = [0, 1].map(|axis| {
             let loop_n = friction * fabric.bending_loop_n[axis];
@@ -101,7 +101,7 @@ impl Sheet {
             stretch,
             bend,
             mesh,
-            fabric,
+            fabric: *fabric,
             losses,
         }
     }

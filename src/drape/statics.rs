@@ -55,7 +55,7 @@ impl Cloth {
             });
             mesh.is_pinned[vertex] = fine.mesh.is_pinned[near[1] * fine.mesh.n[0] + near[0]];
         }
-        let sheet = Sheet::new(mesh, fine.fabric, fine.losses);
+        let sheet = Sheet::new(mesh, &fine.fabric, fine.losses);
         let step = Stepping::new(Integrator::ImplicitEuler, 1e-3);
         let mut cloth = Self::new(System::new(sheet, Vec::new()), step);
         cloth.gravity = self.gravity;

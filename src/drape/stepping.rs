@@ -106,7 +106,7 @@ impl Cloth {
     }
 
     /// What the step knows: weights, free motion, what velocity is measured from.
-    fn prepare(&mut self, order: usize) {
+    pub(crate) fn prepare(&mut self, order: usize) {
         let step_s = self.stepping.step_s;
         let Self {
             system,
@@ -181,12 +181,22 @@ impl Cloth {
         (last <= lowest && last.is_finite()).then_some(last)
     }
 
-    /// Takes what was found; keeps the old where it is no number.
+    /// Takes what was found, with what fingers hold there.
     fn accept(&mut self) {
+        if self.take() {
+            let Self { system, x, .. } = self;
+            for finger in &mut system.fingers {
+                finger.settle(&system.sheet.mesh, x);
+            }
+        }
+    }
+
+    /// Moves to where was found; keeps the old where it is no number. Says whether it moved.
+    pub(crate) fn take(&mut self) -> bool {
         if !System::is_finite(&self.next) {
             self.next.copy_from_slice(&self.x);
             self.restart();
-            return;
+            return false;
         }
         self.remember();
         let Self {
@@ -199,8 +209,6 @@ impl Cloth {
             x[node] = next[node];
         }
         system.sheet.settle(x, &system.lag);
-        for finger in &mut system.fingers {
-            finger.settle(&system.sheet.mesh, x);
-        }
+        true
     }
 }

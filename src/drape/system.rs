@@ -67,6 +67,17 @@ impl System {
 
     /// The same with what pins hold against.
     pub(crate) fn evaluate_all(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
+        let mut value = self.evaluate_cloth(x, grad);
+        for finger in &mut self.fingers {
+            let energy = finger.evaluate(x, grad);
+            self.energy += energy;
+            value += energy.stored + energy.lost;
+        }
+        value
+    }
+
+    /// The same without fingers.
+    pub(crate) fn evaluate_cloth(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
         let lag = &self.lag;
         let mut inertia = 0.0;
         for (node, grad) in grad.iter_mut().enumerate() {
@@ -76,9 +87,6 @@ impl System {
             *grad = off * weight;
         }
         self.energy = self.sheet.evaluate(x, lag, grad);
-        for finger in &mut self.fingers {
-            self.energy += finger.evaluate(x, grad);
-        }
         inertia + self.energy.stored + self.energy.lost
     }
 
@@ -96,6 +104,11 @@ impl System {
                 *out = Vector::zeros();
             }
         }
+    }
+
+    /// What a finger's node meets by its own inertia and its coupling, N/m.
+    pub(crate) fn own_stiffness(&self, finger: usize) -> f64 {
+        self.lag.mu * Finger::MASS_KG + self.fingers[finger].coupling.tangent
     }
 
     pub(crate) fn precondition(&self, x: &[Vector], lines: &mut LinePreconditioner) {

@@ -47,7 +47,7 @@ impl Patch {
             has_hysteresis: true,
             viscosity_s: 0.0,
         };
-        let sheet = Sheet::new(mesh, *fabric, losses);
+        let sheet = Sheet::new(mesh, fabric, losses);
         let n = sheet.mesh.n_vertices();
         Ok(Self {
             lag: sheet.lag(n),

@@ -4,7 +4,8 @@
 //! and pulls far too little: no finger feels it, and how much softer it is is said.
 
 use super::cloth::Cloth;
-use super::mesh::Vector;
+use super::membrane::angle_of;
+use super::mesh::{Mesh, Vector};
 use super::sheet::Sheet;
 
 impl Sheet {
@@ -19,10 +20,10 @@ impl Sheet {
     }
 }
 
-/// How readily every vertex moves: 1/kg, 0 where it is pinned, and the step's square, s².
+/// How readily every vertex moves: 1/kg, 0 where it is pinned, and the step's inverse square, 1/s².
 struct Moves {
     per_kg: Vec<f64>,
-    step_s2: f64,
+    per_s2: f64,
 }
 
 impl Moves {
@@ -33,12 +34,14 @@ impl Moves {
         gradient: [(usize, Vector); N],
         (value, compliance): (f64, f64),
     ) {
-        let weigh = |(vertex, along): &(usize, Vector)| self.per_kg[*vertex] * along.norm_squared();
-        let weight: f64 = gradient.iter().map(weigh).sum();
-        let divisor = weight + compliance / self.step_s2;
+        let mut divisor = compliance * self.per_s2;
+        for (vertex, along) in &gradient {
+            divisor += self.per_kg[*vertex] * along.norm_squared();
+        }
         if divisor > 0.0 {
-            for (vertex, along) in gradient {
-                x[vertex] -= along * (self.per_kg[vertex] * value / divisor);
+            let multiplier = value / divisor;
+            for (vertex, along) in &gradient {
+                x[*vertex] -= along * (self.per_kg[*vertex] * multiplier);
             }
         }
     }
@@ -46,7 +49,7 @@ impl Moves {
 
 impl Cloth {
     /// One step: free motion, then every constraint once. Fingers are led, and touch nothing.
-    pub(crate) fn project(&mut self) {
+    pub(crate) fn pass_constraints(&mut self) {
         let step_s = self.stepping.step_s;
         self.remember();
         let Self { system, x, v, .. } = self;
@@ -64,7 +67,7 @@ impl Cloth {
         }
         let moves = Moves {
             per_kg: std::mem::take(&mut self.per_kg),
-            step_s2: step_s * step_s,
+            per_s2: (step_s * step_s).recip(),
         };
         pull(&system.sheet, &moves, x);
         shear(&system.sheet, &moves, x);
@@ -76,22 +79,31 @@ impl Cloth {
     }
 }
 
+/// All that joins `reach + 1` vertices along an axis, with its width, m.
+fn along(mesh: &Mesh, axis: usize, reach: usize, mut solve: impl FnMut(usize, f64)) {
+    let [rows, columns] = mesh.spans(axis, reach);
+    for row in 0..rows {
+        for column in 0..columns {
+            solve(row * mesh.n[0] + column, mesh.width_m(axis, [row, column]));
+        }
+    }
+}
+
 /// Edges: `C = ℓ − h`, compliance `h/(K b)`.
 fn pull(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     let mesh = &sheet.mesh;
     for axis in 0..2 {
-        let stride = mesh.stride(axis);
-        let (h, stiffness) = (mesh.h[axis], sheet.stretch[axis].tension.at_rest_n_per_m);
-        for (_, a, width) in mesh.lines(axis, 1) {
+        let (stride, h) = (mesh.stride(axis), mesh.h[axis]);
+        let whole = h / sheet.stretch[axis].tension.at_rest_n_per_m;
+        along(mesh, axis, 1, |a, width| {
             let b = a + stride;
             let span = x[b] - x[a];
             let length = span.norm();
             if length > 0.0 {
-                let along = span / length;
-                let compliance = h / (stiffness * width);
-                moves.solve(x, [(a, -along), (b, along)], (length - h, compliance));
+                let along = span * length.recip();
+                moves.solve(x, [(a, -along), (b, along)], (length - h, whole / width));
             }
-        }
+        });
     }
 }
 
@@ -101,13 +113,12 @@ fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     if sheet.fabric.shear_n_per_m <= 0.0 {
         return;
     }
+    let halves = mesh.h.map(|h| 0.5 / h);
     let compliance = 1.0 / (sheet.fabric.shear_n_per_m * mesh.h[0] * mesh.h[1]);
     for row in 0..mesh.n[1] - 1 {
         for column in 0..mesh.n[0] - 1 {
-            let corners = mesh.corners(row * mesh.n[0] + column);
-            let (angle, far, near) =
-                super::membrane::angle_of(mesh, corners.map(|corner| x[corner]));
-            let [c00, c10, c01, c11] = corners;
+            let [c00, c10, c01, c11] = mesh.corners(row * mesh.n[0] + column);
+            let (angle, far, near) = angle_of(halves, [x[c11] - x[c00], x[c10] - x[c01]]);
             let gradient = [(c11, far), (c00, -far), (c10, near), (c01, -near)];
             moves.solve(x, gradient, (angle, compliance));
         }
@@ -118,21 +129,20 @@ fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
 fn bend(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     let mesh = &sheet.mesh;
     for axis in 0..2 {
-        let stride = mesh.stride(axis);
-        let rigidity = sheet.fabric.bending_n_m[axis];
+        let (stride, rigidity) = (mesh.stride(axis), sheet.fabric.bending_n_m[axis]);
         if rigidity <= 0.0 {
             continue;
         }
-        for (_, a, width) in mesh.lines(axis, 2) {
+        let whole = mesh.h[axis].powi(3) / rigidity;
+        along(mesh, axis, 2, |a, width| {
             let (b, c) = (a + stride, a + 2 * stride);
             let bent = x[a] - x[b] * 2.0 + x[c];
             let size = bent.norm();
             if size > 0.0 {
-                let along = bent / size;
-                let compliance = mesh.h[axis].powi(3) / (rigidity * width);
+                let along = bent * size.recip();
                 let gradient = [(a, along), (b, along * -2.0), (c, along)];
-                moves.solve(x, gradient, (size, compliance));
+                moves.solve(x, gradient, (size, whole / width));
             }
-        }
+        });
     }
 }

@@ -1,6 +1,7 @@
 //! What can go wrong with a report.
 
 use selvedge_chart::FigureError;
+use selvedge_drape::DrapeError;
 use selvedge_engine::EngineError;
 use selvedge_foundation::files::FileError;
 use selvedge_render::RenderError;
@@ -37,6 +38,9 @@ pub enum ReportError {
     /// A scene cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A cloth cannot be simulated.
+    #[error(transparent)]
+    Drape(#[from] DrapeError),
     /// The engine cannot do what a study asks.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -21,6 +21,7 @@ mod areal;
 mod bench;
 mod bimorph;
 mod chart;
+mod drape;
 mod drive_updates;
 mod error;
 #[cfg(feature = "friction")]
@@ -78,6 +79,8 @@ pub fn studies() -> Vec<Study> {
         bimorph::STUDY,
         stylus::STUDY,
         stylus::LIMITS,
+        drape::STUDY,
+        drape::STABILITY,
         readers::STUDY,
         #[cfg(feature = "friction")]
         friction::SPECTRA,

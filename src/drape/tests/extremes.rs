@@ -94,7 +94,7 @@ fn targets_that_are_no_numbers_are_held_and_counted_and_far_ones_are_followed_sl
         let mesh = Mesh::new([10, 10], [0.1; 2], fabric.density_kg_per_m2, &Pins::Top).unwrap();
         let start = Vector::new(0.05, 0.05, 0.004);
         let finger = Finger::new(100, (1.0, 0.0), &fabric, start);
-        let sheet = Sheet::new(mesh, fabric, Losses::default());
+        let sheet = Sheet::new(mesh, &fabric, Losses::default());
         let step = Stepping::new(Integrator::Bdf2, 1e-3);
         let mut cloth = Cloth::new(System::new(sheet, vec![finger]), step);
         for _ in 0..50 {
@@ -120,7 +120,7 @@ fn pads_that_cross_and_the_smallest_cloth_are_held() {
                     let start = Vector::new(0.05, 0.05, 0.01 * side);
                     Finger::new(first + nth, (side, 0.0), &fabric, start)
                 });
-                let sheet = Sheet::new(mesh, fabric, Losses::default());
+                let sheet = Sheet::new(mesh, &fabric, Losses::default());
                 let step = Stepping::new(Integrator::Bdf2, step_s);
                 let mut cloth = Cloth::new(System::new(sheet, fingers.collect()), step);
                 let crossed = [1.0, -1.0].map(|side| Vector::new(0.05, 0.05, -0.02 * side));

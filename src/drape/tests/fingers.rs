@@ -16,7 +16,7 @@ fn touched(fabric: Fabric, pins: &Pins, sides: &[f64], step_s: f64) -> Cloth {
         let start = Vector::new(0.05, 0.05, 0.01 * side);
         Finger::new(n_vertices + nth, (*side, 0.0), &fabric, start)
     });
-    let sheet = Sheet::new(mesh, fabric, LOSSLESS);
+    let sheet = Sheet::new(mesh, &fabric, LOSSLESS);
     let system = System::new(sheet, fingers.collect());
     let mut stepping = Stepping::new(Integrator::Bdf2, step_s);
     stepping.gain = 1e-2 * crate::cloth::LIVE;
@@ -61,7 +61,7 @@ fn apex(cloth: &Cloth, finger: usize) -> Vector {
 #[test]
 fn a_pad_presses_a_plate_as_a_paraboloid_of_springs() {
     for side in [1.0, -1.0] {
-        for deep_mm in [1.0, 1.6, 2.2] {
+        for deep_mm in [1.0, 1.5, 1.9] {
             let mut cloth = plate(&[side]);
             lead(
                 &mut cloth,
@@ -71,7 +71,7 @@ fn a_pad_presses_a_plate_as_a_paraboloid_of_springs() {
             wait(&mut cloth, 200);
             let half = 0.25e-3;
             let overlap = half - side * apex(&cloth, 0).z;
-            assert!((0.5e-3..1.7e-3).contains(&overlap), "{overlap}");
+            assert!((0.5e-3..1.5e-3).contains(&overlap), "{overlap}");
             let springs = std::f64::consts::PI * 5e6 * (8e-3_f64 * 12e-3).sqrt();
             let expected = springs * overlap * overlap;
             let finger = &cloth.fingers()[0];
@@ -111,8 +111,28 @@ fn a_dragged_finger_slips_at_the_force_that_friction_holds() {
 }
 
 #[test]
+fn energy_that_a_step_left_is_that_of_where_it_ended() {
+    for integrator in [Integrator::Bdf2, Integrator::Explicit] {
+        let mut cloth = plate(&[1.0]);
+        lead(&mut cloth, &[Vector::new(0.05, 0.05, -2e-3)], 300);
+        cloth.stepping.integrator = integrator;
+        cloth.stepping.step_s = 1e-5;
+        lead(&mut cloth, &[Vector::new(0.052, 0.05, -2e-3)], 500);
+        let left_j = cloth.energy_j();
+        let (x, mut grad) = (cloth.x.clone(), cloth.x.clone());
+        cloth.system.evaluate(&x, &mut grad);
+        let here_j = cloth.energy_j();
+        assert!(left_j > 1e-5, "{left_j}");
+        assert!(
+            (left_j / here_j - 1.0).abs() < 1e-3,
+            "{integrator:?}: {left_j} {here_j}"
+        );
+    }
+}
+
+#[test]
 fn a_pinch_holds_twice_what_one_side_holds() {
-    for (share, holds) in [(0.95, true), (1.05, false)] {
+    for (share, holds) in [(0.98, true), (1.02, false)] {
         // As stiff as a board: what hangs below the pads does not wrinkle away from them.
         let fabric = Fabric::plain(2.0, 1e5, 1e4, 1e-2);
         let mut cloth = touched(fabric, &Pins::None, &[1.0, -1.0], 1e-3);

@@ -4,7 +4,9 @@ mod closed_forms;
 mod extremes;
 mod felt;
 mod fingers;
+mod local;
 mod motion;
+mod speed;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
 use crate::fabric::{Fabric, Tension};
@@ -14,6 +16,7 @@ use crate::sheet::{Losses, Sheet};
 use crate::system::System;
 
 /// Aborts the tests where something allocates that says it does not.
+#[cfg(debug_assertions)]
 #[global_allocator]
 static ALLOCATOR: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
 
@@ -31,7 +34,7 @@ fn cloth(
     (integrator, step_s): (Integrator, f64),
 ) -> Cloth {
     let mesh = Mesh::new(n, size_m, fabric.density_kg_per_m2, pins).unwrap();
-    let sheet = Sheet::new(mesh, fabric, LOSSLESS);
+    let sheet = Sheet::new(mesh, &fabric, LOSSLESS);
     let mut stepping = Stepping::new(integrator, step_s);
     stepping.gain = EXACT;
     stepping.max_steps = 60;

@@ -15,6 +15,7 @@ mod plane;
 mod random;
 mod series;
 mod simplex;
+mod sparse;
 mod stft;
 mod whole;
 
@@ -27,6 +28,7 @@ pub use plane::PlaneTransform;
 pub use random::Random;
 pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
 pub use simplex::Lowest;
+pub use sparse::GridFactor;
 pub use stft::{GriffinLim, StartPhases, Stft};
 pub use whole::{Whole, to_whole};
 

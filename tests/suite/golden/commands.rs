@@ -63,6 +63,54 @@ fn golden_render() {
     golden.finish();
 }
 
+#[test]
+fn golden_drape() {
+    let mut golden = Golden::of("commands/drape");
+    let mut script = Script::in_lab(Lab::new());
+    let scene = include_str!("../../../assets/scenes/denim.drape.toml");
+    script.lab.write("denim.drape.toml", scene);
+    // They close within 40 ms, press, and are drawn down together.
+    let hands = "t_s,x_mm,y_mm,z_mm,opening_mm\n0,100,60,0,10\n0.04,100,60,0,-2\n\
+                 0.15,100,50,0,-2\n";
+    script.lab.write("hands.csv", hands);
+    script.lab.write(
+        "still.csv",
+        "t_s,x_mm,y_mm,z_mm,opening_mm\n0,100,60,0,60\n",
+    );
+    script
+        .lab
+        .write("limp.drape.toml", scene.replace("\"top\"", "\"left\""));
+    script
+        .lab
+        .write("wide.drape.toml", scene.replace("200.0]", "-1.0]"));
+    script
+        .run(
+            "drape denim.drape.toml --path hands.csv --out f.csv --mesh m.csv --amplitudes a.csv \
+             --stats s.json",
+        )
+        .file("f.csv")
+        .file("m.csv")
+        .file("a.csv")
+        .file("s.json")
+        .run("drape denim.drape.toml --path hands.csv --out l.csv --dt 4 --integrator ie")
+        .file("l.csv")
+        .run("drape denim.drape.toml --out rest.csv")
+        .file("rest.csv")
+        .run("drape denim.drape.toml --path hands.csv --integrator xpbd --out x.csv")
+        .run("drape test denim")
+        .run("drape denim.drape.toml --path hands.csv --integrator explicit --dt 1")
+        .run("drape denim.drape.toml --path hands.csv --dt 0")
+        .run("drape denim.drape.toml --path still.csv")
+        .run("drape denim.drape.toml --path nowhere.csv")
+        .run("drape limp.drape.toml")
+        .run("drape wide.drape.toml")
+        .run("drape denim.drape.toml --integrator rk4")
+        .run("drape test nothing")
+        .run("drape");
+    script.compare(&mut golden, "drape");
+    golden.finish();
+}
+
 /// Takes away numbers that are measured by a clock.
 fn without_times(line: &str) -> String {
     let is_time = ["_ns\"", "_us\"", "_s\":"];

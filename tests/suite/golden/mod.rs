@@ -18,10 +18,11 @@ mod windows;
 use std::path::Path;
 
 /// Every folder of references, each with one test that makes them.
-const GROUPS: [&str; 24] = [
+const GROUPS: [&str; 25] = [
     "charts/panes",
     "charts/sheets",
     "commands/devices",
+    "commands/drape",
     "commands/experiment",
     "commands/help",
     "commands/import",

@@ -1,0 +1,317 @@
+//! Error against run time of every integrator, on cloths that swing, fall and are stretched between
+//! fingers; the order in space; and what sleep saves.
+
+use std::time::Instant;
+
+use super::{Sample, pinch};
+use crate::readable::{number, rms, whole};
+use crate::{Bench, Effort, Findings, ReportError, Row, Study, Timing};
+use selvedge_drape::{Drape, Hand, Integrator};
+use selvedge_foundation::progress::thread_cpu_seconds;
+
+/// Error against run time.
+pub(crate) const STUDY: Study = Study {
+    name: "drape",
+    question: "How should a hanging cloth be stepped, and what does it cost?",
+    reference: "Explicit steps of a twentieth of their limit; at rest the finest grid.",
+    error: ("error of places, rms", "mm"),
+    cost_of: "second of the cloth's",
+    run,
+};
+
+/// What is done with a cloth.
+#[derive(Debug, Clone, Copy)]
+struct Motion {
+    name: &'static str,
+    sample: Sample,
+    tilt_deg: f64,
+    seconds: f64,
+}
+
+const SWING: Motion = Motion {
+    name: "swing",
+    sample: Sample::SHIRTING,
+    tilt_deg: 46.0,
+    seconds: 0.25,
+};
+const FALL: Motion = Motion {
+    name: "drape",
+    sample: Sample {
+        pins: "corners",
+        ..Sample::SHIRTING
+    },
+    tilt_deg: 90.0,
+    seconds: 0.25,
+};
+const GRASP: Motion = Motion {
+    name: "grasp and stretch",
+    sample: Sample {
+        n_fingers: 2,
+        ..Sample::SHIRTING
+    },
+    tilt_deg: 0.0,
+    seconds: 0.3,
+};
+
+/// Ways of stepping and their steps, s; that of explicit ones is a share of their limit.
+const WAYS: [(Integrator, f64); 11] = [
+    (Integrator::Explicit, 0.9),
+    (Integrator::Bdf2, 1e-3),
+    (Integrator::Bdf2, 1.0 / 480.0),
+    (Integrator::Bdf2, 1.0 / 240.0),
+    (Integrator::ImplicitEuler, 1e-3),
+    (Integrator::ImplicitEuler, 1.0 / 480.0),
+    (Integrator::ImplicitEuler, 1.0 / 240.0),
+    (Integrator::Xpbd, 1.0 / 2400.0),
+    (Integrator::Xpbd, 1.0 / 9600.0),
+    (Integrator::Projective, 1e-3),
+    (Integrator::Projective, 1.0 / 240.0),
+];
+
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let motions = motions(bench.effort);
+    let mut rows = Vec::new();
+    for (nth, motion) in motions.iter().enumerate() {
+        bench.step(0.9 * nth as f64 / motions.len() as f64, &motion.case())?;
+        rows.extend(compare(motion, bench.effort)?);
+    }
+    bench.step(0.9, "rest")?;
+    let (at_rest, order) = rest(bench.effort)?;
+    rows.extend(at_rest);
+    bench.step(0.95, "sleep")?;
+    let (asleep, saved) = sleep()?;
+    rows.extend(asleep);
+    let notes = [
+        format!("The shape at rest is of order {order} in the spacing."),
+        format!("A cloth that sleeps costs {saved} of one that rests awake."),
+        "XPBD and projective dynamics let fingers touch nothing: they are left out where cloth is \
+         grasped."
+            .to_owned(),
+        "energy_percent: what energy is left over what was there and what hands did, of the \
+         cloth's weight times its length; above 0 it is gained."
+            .to_owned(),
+    ];
+    Ok(Findings::new(rows, Vec::new(), notes))
+}
+
+/// A small cloth for a look; else two grids, and stiffnesses beyond any cloth's.
+fn motions(effort: Effort) -> Vec<Motion> {
+    let with = |motion: Motion, n: usize, stiffness_n_per_m: Option<f64>| Motion {
+        sample: Sample {
+            n,
+            stiffness_n_per_m,
+            ..motion.sample
+        },
+        ..motion
+    };
+    if effort == Effort::Quick {
+        let short = |motion: Motion| Motion {
+            seconds: 0.12,
+            ..with(motion, 13, None)
+        };
+        return vec![short(SWING), short(GRASP)];
+    }
+    let mut all = Vec::new();
+    for n in [26, 51] {
+        all.extend([SWING, FALL, GRASP].map(|motion| with(motion, n, None)));
+    }
+    all.extend([1e1, 1e2, 1e3, 1e4, 1e5, 1e6].map(|k| with(SWING, 26, Some(k))));
+    all
+}
+
+impl Motion {
+    fn case(&self) -> String {
+        let yarns = match self.sample.stiffness_n_per_m {
+            None => "shirting".to_owned(),
+            Some(stiffness) => format!("K {stiffness:e} N/m"),
+        };
+        format!("{}, {}², {yarns}", self.name, self.sample.n)
+    }
+
+    /// Where hands are: they close within 0.1 s, then stretch what they hold by 20 mm in 0.2 s.
+    fn hands(t_s: f64) -> [Hand; 2] {
+        let pulled = 20.0 * ((t_s - 0.1) / 0.2).clamp(0.0, 1.0);
+        pinch(
+            [100.0, 80.0 - pulled, 0.3 * pulled],
+            20.0 - 220.0 * t_s.min(0.1),
+        )
+    }
+
+    /// Moves a cloth to the end; how long that took.
+    fn run(&self, drape: &mut Drape, n_steps: usize) -> Result<Timing, ReportError> {
+        let (start, start_s) = (Instant::now(), thread_cpu_seconds());
+        for _ in 0..n_steps {
+            let hands = Self::hands(drape.t_s() + drape.step_s());
+            drape.step(&hands[..self.sample.n_fingers])?;
+        }
+        let cpu_s = (thread_cpu_seconds() - start_s) / self.seconds;
+        Ok(Timing {
+            cpu_s,
+            cpu_quartiles_s: [cpu_s; 2],
+            wall_s: start.elapsed().as_secs_f64() / self.seconds,
+            n_repeats: 1,
+        })
+    }
+
+    /// The cloth at the start, in so many steps to the end as come near to a step's length.
+    fn start(&self, integrator: Integrator, step_s: f64) -> Result<(Drape, usize), ReportError> {
+        let n_steps = (self.seconds / step_s - 1e-9).ceil();
+        let step_s = self.seconds / n_steps;
+        let drape = self
+            .sample
+            .drape(self.tilt_deg, (integrator, Some(step_s)))?;
+        Ok((drape, whole(n_steps)))
+    }
+}
+
+/// A row for every way of stepping.
+fn compare(motion: &Motion, effort: Effort) -> Result<Vec<Row>, ReportError> {
+    let limit_s = motion
+        .sample
+        .drape(motion.tilt_deg, (Integrator::Bdf2, None))?
+        .limit_s();
+    // Beyond any cloth a twentieth takes hours.
+    let is_stiff = motion.sample.stiffness_n_per_m.is_some_and(|k| k > 1e4);
+    let share = if is_stiff {
+        0.5
+    } else {
+        effort.pick(0.2, 0.05)
+    };
+    // Stretched on its way a cloth is stiffer than at its start.
+    let (mut reference, n_steps) = motion.start(Integrator::Explicit, share * limit_s)?;
+    motion.run(&mut reference, n_steps)?;
+    let mut rows = Vec::new();
+    for (integrator, step) in WAYS {
+        let is_explicit = integrator == Integrator::Explicit;
+        let touches_nothing = matches!(integrator, Integrator::Xpbd | Integrator::Projective);
+        if touches_nothing && motion.sample.n_fingers > 0 {
+            continue;
+        }
+        let step_s = if is_explicit { step * limit_s } else { step };
+        let (mut drape, n_steps) = motion.start(integrator, step_s)?;
+        let [start_j, _] = drape.energy_j();
+        let setting = format!("{} ms", number(1e3 * drape.step_s()));
+        let row = Row::of(integrator.name(), setting, motion.case());
+        let cost = match motion.run(&mut drape, n_steps) {
+            Ok(cost) => cost,
+            Err(refused) => {
+                rows.push(row.with("refused", refused));
+                continue;
+            }
+        };
+        let [end_j, work_j] = drape.energy_j();
+        let counters = *drape.counters();
+        let percent = 100.0 * (end_j - start_j - work_j) / drape.scale_j();
+        let row =
+            row.error(off_mm(&drape, &reference))
+                .cost(cost)
+                .number("energy_percent", 3, percent);
+        rows.push(
+            row.number("newton_a_step", 2, counters.newton as f64 / n_steps as f64)
+                .number("linear_a_step", 1, counters.linear as f64 / n_steps as f64)
+                .with("redone", counters.redone)
+                .with("unconverged", counters.unconverged),
+        );
+    }
+    Ok(rows)
+}
+
+/// Between vertices of two cloths of one grid, rms, mm.
+fn off_mm(a: &Drape, b: &Drape) -> f64 {
+    let apart = a
+        .places_mm()
+        .zip(b.places_mm())
+        .map(|(a, b)| distance(a, b));
+    rms(&apart.collect::<Vec<f64>>())
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3)
+        .map(|axis| (a[axis] - b[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// The shape at rest of a limp cloth in an upright frame, by its grid; and the order that follows.
+fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
+    let grids = effort.pick(&[7, 13, 25][..], &[13, 25, 49, 97]);
+    let hung = |n: usize| {
+        let sample = Sample {
+            n,
+            pins: "frame",
+            stiffness_n_per_m: Some(10.0),
+            ..Sample::SHIRTING
+        };
+        let stepped = (Integrator::ImplicitEuler, Some(1e-3));
+        // A finger far away: the cloth hangs, and nobody touches it.
+        Sample {
+            n_fingers: 1,
+            ..sample
+        }
+        .drape(0.0, stepped)
+    };
+    let finest_n = grids.last().copied().unwrap_or(13);
+    let finest: Vec<[f64; 3]> = hung(finest_n)?.places_mm().collect();
+    let (mut rows, mut errors) = (Vec::new(), Vec::new());
+    for n in &grids[..grids.len() - 1] {
+        let (start_s, start) = (thread_cpu_seconds(), Instant::now());
+        let drape = hung(*n)?;
+        let (cpu_s, wall_s) = (
+            thread_cpu_seconds() - start_s,
+            start.elapsed().as_secs_f64(),
+        );
+        let every = (finest_n - 1) / (n - 1);
+        let apart = drape.places_mm().enumerate().map(|(vertex, place)| {
+            let [i, j] = [vertex % n, vertex / n].map(|at| at * every);
+            distance(place, finest[j * finest_n + i])
+        });
+        let error = rms(&apart.collect::<Vec<f64>>());
+        errors.push(error);
+        let cost = Timing {
+            cpu_s,
+            cpu_quartiles_s: [cpu_s; 2],
+            wall_s,
+            n_repeats: 1,
+        };
+        let row = Row::of("rest", format!("{n}²"), "in an upright frame, K 1e1 N/m");
+        rows.push(row.error(error).cost(cost).size((n * n) as f64));
+    }
+    // Errors are against a grid that has one, too: e ∝ h^p − h_0^p.
+    let orders = errors
+        .windows(2)
+        .map(|pair| number((pair[0] / pair[1]).log2()));
+    Ok((rows, orders.collect::<Vec<String>>().join(" and ")))
+}
+
+/// What a second of a cloth at rest costs, awake and asleep.
+fn sleep() -> Result<(Vec<Row>, String), ReportError> {
+    let sample = Sample {
+        n_fingers: 2,
+        ..Sample::SHIRTING
+    };
+    let mut drape = sample.drape(0.0, (Integrator::Bdf2, Some(1e-3)))?;
+    let hands = pinch([100.0, 80.0, 0.0], 100.0);
+    drape.place(&hands);
+    let mut rows = Vec::new();
+    let mut costs = Vec::new();
+    for (method, skipped, n_steps) in [("awake", 0, 400), ("asleep", 400, 400)] {
+        (0..skipped).try_for_each(|_| drape.step(&hands))?;
+        let before = drape.counters().asleep;
+        let (start_s, start) = (thread_cpu_seconds(), Instant::now());
+        (0..n_steps).try_for_each(|_| drape.step(&hands))?;
+        let seconds = f64::from(n_steps) * drape.step_s();
+        let cpu_s = (thread_cpu_seconds() - start_s) / seconds;
+        let wall_s = start.elapsed().as_secs_f64() / seconds;
+        costs.push(cpu_s);
+        let cost = Timing {
+            cpu_s,
+            cpu_quartiles_s: [cpu_s; 2],
+            wall_s,
+            n_repeats: 1,
+        };
+        let row = Row::of(method, "bdf2, 1 ms", "rest, 26², shirting").cost(cost);
+        rows.push(row.with("steps_asleep", drape.counters().asleep - before));
+    }
+    let saved = number(costs[1] / costs[0]);
+    Ok((rows, saved))
+}

@@ -1,0 +1,83 @@
+//! A hanging cloth: how exactly each way of stepping it answers, at what cost, and what it holds.
+
+mod integrators;
+mod stability;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use integrators::STUDY;
+pub(crate) use stability::STABILITY;
+
+use std::path::Path;
+
+use super::ReportError;
+use selvedge_drape::{Drape, DrapeScene, Hand, Integrator};
+
+/// A cloth that is studied: how it hangs, how stiff it is, who touches it.
+#[derive(Debug, Clone, Copy)]
+struct Sample {
+    /// Vertices along a side of 200 mm.
+    n: usize,
+    pins: &'static str,
+    density_kg_per_m2: f64,
+    /// Stiffness of its yarns if they are straight springs, N/m; else they are a shirting's.
+    stiffness_n_per_m: Option<f64>,
+    n_fingers: usize,
+}
+
+impl Sample {
+    const SHIRTING: Self = Self {
+        n: 26,
+        pins: "top",
+        density_kg_per_m2: 0.2,
+        stiffness_n_per_m: None,
+        n_fingers: 0,
+    };
+
+    /// The cloth, stepped so; without fingers it lies flat at an angle, else it hangs.
+    fn drape(
+        &self,
+        tilt_deg: f64,
+        (integrator, step_s): (Integrator, Option<f64>),
+    ) -> Result<Drape, ReportError> {
+        let Self { n, pins, .. } = self;
+        let weight = 100.0 * self.density_kg_per_m2;
+        // A straight line of 5 % at whatever load makes this stiffness; 1 gf/cm is 0.980665 N/m.
+        let tension = self.stiffness_n_per_m.map_or_else(
+            || "lt = 0.7".to_owned(),
+            |stiffness| {
+                format!(
+                    "lt = 1.0\nfm_gf_per_cm = {:e}",
+                    0.05 * stiffness / 0.980_665
+                )
+            },
+        );
+        let mut text = format!(
+            "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
+             air = false\n[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
+             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
+        );
+        let finger = |side: &&str| {
+            format!(
+                "[[finger]]\nside = \"{side}\"\nstart_mm = [100.0, 80.0, 0.0]\nopening_mm = 20.0\n"
+            )
+        };
+        text.extend(["front", "back"].iter().take(self.n_fingers).map(finger));
+        let scene = DrapeScene::from_text(&text, Path::new("studied.drape.toml"))?;
+        let mut drape = Drape::new(&scene, Some(integrator), step_s)?;
+        if self.n_fingers == 0 {
+            drape.tilt(tilt_deg);
+        } else {
+            drape.place(&drape.start_hands());
+        }
+        Ok(drape)
+    }
+}
+
+/// Two fingers at the same place of a grasp.
+fn pinch(centre_mm: [f64; 3], opening_mm: f64) -> [Hand; 2] {
+    [Hand {
+        centre_mm,
+        opening_mm,
+    }; 2]
+}

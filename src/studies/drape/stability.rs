@@ -1,0 +1,241 @@
+//! What every integrator holds, by stiffness, weight, step and what is done: all of it comes out
+//! finite and without more energy than was given, or is refused with the limit.
+
+use super::{Sample, pinch};
+use crate::chart::chart;
+use crate::{Bench, Findings, ReportError, Row, Study};
+use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_drape::{Drape, Hand, Integrator};
+
+/// The map of stability.
+pub(crate) const STABILITY: Study = Study {
+    name: "drape-stability",
+    question: "Which stiffness, weight and step does each way of stepping a cloth hold?",
+    reference: "The energy at the start and the hands' work: no more is to be there.",
+    error: ("energy from nowhere", "of what was there or put in"),
+    cost_of: "step",
+    run,
+};
+
+/// What may come from nowhere, as part of weight times length, of what was there and of what
+/// hands had put in.
+const MOST_GAINED: f64 = 0.01;
+/// Steps of a case.
+const N_STEPS: usize = 25;
+/// Ways of stepping; those for pictures promise nothing but numbers.
+const WAYS: [(Integrator, bool); 5] = [
+    (Integrator::Explicit, true),
+    (Integrator::ImplicitEuler, true),
+    (Integrator::Bdf2, true),
+    (Integrator::Xpbd, false),
+    (Integrator::Projective, false),
+];
+
+/// What is done with a cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Deed {
+    Swing,
+    Fall,
+    PadsCross,
+    NoNumber,
+    FarTarget,
+    Smallest,
+}
+
+impl Deed {
+    const ALL: [Self; 6] = [
+        Self::Swing,
+        Self::Fall,
+        Self::PadsCross,
+        Self::NoNumber,
+        Self::FarTarget,
+        Self::Smallest,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Swing => "swing",
+            Self::Fall => "drape",
+            Self::PadsCross => "pads cross",
+            Self::NoNumber => "a hand that is no number",
+            Self::FarTarget => "a hand 1e9 mm away",
+            Self::Smallest => "2 × 2 grid",
+        }
+    }
+
+    fn sample(self) -> Sample {
+        Sample {
+            n: if self == Self::Smallest { 2 } else { 8 },
+            pins: if self == Self::Fall { "corners" } else { "top" },
+            n_fingers: match self {
+                Self::PadsCross | Self::NoNumber | Self::FarTarget => 2,
+                _ => 0,
+            },
+            ..Sample::SHIRTING
+        }
+    }
+
+    fn hands(self) -> [Hand; 2] {
+        match self {
+            Self::NoNumber => pinch([100.0, 80.0, f64::NAN], 20.0),
+            Self::FarTarget => pinch([1e9, 80.0, 0.0], 20.0),
+            // Past each other by 20 mm.
+            _ => pinch([100.0, 80.0, 0.0], -20.0),
+        }
+    }
+}
+
+/// What became of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    Held,
+    OutOfBudget,
+    Refused,
+}
+
+impl Standing {
+    const ALL: [Self; 3] = [Self::Held, Self::OutOfBudget, Self::Refused];
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Held => "held",
+            Self::OutOfBudget => "held, not solved within budget",
+            Self::Refused => "refused",
+        }
+    }
+}
+
+fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    let stiffnesses = bench
+        .effort
+        .pick(&[1e1, 1e4, 1e6][..], &[1e1, 1e2, 1e3, 1e4, 1e5, 1e6]);
+    let densities = bench.effort.pick(&[0.02, 1.0][..], &[0.02, 0.1, 0.3, 1.0]);
+    let steps_ms = bench.effort.pick(
+        &[0.1, 4.0, 50.0][..],
+        &[0.1, 0.3, 1.0, 2.0, 4.0, 10.0, 20.0, 50.0],
+    );
+    let (mut rows, mut counts) = (Vec::new(), [0_usize; 3]);
+    let mut maps = vec![Vec::new(); WAYS.len()];
+    for (nth, deed) in Deed::ALL.into_iter().enumerate() {
+        bench.step(nth as f64 / Deed::ALL.len() as f64, deed.name())?;
+        for (way, map) in WAYS.into_iter().zip(&mut maps) {
+            for (k, rho, ms) in grid(stiffnesses, densities, steps_ms) {
+                let sample = Sample {
+                    stiffness_n_per_m: Some(k),
+                    density_kg_per_m2: rho,
+                    ..deed.sample()
+                };
+                let (row, standing) = case(deed, sample, way, ms)?;
+                counts[standing as usize] += 1;
+                if deed == Deed::Swing && rho <= densities[0] {
+                    map.push((standing, [ms, k]));
+                }
+                rows.push(row);
+            }
+        }
+    }
+    let n_lost = rows
+        .iter()
+        .filter(|row| row.further("standing") == "no numbers")
+        .count();
+    let counted = Standing::ALL.map(|one| format!("{} {}", counts[one as usize], one.word()));
+    let note = format!(
+        "{} cases: {}; {n_lost} end in no numbers.",
+        rows.len(),
+        counted.join(", ")
+    );
+    let plots = WAYS.into_iter().zip(&maps).map(|((integrator, _), map)| {
+        let name = integrator.name();
+        (
+            format!("drape-stability-{name}"),
+            picture(name, map, densities[0]),
+        )
+    });
+    Ok(Findings::new(rows, plots.collect(), [note]))
+}
+
+fn grid<'a>(
+    stiffnesses: &'a [f64],
+    densities: &'a [f64],
+    steps_ms: &'a [f64],
+) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
+    stiffnesses.iter().flat_map(move |k| {
+        let of_rho = move |rho: &'a f64| steps_ms.iter().map(move |ms| (*k, *rho, *ms));
+        densities.iter().flat_map(of_rho)
+    })
+}
+
+/// Steps a case to its end; its row, and what became of it.
+fn case(
+    deed: Deed,
+    sample: Sample,
+    (integrator, promises): (Integrator, bool),
+    step_ms: f64,
+) -> Result<(Row, Standing), ReportError> {
+    let [k, rho] = [
+        sample.stiffness_n_per_m.unwrap_or_default(),
+        sample.density_kg_per_m2,
+    ];
+    let what = format!("{}, K {k:e} N/m, {rho} kg/m²", deed.name());
+    let row = Row::of(integrator.name(), format!("{step_ms} ms"), what);
+    let mut drape = sample.drape(80.0, (integrator, Some(1e-3 * step_ms)))?;
+    let [start_j, _] = drape.energy_j();
+    let scale_j = drape.scale_j() + start_j.abs();
+    let hands = deed.hands();
+    let (mut gained, mut put_in_j) = (0.0_f64, 0.0_f64);
+    for _ in 0..N_STEPS {
+        if let Err(refused) = drape.step(&hands[..sample.n_fingers]) {
+            let row = row.with("standing", Standing::Refused.word());
+            return Ok((row.with("came_back", refused), Standing::Refused));
+        }
+        let [now_j, work_j] = drape.energy_j();
+        put_in_j = put_in_j.max(work_j);
+        gained = gained.max((now_j - start_j - work_j) / (scale_j + put_in_j));
+    }
+    let standing = if drape.counters().unconverged > 0 {
+        Standing::OutOfBudget
+    } else {
+        Standing::Held
+    };
+    let is_finite = is_finite(&drape);
+    let word = if is_finite {
+        standing.word()
+    } else {
+        "no numbers"
+    };
+    let error = if is_finite { gained } else { f64::NAN };
+    let promised = promises.then_some(MOST_GAINED);
+    let row = row
+        .error(error)
+        .promised(if is_finite { promised } else { Some(0.0) });
+    let row = row
+        .with("standing", word)
+        .with("unconverged", drape.counters().unconverged);
+    Ok((
+        row.with("targets_held", drape.counters().targets_held),
+        standing,
+    ))
+}
+
+fn is_finite(drape: &Drape) -> bool {
+    drape.places_mm().flatten().all(f64::is_finite)
+}
+
+/// Stiffness over step, by what became of it.
+fn picture(name: &str, map: &[(Standing, [f64; 2])], density: f64) -> Chart {
+    let series = Standing::ALL.map(|standing| {
+        let points = map
+            .iter()
+            .filter(|(is, _)| *is == standing)
+            .map(|(_, at)| *at);
+        Series::of(standing.word(), Style::Dots, points)
+    });
+    let is_there = |series: &Series| !series.points.is_empty();
+    chart(
+        format!("What {name} holds"),
+        Axis::log("step, ms"),
+        Axis::log("stiffness of the yarns, N/m"),
+        series.into_iter().filter(is_there).collect(),
+        format!("A cloth of {density} kg/m² and 8 × 8 vertices, 29 mm apart, let go at 80°."),
+    )
+}

@@ -1,0 +1,58 @@
+//! Studies of the hanging cloth keep their promises; better ways are better.
+
+use super::*;
+use crate::Row;
+use crate::tests::quick;
+
+#[test]
+fn bdf2_comes_nearest_at_a_given_step_and_a_sleeping_cloth_costs_next_to_nothing() {
+    let findings = quick(&STUDY, 1);
+    let of = |method: &str, case: &str, setting: &str| {
+        let is_it = |row: &&Row| {
+            row.method == method && row.case.starts_with(case) && row.setting.starts_with(setting)
+        };
+        findings.rows.iter().find(is_it).unwrap()
+    };
+    let [bdf2, euler, locked] = ["bdf2", "ie", "pd"].map(|way| of(way, "swing", "4."));
+    assert!(
+        bdf2.error < euler.error && euler.error < locked.error,
+        "{:#?}",
+        findings.rows
+    );
+    assert!(of("bdf2", "swing", "1.00").error < bdf2.error);
+    assert!(of("bdf2", "grasp", "1.00").error.unwrap() < 0.5);
+    let [awake, asleep] =
+        ["awake", "asleep"].map(|way| of(way, "rest", "bdf2").cost.unwrap().cpu_s);
+    assert!(asleep < 0.05 * awake, "{asleep} {awake}");
+    assert_eq!(of("asleep", "rest", "bdf2").further("steps_asleep"), "400");
+    let rest: Vec<f64> = findings
+        .rows
+        .iter()
+        .filter(|row| row.method == "rest")
+        .filter_map(|row| row.error)
+        .collect();
+    assert!(rest.len() == 2 && rest[1] < 0.4 * rest[0], "{rest:?}");
+}
+
+#[test]
+fn every_case_is_held_or_refused() {
+    let findings = quick(&STABILITY, 1);
+    let broken: Vec<&Row> = findings.broken().collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+    assert_eq!(findings.rows.len(), 6 * 5 * 3 * 2 * 3);
+    assert_eq!(findings.plots.len(), 5);
+    let refused = findings
+        .rows
+        .iter()
+        .filter(|row| row.further("standing") == "refused");
+    let methods: Vec<&str> = refused.map(|row| row.method.as_str()).collect();
+    assert!(
+        methods.len() > 30 && methods.iter().all(|method| *method == "explicit"),
+        "{methods:?}"
+    );
+    let held = findings
+        .rows
+        .iter()
+        .filter_map(|row| row.further_number("targets_held"));
+    assert!(held.sum::<f64>() > 0.0);
+}
