@@ -146,7 +146,7 @@ fn follow(
             "{what}; give a shorter one, or a larger --dt"
         )));
     }
-    let mut table = TableOut::new(args.out.as_deref(), &FORCE_COLUMNS)?;
+    let mut table = TableOut::new(args.out.as_deref(), &Drape::FORCE_COLUMNS)?;
     let mut mesh = args
         .mesh
         .as_deref()
@@ -235,32 +235,14 @@ impl AmplitudesOut {
     }
 }
 
-const FORCE_COLUMNS: [&str; 9] = [
-    "t_s",
-    "finger",
-    "fx_n",
-    "fy_n",
-    "fz_n",
-    "n_contacts",
-    "slip_mm_per_s",
-    "energy_j",
-    "iterations",
-];
-
 /// A row for each finger; one of no finger where there is none.
 fn write_forces(table: &mut TableOut, drape: &Drape, energy_j: f64) -> Result<(), CliError> {
     let n_fingers = drape.start_hands().len().max(1);
     for finger in 0..n_fingers {
-        let felt = drape.finger(finger);
         let rows = table.rows();
-        rows.number(drape.t_s()).number(finger);
-        felt.force_n.iter().for_each(|force| {
-            rows.number(force);
-        });
-        rows.number(felt.n_contacts)
-            .number(felt.slip_mm_per_s)
-            .number(energy_j)
-            .number(drape.iterations());
+        for value in drape.force_row(finger, energy_j) {
+            rows.number(value);
+        }
         rows.end_row()?;
     }
     Ok(())

@@ -4,7 +4,7 @@
 //! kes (figures of testers) ─▶ fabric ─┐
 //! scene (file) ─▶ mesh ───────────────┼─▶ sheet (membrane, plate, slip) ─┐
 //! path (hands) ─▶ finger (pad, place) ┴──────────────────────────────────┴─▶ system
-//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run
+//! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run ◀─ refit (other figures)
 //! ```
 //!
 //! Lengths are metres inside and millimetres at the border. The added mass of air, which is more
@@ -34,6 +34,7 @@ mod pad;
 mod place;
 mod plate;
 mod precondition;
+mod refit;
 mod run;
 mod scene;
 mod sheet;
@@ -49,7 +50,7 @@ pub use error::DrapeError;
 pub use fabric::Fabric;
 pub use hands::{Hand, HandPath};
 pub use integrator::Integrator;
-pub use run::{Drape, FingerRow};
+pub use run::{Drape, FingerRow, Pad};
 pub use scene::DrapeScene;
 pub use tester::{TestedFigure, test_fabric};
 

@@ -24,20 +24,22 @@ const MAX_FINGERS: usize = 2;
 #[derive(Debug, Clone)]
 pub struct DrapeScene {
     name: String,
-    textile: Option<String>,
+    pub(crate) textile: Option<String>,
     /// Where its library is; `None` is that of the program.
     pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],
-    grid: Option<[usize; 2]>,
+    pub(crate) grid: Option<[usize; 2]>,
     pins: Pins,
     losses: Losses,
     /// How it is stepped if nobody says otherwise.
     integrator: Integrator,
     step_ms: Option<f64>,
-    fabric: Fabric,
+    /// What its laws were made from.
+    pub(crate) figures: Figures,
+    pub(crate) fabric: Fabric,
     /// What is to be told of its figures.
-    notes: Vec<String>,
-    fingers: Vec<FingerSpec>,
+    pub(crate) notes: Vec<String>,
+    pub(crate) fingers: Vec<FingerSpec>,
 }
 
 /// A finger of a scene.
@@ -128,6 +130,7 @@ impl DrapeScene {
             fabric.friction = friction;
         }
         let mut scene = Self::from_keys(keys, fabric).map_err(wrong)?;
+        scene.figures = figures;
         scene.notes = notes;
         scene.library_folder = library;
         // What makes no grid is told where it stands.
@@ -142,7 +145,8 @@ impl DrapeScene {
     /// # Errors
     /// A textile that is unknown, or whose figures are.
     pub fn of_textile(id: &str) -> Result<Self, DrapeError> {
-        let (fabric, notes) = Fabric::of_figures(&kes::of_textile(id, None)?)?;
+        let figures = kes::of_textile(id, None)?;
+        let (fabric, notes) = Fabric::of_figures(&figures)?;
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
@@ -153,6 +157,7 @@ impl DrapeScene {
             losses: Losses::default(),
             integrator: Integrator::Auto,
             step_ms: None,
+            figures,
             fabric,
             notes,
             fingers: Vec::new(),
@@ -206,6 +211,7 @@ impl DrapeScene {
             },
             integrator,
             step_ms: keys.step_ms,
+            figures: Figures::new(),
             fabric,
             notes: Vec::new(),
             fingers: fingers.collect::<Result<_, _>>()?,
