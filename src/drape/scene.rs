@@ -104,11 +104,23 @@ impl DrapeScene {
     /// # Errors
     /// One line: what is wrong, where, and how to mend it.
     pub fn read(path: &Path) -> Result<Self, DrapeError> {
-        let text = files::read_text(path)?;
-        let keys: SceneKeys = files::keys_from_str(&text, path)?;
-        let wrong = |flaw: Flaw| DrapeError::from(flaw.in_file(&text, path));
+        Self::of_text(&files::read_text(path)?, path)
+    }
+
+    /// The scene that is part of the program.
+    ///
+    /// # Errors
+    /// Its textile is not in the program's library.
+    pub fn shipped() -> Result<Self, DrapeError> {
+        let text = include_str!("../../assets/scenes/denim.drape.toml");
+        Self::of_text(text, Path::new("denim.drape.toml"))
+    }
+
+    fn of_text(text: &str, path: &Path) -> Result<Self, DrapeError> {
+        let keys: SceneKeys = files::keys_from_str(text, path)?;
+        let wrong = |flaw: Flaw| DrapeError::from(flaw.in_file(text, path));
         if let Some(key) = keys.measured.keys().find(|key| !kes::is_known(key)) {
-            let line = files::line_of_key(&text, "measured", 0, key);
+            let line = files::line_of_key(text, "measured", 0, key);
             let what = format!("unknown figure \"{key}\"");
             let mend = "name one of the Kawabata testers with its unit, such as emt_percent";
             return Err(files::FileError::content(path, line, what, mend).into());

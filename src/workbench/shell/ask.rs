@@ -86,6 +86,18 @@ impl AskWords {
                 };
                 Self::new([title, "Open"], FILE, file)
             }
+            Purpose::OpenDrape => {
+                let file = ["/path/to/NAME.drape.toml", "denim.drape.toml", ".toml"];
+                Self::new(["Open a hanging cloth", "Open"], SCENE, file)
+            }
+            Purpose::OpenHands | Purpose::SaveHands => {
+                let file = ["/path/to/FINGERS.csv", "fingers.csv", ".csv"];
+                let title = match purpose {
+                    Purpose::OpenHands => ["Open a path of hands", "Open"],
+                    _ => ["Save the path of hands", "Save"],
+                };
+                Self::new(title, FILE, file)
+            }
             Purpose::AddLibrary => {
                 let folder = ["/path/to/textiles", "textiles", ""];
                 Self::new(["Add a folder of textiles", "Add"], FOLDER, folder)

@@ -44,6 +44,7 @@ const ALL: &[Exportable] = &[
     Exportable::Pane(Pane::Picture),
     #[cfg(feature = "friction")]
     Exportable::Pane(Pane::Friction),
+    Exportable::Pane(Pane::Drape),
     Exportable::Pane(Pane::Workspace),
     Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
