@@ -88,7 +88,7 @@ impl AskWords {
             }
             Purpose::OpenDrape => {
                 let file = ["/path/to/NAME.drape.toml", "denim.drape.toml", ".toml"];
-                Self::new(["Open a hanging cloth", "Open"], SCENE, file)
+                Self::new(["Open a drape scene", "Open"], SCENE, file)
             }
             Purpose::OpenHands | Purpose::SaveHands => {
                 let file = ["/path/to/FINGERS.csv", "fingers.csv", ".csv"];

@@ -15,8 +15,8 @@ use crate::shell::window::Workbench;
 use selvedge_foundation::files::read_text;
 
 /// What can be dropped, for people.
-const WHAT: &str = "a scene, a recording, a path file, a design, a folder of textiles or of \
-                    logs, a picture, measurements";
+const WHAT: &str = "a scene, a drape scene, a recording, a path file, a design, a folder of \
+                    textiles or of logs, a picture, measurements";
 /// Endings of pictures.
 const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif"];
 /// A text that is longer is none of ours, bytes.

@@ -5,7 +5,7 @@ use eframe::egui::{Pos2, Rect, Vec2, pos2};
 use selvedge_foundation::numerics::to_single;
 
 /// Room around the cloth, mm.
-const ROOM_MM: [f32; 2] = [90.0, 60.0];
+const ROOM_MM: [f32; 2] = [56.0, 52.0];
 /// Degrees that a point of dragging turns.
 const DRAG_DEG: f32 = 0.4;
 

@@ -96,11 +96,11 @@ impl Seconds<'_> {
     /// A line for each cloth, by the place of its first row in a sample.
     fn by_cloth(&self, value: impl Fn(&[f64; 9]) -> f64) -> Vec<Series> {
         let n_rows = self.n_fingers.max(1);
-        let cloths = self.titles.iter().zip(INKS).enumerate();
+        let cloths = INKS.into_iter().take(self.titles.len()).enumerate();
         cloths
-            .map(|(nth, (title, ink))| {
+            .map(|(nth, ink)| {
                 let of = |sample: &Sample| sample.rows.get(nth * n_rows).map_or(0.0, &value);
-                Self::line(title, ink, &self.of_samples(of))
+                Self::line(&(nth + 1).to_string(), ink, &self.of_samples(of))
             })
             .collect()
     }
@@ -132,10 +132,10 @@ impl Seconds<'_> {
     fn amplitudes(&self) -> Chart {
         let y = Axis::linear("mean amplitude, µm");
         if !self.is_one() {
-            let cloths = self.titles.iter().zip(INKS).enumerate();
-            let lines = cloths.map(|(nth, (title, ink))| {
+            let cloths = INKS.into_iter().take(self.titles.len()).enumerate();
+            let lines = cloths.map(|(nth, ink)| {
                 let of = |frame: &Frame| frame.cloths.get(nth).map_or(0.0, |one| one.mean_um(0)[1]);
-                Self::line(title, ink, &self.of_frames(of))
+                Self::line(&(nth + 1).to_string(), ink, &self.of_frames(of))
             });
             return self.chart("First finger, 320 Hz", y, lines.collect());
         }

@@ -19,7 +19,7 @@ use selvedge_foundation::quantity::fixed;
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
 /// Width of a list, points.
-const LIST: f32 = 176.0;
+const LIST: f32 = 128.0;
 
 /// A figure that a slider changes: its key, name, ends, digits, unit, decades if uneven, tip.
 struct Dial {
@@ -128,14 +128,7 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
 }
 
 fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
-    let file = match &draping.chosen.base {
-        Base::Shipped => "part of the program".to_owned(),
-        Base::File(path) => {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            name.to_string_lossy().into_owned()
-        }
-    };
-    step_title(ui, 1, "Cloth", &file);
+    step_title(ui, 1, "Cloth", &draping.chosen.base.name());
     row_of(ui, NAME, ("scene", ""), |ui, _| {
         let tip = "A NAME.drape.toml: cloth, size, pins, fingers";
         if button(ui, "Open…", tip, None) {

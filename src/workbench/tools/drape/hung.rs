@@ -16,6 +16,17 @@ pub(crate) enum Base {
     File(PathBuf),
 }
 
+impl Base {
+    /// What its file is called.
+    pub(crate) fn name(&self) -> String {
+        let name = match self {
+            Self::Shipped => Some("denim.drape.toml".as_ref()),
+            Self::File(path) => path.file_name(),
+        };
+        name.unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
 /// A textile of a library in place of the scene's own.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OtherTextile {

@@ -200,7 +200,10 @@ impl Draping {
 
     fn origin(&self) -> Origin {
         let program = selvedge_foundation::PROGRAM;
-        let origin = Origin::default().and("program", program, program);
+        let file = self.chosen.base.name();
+        let origin = Origin::default()
+            .and("program", program, program)
+            .and("file", &file, &file);
         let cloths = self.motion.facts.cloths.iter();
         cloths.fold(origin, |origin, cloth| {
             let words = format!("{}, {}", cloth.title, cloth.stepping);

@@ -27,7 +27,7 @@ const PAD_MM: [f64; 2] = [7.0, 10.5];
 const PAD_RINGS: u32 = 4;
 const PAD_SECTORS: u32 = 24;
 /// Points of an arrow a N.
-const ARROW: f32 = 60.0;
+const ARROW: f32 = 90.0;
 /// A smaller force has no arrow, N.
 const LEAST_N: f64 = 0.02;
 /// Radius of a contactor, mm.

@@ -213,6 +213,8 @@ impl Hanging {
         for nth in 1..=n_steps {
             let t_s = start_s + nth as f64 * step_s;
             match &ask.lead {
+                // Who does not know the fingers yet leads none.
+                Lead::Towards(to) if to.len() != from.len() => {}
                 Lead::Towards(to) => self.hands = between(&from, to, nth as f64 / n_steps as f64),
                 Lead::Along(path) => path.at(path.span_s()[0] + t_s, &mut self.hands),
             }

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    Align2, EventFilter, InputState, Key, Margin, PointerButton, Rect, Response, Role, Sense, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, EventFilter, Id, InputState, Key, Margin, PointerButton, Rect, Response, Role, Sense,
+    Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::{FileCommand, Purpose};
@@ -66,6 +66,11 @@ const NAMES: [&str; 4] = [
     "Energy of the cloth over time",
 ];
 
+/// What the view is called.
+pub(crate) const CLOTH: &str = "Hanging cloth";
+/// Room for the bars of colours, points.
+const BARS: f32 = 56.0;
+
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
     let whole = ui.available_rect_before_wrap();
@@ -106,7 +111,8 @@ fn show_narrow(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>
 fn show_middle(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
     let height = (ui.available_height() - ROWS).max(0.5 * VIEW);
     let size = vec2(ui.available_width(), height);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let response = ui.interact(rect, Id::unique(CLOTH), Sense::click_and_drag());
     show_view(ui, &response, rect, draping, context);
     ui.spacing_mut().item_spacing.y = STEP;
     show_buttons(ui, draping, context);
@@ -120,7 +126,7 @@ fn show_view(
     draping: &mut Draping,
     context: &mut PaneContext<'_>,
 ) {
-    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Hanging cloth"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), CLOTH));
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let palette = Palette::in_ui(ui);
     painter.rect_filled(rect, 4, palette.floor);
@@ -133,7 +139,7 @@ fn show_view(
         return paint_sentence(&painter, rect, words);
     };
     let n = frame.cloths.len() as f32;
-    let width = rect.width() / n;
+    let width = (rect.width() - BARS) / n;
     let rects: Vec<Rect> = (0..frame.cloths.len())
         .map(|nth| {
             let left = rect.left() + nth as f32 * width;
@@ -149,14 +155,14 @@ fn show_view(
         let dress = dress(ui, nth, draping, context);
         let painter = painter.with_clip_rect(rects[nth].intersect(painter.clip_rect()));
         paint::cloth(&painter, &sights[nth], cloth, &dress);
-        let title = draping
-            .motion
-            .facts
-            .cloths
-            .get(nth)
-            .map(|facts| facts.title.clone());
+        let facts = draping.motion.facts.cloths.get(nth);
+        let title = facts.map_or("", |facts| facts.title.as_str());
+        let title = match frame.cloths.len() {
+            1 => title.to_owned(),
+            _ => format!("{} {title}", nth + 1),
+        };
         let at = rects[nth].left_top() + vec2(8.0, 12.0);
-        paint_line(ui, at, width - 24.0, quiet(title.unwrap_or_default()));
+        paint_line(ui, at, width - 16.0, quiet(title));
     }
     show_bars(ui, rect, draping, context);
     show_words(ui, rect, draping, &frame);
