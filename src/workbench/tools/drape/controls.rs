@@ -138,8 +138,7 @@ fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>
         let is_shipped = draping.chosen.base == Base::Shipped;
         let why = is_shipped.then_some("It hangs already");
         if button(ui, "Shipped", "The scene that is part of the program", why) {
-            draping.chosen.base = Base::Shipped;
-            draping.chosen.cloths = vec![ClothChoice::default()];
+            draping.hang(Base::Shipped);
         }
     });
     show_row_of_cloths(ui, draping, context);
@@ -179,6 +178,7 @@ fn show_row_of_cloths(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<
         let why = (n == 1).then_some("One cloth is left");
         if button(ui, "−", "Take this cloth away", why) {
             draping.chosen.cloths.remove(at);
+            draping.look.cloth = at.min(n - 2);
         }
     });
 }

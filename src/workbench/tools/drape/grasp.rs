@@ -25,6 +25,10 @@ pub(crate) struct Grasp {
     pub(crate) closed_mm: f64,
     /// From the second finger to the first, mm.
     pub(crate) shift_mm: [f64; 2],
+    /// The shift and the height above the plane that it goes back to when it is let go, mm.
+    rest_mm: ([f64; 2], f64),
+    /// From the pointer to its centre, mm: a drag that shifts or pulls leaves the centre.
+    off_mm: [f64; 2],
     /// Whether it closes, by the pointer's button and by a key.
     pub(crate) is_pressed: bool,
     pub(crate) is_held: bool,
@@ -41,6 +45,8 @@ impl Grasp {
             open_mm: first.opening_mm,
             closed_mm: -3.0,
             shift_mm: [beside, 0.0],
+            rest_mm: ([beside, 0.0], first.centre_mm[2]),
+            off_mm: [0.0; 2],
             is_pressed: false,
             is_held: false,
         }
@@ -51,17 +57,35 @@ impl Grasp {
         self.is_pressed || self.is_held
     }
 
-    /// Goes where the pointer is.
-    pub(crate) fn go_to(&mut self, [x_mm, y_mm]: [f64; 2]) {
+    /// Whether the button is held; let go, the fingers are as they were before they were shifted.
+    pub(crate) fn press(&mut self, is_pressed: bool) {
+        if std::mem::replace(&mut self.is_pressed, is_pressed) && !is_pressed {
+            (self.shift_mm, self.centre_mm[2]) = self.rest_mm;
+            self.off_mm = [0.0; 2];
+        }
+    }
+
+    /// Stays where it is while the pointer goes to a place.
+    pub(crate) fn stay(&mut self, pointer_mm: [f64; 2]) {
+        self.off_mm = [0, 1].map(|axis| self.centre_mm[axis] - pointer_mm[axis]);
+    }
+
+    /// Goes where the pointer leads it.
+    pub(crate) fn go_to(&mut self, pointer_mm: [f64; 2]) {
+        let [x_mm, y_mm] = [0, 1].map(|axis| pointer_mm[axis] + self.off_mm[axis]);
         let [.., z_mm] = self.centre_mm;
         self.centre_mm = [x_mm, y_mm, z_mm].map(|mm| mm.clamp(-MAX_OFF_MM, 3.0 * MAX_OFF_MM));
     }
 
-    /// Moves by so much.
-    pub(crate) fn move_by(&mut self, by_mm: [f64; 3]) {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.centre_mm[axis] + by_mm[axis]);
-        self.centre_mm[2] = z.clamp(-MAX_OFF_MM, MAX_OFF_MM);
-        self.go_to([x, y]);
+    /// Moves along the cloth's plane by so much.
+    pub(crate) fn move_by(&mut self, by_mm: [f64; 2]) {
+        self.off_mm = [0.0; 2];
+        self.go_to([0, 1].map(|axis| self.centre_mm[axis] + by_mm[axis]));
+    }
+
+    /// Pulls towards the viewer, or pushes away.
+    pub(crate) fn pull_by(&mut self, by_mm: f64) {
+        self.centre_mm[2] = (self.centre_mm[2] + by_mm).clamp(-MAX_OFF_MM, MAX_OFF_MM);
     }
 
     /// Shifts the fingers against each other: rubs between them, or stretches.
@@ -119,7 +143,7 @@ mod tests {
         let mut grasp = Grasp::starting(&[start; 2], false);
         grasp.lead(1.0);
         assert_eq!(grasp.hands(2), [start; 2], "nobody presses");
-        grasp.is_pressed = true;
+        grasp.press(true);
         grasp.lead(0.1);
         assert!((grasp.opening_mm - 44.0).abs() < 1e-9, "not at once");
         grasp.lead(1.0);
@@ -131,10 +155,19 @@ mod tests {
         assert_eq!(hands[0].centre_mm, [104.0, 58.0, 0.0]);
         assert_eq!(hands[1].centre_mm, [96.0, 62.0, 0.0]);
         assert!((hands[1].opening_mm + 5.0).abs() < 1e-9);
-        grasp.is_pressed = false;
+        grasp.stay([110.0, 60.0]);
+        grasp.go_to([112.0, 60.0]);
+        assert_eq!(
+            grasp.centre_mm,
+            [102.0, 60.0, 0.0],
+            "a rub leaves the centre"
+        );
+        grasp.press(false);
         grasp.lead(1.0);
         assert!((grasp.opening_mm - 60.0).abs() < 1e-9, "as open as before");
-        grasp.move_by([1e6, f64::MAX, 1e6]);
+        assert_eq!(grasp.shift_mm, [0.0; 2]);
+        grasp.move_by([1e6, f64::MAX]);
+        grasp.pull_by(1e6);
         assert!(grasp.centre_mm.iter().all(|mm| *mm <= 900.0));
         assert_eq!(Grasp::starting(&[start; 2], true).shift_mm, [30.0, 0.0]);
     }

@@ -33,8 +33,8 @@ pub(crate) struct Hands {
     /// What could not be read or written, in a line.
     pub(crate) trouble: Option<String>,
     led_at_s: Option<f64>,
-    /// How many fingers the grasp was made for, and whether they are beside each other.
-    made_for: (usize, bool),
+    /// Where hands started for which the grasp was made, and whether they are beside each other.
+    made_for: (Vec<Hand>, bool),
 }
 
 impl Hands {
@@ -42,7 +42,7 @@ impl Hands {
     /// recorded.
     pub(crate) fn meet(&mut self, motion: &Motion, second: Second) {
         let start = &motion.facts.hands;
-        let made_for = (start.len(), second == Second::Beside);
+        let made_for = (start.clone(), second == Second::Beside);
         if !start.is_empty() && (self.grasp.is_none() || self.made_for != made_for) {
             self.grasp = Some(Grasp::starting(start, made_for.1));
             self.made_for = made_for;

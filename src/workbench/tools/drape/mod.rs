@@ -145,6 +145,18 @@ impl Draping {
         }
     }
 
+    /// Hangs another scene's cloth in place of all.
+    pub(crate) fn hang(&mut self, base: Base) {
+        self.chosen.base = base;
+        self.chosen.cloths = vec![ClothChoice::default()];
+        self.look = Look {
+            camera: self.look.camera,
+            shows_strain: self.look.shows_strain,
+            ..Look::default()
+        };
+        self.hands = Hands::default();
+    }
+
     /// Lets the scene go on: to be called while the pane is in sight.
     fn follow(&mut self, bench: &mut Bench) {
         let wanted = self.chosen.wanted();
@@ -237,9 +249,7 @@ impl Tool for Draping {
         };
         match purpose {
             Purpose::OpenDrape => self.change(bench.pointer.moment, |draping| {
-                draping.chosen.base = Base::File(path.clone());
-                draping.chosen.cloths = vec![ClothChoice::default()];
-                draping.hands = Hands::default();
+                draping.hang(Base::File(path.clone()));
             }),
             Purpose::OpenHands => self.hands.read(path, &self.motion.facts, bench),
             Purpose::SaveHands => return self.hands.save(path, bench),

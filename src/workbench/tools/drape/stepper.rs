@@ -104,6 +104,8 @@ pub(crate) struct Hanging {
     hands: Vec<Hand>,
     n_restarts: u64,
     t_s: f64,
+    /// Steps since a time, s: multiples of a step are those of the command to the last bit.
+    since: (f64, u64),
     /// What was asked for and is less than a step, s.
     owed_s: f64,
 }
@@ -114,6 +116,7 @@ impl Hanging {
         if is_new {
             let refused = self.hang(&ask.wanted).err();
             self.wanted = Some(Arc::clone(&ask.wanted));
+            self.since = (self.t_s, 0);
             self.tell(refused.map(|error| error.to_string()));
         }
         if self.n_restarts != ask.n_restarts {
@@ -189,7 +192,7 @@ impl Hanging {
             Lead::Towards(_) => {}
             Lead::Along(path) => path.at(path.span_s()[0], &mut self.hands),
         }
-        (self.t_s, self.owed_s) = (0.0, 0.0);
+        (self.t_s, self.since, self.owed_s) = (0.0, (0.0, 0), 0.0);
         for rig in &mut self.rigs {
             rig.restart(&self.hands);
         }
@@ -211,7 +214,8 @@ impl Hanging {
         let n_steps: u64 = to_whole((self.owed_s / step_s + SLACK).floor().max(0.0));
         self.owed_s -= n_steps as f64 * step_s;
         for nth in 1..=n_steps {
-            let t_s = start_s + nth as f64 * step_s;
+            self.since.1 += 1;
+            let t_s = self.since.0 + self.since.1 as f64 * step_s;
             match &ask.lead {
                 // Who does not know the fingers yet leads none.
                 Lead::Towards(to) if to.len() != from.len() => {}

@@ -99,7 +99,7 @@ fn nothing_is_stepped_before_it_is_looked_at_nor_while_it_rests() {
 }
 
 #[test]
-fn a_press_pinches_a_drag_rubs_and_letting_go_leaves_nothing() {
+fn a_press_pinches_a_drag_slips_and_letting_go_leaves_nothing() {
     let (mut desk, at) = pinched();
     let held = cloth(&mut desk);
     for felt in &held.fingers {
@@ -109,13 +109,6 @@ fn a_press_pinches_a_drag_rubs_and_letting_go_leaves_nothing() {
     assert!(pushed[0] > 0.05 && pushed[1] < -0.05, "{pushed:?}");
     assert_eq!(held.mean_um(0), [0.0; 2], "held still it is silent");
     let mut most = 0.0_f64;
-    desk.events.push(Event::Key {
-        key: Key::F35,
-        physical_key: None,
-        pressed: true,
-        repeat: false,
-        modifiers: Modifiers::SHIFT,
-    });
     for step in 1..24_u8 {
         let by = eframe::egui::vec2(3.0 * f32::from(step), 0.0);
         desk.events.push(Event::PointerMoved(at + by));
@@ -146,7 +139,7 @@ fn keys_do_all_that_the_pointer_does() {
     desk.press(Modifiers::NONE, Key::Minus);
     let after = tool(&mut desk).hands.grasp.clone().unwrap();
     let moved = [0, 1, 2].map(|axis| after.centre_mm[axis] - before.centre_mm[axis]);
-    assert_eq!(moved, [2.0; 3]);
+    assert!(moved.iter().all(|mm| (mm - 2.0).abs() < 1e-9), "{moved:?}");
     assert_eq!(after.shift_mm, [2.0, 0.0]);
     assert_eq!(after.open_mm, before.open_mm - 2.0);
     let camera = tool(&mut desk).look.camera;

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    Align2, EventFilter, Id, InputState, Key, Margin, PointerButton, Rect, Response, Role, Sense,
-    Ui, WidgetInfo, pos2, vec2,
+    Align2, EventFilter, Id, InputState, Key, Margin, Modifiers, PointerButton, Pos2, Rect,
+    Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::bench::command::{FileCommand, Purpose};
@@ -19,6 +19,7 @@ use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{RowShape, slider_row_as, tell};
 use crate::kit::widgets::text::{button, line, paint_focus, paint_line, quiet};
 use crate::tools::drape::camera::Sight;
+use crate::tools::drape::grasp::Grasp;
 use crate::tools::drape::hung::{ClothFrame, Frame};
 use crate::tools::drape::paint::{self, Dress};
 use crate::tools::drape::{Draping, controls};
@@ -282,7 +283,7 @@ fn touch(
     if draping.hands.is_replaying {
         return;
     }
-    grasp.is_pressed = is_pressed;
+    grasp.press(is_pressed);
     let at = response
         .hover_pos()
         .or_else(|| response.interact_pointer_pos());
@@ -290,23 +291,28 @@ fn touch(
     let is_turned = turns.iter().any(|by| response.dragged_by(*by));
     if let Some(at) = at.filter(|_| moves && !is_turned) {
         let nth = rects.iter().position(|rect| rect.contains(at)).unwrap_or(0);
-        let sight = &sights[nth];
-        let modifiers = ui.input(|input| input.modifiers);
-        let by = ui.input(|input| input.pointer.delta()) / sight.scale;
-        let [right, down] = [by.x, by.y].map(f64::from);
-        match () {
-            () if modifiers.shift && is_pressed => grasp.shift_by([right, -down]),
-            () if modifiers.command && is_pressed => grasp.move_by([0.0, 0.0, down]),
-            () if modifiers.any() && is_pressed => {}
-            () => {
-                if let Some(place) = sight.on_plane(at) {
-                    grasp.go_to(place);
-                }
-            }
-        }
+        lead(ui, &sights[nth], at, grasp);
     }
     if response.has_focus() {
         move_by_keys(ui, response, draping);
+    }
+}
+
+/// Where the pointer leads the grasp; a drag with Shift shifts its fingers, one with Ctrl pulls.
+fn lead(ui: &Ui, sight: &Sight, at: Pos2, grasp: &mut Grasp) {
+    let Some(place) = sight.on_plane(at) else {
+        return;
+    };
+    let (modifiers, by) = ui.input(|input| (input.modifiers, input.pointer.delta()));
+    let [right, down] = [by.x, by.y].map(|by| f64::from(by / sight.scale));
+    match () {
+        () if !grasp.is_pressed => grasp.go_to(place),
+        () if modifiers.shift => grasp.shift_by([right, -down]),
+        () if modifiers.command => grasp.pull_by(down),
+        () => return grasp.go_to(place),
+    }
+    if grasp.is_pressed {
+        grasp.stay(place);
     }
 }
 
@@ -344,28 +350,30 @@ fn move_by_keys(ui: &Ui, response: &Response, draping: &mut Draping) {
         ..EventFilter::default()
     };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-    let presses = |key: Key| ui.input(|input| u8::try_from(input.num_presses(key)).unwrap_or(0));
-    let less = |more: Key, less: Key| f64::from(presses(more)) - f64::from(presses(less));
-    let right = less(Key::ArrowRight, Key::ArrowLeft);
-    let up = less(Key::ArrowUp, Key::ArrowDown);
-    let modifiers = ui.input(|input| input.modifiers);
-    if modifiers.alt {
-        let by = vec2(to_single(right), to_single(-up)) * KEY_TURN;
-        draping.look.camera = draping.look.camera.turned(by);
-        return;
-    }
+    let presses = |modifiers: Modifiers, key: Key| {
+        let n = ui.input_mut(|input| input.count_and_consume_key(modifiers, key));
+        n as f64
+    };
+    let way = |modifiers: Modifiers| {
+        let less = |more: Key, less: Key| presses(modifiers, more) - presses(modifiers, less);
+        let right = less(Key::ArrowRight, Key::ArrowLeft);
+        [right, less(Key::ArrowUp, Key::ArrowDown)]
+    };
+    // Those with a modifier first: what is left is without one.
+    let [right, up] = way(Modifiers::ALT).map(to_single);
+    draping.look.camera = draping.look.camera.turned(vec2(right, -up) * KEY_TURN);
     let Some(grasp) = &mut draping.hands.grasp else {
         return;
     };
-    let by = [KEY_MM * right, KEY_MM * up];
-    match () {
-        () if modifiers.shift => grasp.shift_by(by),
-        () if modifiers.command => grasp.move_by([0.0, 0.0, -by[1]]),
-        () => grasp.move_by([by[0], by[1], 0.0]),
+    grasp.shift_by(way(Modifiers::SHIFT).map(|n| KEY_MM * n));
+    grasp.pull_by(-KEY_MM * way(Modifiers::COMMAND)[1]);
+    let by = way(Modifiers::NONE).map(|n| KEY_MM * n);
+    if by.iter().any(|mm| mm.abs() > 0.0) {
+        grasp.move_by(by);
     }
-    let wider = presses(Key::Plus) + presses(Key::Equals);
-    grasp.open_by(KEY_MM * (f64::from(wider) - f64::from(presses(Key::Minus))));
-    if presses(Key::Enter) % 2 == 1 {
+    let wider = presses(Modifiers::NONE, Key::Plus) + presses(Modifiers::NONE, Key::Equals);
+    grasp.open_by(KEY_MM * (wider - presses(Modifiers::NONE, Key::Minus)));
+    if presses(Modifiers::NONE, Key::Enter) > 0.0 {
         grasp.is_held = !grasp.is_held;
     }
 }
