@@ -119,18 +119,17 @@ fn set(figures: &mut Figures, key: &str, value: f64, before: Option<f64>) {
     let (symbol, suffix) = parts(key);
     let sides = ["", "_warp", "_weft"].map(|side| format!("{symbol}{side}{suffix}"));
     let is_known = sides.iter().any(|key| figures.contains_key(key));
-    match before.filter(|before| is_known && *before > 0.0) {
-        Some(before) => sides.iter().for_each(|key| {
+    if let Some(before) = before.filter(|before| is_known && *before > 0.0) {
+        for key in &sides {
             if let Some(figure) = figures.get_mut(key) {
                 *figure *= value / before;
             }
-        }),
-        None => {
-            sides[1..].iter().for_each(|key| {
-                figures.remove(key);
-            });
-            figures.insert(key.to_owned(), value);
         }
+    } else {
+        for key in &sides[1..] {
+            figures.remove(key);
+        }
+        figures.insert(key.to_owned(), value);
     }
 }
 

@@ -184,7 +184,7 @@ impl Hands {
     pub(crate) fn about_path(&self) -> Option<(String, f64)> {
         let path = self.path.as_ref()?;
         let name = self.file.as_ref().and_then(|file| file.file_name());
-        let name = name.map_or("recorded".into(), |name| name.to_string_lossy());
+        let name = name.map_or_else(|| "recorded".into(), |name| name.to_string_lossy());
         let [start_s, end_s] = path.span_s();
         Some((name.into_owned(), end_s - start_s))
     }

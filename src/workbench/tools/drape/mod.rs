@@ -158,7 +158,7 @@ impl Draping {
     }
 
     /// Lets the scene go on: to be called while the pane is in sight.
-    fn follow(&mut self, bench: &mut Bench) {
+    fn follow(&mut self, bench: &Bench) {
         let wanted = self.chosen.wanted();
         if *self.wanted != wanted {
             self.wanted = Arc::new(wanted);

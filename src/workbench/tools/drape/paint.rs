@@ -78,7 +78,7 @@ fn mesh(sight: &Sight, cloth: &ClothFrame, dress: &Dress<'_>) -> Mesh {
     };
     let mut near = Vec::with_capacity(cloth.places_mm.len());
     let mut mesh = Mesh {
-        texture_id: picture.map_or(TextureId::default(), |picture| picture.texture),
+        texture_id: picture.map_or_else(TextureId::default, |picture| picture.texture),
         ..Mesh::default()
     };
     for vertex in 0..cloth.places_mm.len() {

@@ -178,7 +178,7 @@ fn figures_change_the_cloth_where_it_hangs_and_every_choice_is_a_step() {
     assert!(off < 3.0, "{off} mm: nothing leaps");
     tool(&mut desk).change(moment(2), |draping| draping.chosen.second = Second::Beside);
     tool(&mut desk).change(moment(3), |draping| {
-        draping.chosen.cloths.push(ClothChoice::default())
+        draping.chosen.cloths.push(ClothChoice::default());
     });
     desk.pass(2);
     let steps = desk.workbench.steps();
