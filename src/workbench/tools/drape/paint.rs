@@ -17,7 +17,7 @@ use selvedge_foundation::numerics::{to_byte, to_single};
 use selvedge_foundation::quantity::{fixed, with_unit};
 
 /// Towards the light as the viewer has it: from the upper left, before the cloth.
-const LIGHT: [f32; 3] = [-0.45, 0.45, 0.77];
+const LIGHT: [f32; 3] = [-0.58, 0.5, 0.64];
 /// How bright what lies in the shade is.
 const AMBIENT: f32 = 0.42;
 /// How much of a pad covers what is behind.

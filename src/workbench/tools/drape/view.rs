@@ -228,7 +228,7 @@ fn show_words(ui: &Ui, rect: Rect, draping: &Draping, frame: &Frame) {
     if let Some(hand) = frame.hands.first() {
         words.push(format!("opening {}", with_unit(hand.opening_mm, 1, "mm")));
     }
-    if draping.hands.is_replaying {
+    if draping.hands.is_replaying && !draping.motion.is_over {
         words.push("replay".to_owned());
     }
     if let Some(share) = draping.motion.slower_than_life() {
@@ -401,7 +401,7 @@ fn show_buttons(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_
         let about = draping.hands.about_path();
         let none = about.is_none().then_some("Record a hand or open one first");
         let tip = "From the cloth at rest, as the command does";
-        if draping.hands.is_replaying {
+        if draping.hands.is_replaying && !draping.motion.is_over {
             if button(ui, "Stop the replay", "The hand is yours again", None) {
                 let last = draping.motion.frames.back().cloned();
                 draping.hands.take_over(last.as_ref());
