@@ -133,7 +133,7 @@ fn golden_drape() {
     for name in ["+", "How far yarns are stretched, beside a scale"] {
         stage.click_named(name);
     }
-    stage.click(Role::Button, "Replay");
+    // Both begin at rest and follow the path.
     stage.compare_dark(&mut golden, "two-under-one-hand", 4 * SLOT);
     stage.click_named("−");
     stage.front("Drape", [480, 620]);

@@ -114,7 +114,7 @@ impl Hanging {
     fn answer(&mut self, ask: &Ask) -> Answer {
         let is_new = self.wanted.as_ref() != Some(&ask.wanted);
         if is_new {
-            let refused = self.hang(&ask.wanted).err();
+            let refused = self.hang(&ask.wanted, &ask.lead).err();
             self.wanted = Some(Arc::clone(&ask.wanted));
             self.since = (self.t_s, 0);
             self.tell(refused.map(|error| error.to_string()));
@@ -142,7 +142,7 @@ impl Hanging {
     }
 
     /// Hangs what is wanted; what hangs already takes up other figures where it is.
-    fn hang(&mut self, wanted: &Wanted) -> Result<(), DrapeError> {
+    fn hang(&mut self, wanted: &Wanted, lead: &Lead) -> Result<(), DrapeError> {
         let base = (wanted.base.clone(), wanted.is_one_sided);
         let is_other = self.base.as_ref() != Some(&base);
         let n_before = self.rigs.len();
@@ -169,7 +169,7 @@ impl Hanging {
             if self.hands.len() != start.len() {
                 self.hands = start;
             }
-            self.restart(&Lead::Towards(self.hands.clone()));
+            self.restart(lead);
         }
         Ok(())
     }
@@ -183,14 +183,20 @@ impl Hanging {
         });
     }
 
-    /// Every cloth at rest, fingers where they are led first.
+    /// Every cloth at rest, fingers where they are led first; those that follow a hand are open, so
+    /// that each is on its own side of the cloth.
     fn restart(&mut self, lead: &Lead) {
         match lead {
-            Lead::Towards(hands) if hands.len() == self.hands.len() => {
-                self.hands.clone_from(hands);
-            }
-            Lead::Towards(_) => {}
             Lead::Along(path) => path.at(path.span_s()[0], &mut self.hands),
+            Lead::Towards(hands) => {
+                if hands.len() == self.hands.len() {
+                    self.hands.clone_from(hands);
+                }
+                let starts = self.rigs.first().map(|rig| rig.drape.start_hands());
+                for (hand, start) in self.hands.iter_mut().zip(starts.unwrap_or_default()) {
+                    hand.opening_mm = hand.opening_mm.max(start.opening_mm);
+                }
+            }
         }
         (self.t_s, self.since, self.owed_s) = (0.0, (0.0, 0), 0.0);
         for rig in &mut self.rigs {

@@ -265,6 +265,17 @@ fn a_recorded_hand_is_replayed_as_the_command_follows_it() {
 }
 
 #[test]
+fn a_closed_hand_finds_its_sides_of_a_cloth_that_is_hung_anew() {
+    let (mut desk, _) = pinched();
+    tool(&mut desk).motion.restart();
+    desk.pass(30);
+    assert!(t_s(&mut desk) < 1.0, "from the start");
+    let held = cloth(&mut desk);
+    let pushed = [0, 1].map(|nth| held.fingers[nth].force_n[2]);
+    assert!(pushed[0] > 0.05 && pushed[1] < -0.05, "{pushed:?}");
+}
+
+#[test]
 fn what_was_is_looked_back_at_while_the_cloth_waits() {
     let (mut desk, _) = pinched();
     let now_s = t_s(&mut desk);
