@@ -246,18 +246,6 @@ impl AmplitudesOut {
     }
 }
 
-const FORCE_COLUMNS: [&str; 9] = [
-    "t_s",
-    "finger",
-    "fx_n",
-    "fy_n",
-    "fz_n",
-    "n_contacts",
-    "slip_mm_per_s",
-    "energy_j",
-    "iterations",
-];
-
 /// Forces at every step, or where those are longer at every millisecond.
 struct ForcesOut {
     table: TableOut,
@@ -272,7 +260,7 @@ struct ForcesOut {
 impl ForcesOut {
     fn new(path: Option<&Path>, (step_s, energy_j): (f64, f64)) -> Result<Self, CliError> {
         Ok(Self {
-            table: TableOut::new(path, &FORCE_COLUMNS)?,
+            table: TableOut::new(path, &Drape::FORCE_COLUMNS)?,
             is_between: step_s > Drape::FEELS_EVERY_S * (1.0 + LAST_STEP_SLACK),
             tick: 0,
             between_n: [[0.0; 3]; 2],
@@ -292,21 +280,15 @@ impl ForcesOut {
     fn write(&mut self, drape: &Drape, t_s: f64) -> Result<(), CliError> {
         let n_fingers = drape.start_hands().len().max(1);
         for finger in 0..n_fingers {
-            let felt = drape.finger(finger);
-            let force_n = if self.is_between {
-                self.between_n[finger]
-            } else {
-                felt.force_n
-            };
-            let rows = self.table.rows();
-            rows.number(t_s).number(finger);
-            for force in force_n {
-                rows.number(force);
+            let mut row = drape.force_row(finger, self.energy_j);
+            if self.is_between {
+                row[0] = t_s;
+                row[2..5].copy_from_slice(&self.between_n[finger]);
             }
-            rows.number(felt.n_contacts)
-                .number(felt.slip_mm_per_s)
-                .number(self.energy_j)
-                .number(drape.iterations());
+            let rows = self.table.rows();
+            for value in row {
+                rows.number(value);
+            }
             rows.end_row()?;
         }
         Ok(())

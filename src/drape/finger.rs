@@ -89,6 +89,12 @@ impl Finger {
         }
     }
 
+    /// Goes on where a finger of the same form is, with all that it holds.
+    pub(crate) fn take_up(&mut self, other: &Self) {
+        (self.target, self.side, self.below) = (other.target, other.side, other.below);
+        self.points.clone_from(&other.points);
+    }
+
     /// Leads it towards a place over a step, not faster than it may. A place that is no number
     /// leaves it where it is.
     pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {

@@ -3,10 +3,18 @@
 use std::path::Path;
 
 use super::{DrapeError, DrapeScene};
-use selvedge_foundation::files::{self, FileError, Table};
+use selvedge_foundation::files::{self, FileError, Table, TableWriter};
 
 /// Columns of a finger; those of the second end with `_1`.
 const COLUMNS: [&str; 4] = ["x_mm", "y_mm", "z_mm", "opening_mm"];
+
+/// What a column of the so manieth finger is called.
+fn column(name: &str, nth: usize) -> String {
+    match nth {
+        0 => name.to_owned(),
+        nth => format!("{name}_{nth}"),
+    }
+}
 
 /// What the hand does with a finger: the centre of a grasp, and how far it is open, mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -33,14 +41,8 @@ impl HandPath {
     /// One line: what is wrong, where, and how to mend it.
     pub fn read(path: &Path, scene: &DrapeScene) -> Result<Self, DrapeError> {
         let text = files::read_text(path)?;
-        let second = COLUMNS.map(|name| format!("{name}_1"));
-        let own = |nth: usize, of: usize| {
-            if nth == 0 {
-                COLUMNS[of].to_owned()
-            } else {
-                second[of].clone()
-            }
-        };
+        let second = COLUMNS.map(|name| column(name, 1));
+        let own = |nth: usize, of: usize| column(COLUMNS[of], nth);
         let mut required = vec!["t_s"];
         let mut optional = Vec::new();
         for (nth, finger) in scene.fingers().iter().enumerate() {
@@ -83,6 +85,46 @@ impl HandPath {
             hands.push((0..times_s.len()).map(hand).collect());
         }
         Ok(Self { times_s, hands })
+    }
+
+    /// One that begins with hands at a time; it has a length once it is led on.
+    pub fn starting(t_s: f64, hands: &[Hand]) -> Self {
+        Self {
+            times_s: vec![t_s],
+            hands: hands.iter().map(|hand| vec![*hand]).collect(),
+        }
+    }
+
+    /// Leads it on to hands at a later time; at no later one it stays as it is.
+    pub fn push(&mut self, t_s: f64, hands: &[Hand]) {
+        if self.times_s.last().is_some_and(|last| t_s > *last) {
+            self.times_s.push(t_s);
+            for (rows, hand) in self.hands.iter_mut().zip(hands) {
+                rows.push(*hand);
+            }
+        }
+    }
+
+    /// The file that [`Self::read`] reads.
+    ///
+    /// # Errors
+    /// None that a text in memory could have.
+    pub fn to_csv(&self) -> Result<Vec<u8>, DrapeError> {
+        let names = (0..self.hands.len()).flat_map(|nth| COLUMNS.map(|of| column(of, nth)));
+        let header: Vec<String> = std::iter::once("t_s".to_owned()).chain(names).collect();
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut table = TableWriter::new(Vec::new(), Path::new("FINGERS.csv"), &header)?;
+        for (row, t_s) in self.times_s.iter().enumerate() {
+            table.number(t_s);
+            for hand in self.hands.iter().map(|rows| rows[row]) {
+                let numbers = hand.centre_mm.into_iter().chain([hand.opening_mm]);
+                numbers.for_each(|mm| {
+                    table.number(mm);
+                });
+            }
+            table.end_row()?;
+        }
+        Ok(table.finish()?)
     }
 
     /// Its first and last time, s.
@@ -139,6 +181,13 @@ mod tests {
         assert_eq!(now, [expected; 2]);
         hands.at(9.0, &mut now);
         assert_eq!(now[1].centre_mm, [30.0, 20.0, 4.0]);
+        let mut led = HandPath::starting(0.0, &[expected; 2]);
+        led.push(0.5, &now);
+        led.push(0.5, &[expected; 2]);
+        std::fs::write(&path, led.to_csv().unwrap()).unwrap();
+        let read = HandPath::read(&path, &scene).unwrap();
+        assert_eq!(read.span_s(), [0.0, 0.5]);
+        assert_eq!((read.times_s, read.hands), (led.times_s, led.hands));
         for (rows, expected) in [
             ("t_s,x_mm,y_mm,z_mm\n", "no column opening_mm"),
             (

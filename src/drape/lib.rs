@@ -5,6 +5,7 @@
 //! scene (file) ─▶ mesh ───────────────┼─▶ sheet (membrane, plate, slip) ─┐
 //! path (hands) ─▶ finger (pad, place) ┴──────────────────────────────────┴─▶ system
 //! system ─▶ newton (precondition) ─▶ cloth (steps), statics ─▶ run (local: 1 kHz between steps)
+//! refit (other figures where it hangs) ─▶ run
 //! ```
 //!
 //! Lengths are metres inside and millimetres at the border. The added mass of air, which is more
@@ -38,6 +39,7 @@ mod place;
 mod plate;
 mod precondition;
 mod projective;
+mod refit;
 mod run;
 mod scene;
 mod sheet;
@@ -54,7 +56,7 @@ pub use error::DrapeError;
 pub use fabric::Fabric;
 pub use hands::{Hand, HandPath};
 pub use integrator::Integrator;
-pub use run::{Drape, FingerRow};
+pub use run::{Drape, FingerRow, Pad};
 pub use scene::DrapeScene;
 pub use tester::{TestedFigure, test_fabric};
 

@@ -9,7 +9,7 @@ use selvedge_foundation::geometry::{Displacement, Rotation};
 use selvedge_foundation::numerics::{bisected, to_index};
 
 /// Radii across and along the finger, m.
-const RADII_M: [f64; 2] = [8e-3, 12e-3];
+pub(crate) const RADII_M: [f64; 2] = [8e-3, 12e-3];
 /// Rows and columns of points.
 const POINTS: [usize; 2] = [8, 6];
 /// Between points, m.

@@ -6,13 +6,15 @@ use super::hands::Hand;
 use super::integrator::Integrator;
 use super::local::{Local, TICK_S};
 use super::mesh::Vector;
+use super::pad;
 use super::scene::FingerSpec;
 use super::{DrapeError, DrapeScene};
+use selvedge_foundation::geometry::{Displacement, Rotation};
 
 /// A hanging cloth that is stepped.
 #[derive(Debug, Clone)]
 pub struct Drape {
-    cloth: Cloth,
+    pub(crate) cloth: Cloth,
     specs: Vec<FingerSpec>,
     why: String,
     targets: Vec<Vector>,
@@ -21,9 +23,47 @@ pub struct Drape {
     /// The same for contactors at the last tick of the displays.
     ticked_m: Vec<[[f64; 2]; 24]>,
     newton_before: u64,
+    asleep_before: u64,
+    /// When steps were last of another length, s, and how many there were by then.
+    since: (f64, u64),
     has_back: bool,
     /// What is felt between long steps, and whether it knows of the last one.
     local: (Local, bool),
+}
+
+/// The pad of a finger where it is now: a paraboloid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pad {
+    /// Its point that is nearest to the cloth, mm.
+    pub tip_mm: [f64; 3],
+    /// The side of the cloth that it comes from: +1 is the face.
+    pub side: f64,
+    rotation_deg: f64,
+}
+
+impl Pad {
+    /// A place of its surface, so far across and along the finger from its tip, mm.
+    pub fn at_mm(&self, [across_mm, along_mm]: [f64; 2]) -> [f64; 3] {
+        let [a, b] = pad::RADII_M.map(|m| 2e3 * m);
+        let sag = across_mm * across_mm / a + along_mm * along_mm / b;
+        let turn = Rotation::from_degrees(self.rotation_deg);
+        let turned = turn.turn(Displacement::new(across_mm, along_mm));
+        let [x, y, z] = self.tip_mm;
+        [x + turned.x_mm, y + turned.y_mm, z + self.side * sag]
+    }
+
+    /// Where its contactors are, in the display's order, mm.
+    pub fn contactors_mm(&self) -> [[f64; 3]; 24] {
+        let points: Vec<Vector> = pad::points(self.rotation_deg).collect();
+        let mut places = [self.tip_mm; 24];
+        for (place, point) in places.iter_mut().zip(pad::contactors()) {
+            let off = points[point] * 1e3;
+            place[0] += off.x;
+            place[1] += off.y;
+            place[2] += self.side * off.z;
+        }
+        places
+    }
 }
 
 /// What a finger feels after a step.
@@ -64,6 +104,8 @@ impl Drape {
             newton_before: cloth.counters.newton,
             has_back: scene.surfaces().count() > 1,
             local: (Local::new(&cloth), true),
+            asleep_before: cloth.counters.asleep,
+            since: (0.0, cloth.counters.steps),
             cloth,
             why,
         })
@@ -83,6 +125,13 @@ impl Drape {
         self.aim(hands);
         self.cloth.place_fingers(&self.targets);
         self.local = (Local::new(&self.cloth), true);
+    }
+
+    /// Takes another cloth where this one is: the clock goes on.
+    pub(crate) fn take(&mut self, cloth: Cloth, why: String) {
+        self.since = (self.t_s(), cloth.counters.steps);
+        self.local = (Local::new(&cloth), false);
+        (self.cloth, self.why) = (cloth, why);
     }
 
     /// Lays it flat, turned about its upper edge, at rest: 0° is where it hung before its weight.
@@ -118,6 +167,7 @@ impl Drape {
             }
         }
         self.newton_before = self.cloth.counters.newton;
+        self.asleep_before = self.cloth.counters.asleep;
         self.cloth.step(&self.targets)?;
         self.local.1 = false;
         Ok(())
@@ -143,7 +193,8 @@ impl Drape {
 
     /// Time since the start, s.
     pub fn t_s(&self) -> f64 {
-        self.cloth.counters.steps as f64 * self.step_s()
+        let (since, steps) = self.since;
+        since + (self.cloth.counters.steps - steps) as f64 * self.step_s()
     }
 
     /// Length of a step, s.
@@ -190,6 +241,47 @@ impl Drape {
     pub fn surface(&self, finger: usize) -> usize {
         let finger = self.cloth.fingers().get(finger);
         usize::from(self.has_back && finger.is_some_and(Finger::is_behind))
+    }
+
+    /// Whether the last step was left out because everything rests.
+    pub fn is_asleep(&self) -> bool {
+        self.cloth.counters.asleep > self.asleep_before
+    }
+
+    /// The pads of its fingers.
+    pub fn pads(&self) -> impl Iterator<Item = Pad> + '_ {
+        let n = self.cloth.system.sheet.mesh.n_vertices();
+        let tips = self.cloth.x[n..].iter().zip(&self.specs);
+        tips.map(|(tip, spec)| Pad {
+            tip_mm: (*tip * 1e3).into(),
+            side: spec.side,
+            rotation_deg: spec.rotation_deg,
+        })
+    }
+
+    /// What a row of forces holds.
+    pub const FORCE_COLUMNS: [&str; 9] = [
+        "t_s",
+        "finger",
+        "fx_n",
+        "fy_n",
+        "fz_n",
+        "n_contacts",
+        "slip_mm_per_s",
+        "energy_j",
+        "iterations",
+    ];
+
+    /// The row of a finger after a step; one of no finger where there is none.
+    pub fn force_row(&self, finger: usize, energy_j: f64) -> [f64; 9] {
+        let felt = self.finger(finger);
+        let [fx_n, fy_n, fz_n] = felt.force_n;
+        let (n_contacts, iterations) = (felt.n_contacts as f64, self.iterations() as f64);
+        let slip = felt.slip_mm_per_s;
+        let (t_s, finger) = (self.t_s(), finger as f64);
+        [
+            t_s, finger, fx_n, fy_n, fz_n, n_contacts, slip, energy_j, iterations,
+        ]
     }
 
     /// Energy of cloth and fingers, J, and the work that hands did since the start.

@@ -24,22 +24,24 @@ const MAX_FINGERS: usize = 2;
 #[derive(Debug, Clone)]
 pub struct DrapeScene {
     name: String,
-    textile: Option<String>,
+    pub(crate) textile: Option<String>,
     /// The textile of its back, if that is another.
     back: Option<String>,
     /// Where its library is; `None` is that of the program.
     pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],
-    grid: Option<[usize; 2]>,
+    pub(crate) grid: Option<[usize; 2]>,
     pins: Pins,
     losses: Losses,
     /// How it is stepped if nobody says otherwise.
     integrator: Integrator,
-    step_ms: Option<f64>,
-    fabric: Fabric,
+    pub(crate) step_ms: Option<f64>,
+    /// What its laws were made from.
+    pub(crate) figures: Figures,
+    pub(crate) fabric: Fabric,
     /// What is to be told of its figures.
-    notes: Vec<String>,
-    fingers: Vec<FingerSpec>,
+    pub(crate) notes: Vec<String>,
+    pub(crate) fingers: Vec<FingerSpec>,
 }
 
 /// A finger of a scene.
@@ -109,6 +111,15 @@ impl DrapeScene {
         Self::from_text(&files::read_text(path)?, path)
     }
 
+    /// The scene that is part of the program.
+    ///
+    /// # Errors
+    /// Its textile is not in the program's library.
+    pub fn shipped() -> Result<Self, DrapeError> {
+        let text = include_str!("../../assets/scenes/denim.drape.toml");
+        Self::from_text(text, Path::new("denim.drape.toml"))
+    }
+
     /// The scene of a file's text; `path` is what messages call it and what libraries lie beside.
     ///
     /// # Errors
@@ -146,6 +157,7 @@ impl DrapeScene {
             fabric.friction = friction;
         }
         let mut scene = Self::from_keys(keys, &fabric).map_err(wrong)?;
+        scene.figures = figures;
         scene.notes = notes;
         scene.library_folder = library;
         // What makes no grid is told where it stands.
@@ -160,7 +172,8 @@ impl DrapeScene {
     /// # Errors
     /// A textile that is unknown, or whose figures are.
     pub fn of_textile(id: &str) -> Result<Self, DrapeError> {
-        let (fabric, notes) = Fabric::of_figures(&kes::of_textile(id, None)?)?;
+        let figures = kes::of_textile(id, None)?;
+        let (fabric, notes) = Fabric::of_figures(&figures)?;
         Ok(Self {
             name: id.to_owned(),
             textile: Some(id.to_owned()),
@@ -172,6 +185,7 @@ impl DrapeScene {
             losses: Losses::default(),
             integrator: Integrator::Auto,
             step_ms: None,
+            figures,
             fabric,
             notes,
             fingers: Vec::new(),
@@ -226,6 +240,7 @@ impl DrapeScene {
             },
             integrator,
             step_ms: keys.step_ms,
+            figures: Figures::new(),
             fabric: *fabric,
             notes: Vec::new(),
             fingers: fingers.collect::<Result<_, _>>()?,

@@ -191,6 +191,7 @@ fn file_acts() -> Vec<Act> {
             "Friction from a picture…",
             ask(Purpose::OpenPicture(Pane::Friction)),
         ),
+        file("Open a drape scene…", ask(Purpose::OpenDrape)),
         file("Add a library…", ask(Purpose::AddLibrary)),
         file("Analyse sessions…", ask(Purpose::OpenLogs)),
         file("Open a path to replay…", ask(Purpose::OpenRecording)).on(CTRL, Key::R),

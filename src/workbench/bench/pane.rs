@@ -74,6 +74,8 @@ panes! {
     Picture: "Picture", "Picture", 0.0, true;
     /// Friction of a cloth from its picture, felt on an electrovibration screen.
     Friction: "Friction", "Friction", 0.0, true if feature = "friction";
+    /// A hanging cloth under two fingers.
+    Drape: "Drape", "Drape", 0.0, true;
     /// What a participant of an experiment sees.
     Participant: "Participant", "Participant", 0.0, false;
     /// A design of an experiment as blocks, and what it comes to.

@@ -55,6 +55,20 @@ impl AskWords {
         }
     }
 
+    /// The words for a purpose of the hanging cloth.
+    fn of_drape(purpose: Purpose) -> Self {
+        let hands = ["/path/to/FINGERS.csv", "fingers.csv", ".csv"];
+        let missing = "Type the name of a file first";
+        match purpose {
+            Purpose::OpenHands => Self::new(["Open a path of hands", "Open"], missing, hands),
+            Purpose::SaveHands => Self::new(["Save the path of hands", "Save"], missing, hands),
+            _ => {
+                let scene = ["/path/to/NAME.drape.toml", "denim.drape.toml", ".toml"];
+                Self::new(["Open a drape scene", "Open"], missing, scene)
+            }
+        }
+    }
+
     /// The words for a purpose.
     pub(crate) fn of(purpose: Purpose) -> Self {
         const SCENE: &str = "Type the path of a scene first";
@@ -86,6 +100,7 @@ impl AskWords {
                 };
                 Self::new([title, "Open"], FILE, file)
             }
+            Purpose::OpenDrape | Purpose::OpenHands | Purpose::SaveHands => Self::of_drape(purpose),
             Purpose::AddLibrary => {
                 let folder = ["/path/to/textiles", "textiles", ""];
                 Self::new(["Add a folder of textiles", "Add"], FOLDER, folder)

@@ -230,6 +230,8 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
             .add_filter("Drawings", &["svg"])
             .add_filter("Tables", &["csv"]),
         Purpose::Clip(kind) => dialog.add_filter(words.title, &[ending(kind)]),
+        Purpose::OpenDrape => dialog.add_filter("Hanging cloths", &["drape.toml", "toml"]),
+        Purpose::OpenHands | Purpose::SaveHands => dialog.add_filter("Hands", &["csv"]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
         Purpose::OpenPicture(_) => dialog.add_filter("Pictures", &PICTURES),
         Purpose::OpenDesign | Purpose::SaveDesign => dialog.add_filter("Designs", &["toml"]),
@@ -263,11 +265,13 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
     name.push(match purpose {
         Purpose::Clip(_) => AskWords::of(purpose).ending,
         Purpose::OpenScene | Purpose::SaveScene => ".scene.toml",
-        Purpose::OpenRecording | Purpose::SaveRecording => ".csv",
+        Purpose::OpenRecording | Purpose::SaveRecording | Purpose::SaveHands => ".csv",
         Purpose::SaveDesign => ".toml",
         Purpose::Export(_) => ".png",
         Purpose::ImportFiles
         | Purpose::OpenPicture(_)
+        | Purpose::OpenDrape
+        | Purpose::OpenHands
         | Purpose::AddLibrary
         | Purpose::OpenDesign
         | Purpose::OpenLogs

@@ -15,8 +15,8 @@ use crate::shell::window::Workbench;
 use selvedge_foundation::files::read_text;
 
 /// What can be dropped, for people.
-const WHAT: &str = "a scene, a recording, a path file, a design, a folder of textiles or of \
-                    logs, a picture, measurements";
+const WHAT: &str = "a scene, a drape scene, a recording, a path file, a design, a folder of \
+                    textiles or of logs, a picture, measurements";
 /// Endings of pictures.
 const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif"];
 /// A text that is longer is none of ours, bytes.
@@ -30,7 +30,9 @@ fn purpose_of(path: &Path) -> Option<Purpose> {
     let ending = path.extension().unwrap_or_default();
     let ending = ending.to_string_lossy().to_lowercase();
     match ending.as_str() {
+        "toml" if is_of(path, ".drape.toml") => Some(Purpose::OpenDrape),
         "toml" => purpose_of_keys(path),
+        "csv" if has_columns(&header(path), &["z_mm", "opening_mm"]) => Some(Purpose::OpenHands),
         "csv" if is_path(path) => Some(Purpose::OpenRecording),
         "md" | "pdf" | "json" | "zip" | "" => None,
         _ if PICTURES.contains(&ending.as_str()) => Some(Purpose::OpenPicture(Pane::Picture)),
@@ -72,13 +74,30 @@ fn purpose_of_keys(path: &Path) -> Option<Purpose> {
     }
 }
 
+/// Whether a path's name ends so.
+fn is_of(path: &Path, ending: &str) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.to_lowercase().ends_with(ending)
+}
+
 /// Whether a table is a path of the display.
 fn is_path(path: &Path) -> bool {
+    let header = header(path);
+    has_columns(&header, &["x_mm", "y_mm"]) && !header.iter().any(|name| name.starts_with('z'))
+}
+
+fn has_columns(header: &[String], names: &[&str]) -> bool {
+    names
+        .iter()
+        .all(|name| header.iter().any(|own| own == name))
+}
+
+/// The names of a table's columns.
+fn header(path: &Path) -> Vec<String> {
     let text = short_text(path).unwrap_or_default();
     let mut rows = text.lines().filter(|line| !line.starts_with('#'));
-    let header: Vec<&str> = rows.next().unwrap_or_default().split(',').collect();
-    let is_place = ["x_mm", "y_mm"].iter().all(|name| header.contains(name));
-    is_place && !header.iter().any(|name| name.starts_with('z'))
+    let header = rows.next().unwrap_or_default().split(',');
+    header.map(str::to_owned).collect()
 }
 
 fn short_text(path: &Path) -> Option<String> {
@@ -131,6 +150,7 @@ impl Workbench {
         let there = match purpose {
             Purpose::OpenPicture(pane) => Some((Perspective::Cloth, pane)),
             Purpose::ImportFiles => Some((Perspective::Cloth, Pane::Import)),
+            Purpose::OpenDrape | Purpose::OpenHands => Some((Perspective::Cloth, Pane::Drape)),
             Purpose::OpenDesign => Some((Perspective::Experiment, Pane::Builder)),
             Purpose::OpenLogs => Some((Perspective::Experiment, Pane::Analysis)),
             _ => None,

@@ -41,6 +41,7 @@ fn cloth(tiles: &mut Tiles<Pane>, size: Vec2) -> TileId {
         Pane::Picture,
         #[cfg(feature = "friction")]
         Pane::Friction,
+        Pane::Drape,
         Pane::Collection,
         Pane::Workspace,
     ];

@@ -8,6 +8,7 @@ pub(crate) mod bridge;
 pub(crate) mod collection;
 pub(crate) mod compare;
 pub(crate) mod contactors;
+pub(crate) mod drape;
 pub(crate) mod experiment;
 #[cfg(feature = "friction")]
 pub(crate) mod friction;
@@ -46,6 +47,7 @@ pub(crate) fn all() -> Vec<Box<dyn Tool>> {
         Box::new(picture::Picture::default()),
         #[cfg(feature = "friction")]
         Box::new(friction::Friction::default()),
+        Box::new(drape::Draping::default()),
         Box::new(lab::Lab::default()),
         Box::new(collection::Collection::default()),
         Box::new(library::Library::default()),

@@ -118,6 +118,30 @@ fn golden_friction() {
 }
 
 #[test]
+fn golden_drape() {
+    let mut golden = Golden::of("pictures/drape");
+    let lab = Lab::named("drape");
+    let hand = "t_s,x_mm,y_mm,z_mm,opening_mm\n0,90,70,0,40\n0.3,90,70,0,-5\n\
+                0.6,120,80,30,-5\n0.9,132,62,42,-5\n";
+    let path = lab.write("fingers.csv", hand);
+    let mut stage = Stage::alone(None);
+    stage.front("Drape", [1000, 480]);
+    stage.click(Role::Button, "Open a hand…");
+    stage.type_path(&path);
+    stage.click(Role::Button, "Replay");
+    stage.compare(&mut golden, "pulled", 2 * SLOT);
+    for name in ["+", "How far yarns are stretched, beside a scale"] {
+        stage.click_named(name);
+    }
+    // Both begin at rest and follow the path.
+    stage.compare_dark(&mut golden, "two-under-one-hand", 4 * SLOT);
+    stage.click_named("−");
+    stage.front("Drape", [480, 620]);
+    stage.compare_dark(&mut golden, "narrow", 5 * SLOT);
+    golden.finish();
+}
+
+#[test]
 fn golden_analysis() {
     let mut golden = Golden::of("pictures/analysis");
     let lab = Lab::named("analysed");

@@ -220,6 +220,12 @@ pub(crate) enum Purpose {
     ImportFiles,
     /// Open a picture of cloth in this pane.
     OpenPicture(Pane),
+    /// Hang the cloth of a scene of its own.
+    OpenDrape,
+    /// Open a path of hands on the hanging cloth.
+    OpenHands,
+    /// Save the path of hands that was recorded.
+    SaveHands,
     /// Look at the textiles of a folder too.
     AddLibrary,
     /// Run an experiment by this design.

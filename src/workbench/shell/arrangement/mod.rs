@@ -33,6 +33,7 @@ const FRONT: &[Pane] = &[
     Pane::Picture,
     #[cfg(feature = "friction")]
     Pane::Friction,
+    Pane::Drape,
     Pane::Collection,
     Pane::Participant,
     Pane::Builder,
@@ -47,6 +48,7 @@ const ELSEWHERE: &[Pane] = &[
     Pane::Picture,
     #[cfg(feature = "friction")]
     Pane::Friction,
+    Pane::Drape,
     Pane::Collection,
     Pane::Participant,
     Pane::Builder,

@@ -73,7 +73,10 @@ fn is_risky(command: &Command) -> bool {
         Command::Device(command) => *command == DeviceCommand::Arm,
         Command::File(FileCommand::Use(purpose, _)) => matches!(
             purpose,
-            Purpose::ImportFiles | Purpose::OpenPicture(_) | Purpose::OpenDesign
+            Purpose::ImportFiles
+                | Purpose::OpenPicture(_)
+                | Purpose::OpenDrape
+                | Purpose::OpenDesign
         ),
         _ => false,
     }

@@ -33,12 +33,13 @@ macro_rules! pages {
 }
 
 /// All pages, in the order in which they are offered.
-static PAGES: [GuidePage; 10] = pages! {
+static PAGES: [GuidePage; 11] = pages! {
     "workbench": "The window";
     "panes": "What each pane shows";
     "textiles": "Textiles, libraries and scenes";
     "pictures": "From a picture to a textile";
     "friction": "Friction from a picture";
+    "drape": "The hanging cloth";
     "bridge": "Devices";
     "experiments": "Experiments on people";
     "stage": "Before the public";

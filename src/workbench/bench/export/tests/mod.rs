@@ -44,6 +44,7 @@ const ALL: &[Exportable] = &[
     Exportable::Pane(Pane::Picture),
     #[cfg(feature = "friction")]
     Exportable::Pane(Pane::Friction),
+    Exportable::Pane(Pane::Drape),
     Exportable::Pane(Pane::Workspace),
     Exportable::Pane(Pane::Collection),
     Exportable::Timeline,
@@ -64,6 +65,7 @@ impl Headless {
         desk.open_picture();
         #[cfg(feature = "friction")]
         desk.ask_friction();
+        desk.hang_cloth();
         desk.dispatch(PlayCommand::Source(PlaySource::Stroke));
         desk.dispatch(ShowCommand::Overlay(Overlay::Map(Band::High)));
         // What is found on threads is found while its pane is in sight.
@@ -168,7 +170,8 @@ fn every_pane_is_exported_as_every_kind_the_same_twice() {
                 Kind::Svg => {
                     let svg = String::from_utf8(bytes).unwrap();
                     assert!(is_well_formed(&svg), "{name}: {svg}");
-                    let is_imported = matches!(what.title(), "Import" | "Picture" | "Friction");
+                    let is_imported =
+                        matches!(what.title(), "Import" | "Picture" | "Friction" | "Drape");
                     let of = if is_imported {
                         "file = "
                     } else {

@@ -27,6 +27,13 @@ impl Headless {
         });
     }
 
+    /// Lets a cloth hang for a while.
+    pub(crate) fn hang_cloth(&mut self) {
+        self.dispatch(ShowCommand::Reveal(Pane::Drape));
+        self.pass(12);
+        self.dispatch(ShowCommand::Reveal(Pane::Workspace));
+    }
+
     /// Works out a picture of a cloth.
     pub(crate) fn open_picture(&mut self) {
         let folder = ScratchFolder::made("picture");

@@ -1,0 +1,394 @@
+//! What is chosen: the scene and its textiles, the figures of the cloth, the second finger; and
+//! what the fingers feel, in numbers.
+
+use eframe::egui::Ui;
+
+use crate::bench::command::{FileCommand, Purpose};
+use crate::bench::tool::PaneContext;
+use crate::kit::theme::{Palette, STEP};
+use crate::kit::widgets::fields::{Tone, note, row_of, step_title};
+use crate::kit::widgets::list::list;
+use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::slider::{slider_row, tell};
+use crate::kit::widgets::text::{button, quiet_pairs, row, toggle, toggles};
+use crate::tools::drape::grasp::OPENINGS_MM;
+use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile};
+use crate::tools::drape::{Draping, MAX_CLOTHS, Second};
+use selvedge_foundation::quantity::fixed;
+
+/// Room for the name of a field, points.
+const NAME: f32 = 52.0;
+/// Width of a list, points.
+const LIST: f32 = 128.0;
+
+/// A figure that a slider changes: its key, name, ends, digits, unit, decades if uneven, tip.
+struct Dial {
+    key: &'static str,
+    name: &'static str,
+    ends: [f64; 2],
+    shown: (usize, &'static str),
+    decades: Option<f64>,
+    tip: &'static str,
+}
+
+const fn dial(
+    (key, name): (&'static str, &'static str),
+    ends: [f64; 2],
+    shown: (usize, &'static str),
+    decades: Option<f64>,
+    tip: &'static str,
+) -> Dial {
+    Dial {
+        key,
+        name,
+        ends,
+        shown,
+        decades,
+        tip,
+    }
+}
+
+/// All of them, in the order of the testers.
+const DIALS: [Dial; 9] = [
+    dial(
+        ("emt_percent", "Stretch EMT"),
+        [0.5, 50.0],
+        (1, "%"),
+        Some(2.0),
+        "Strain of the yarns under 500 gf/cm; the mean of warp and weft, whose ratio stays",
+    ),
+    dial(
+        ("lt", "Linearity LT"),
+        [0.3, 1.2],
+        (2, ""),
+        None,
+        "1: force grows evenly with strain; below, soft at first",
+    ),
+    dial(
+        ("g_gf_per_cm_deg", "Shear G"),
+        [0.02, 10.0],
+        (2, "gf/cm°"),
+        Some(2.7),
+        "Shear stiffness: low lets the cloth fall in folds across its yarns",
+    ),
+    dial(
+        ("2hg_gf_per_cm", "Loss 2HG"),
+        [0.0, 20.0],
+        (2, "gf/cm"),
+        Some(3.0),
+        "Width of the loop of shear at 0.5°: what yarns lose by rubbing",
+    ),
+    dial(
+        ("b_gf_cm2_per_cm", "Bending B"),
+        [0.002, 5.0],
+        (3, "gf cm"),
+        Some(3.4),
+        "Bending rigidity a width, gf·cm²/cm: low drapes, high stands off",
+    ),
+    dial(
+        ("2hb_gf_cm_per_cm", "Loss 2HB"),
+        [0.0, 2.0],
+        (3, "gf"),
+        Some(3.0),
+        "Width of the loop of bending, gf·cm/cm: high keeps creases",
+    ),
+    dial(
+        ("weight_mg_per_cm2", "Weight"),
+        [2.0, 100.0],
+        (1, "mg/cm²"),
+        Some(1.7),
+        "Mass an area: 10 mg/cm² are 100 g/m²",
+    ),
+    dial(
+        ("t0_mm", "Thickness T0"),
+        [0.1, 5.0],
+        (2, "mm"),
+        Some(1.7),
+        "Thickness without pressure",
+    ),
+    dial(
+        ("friction", "Friction"),
+        [0.0, 1.5],
+        (2, ""),
+        None,
+        "Of a finger on the cloth: what it holds before it slips",
+    ),
+];
+
+/// Shows all of it.
+pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
+    ui.spacing_mut().item_spacing.y = STEP;
+    show_cloths(ui, draping, context);
+    ui.add_space(STEP);
+    show_figures(ui, draping);
+    ui.add_space(STEP);
+    show_hand(ui, draping);
+    ui.add_space(STEP);
+    show_look(ui, draping);
+}
+
+fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
+    step_title(ui, 1, "Cloth", &draping.chosen.base.name());
+    row_of(ui, NAME, ("scene", ""), |ui, _| {
+        let tip = "A NAME.drape.toml: cloth, size, pins, fingers";
+        if button(ui, "Open…", tip, None) {
+            let ask = FileCommand::Ask(Purpose::OpenDrape);
+            context.commands.push(ask.into());
+        }
+        let is_shipped = draping.chosen.base == Base::Shipped;
+        let why = is_shipped.then_some("It hangs already");
+        if button(ui, "Shipped", "The scene that is part of the program", why) {
+            draping.hang(Base::Shipped);
+        }
+    });
+    show_row_of_cloths(ui, draping, context);
+    show_textile(ui, draping, context);
+    if let Some(why) = &draping.motion.facts.refused {
+        note(ui, why, Tone::Wrong);
+    }
+    if let Some(facts) = draping.motion.facts.cloths.get(draping.look.cloth) {
+        for words in facts.scene.notes().iter().chain(&facts.silent) {
+            note(ui, words, Tone::Quiet);
+        }
+    }
+}
+
+/// The cloths side by side, of which the sliders change one.
+fn show_row_of_cloths(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
+    let (n, at) = (draping.chosen.cloths.len(), draping.look.cloth);
+    row_of(ui, NAME, ("beside", ""), |ui, _| {
+        for nth in 0..n {
+            let name = (nth + 1).to_string();
+            let tip = format!("Change cloth {name}");
+            if toggle(ui, &name, nth == at, &tip) {
+                draping.look.cloth = nth;
+            }
+        }
+        let why = (n == MAX_CLOTHS).then_some("Five hang side by side already");
+        if button(
+            ui,
+            "+",
+            "Hang another textile beside, under the same hand",
+            why,
+        ) {
+            let other = next_textile(draping, context);
+            draping.chosen.cloths.push(other);
+            draping.look.cloth = n;
+        }
+        let why = (n == 1).then_some("One cloth is left");
+        if button(ui, "−", "Take this cloth away", why) {
+            draping.chosen.cloths.remove(at);
+            draping.look.cloth = at.min(n - 2);
+        }
+    });
+}
+
+/// A textile that does not hang yet: one that is selected in the library, or the next of it.
+fn next_textile(draping: &Draping, context: &PaneContext<'_>) -> ClothChoice {
+    let bench = &*context.bench;
+    let hang: Vec<&str> = draping
+        .motion
+        .facts
+        .cloths
+        .iter()
+        .filter_map(|c| c.key.as_deref())
+        .collect();
+    let selected = bench.library.selection.0.iter().cloned();
+    let items = bench
+        .library
+        .view
+        .items()
+        .iter()
+        .map(|item| item.id.clone());
+    let key = selected
+        .chain(items)
+        .find(|key| !hang.contains(&key.as_str()));
+    ClothChoice {
+        textile: key.map(|key| Draping::textile(bench, &key)),
+        changes: Vec::new(),
+    }
+}
+
+fn show_textile(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
+    let at = draping.look.cloth;
+    let now = draping.motion.facts.cloths.get(at);
+    let own = "of the scene".to_owned();
+    let chosen = draping.chosen.cloths[at].textile.as_ref();
+    let words = chosen.map_or_else(|| own.clone(), |textile| textile.name.clone());
+    let key_now = now.and_then(|facts| facts.key.clone());
+    let bench = &*context.bench;
+    let mut taken: Option<Option<OtherTextile>> = None;
+    row_of(ui, NAME, ("textile", ""), |ui, _| {
+        let name = ("drape textile", "Textile that hangs");
+        list(ui, name, LIST, &words, |ui| {
+            if ui.selectable_label(chosen.is_none(), &own).clicked() {
+                taken = Some(None);
+            }
+            for item in bench.library.view.all_items() {
+                let is_now = chosen.is_some() && key_now.as_deref() == Some(&item.id);
+                if ui.selectable_label(is_now, &item.name).clicked() {
+                    taken = Some(Some(Draping::textile(bench, &item.id)));
+                }
+            }
+        });
+        let selected = bench.library.selection.0.first();
+        let why = selected
+            .is_none()
+            .then_some("Select a textile in the library first");
+        let tip = "Hang the textile that is selected in the library";
+        if button(ui, "Selected", tip, why) {
+            taken = selected.map(|key| Some(Draping::textile(bench, key)));
+        }
+    });
+    if let Some(textile) = taken {
+        draping.chosen.cloths[at] = ClothChoice {
+            textile,
+            changes: Vec::new(),
+        };
+    }
+}
+
+fn show_figures(ui: &mut Ui, draping: &mut Draping) {
+    let at = draping.look.cloth;
+    let facts = std::sync::Arc::clone(&draping.motion.facts);
+    let Some(facts) = facts.cloths.get(at) else {
+        return;
+    };
+    step_title(ui, 2, "Figures", &facts.title);
+    let choice = &mut draping.chosen.cloths[at];
+    for dial in &DIALS {
+        show_dial(ui, dial, facts, choice);
+    }
+    row(ui, "", |ui| {
+        let why = choice.changes.is_empty().then_some("Nothing was changed");
+        if button(ui, "As measured", "The textile’s own figures again", why) {
+            choice.changes.clear();
+        }
+    });
+}
+
+fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothChoice) {
+    let resting = facts.unchanged.figure(dial.key).unwrap_or(0.0);
+    let changed = choice.changes.iter().position(|(key, _)| *key == dial.key);
+    let now = changed.map_or(resting, |at| choice.changes[at].1);
+    let even = Scale::even(dial.ends, resting, 0.01, dial.shown);
+    let scale = match dial.decades {
+        Some(decades) => Scale {
+            curve: Curve::Decades(decades),
+            ..even
+        },
+        None => even,
+    };
+    let ink = Palette::in_ui(ui).text;
+    let (new, response) = slider_row(ui, dial.name, ink, scale, now);
+    tell(&response, dial.tip);
+    let Some(new) = new.map(|new| new.clamp(dial.ends[0], dial.ends[1])) else {
+        return;
+    };
+    // A slider at its resting value changes nothing.
+    let is_own = (new - resting).abs() < 1e-9;
+    match changed {
+        Some(at) if is_own => {
+            choice.changes.remove(at);
+        }
+        Some(at) => choice.changes[at].1 = new,
+        None if is_own => {}
+        None => choice.changes.push((dial.key, new)),
+    }
+}
+
+fn show_hand(ui: &mut Ui, draping: &mut Draping) {
+    step_title(ui, 3, "Hand", "press to close");
+    row(ui, "Second finger", |ui| {
+        let kinds = [
+            (
+                Second::Recorded,
+                "recorded",
+                "Behind, along the path that was recorded or opened",
+            ),
+            (
+                Second::Beside,
+                "beside",
+                "In front, beside the first: Shift with a drag stretches",
+            ),
+            (
+                Second::Mirrored,
+                "mirrored",
+                "Behind, opposite the first: Shift with a drag rubs",
+            ),
+        ];
+        toggles(ui, &mut draping.chosen.second, &kinds);
+    });
+    if draping.chosen.second == Second::Recorded && draping.hands.path.is_none() {
+        let words = "No path yet: record a hand or open one below the cloth";
+        note(ui, words, Tone::Wrong);
+    }
+    if let Some(grasp) = &mut draping.hands.grasp {
+        let ink = Palette::in_ui(ui).text;
+        let [least, most] = OPENINGS_MM;
+        let open = Scale::even([0.0, most], 60.0, 1.0, (0, "mm"));
+        let closed = Scale::even([least, 10.0], -3.0, 0.5, (1, "mm"));
+        for (name, scale, value, tip) in [
+            (
+                "Open",
+                open,
+                &mut grasp.open_mm,
+                "Between the pads while nothing is pressed",
+            ),
+            (
+                "Closed",
+                closed,
+                &mut grasp.closed_mm,
+                "While pressed; below 0 the pads push",
+            ),
+        ] {
+            let (new, response) = slider_row(ui, name, ink, scale, *value);
+            tell(&response, tip);
+            *value = new.unwrap_or(*value);
+        }
+    }
+    show_felt(ui, draping);
+}
+
+/// What each finger feels, in numbers.
+fn show_felt(ui: &mut Ui, draping: &Draping) {
+    let frame = draping.motion.frame_at(draping.look.looked_at_s);
+    let cloth = frame.and_then(|frame| frame.cloths.get(draping.look.cloth));
+    let felt = |nth: usize| cloth.and_then(|cloth| cloth.fingers.get(nth));
+    for (nth, names) in [["press 1", "slip 1"], ["press 2", "slip 2"]]
+        .into_iter()
+        .enumerate()
+    {
+        let digits = |value: Option<f64>, decimals| {
+            value.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
+        };
+        let press = digits(felt(nth).map(|felt| felt.press_n), 3);
+        let slip = digits(felt(nth).map(|felt| felt.slip_mm_per_s), 1);
+        quiet_pairs(
+            ui,
+            [
+                (names[0], press, "N", "Force of the pad across the cloth"),
+                (
+                    names[1],
+                    slip,
+                    "mm/s",
+                    "Mean speed of its points over the cloth",
+                ),
+            ],
+        );
+    }
+}
+
+fn show_look(ui: &mut Ui, draping: &mut Draping) {
+    row(ui, "Colours", |ui| {
+        let kinds = [
+            (
+                true,
+                "strain",
+                "How far yarns are stretched, beside a scale",
+            ),
+            (false, "textile", "The textile’s own picture, lit"),
+        ];
+        toggles(ui, &mut draping.look.shows_strain, &kinds);
+    });
+}

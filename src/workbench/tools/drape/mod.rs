@@ -1,0 +1,299 @@
+//! A hanging cloth under two fingers: touched by pointer or keys, or by hands that were recorded.
+//!
+//! ```text
+//! scene, textiles, figures ─▶ Wanted ─┐                     ┌▶ paint (3-D), chart ─▶ view, export
+//! pointer, keys ─▶ grasp ─▶ Lead ─────┴▶ stepper (a thread) ┴▶ motion: the last seconds
+//! ```
+//!
+//! Nothing is stepped before the pane is looked at, nor while everything rests.
+
+mod camera;
+mod chart;
+mod controls;
+mod grasp;
+mod hand;
+mod hung;
+mod motion;
+mod paint;
+mod stepper;
+#[cfg(test)]
+mod tests;
+mod view;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::Ui;
+
+use crate::bench::Bench;
+use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
+use crate::bench::export::{Exported, Origin, row};
+use crate::bench::history::{History, Moment, StepList};
+use crate::bench::library_shelf::plain_id;
+use crate::bench::pane::Pane;
+use crate::bench::tool::{PaneContext, Tool};
+use crate::kit::pane::framed;
+use crate::tools::drape::camera::Camera;
+use crate::tools::drape::chart::Seconds;
+use crate::tools::drape::hand::Hands;
+use crate::tools::drape::hung::{Base, ClothChoice, OtherTextile, Wanted};
+use crate::tools::drape::motion::Motion;
+
+/// Most cloths side by side.
+pub(crate) const MAX_CLOTHS: usize = 5;
+/// Height of a row of charts in a file, pixels.
+const CHART_PX: f64 = 200.0;
+/// Why there is nothing to export.
+const NOTHING: &str = "There is nothing to export yet: touch the cloth in the Drape pane";
+
+/// Where the second finger is, and what leads it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Second {
+    /// On the other side, doing what the first does.
+    #[default]
+    Mirrored,
+    /// Beside the first, on its side.
+    Beside,
+    /// On the other side, along the recorded path.
+    Recorded,
+}
+
+/// What was chosen: every change is a step that can be taken back.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Chosen {
+    pub(crate) base: Base,
+    /// Side by side; there is always one.
+    pub(crate) cloths: Vec<ClothChoice>,
+    pub(crate) second: Second,
+}
+
+impl Default for Chosen {
+    fn default() -> Self {
+        Self {
+            base: Base::default(),
+            cloths: vec![ClothChoice::default()],
+            second: Second::default(),
+        }
+    }
+}
+
+impl Chosen {
+    fn wanted(&self) -> Wanted {
+        Wanted {
+            base: self.base.clone(),
+            cloths: self.cloths.clone(),
+            is_one_sided: self.second == Second::Beside,
+        }
+    }
+
+    /// What was changed to get here.
+    fn step_from(&self, before: &Self) -> &'static str {
+        let textiles = |chosen: &Self| -> Vec<_> {
+            let cloths = chosen.cloths.iter();
+            cloths.map(|cloth| cloth.textile.clone()).collect()
+        };
+        match () {
+            () if self.base != before.base => "scene",
+            () if self.cloths.len() != before.cloths.len() => "cloths side by side",
+            () if textiles(self) != textiles(before) => "textile",
+            () if self.second != before.second => "second finger",
+            () => "figures of the cloth",
+        }
+    }
+}
+
+/// What the pane shows how. Never undoable.
+#[derive(Debug, Default)]
+pub(crate) struct Look {
+    pub(crate) camera: Camera,
+    pub(crate) shows_strain: bool,
+    /// The largest strain since the cloth was hung, rounded up.
+    pub(crate) strain_top: f32,
+    /// The instant that is looked back at, s; the cloth waits meanwhile.
+    pub(crate) looked_at_s: Option<f64>,
+    /// The cloth whose figures the sliders change.
+    pub(crate) cloth: usize,
+}
+
+/// The tool.
+#[derive(Default)]
+pub(crate) struct Draping {
+    pub(crate) chosen: Chosen,
+    pub(crate) look: Look,
+    pub(crate) hands: Hands,
+    pub(crate) motion: Motion,
+    history: History<Chosen, &'static str>,
+    /// What was asked for last.
+    wanted: Arc<Wanted>,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Chosen::default().wanted()
+    }
+}
+
+impl Draping {
+    /// Changes what is chosen, as a step.
+    pub(crate) fn change(&mut self, moment: Moment, change: impl FnOnce(&mut Self)) {
+        let before = self.chosen.clone();
+        change(self);
+        if self.chosen != before {
+            let step = self.chosen.step_from(&before);
+            self.history.begin(&before, step, step, moment);
+            self.look.cloth = self.look.cloth.min(self.chosen.cloths.len() - 1);
+        }
+    }
+
+    /// Hangs another scene's cloth in place of all.
+    pub(crate) fn hang(&mut self, base: Base) {
+        self.chosen.base = base;
+        self.chosen.cloths = vec![ClothChoice::default()];
+        self.look = Look {
+            camera: self.look.camera,
+            shows_strain: self.look.shows_strain,
+            ..Look::default()
+        };
+        self.hands = Hands::default();
+    }
+
+    /// Lets the scene go on: to be called while the pane is in sight.
+    fn follow(&mut self, bench: &Bench) {
+        let wanted = self.chosen.wanted();
+        if *self.wanted != wanted {
+            self.wanted = Arc::new(wanted);
+        }
+        self.hands.take_read(bench);
+        self.take_answers();
+        if self.look.looked_at_s.is_some() {
+            return;
+        }
+        let lead = self
+            .hands
+            .lead(&self.motion, self.chosen.second, &bench.ctx);
+        self.motion.follow(bench, &self.wanted, lead);
+        self.take_answers();
+    }
+
+    /// Takes what has come of the motion.
+    fn take_answers(&mut self) {
+        self.motion.poll();
+        self.hands.meet(&self.motion, self.chosen.second);
+    }
+
+    /// A textile of a library as it is hung.
+    pub(crate) fn textile(bench: &Bench, key: &str) -> OtherTextile {
+        let view = &bench.library.view;
+        let library = &view.shelf_of(key).library;
+        let name = view.item(key).map(|item| item.name.clone());
+        OtherTextile {
+            key: key.to_owned(),
+            name: name.unwrap_or_else(|| key.to_owned()),
+            id: plain_id(key).to_owned(),
+            library: (!library.is_shipped()).then(|| library.root()),
+        }
+    }
+
+    /// The last seconds, to be drawn.
+    pub(crate) fn seconds(&self) -> Seconds<'_> {
+        let facts = &self.motion.facts;
+        Seconds {
+            samples: &self.motion.samples,
+            frames: &self.motion.frames,
+            titles: facts
+                .cloths
+                .iter()
+                .map(|cloth| cloth.title.as_str())
+                .collect(),
+            n_fingers: facts.hands.len(),
+            looked_at_s: self.look.looked_at_s,
+        }
+    }
+
+    fn origin(&self) -> Origin {
+        let program = selvedge_foundation::PROGRAM;
+        let file = self.chosen.base.name();
+        let origin = Origin::default()
+            .and("program", program, program)
+            .and("file", &file, &file);
+        let cloths = self.motion.facts.cloths.iter();
+        cloths.fold(origin, |origin, cloth| {
+            let words = format!("{}, {}", cloth.title, cloth.stepping);
+            origin.and("cloth", &words, &words)
+        })
+    }
+}
+
+impl Tool for Draping {
+    fn panes(&self) -> &'static [Pane] {
+        &[Pane::Drape]
+    }
+
+    fn logic(&mut self, _bench: &mut Bench) {
+        if self.motion.is_under_way() {
+            self.take_answers();
+        }
+    }
+
+    fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.follow(context.bench);
+        let moment = context.bench.pointer.moment;
+        framed(ui, 10, |ui| {
+            self.change(moment, |draping| view::show(ui, draping, context));
+        });
+    }
+
+    fn command(&mut self, command: &Command, bench: &mut Bench) {
+        let Command::File(FileCommand::Use(purpose, path)) = command else {
+            return;
+        };
+        match purpose {
+            Purpose::OpenDrape => self.change(bench.pointer.moment, |draping| {
+                draping.hang(Base::File(path.clone()));
+            }),
+            Purpose::OpenHands => self.hands.read(path, &self.motion.facts, bench),
+            Purpose::SaveHands => return self.hands.save(path, bench),
+            _ => return,
+        }
+        bench.commands.push(ShowCommand::Reveal(Pane::Drape).into());
+    }
+
+    fn steps(&self, _bench: &Bench) -> Option<StepList> {
+        Some(self.history.steps(&self.chosen))
+    }
+
+    fn step_to(&mut self, n_done: usize, _bench: &mut Bench) {
+        self.history.step_to(n_done, &mut self.chosen);
+        self.look.cloth = self.look.cloth.min(self.chosen.cloths.len() - 1);
+    }
+
+    fn export(&mut self, _pane: Pane, _bench: &mut Bench) -> Result<Exported, &'static str> {
+        let seconds = self.seconds();
+        let sheet = seconds.columns();
+        if sheet.n_rows() == 0 {
+            return Err(NOTHING);
+        }
+        let rows = seconds
+            .charts()
+            .into_iter()
+            .map(|chart| row(chart, CHART_PX));
+        let note = "A simulated cloth; forces on the hand, energy of cloth and fingers. Broken \
+                    lines: the second finger.";
+        let title = "Hanging cloth under two fingers".to_owned();
+        Ok(Exported::new(
+            title,
+            sheet,
+            rows.collect(),
+            note,
+            self.origin(),
+        ))
+    }
+
+    fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {
+        match (&self.chosen.base, purpose) {
+            (Base::File(path), Purpose::OpenDrape) => Some(path.clone()),
+            (_, Purpose::OpenHands | Purpose::SaveHands) => self.hands.file.clone(),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! The cloths' motion as the window knows it: what was asked for, what came of it lately, and how
+//! fast that goes beside life.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::bench::{Bench, FRAME};
+use crate::tools::drape::hung::{Answer, Ask, Facts, Frame, Lead, Sample, Wanted};
+use crate::tools::drape::stepper::Stepper;
+
+/// The most time that is asked for at once, s: who is slower is slower than life.
+const MAX_ASK_S: f64 = 0.05;
+/// Asks that may be under way: the next waits while one is done.
+const MAX_ASKS: u32 = 2;
+/// What is remembered, s.
+const KEPT_S: f64 = 20.0;
+/// Over what time the pace is told, s, and below which share of life it is.
+const PACE_S: f64 = 1.0;
+const SLOW: f64 = 0.95;
+
+/// The motion.
+#[derive(Default)]
+pub(crate) struct Motion {
+    stepper: Stepper,
+    pub(crate) facts: Arc<Facts>,
+    /// The last seconds.
+    pub(crate) frames: VecDeque<Arc<Frame>>,
+    pub(crate) samples: VecDeque<Sample>,
+    pub(crate) n_restarts: u64,
+    /// Those of what came last.
+    n_restarted: u64,
+    n_asked: u32,
+    /// What was asked for last, while nothing more comes of it.
+    rests_with: Option<(Arc<Wanted>, Vec<selvedge_drape::Hand>)>,
+    is_resting: bool,
+    pub(crate) is_over: bool,
+    pace: Pace,
+}
+
+/// How much time passed in the window and in the scene.
+#[derive(Debug, Default)]
+struct Pace {
+    asked_at_s: Option<f64>,
+    /// Of each ask: when, how long after the one before, for how much.
+    asks: VecDeque<[f64; 3]>,
+}
+
+impl Motion {
+    /// Hangs everything anew: at rest, fingers where they are led first.
+    pub(crate) fn restart(&mut self) {
+        self.n_restarts += 1;
+        self.is_over = false;
+    }
+
+    /// Takes what came; says whether that was anything.
+    pub(crate) fn poll(&mut self) -> bool {
+        let mut came = false;
+        while let Some(answer) = self.stepper.poll() {
+            self.take(answer);
+            came = true;
+        }
+        came
+    }
+
+    /// Lets the scene go on by the time since it was last asked to, if anything comes of that.
+    pub(crate) fn follow(&mut self, bench: &Bench, wanted: &Arc<Wanted>, lead: Lead) {
+        let ctx = &bench.ctx;
+        if matches!(self.stepper, Stepper::Idle) {
+            match Stepper::start(ctx, bench.is_stepped()) {
+                Ok(stepper) => self.stepper = stepper,
+                Err(error) => return self.refuse(format!("no thread: {error}; try again")),
+            }
+        }
+        let hands = match &lead {
+            Lead::Towards(hands) => hands.clone(),
+            Lead::Along(_) => Vec::new(),
+        };
+        let is_same = self.rests_with.as_ref() == Some(&(Arc::clone(wanted), hands.clone()));
+        let is_still = self.is_resting || self.is_over && hands.is_empty();
+        if is_same && is_still && self.n_asked == 0 && self.n_restarts == self.n_restarted {
+            self.pace = Pace::default();
+            return;
+        }
+        ctx.request_repaint_after(FRAME);
+        if self.n_asked == MAX_ASKS {
+            return;
+        }
+        let for_s = self.pace.grant(ctx.input(|input| input.time));
+        self.rests_with = Some((Arc::clone(wanted), hands));
+        self.n_asked += 1;
+        let answer = self.stepper.ask(Ask {
+            wanted: Arc::clone(wanted),
+            lead,
+            for_s,
+            n_restarts: self.n_restarts,
+        });
+        if let Some(answer) = answer {
+            self.take(answer);
+        }
+    }
+
+    fn take(&mut self, answer: Answer) {
+        self.n_asked = self.n_asked.saturating_sub(1);
+        let begins_anew = self
+            .frames
+            .back()
+            .is_some_and(|last| answer.frame.t_s < last.t_s);
+        if self.n_restarted != answer.n_restarts || begins_anew {
+            self.n_restarted = answer.n_restarts;
+            self.frames.clear();
+            self.samples.clear();
+        }
+        let from_s = answer.frame.t_s - KEPT_S;
+        self.facts = answer.facts;
+        self.is_resting = answer.is_asleep;
+        self.is_over = answer.is_over;
+        self.frames.push_back(answer.frame);
+        self.samples.extend(answer.samples);
+        while self.frames.front().is_some_and(|frame| frame.t_s < from_s) {
+            self.frames.pop_front();
+        }
+        while self
+            .samples
+            .front()
+            .is_some_and(|sample| sample.t_s < from_s)
+        {
+            self.samples.pop_front();
+        }
+    }
+
+    fn refuse(&mut self, why: String) {
+        self.facts = Arc::new(Facts {
+            refused: Some(why),
+            ..Facts::default()
+        });
+    }
+
+    /// Whether something is still to come.
+    pub(crate) fn is_under_way(&self) -> bool {
+        self.n_asked > 0
+    }
+
+    /// The instant at a time, or the last one.
+    pub(crate) fn frame_at(&self, t_s: Option<f64>) -> Option<&Arc<Frame>> {
+        let Some(t_s) = t_s else {
+            return self.frames.back();
+        };
+        let after = self.frames.partition_point(|frame| frame.t_s <= t_s);
+        self.frames.get(after.saturating_sub(1))
+    }
+
+    /// How fast it goes beside life, if slower.
+    pub(crate) fn slower_than_life(&self) -> Option<f64> {
+        let [passed_s, granted_s] = self
+            .pace
+            .asks
+            .iter()
+            .fold([0.0; 2], |sum, ask| [sum[0] + ask[1], sum[1] + ask[2]]);
+        let share = granted_s / passed_s;
+        (passed_s > 0.5 * PACE_S && share < SLOW).then_some(share)
+    }
+}
+
+impl Pace {
+    /// How much time passes in the scene by now.
+    fn grant(&mut self, now_s: f64) -> f64 {
+        let passed_s = self.asked_at_s.map_or(0.0, |asked_s| now_s - asked_s);
+        self.asked_at_s = Some(now_s);
+        let for_s = passed_s.clamp(0.0, MAX_ASK_S);
+        self.asks.push_back([now_s, passed_s, for_s]);
+        while self.asks.front().is_some_and(|ask| ask[0] < now_s - PACE_S) {
+            self.asks.pop_front();
+        }
+        for_s
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_is_asked_seldom_is_slower_than_life_and_told_so() {
+        let mut motion = Motion::default();
+        for nth in 0..40 {
+            motion.pace.grant(f64::from(nth) * 0.033);
+        }
+        assert_eq!(motion.slower_than_life(), None);
+        for nth in 1..20 {
+            let for_s = motion.pace.grant(1.3 + f64::from(nth) * 0.1);
+            assert!(for_s <= MAX_ASK_S);
+        }
+        let share = motion.slower_than_life().unwrap();
+        assert!((share - 0.5).abs() < 0.01, "{share}");
+    }
+}

@@ -1,0 +1,397 @@
+//! Cloths in motion, on a thread of their own: the window asks for some time to pass and goes on;
+//! what came of it is there in a later frame.
+//!
+//! One thing is asked for at a time, so that nothing piles up: who cannot keep up runs slower than
+//! life. Reads no clock: the same asks give the same answers.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use eframe::egui;
+
+use crate::tools::drape::hung::{
+    Answer, Ask, Base, ClothChoice, ClothFacts, ClothFrame, Facts, Frame, Lead, Sample, Wanted,
+};
+use selvedge_drape::{Drape, DrapeError, DrapeScene, Hand, HandPath};
+use selvedge_foundation::numerics::{to_single, to_whole};
+use selvedge_foundation::quantity::with_unit;
+use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
+use selvedge_render::scene::TICKS_PER_S;
+
+/// What of a step counts as one that is still to be taken.
+const SLACK: f64 = 1e-6;
+
+/// Who steps.
+#[derive(Default)]
+pub(crate) enum Stepper {
+    /// Nobody yet.
+    #[default]
+    Idle,
+    /// This thread, so that a picture is the same every time.
+    AtOnce(Box<Hanging>),
+    /// One of its own.
+    Thread(SyncSender<Ask>, Receiver<Answer>),
+}
+
+impl Stepper {
+    /// Begins a thread, or none where time is simulated.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub(crate) fn start(ctx: &egui::Context, is_stepped: bool) -> std::io::Result<Self> {
+        if is_stepped {
+            return Ok(Self::AtOnce(Box::default()));
+        }
+        let (asks, asked) = sync_channel::<Ask>(1);
+        let (answered, answers) = sync_channel(1);
+        let ctx = ctx.clone();
+        let steps = move || {
+            let mut hanging = Hanging::default();
+            while let Ok(ask) = asked.recv() {
+                if answered.send(hanging.answer(&ask)).is_err() {
+                    return;
+                }
+                ctx.request_repaint();
+            }
+        };
+        let name = "selvedge-drape".to_owned();
+        thread::Builder::new().name(name).spawn(steps)?;
+        Ok(Self::Thread(asks, answers))
+    }
+
+    /// Asks for something, while nothing else is asked for; what is done at once is there at once.
+    pub(crate) fn ask(&mut self, ask: Ask) -> Option<Answer> {
+        match self {
+            Self::Idle => None,
+            Self::AtOnce(hanging) => Some(hanging.answer(&ask)),
+            Self::Thread(asks, _) => {
+                // Whoever asks one thing at a time finds room.
+                drop(asks.try_send(ask));
+                None
+            }
+        }
+    }
+
+    /// What has come of it.
+    pub(crate) fn poll(&self) -> Option<Answer> {
+        match self {
+            Self::Thread(_, answers) => answers.try_recv().ok(),
+            _ => None,
+        }
+    }
+}
+
+/// A cloth with what its contactors are given.
+struct Rig {
+    choice: ClothChoice,
+    facts: ClothFacts,
+    /// As it came to rest; `None` once its laws are others.
+    rest: Option<Drape>,
+    drape: Drape,
+    renderer: Option<ArrayRenderer>,
+    n_ticks: u64,
+    amplitudes_um: Vec<[Option<[f64; 2]>; 24]>,
+}
+
+/// All that hangs.
+#[derive(Default)]
+pub(crate) struct Hanging {
+    wanted: Option<Arc<Wanted>>,
+    base: Option<(Base, bool)>,
+    rigs: Vec<Rig>,
+    facts: Arc<Facts>,
+    hands: Vec<Hand>,
+    n_restarts: u64,
+    t_s: f64,
+    /// Steps since a time, s: multiples of a step are those of the command to the last bit.
+    since: (f64, u64),
+    /// What was asked for and is less than a step, s.
+    owed_s: f64,
+}
+
+impl Hanging {
+    fn answer(&mut self, ask: &Ask) -> Answer {
+        let is_new = self.wanted.as_ref() != Some(&ask.wanted);
+        if is_new {
+            let refused = self.hang(&ask.wanted, &ask.lead).err();
+            self.wanted = Some(Arc::clone(&ask.wanted));
+            self.since = (self.t_s, 0);
+            self.tell(refused.map(|error| error.to_string()));
+        }
+        if self.n_restarts != ask.n_restarts {
+            self.n_restarts = ask.n_restarts;
+            self.restart(&ask.lead);
+        }
+        let mut samples = Vec::new();
+        if let Err(error) = self.step(ask, &mut samples) {
+            self.tell(Some(error.to_string()));
+        }
+        let is_over = match &ask.lead {
+            Lead::Towards(_) => false,
+            Lead::Along(path) => self.t_s + self.step_s() > length_s(path) + SLACK,
+        };
+        Answer {
+            facts: Arc::clone(&self.facts),
+            frame: Arc::new(self.frame()),
+            samples,
+            n_restarts: self.n_restarts,
+            is_asleep: self.rigs.iter().all(|rig| rig.drape.is_asleep()),
+            is_over,
+        }
+    }
+
+    /// Hangs what is wanted; what hangs already takes up other figures where it is.
+    fn hang(&mut self, wanted: &Wanted, lead: &Lead) -> Result<(), DrapeError> {
+        let base = (wanted.base.clone(), wanted.is_one_sided);
+        let is_other = self.base.as_ref() != Some(&base);
+        let n_before = self.rigs.len();
+        let mut made = false;
+        if is_other || wanted.cloths.len() != n_before {
+            let rigs = wanted.cloths.iter();
+            let rigs = rigs.map(|choice| Rig::new(&wanted.base, choice, wanted.is_one_sided));
+            // What hangs stays until all of the new does.
+            (self.rigs, made) = (rigs.collect::<Result<_, _>>()?, true);
+            self.base = Some(base);
+        } else {
+            for (rig, choice) in self.rigs.iter_mut().zip(&wanted.cloths) {
+                if rig.choice.textile != choice.textile {
+                    *rig = Rig::new(&wanted.base, choice, wanted.is_one_sided)?;
+                    made = true;
+                } else if rig.choice.changes != choice.changes {
+                    rig.refit(choice)?;
+                }
+            }
+        }
+        if made {
+            let start = self.rigs.first().map(|rig| rig.drape.start_hands());
+            let start = start.unwrap_or_default();
+            if self.hands.len() != start.len() {
+                self.hands = start;
+            }
+            self.restart(lead);
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, refused: Option<String>) {
+        let start = self.rigs.first().map(|rig| rig.drape.start_hands());
+        self.facts = Arc::new(Facts {
+            cloths: self.rigs.iter().map(|rig| rig.facts.clone()).collect(),
+            hands: start.unwrap_or_default(),
+            refused,
+        });
+    }
+
+    /// Every cloth at rest, fingers where they are led first; those that follow a hand are open, so
+    /// that each is on its own side of the cloth.
+    fn restart(&mut self, lead: &Lead) {
+        match lead {
+            Lead::Along(path) => path.at(path.span_s()[0], &mut self.hands),
+            Lead::Towards(hands) => {
+                if hands.len() == self.hands.len() {
+                    self.hands.clone_from(hands);
+                }
+                let starts = self.rigs.first().map(|rig| rig.drape.start_hands());
+                for (hand, start) in self.hands.iter_mut().zip(starts.unwrap_or_default()) {
+                    hand.opening_mm = hand.opening_mm.max(start.opening_mm);
+                }
+            }
+        }
+        (self.t_s, self.since, self.owed_s) = (0.0, (0.0, 0), 0.0);
+        for rig in &mut self.rigs {
+            rig.restart(&self.hands);
+        }
+    }
+
+    /// The longest step of any cloth, s.
+    fn step_s(&self) -> f64 {
+        let steps = self.rigs.iter().map(|rig| rig.drape.step_s());
+        steps.fold(SLACK, f64::max)
+    }
+
+    fn step(&mut self, ask: &Ask, samples: &mut Vec<Sample>) -> Result<(), DrapeError> {
+        let step_s = self.step_s();
+        let (start_s, from) = (self.t_s, self.hands.clone());
+        self.owed_s += ask.for_s;
+        if let Lead::Along(path) = &ask.lead {
+            self.owed_s = self.owed_s.min(length_s(path) - start_s);
+        }
+        let n_steps: u64 = to_whole((self.owed_s / step_s + SLACK).floor().max(0.0));
+        self.owed_s -= n_steps as f64 * step_s;
+        for nth in 1..=n_steps {
+            self.since.1 += 1;
+            let t_s = self.since.0 + self.since.1 as f64 * step_s;
+            match &ask.lead {
+                // Who does not know the fingers yet leads none.
+                Lead::Towards(to) if to.len() != from.len() => {}
+                Lead::Towards(to) => self.hands = between(&from, to, nth as f64 / n_steps as f64),
+                Lead::Along(path) => path.at(path.span_s()[0] + t_s, &mut self.hands),
+            }
+            let mut rows = Vec::new();
+            for rig in &mut self.rigs {
+                rig.step_until(t_s, &self.hands, &mut rows)?;
+            }
+            self.t_s = t_s;
+            samples.push(Sample { t_s, rows });
+        }
+        Ok(())
+    }
+
+    fn frame(&self) -> Frame {
+        Frame {
+            t_s: self.t_s,
+            hands: self.hands.clone(),
+            cloths: self.rigs.iter().map(Rig::frame).collect(),
+        }
+    }
+}
+
+impl Rig {
+    fn new(base: &Base, choice: &ClothChoice, is_one_sided: bool) -> Result<Self, DrapeError> {
+        let scene = match base {
+            Base::Shipped => DrapeScene::shipped()?,
+            Base::File(path) => DrapeScene::read(path)?,
+        };
+        let unchanged = match &choice.textile {
+            Some(other) => scene.of_other_textile(&other.id, other.library.as_deref())?,
+            None => scene,
+        };
+        let unchanged = if is_one_sided {
+            unchanged.on_one_side()
+        } else {
+            unchanged
+        };
+        let scene = unchanged.with_figures(&choice.changes)?;
+        let drape = Drape::new(&scene, None, None)?;
+        let (renderer, silent) = match renderer(&scene) {
+            Ok(renderer) => (Some(renderer), None),
+            Err(why) => (None, Some(why)),
+        };
+        let title = choice.textile.as_ref().map(|other| other.name.clone());
+        let key = choice.textile.as_ref().map(|other| other.key.clone());
+        let facts = ClothFacts {
+            title: title.unwrap_or_else(|| scene.name().to_owned()),
+            key: key.or_else(|| scene.textile().map(str::to_owned)),
+            stepping: stepping(&drape),
+            scene,
+            unchanged,
+            silent,
+        };
+        let n_fingers = drape.start_hands().len();
+        Ok(Self {
+            choice: choice.clone(),
+            facts,
+            rest: Some(drape.clone()),
+            drape,
+            renderer,
+            n_ticks: 0,
+            amplitudes_um: vec![[None; 24]; n_fingers],
+        })
+    }
+
+    fn refit(&mut self, choice: &ClothChoice) -> Result<(), DrapeError> {
+        let scene = self.facts.unchanged.with_figures(&choice.changes)?;
+        self.drape.refit(&scene)?;
+        self.facts.stepping = stepping(&self.drape);
+        self.facts.scene = scene;
+        self.choice = choice.clone();
+        self.rest = None;
+        Ok(())
+    }
+
+    fn restart(&mut self, hands: &[Hand]) {
+        let rest = self.rest.take();
+        // A cloth that comes to no rest with its new figures goes on from where it is.
+        let rest = rest.or_else(|| Drape::new(&self.facts.scene, None, None).ok());
+        if let Some(rest) = &rest {
+            self.drape = rest.clone();
+        }
+        self.rest = rest;
+        self.n_ticks = 0;
+        self.amplitudes_um.fill([None; 24]);
+        self.drape.place(hands);
+    }
+
+    /// Goes on to a time; the row of each finger after the last step.
+    fn step_until(
+        &mut self,
+        t_s: f64,
+        hands: &[Hand],
+        rows: &mut Vec<[f64; 9]>,
+    ) -> Result<(), DrapeError> {
+        while self.drape.t_s() < t_s - 0.5 * self.drape.step_s() {
+            self.drape.step(hands)?;
+            self.tick();
+        }
+        let [energy_j, _] = self.drape.energy_j();
+        rows.extend((0..hands.len().max(1)).map(|nth| self.drape.force_row(nth, energy_j)));
+        Ok(())
+    }
+
+    /// Renders the tick of the displays that a step has come to, if it has.
+    fn tick(&mut self) {
+        let next = (self.n_ticks + 1) as f64 / TICKS_PER_S;
+        let Some(renderer) = &mut self.renderer else {
+            return;
+        };
+        if self.drape.t_s() < next - SLACK {
+            return;
+        }
+        self.n_ticks += 1;
+        let mut contacts = [None; 24];
+        for (finger, amplitudes) in self.amplitudes_um.iter_mut().enumerate() {
+            self.drape.tick_contacts(finger, &mut contacts);
+            let frame = renderer.touch((finger, 0), &contacts);
+            let felt = frame.map_or(&[][..], |frame| frame.amplitudes_um());
+            amplitudes.fill(None);
+            for ((amplitude, contact), felt) in amplitudes.iter_mut().zip(&contacts).zip(felt) {
+                *amplitude = contact.is_some().then(|| felt.map(f64::from));
+            }
+        }
+    }
+
+    fn frame(&self) -> ClothFrame {
+        let pads: Vec<_> = self.drape.pads().collect();
+        ClothFrame {
+            grid: self.drape.grid(),
+            size_mm: self.facts.scene.size_mm(),
+            places_mm: self
+                .drape
+                .places_mm()
+                .map(|place| place.map(to_single))
+                .collect(),
+            fingers: (0..pads.len()).map(|nth| self.drape.finger(nth)).collect(),
+            pads,
+            amplitudes_um: self.amplitudes_um.clone(),
+        }
+    }
+}
+
+fn renderer(scene: &DrapeScene) -> Result<ArrayRenderer, String> {
+    let flat = scene.render_scene().map_err(|error| error.to_string())?;
+    let prepared = ArrayRenderer::prepare(&flat, Method::Auto, &Accuracy::default());
+    prepared.map_err(|error| error.to_string())
+}
+
+fn stepping(drape: &Drape) -> String {
+    let (integrator, why) = drape.integrator();
+    let step = with_unit(1e3 * drape.step_s(), 3, "ms");
+    format!("{} at {step}: {why}", integrator.name())
+}
+
+fn length_s(path: &HandPath) -> f64 {
+    let [start_s, end_s] = path.span_s();
+    end_s - start_s
+}
+
+fn between(from: &[Hand], to: &[Hand], share: f64) -> Vec<Hand> {
+    let mix = |a: f64, b: f64| a + (b - a) * share;
+    let hands = from.iter().zip(to);
+    hands
+        .map(|(from, to)| Hand {
+            centre_mm: [0, 1, 2].map(|axis| mix(from.centre_mm[axis], to.centre_mm[axis])),
+            opening_mm: mix(from.opening_mm, to.opening_mm),
+        })
+        .collect()
+}
