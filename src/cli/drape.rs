@@ -270,7 +270,7 @@ impl ForcesOut {
 
     /// The next millisecond up to a time, s.
     fn next_between(&mut self, to_s: f64) -> Option<f64> {
-        let t_s = (self.tick + 1) as f64 * Drape::FEELS_EVERY_S;
+        let t_s = (self.tick + 1) as f64 / Drape::FEELS_EVERY_S.recip();
         let is_due = self.is_between && t_s <= to_s + LAST_STEP_SLACK * Drape::FEELS_EVERY_S;
         self.tick += u64::from(is_due);
         is_due.then_some(t_s)

@@ -181,6 +181,7 @@ mod tests {
 
     /// What is spread is the transposed of what is read: the forces' work is the differences'.
     #[test]
+    #[expect(clippy::too_many_lines, reason = "one check of four stencils")]
     fn forces_are_spread_as_differences_are_taken() {
         for n in [[2, 2], [2, 5], [7, 4]] {
             let mesh = Mesh::new(n, [0.06, 0.04], 0.2, &Pins::None).unwrap();
