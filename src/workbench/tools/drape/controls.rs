@@ -12,8 +12,8 @@ use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{button, quiet_pairs, row, toggle, toggles};
 use crate::tools::drape::grasp::OPENINGS_MM;
-use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile};
-use crate::tools::drape::{Draping, MAX_CLOTHS, Second};
+use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile, Second};
+use crate::tools::drape::{Draping, MAX_CLOTHS};
 use selvedge_foundation::quantity::fixed;
 
 /// Room for the name of a field, points.

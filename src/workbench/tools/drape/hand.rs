@@ -7,9 +7,8 @@ use eframe::egui;
 
 use crate::bench::Bench;
 use crate::bench::background::{Task, finished};
-use crate::tools::drape::Second;
 use crate::tools::drape::grasp::Grasp;
-use crate::tools::drape::hung::{Facts, Frame, Lead};
+use crate::tools::drape::hung::{Facts, Frame, Lead, Second};
 use crate::tools::drape::motion::Motion;
 use selvedge_drape::{Hand, HandPath};
 use selvedge_foundation::files::write_atomic;

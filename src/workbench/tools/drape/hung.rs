@@ -47,6 +47,18 @@ pub(crate) struct ClothChoice {
     pub(crate) changes: Vec<(&'static str, f64)>,
 }
 
+/// Where the second finger is, and what leads it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Second {
+    /// On the other side, doing what the first does.
+    #[default]
+    Mirrored,
+    /// Beside the first, on its side.
+    Beside,
+    /// On the other side, along the recorded path.
+    Recorded,
+}
+
 /// All that hangs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Wanted {

@@ -13,11 +13,13 @@ mod controls;
 mod grasp;
 mod hand;
 mod hung;
+mod look;
 mod motion;
 mod paint;
 mod stepper;
 #[cfg(test)]
 mod tests;
+mod touch;
 mod view;
 
 use std::path::PathBuf;
@@ -33,10 +35,10 @@ use crate::bench::library_shelf::plain_id;
 use crate::bench::pane::Pane;
 use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
-use crate::tools::drape::camera::Camera;
 use crate::tools::drape::chart::Seconds;
 use crate::tools::drape::hand::Hands;
-use crate::tools::drape::hung::{Base, ClothChoice, OtherTextile, Wanted};
+use crate::tools::drape::hung::{Base, ClothChoice, OtherTextile, Second, Wanted};
+use crate::tools::drape::look::Look;
 use crate::tools::drape::motion::Motion;
 
 /// Most cloths side by side.
@@ -45,18 +47,6 @@ pub(crate) const MAX_CLOTHS: usize = 5;
 const CHART_PX: f64 = 200.0;
 /// Why there is nothing to export.
 const NOTHING: &str = "There is nothing to export yet: touch the cloth in the Drape pane";
-
-/// Where the second finger is, and what leads it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Second {
-    /// On the other side, doing what the first does.
-    #[default]
-    Mirrored,
-    /// Beside the first, on its side.
-    Beside,
-    /// On the other side, along the recorded path.
-    Recorded,
-}
 
 /// What was chosen: every change is a step that can be taken back.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,19 +90,6 @@ impl Chosen {
             () => "figures of the cloth",
         }
     }
-}
-
-/// What the pane shows how. Never undoable.
-#[derive(Debug, Default)]
-pub(crate) struct Look {
-    pub(crate) camera: Camera,
-    pub(crate) shows_strain: bool,
-    /// The largest strain since the cloth was hung, rounded up.
-    pub(crate) strain_top: f32,
-    /// The instant that is looked back at, s; the cloth waits meanwhile.
-    pub(crate) looked_at_s: Option<f64>,
-    /// The cloth whose figures the sliders change.
-    pub(crate) cloth: usize,
 }
 
 /// The tool.
