@@ -136,7 +136,7 @@ fn keys_do_all_that_the_pointer_does() {
     desk.press(Modifiers::NONE, Key::ArrowUp);
     desk.press(Modifiers::SHIFT, Key::ArrowRight);
     desk.press(Modifiers::COMMAND, Key::ArrowDown);
-    desk.press(Modifiers::NONE, Key::Minus);
+    desk.press(Modifiers::NONE, Key::OpenBracket);
     let after = tool(&mut desk).hands.grasp.clone().unwrap();
     let moved = [0, 1, 2].map(|axis| after.centre_mm[axis] - before.centre_mm[axis]);
     assert!(moved.iter().all(|mm| (mm - 2.0).abs() < 1e-9), "{moved:?}");

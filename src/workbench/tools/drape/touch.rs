@@ -102,7 +102,7 @@ fn turn(ui: &Ui, response: &Response, (look, hands): (&mut Look, &mut Hands)) {
 }
 
 /// Arrows move, with Shift they shift the fingers against each other, with Alt they turn the view;
-/// plus and minus open and close, Enter closes or lets go.
+/// brackets open and close, Enter closes or lets go.
 fn move_by_keys(ui: &Ui, response: &Response, (look, hands): (&mut Look, &mut Hands)) {
     let filter = EventFilter {
         horizontal_arrows: true,
@@ -131,8 +131,9 @@ fn move_by_keys(ui: &Ui, response: &Response, (look, hands): (&mut Look, &mut Ha
     if by.iter().any(|mm| mm.abs() > 0.0) {
         grasp.move_by(by);
     }
-    let wider = presses(Modifiers::NONE, Key::Plus) + presses(Modifiers::NONE, Key::Equals);
-    grasp.open_by(KEY_MM * (wider - presses(Modifiers::NONE, Key::Minus)));
+    // Plus and minus are the workspace's.
+    let wider = presses(Modifiers::NONE, Key::CloseBracket);
+    grasp.open_by(KEY_MM * (wider - presses(Modifiers::NONE, Key::OpenBracket)));
     if presses(Modifiers::NONE, Key::Enter) > 0.0 {
         grasp.is_held = !grasp.is_held;
     }

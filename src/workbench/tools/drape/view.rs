@@ -244,7 +244,7 @@ fn spoken(frame: &Frame) -> String {
     });
     let cloths: Vec<String> = cloths.collect();
     format!(
-        "{}. Arrows move the grasp, plus and minus open and close",
+        "{}. Arrows move the grasp, brackets open and close",
         cloths.join(". ")
     )
 }
