@@ -144,7 +144,8 @@ impl Cloth {
         cloth
     }
 
-    /// Puts fingers where they are wanted, at rest.
+    /// Puts fingers where they are wanted, at rest; those that would have to be behind the cloth
+    /// stand before it.
     pub(crate) fn place_fingers(&mut self, targets: &[Vector]) {
         let n_cloth = self.system.sheet.mesh.n_vertices();
         for (nth, (finger, target)) in self.system.fingers.iter_mut().zip(targets).enumerate() {
@@ -152,6 +153,8 @@ impl Cloth {
                 finger.target = *target;
                 self.x[n_cloth + nth] = *target;
                 self.v[n_cloth + nth] = Vector::zeros();
+                let cleared = finger.cleared(&self.system.sheet.mesh, &self.x);
+                self.x[n_cloth + nth] = cleared.unwrap_or(*target);
             }
         }
         self.restart();

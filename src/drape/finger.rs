@@ -114,6 +114,16 @@ impl Finger {
         self.coupling = Coupling::new(hand, lag.hat[self.node], lag.sigma);
     }
 
+    /// Where its pad begins to touch on its own side, if it stands just behind the cloth.
+    pub(crate) fn cleared(&self, mesh: &Mesh, x: &[Vector]) -> Option<Vector> {
+        let apex = x[self.node];
+        let below = find(mesh, x, apex, None)?;
+        let normal = below.normal * self.own_side;
+        let gap = normal.dot(&(apex - below.at(x)));
+        let is_behind = gap <= 0.0 && gap > -2.0 * REACH_M;
+        is_behind.then(|| apex + normal * (self.half_thickness_m - gap))
+    }
+
     /// Finds what it touches; says whether that is anything.
     pub(crate) fn look(&mut self, mesh: &Mesh, x: &[Vector]) -> bool {
         let apex = x[self.node];

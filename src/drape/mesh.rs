@@ -7,6 +7,7 @@
 use nalgebra::Vector3;
 
 use super::DrapeError;
+use selvedge_foundation::files::Flaw;
 
 /// A place, velocity or force.
 pub(crate) type Vector = Vector3<f64>;
@@ -42,6 +43,23 @@ pub(crate) enum Pins {
     #[cfg(test)]
     Ends,
     None,
+}
+
+impl Pins {
+    /// Those of the key `pins` in a scene.
+    pub(crate) fn named(word: Option<&str>) -> Result<Self, Flaw> {
+        match word {
+            None | Some("top") => Ok(Self::Top),
+            Some("corners") => Ok(Self::Corners),
+            Some("frame") => Ok(Self::Frame),
+            Some("none") => Ok(Self::None),
+            Some(word) => {
+                let mend = "give \"top\", \"corners\", \"frame\" or \"none\"";
+                let what = format!("the pins are \"{word}\"");
+                Err(Flaw::new(("", 0, "pins"), what, mend))
+            }
+        }
+    }
 }
 
 impl Pins {

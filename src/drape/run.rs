@@ -372,6 +372,23 @@ mod tests {
     }
 
     #[test]
+    fn a_hand_that_starts_closed_has_its_fingers_on_their_own_sides() {
+        let scene = DrapeScene::shipped().unwrap();
+        let mut drape = Drape::new(&scene, None, None).unwrap();
+        let mut hands = drape.start_hands();
+        for hand in &mut hands {
+            hand.opening_mm = -4.0;
+        }
+        drape.place(&hands);
+        for _ in 0..300 {
+            drape.step(&hands).unwrap();
+        }
+        let pushed = [0, 1].map(|finger| drape.finger(finger).force_n[2]);
+        assert!(pushed[0] > 0.1 && pushed[1] < -0.1, "{pushed:?}");
+        assert!((pushed[0] + pushed[1]).abs() < 0.05, "{pushed:?}");
+    }
+
+    #[test]
     fn a_step_allocates_nothing_with_whatever_method() {
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");

@@ -206,7 +206,7 @@ impl DrapeScene {
             }
             Some(GridKey::Vertices(vertices)) => Some(vertices),
         };
-        let pins = pins_of(keys.pins.as_deref())?;
+        let pins = Pins::named(keys.pins.as_deref())?;
         let named: Result<Integrator, String> =
             keys.integrator.as_deref().unwrap_or("auto").parse();
         let integrator = named
@@ -386,20 +386,6 @@ impl FingerSpec {
     pub(crate) fn target(&self, centre_mm: [f64; 3], opening_mm: f64) -> Vector {
         let [x_mm, y_mm, z_mm] = centre_mm;
         Vector::new(x_mm, y_mm, z_mm + self.side * 0.5 * opening_mm) * 1e-3
-    }
-}
-
-fn pins_of(word: Option<&str>) -> Result<Pins, Flaw> {
-    match word {
-        None | Some("top") => Ok(Pins::Top),
-        Some("corners") => Ok(Pins::Corners),
-        Some("frame") => Ok(Pins::Frame),
-        Some("none") => Ok(Pins::None),
-        Some(word) => {
-            let mend = "give \"top\", \"corners\", \"frame\" or \"none\"";
-            let what = format!("the pins are \"{word}\"");
-            Err(Flaw::new(("", 0, "pins"), what, mend))
-        }
     }
 }
 
