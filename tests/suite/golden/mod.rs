@@ -18,7 +18,7 @@ mod windows;
 use std::path::Path;
 
 /// Every folder of references, each with one test that makes them.
-const GROUPS: [&str; 25] = [
+const GROUPS: [&str; 26] = [
     "charts/panes",
     "charts/sheets",
     "commands/devices",
@@ -34,6 +34,7 @@ const GROUPS: [&str; 25] = [
     "commands/report-and-bridge",
     "pictures/analysis",
     "pictures/armed",
+    "pictures/drape",
     "pictures/felt",
     "pictures/friction",
     "pictures/made",

@@ -19,8 +19,8 @@ fn look_at_every_pane(harness: &mut Harness<'_, Workbench>) {
         let before = drawn(harness, title);
         let front = match title {
             "Drive spectrum" => Some("Contact spectrum"),
-            "Textile lab" | "Import" | "Picture" | "Friction" | "Collection" | "Participant"
-            | "Study builder" | "Study board" | "Analysis" => Some("Workspace"),
+            "Textile lab" | "Import" | "Picture" | "Friction" | "Drape" | "Collection"
+            | "Participant" | "Study builder" | "Study board" | "Analysis" => Some("Workspace"),
             "Experimenter" => Some("Bridge"),
             "Recordings" => Some("Library"),
             "Levels" => Some("Tuning"),
