@@ -152,11 +152,13 @@ pub(super) fn holds(fine: &Basis, coarse: &Basis) -> bool {
 /// The lattices of small index around one.
 fn around(basis: &Basis) -> impl Iterator<Item = Basis> {
     (2..=10_isize).flat_map(move |index| {
+        let part = |vector: Place| vector.map(|px| px / index as f64);
+        let parts = Basis::new(part(basis.p1), part(basis.p2));
         let steps = (1..index * index).map(move |n| [n % index, n / index]);
         steps.filter_map(move |step| {
             let rows = generated(&[[index, 0], [0, index], step])?;
             let is_of_index = rows[0][0] * rows[1][1] == index;
-            is_of_index.then(|| coarser_by(basis, rows, 1.0 / index as f64))
+            is_of_index.then(|| parts.coarser(rows))
         })
     })
 }
@@ -174,11 +176,6 @@ fn are_maxima(evidence: &Evidence<'_>, fine: &Basis, basis: &Basis) -> bool {
     let is_maximum = |place: &&Place| evidence.maxima.nearest(**place, tolerance).is_some();
     let n_hit = new.iter().filter(is_maximum).count();
     !new.is_empty() && n_hit as f64 >= MIN_HITS * new.len() as f64
-}
-
-fn coarser_by(basis: &Basis, rows: Rows, scale: f64) -> Basis {
-    let at = |[i, j]: [isize; 2]| basis.place([scale * i as f64, scale * j as f64]);
-    Basis::new(at(rows[0]), at(rows[1])).reduced()
 }
 
 const ITSELF: Rows = [[1, 0], [0, 1]];
@@ -212,7 +209,7 @@ fn coarsened(evidence: &Evidence<'_>, threads: Basis) -> Repeat {
     let as_good = found.iter().filter(|one| one.2.share >= 0.97 * most);
     let chosen = as_good.min_by_key(|one| index(one.1));
     Repeat {
-        basis: chosen.map_or(threads, |one| coarser_by(&threads, one.1, 1.0)),
+        basis: chosen.map_or(threads, |one| threads.coarser(one.1)),
         explained: chosen.map_or_else(|| heights.explained(ITSELF, reach, false), |one| one.2),
         stands_out: chosen.is_some(),
     }

@@ -182,19 +182,17 @@ impl Lattice {
         };
         let candidates = candidates(&evidence, directions)?;
         let (first, method) = candidates[0];
-        let mut starts: Vec<Basis> = Vec::new();
-        for (candidate, _) in &candidates {
-            for basis in [finer(&evidence, candidate.basis), candidate.basis] {
-                let is_known = |known: &Basis| known.distance_to(&basis) < 0.08 * known.shorter();
-                if starts.len() < N_STARTS && !starts.iter().any(is_known) {
-                    starts.push(basis);
-                }
-            }
-        }
-        let by_heights = coarser(&evidence, finer(&evidence, first.basis));
+        let finest = finer(&evidence, first.basis);
+        let starts = starts(&evidence, finest, &candidates);
+        let by_heights = coarser(&evidence, finest);
         let repeat = held_out::repeat(&evidence, &starts);
-        let (basis, agreement) = agreed(&evidence, by_heights, repeat.as_ref());
-        let [explained, apart] = held_out::explained(&evidence, &basis);
+        let before = held_out::explained(&evidence, &by_heights);
+        let (basis, agreement) = agreed(by_heights, &before[0], repeat.as_ref());
+        let [explained, apart] = if agreement == Agreement::Predicted {
+            held_out::explained(&evidence, &basis)
+        } else {
+            before
+        };
         if first.score() < MIN_SCORE && explained.share < MIN_EXPLAINED_OF_POOR {
             return Err(NoLattice::NotResolved {
                 score: first.score(),
@@ -229,6 +227,28 @@ impl Lattice {
     }
 }
 
+/// Lattices in which threads are looked for: the best candidates, each made finer and as it is.
+fn starts(
+    evidence: &Evidence<'_>,
+    finest: Basis,
+    candidates: &[(Candidate, Method)],
+) -> Vec<Basis> {
+    let mut starts = vec![finest];
+    for (nth, (candidate, _)) in candidates.iter().enumerate() {
+        let made = (nth > 0).then(|| finer(evidence, candidate.basis));
+        for basis in made.into_iter().chain([candidate.basis]) {
+            let is_known = |known: &Basis| known.distance_to(&basis) < 0.08 * known.shorter();
+            if !starts.iter().any(is_known) {
+                starts.push(basis);
+            }
+            if starts.len() == N_STARTS {
+                return starts;
+            }
+        }
+    }
+    starts
+}
+
 /// How the two ways to the repeat of a weave agree: by heights of maxima, and by what is predicted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Agreement {
@@ -256,11 +276,7 @@ impl Agreement {
 }
 
 /// The lattice that is to be believed, and why.
-fn agreed(
-    evidence: &Evidence<'_>,
-    by_heights: Basis,
-    repeat: Option<&Repeat>,
-) -> (Basis, Agreement) {
+fn agreed(by_heights: Basis, before: &HeldOut, repeat: Option<&Repeat>) -> (Basis, Agreement) {
     let Some(repeat) = repeat else {
         return (by_heights, Agreement::Heights);
     };
@@ -268,7 +284,6 @@ fn agreed(
     if by_heights.distance_to(&basis) < 0.12 * basis.shorter() {
         return (by_heights, Agreement::Same);
     }
-    let [before, _] = held_out::explained(evidence, &by_heights);
     let is_better = |factor: f64, of: &HeldOut| {
         repeat.explained.share >= factor * of.share
             && repeat.explained.n_neighbours >= MIN_NEIGHBOURS
@@ -276,9 +291,9 @@ fn agreed(
     let is_coarser = held_out::holds(&by_heights, &basis);
     let takes = repeat.stands_out
         && if is_coarser {
-            is_better(MIN_GAIN_OF_COARSER, &before)
+            is_better(MIN_GAIN_OF_COARSER, before)
         } else {
-            before.n_neighbours >= MIN_NEIGHBOURS && is_better(MIN_GAIN_OF_OTHER, &before)
+            before.n_neighbours >= MIN_NEIGHBOURS && is_better(MIN_GAIN_OF_OTHER, before)
         };
     if takes {
         (basis, Agreement::Predicted)
