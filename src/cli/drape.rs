@@ -12,14 +12,13 @@ use super::render_out::{AMPLITUDE_COLUMNS, write_amplitudes};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
 use selvedge_drape::{
-    Drape, DrapeCounters, DrapeError, DrapeScene, Hand, HandPath, Integrator, test_fabric,
+    Drape, DrapeCounters, DrapeError, DrapeScene, Felt, Hand, HandPath, Integrator, test_fabric,
 };
 use selvedge_foundation::files::to_json_string;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
 use selvedge_foundation::quantity::fixed;
 use selvedge_render::MaterialContact;
-use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::TICKS_PER_S;
 
 const PATH_HELP: &str =
@@ -197,52 +196,39 @@ fn follow(
 /// What the contactors are given at every tick of their displays.
 struct AmplitudesOut {
     table: TableOut,
-    renderer: ArrayRenderer,
+    felt: Felt,
     textiles: Vec<String>,
-    n_fingers: usize,
-    tick: u64,
 }
 
 impl AmplitudesOut {
     fn new(path: &Path, scene: &DrapeScene) -> Result<Self, CliError> {
-        let rendered = scene.render_scene()?;
         Ok(Self {
-            n_fingers: rendered.displays.len(),
-            renderer: ArrayRenderer::prepare(&rendered, Method::Auto, &Accuracy::default())?,
+            felt: Felt::new(scene)?,
             table: TableOut::new(Some(path), &AMPLITUDE_COLUMNS)?,
             textiles: scene.surfaces().map(str::to_owned).collect(),
-            tick: 0,
         })
     }
 
-    /// Renders the tick that a step has come to, if it has.
+    /// Writes the tick that a step has come to, if it has.
     fn take(&mut self, drape: &mut Drape) -> Result<(), CliError> {
-        if drape.t_s() < (self.tick + 1) as f64 / TICKS_PER_S - 1e-9 {
-            return Ok(());
-        }
-        self.tick += 1;
-        let mut contacts = [None; 24];
-        for display in 0..self.n_fingers {
-            drape.tick_contacts(display, &mut contacts);
-            let surface = drape.surface(display);
-            let textile = self.textiles.get(surface).map_or("", String::as_str);
-            let Some(frame) = self.renderer.touch((display, surface), &contacts) else {
-                continue;
-            };
-            for (contactor, contact) in contacts.iter().enumerate() {
-                let rows = self.table.rows();
-                rows.number(self.tick).number(drape.t_s());
-                rows.number(display).number(contactor);
+        let (t_s, table) = (drape.t_s(), &mut self.table);
+        let textiles = &self.textiles;
+        self.felt.take(drape, |felt| {
+            let textile = textiles.get(felt.surface).map_or("", String::as_str);
+            for (contactor, contact) in felt.contacts.iter().enumerate() {
+                let rows = table.rows();
+                rows.number(felt.tick).number(t_s);
+                rows.number(felt.finger).number(contactor);
                 if let Some(MaterialContact { place_mm, .. }) = contact {
                     rows.number(place_mm[0]).number(place_mm[1]).text(textile);
                 } else {
                     rows.text("").text("").text("");
                 }
-                write_amplitudes(&mut self.table, frame, contactor);
-                self.table.rows().end_row()?;
+                write_amplitudes(table, felt.frame, contactor);
+                table.rows().end_row()?;
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::pad::contactors;
 use super::run::Drape;
 use super::{DrapeError, DrapeScene};
+use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
 use selvedge_render::scene::{
     ArrayLayout, Display, Geometry, LoadedScene, PlacedTextile, Scene, TICKS_PER_S,
 };
@@ -17,7 +18,7 @@ impl DrapeScene {
     ///
     /// # Errors
     /// The scene names no textile, or it cannot be loaded.
-    pub fn render_scene(&self) -> Result<RenderScene, DrapeError> {
+    pub(crate) fn render_scene(&self) -> Result<RenderScene, DrapeError> {
         if self.textile().is_none() {
             let mend = "name a textile in the scene";
             return Err(DrapeError::input("the cloth has no surface to feel", mend));
@@ -46,11 +47,89 @@ impl DrapeScene {
     }
 }
 
+/// What the contactors of a scene's fingers are given, tick by tick of their displays.
+#[derive(Debug)]
+pub struct Felt {
+    renderer: ArrayRenderer,
+    n_fingers: usize,
+    tick: u64,
+}
+
+/// What the contactors of a finger are given at a tick.
+#[derive(Debug, Clone, Copy)]
+pub struct FeltTick<'a> {
+    /// Number of the tick, from 1.
+    pub tick: u64,
+    /// Whose.
+    pub finger: usize,
+    /// Which of the scene's surfaces it touches.
+    pub surface: usize,
+    /// What each contactor touches.
+    pub contacts: &'a [Option<MaterialContact>; 24],
+    /// What it is given.
+    pub frame: &'a DisplayFrame,
+}
+
+impl Felt {
+    /// Prepares the textiles of a scene.
+    ///
+    /// # Errors
+    /// The scene names no textile, or it cannot be loaded.
+    pub fn new(scene: &DrapeScene) -> Result<Self, DrapeError> {
+        let flat = scene.render_scene()?;
+        Ok(Self {
+            n_fingers: flat.displays.len(),
+            renderer: ArrayRenderer::prepare(&flat, Method::Auto, &Accuracy::default())?,
+            tick: 0,
+        })
+    }
+
+    /// The next tick is that of a cloth at its start.
+    pub fn restart(&mut self) {
+        self.tick = 0;
+    }
+
+    /// Renders the tick that a step has come to, if it has, and tells what each finger is given.
+    ///
+    /// # Errors
+    /// Those of `each`.
+    pub fn take<E>(
+        &mut self,
+        drape: &mut Drape,
+        mut each: impl FnMut(FeltTick<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if drape.t_s() < (self.tick + 1) as f64 / TICKS_PER_S - 1e-9 {
+            return Ok(());
+        }
+        self.tick += 1;
+        let mut contacts = [None; 24];
+        for finger in 0..self.n_fingers {
+            drape.tick_contacts(finger, &mut contacts);
+            let surface = drape.surface(finger);
+            let Some(frame) = self.renderer.touch((finger, surface), &contacts) else {
+                continue;
+            };
+            each(FeltTick {
+                tick: self.tick,
+                finger,
+                surface,
+                contacts: &contacts,
+                frame,
+            })?;
+        }
+        Ok(())
+    }
+}
+
 impl Drape {
     /// What each contactor of a finger touches at a tick of its display, with how far it slipped
     /// since the tick before: exactly still where friction holds it. `None` where it is off the
     /// cloth or presses with less than 50 Pa.
-    pub fn tick_contacts(&mut self, finger: usize, contacts: &mut [Option<MaterialContact>; 24]) {
+    pub(crate) fn tick_contacts(
+        &mut self,
+        finger: usize,
+        contacts: &mut [Option<MaterialContact>; 24],
+    ) {
         contacts.fill(None);
         let Some(points) = self.points(finger) else {
             return;

@@ -58,6 +58,7 @@ mod xpbd;
 pub use cloth::DrapeCounters;
 pub use error::DrapeError;
 pub use fabric::Fabric;
+pub use felt::{Felt, FeltTick};
 pub use hands::{Hand, HandPath};
 pub use integrator::Integrator;
 pub use run::{Drape, FingerRow, Pad};

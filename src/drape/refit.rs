@@ -63,7 +63,7 @@ impl DrapeScene {
     /// A textile that is unknown, or whose figures are.
     pub fn of_other_textile(&self, id: &str, library: Option<&Path>) -> Result<Self, DrapeError> {
         let mut scene = self.with_laws(kes::of_textile(id, library)?, self.fabric.friction)?;
-        scene.textile = Some(id.to_owned());
+        (scene.textile, scene.back) = (Some(id.to_owned()), None);
         scene.library_folder = library.map(Path::to_owned);
         Ok(scene)
     }

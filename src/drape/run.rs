@@ -238,7 +238,7 @@ impl Drape {
     }
 
     /// Which of the scene's surfaces a finger touches: 0, or 1 where the back is one of its own.
-    pub fn surface(&self, finger: usize) -> usize {
+    pub(crate) fn surface(&self, finger: usize) -> usize {
         let finger = self.cloth.fingers().get(finger);
         usize::from(self.has_back && finger.is_some_and(Finger::is_behind))
     }

@@ -26,7 +26,7 @@ pub struct DrapeScene {
     name: String,
     pub(crate) textile: Option<String>,
     /// The textile of its back, if that is another.
-    back: Option<String>,
+    pub(crate) back: Option<String>,
     /// Where its library is; `None` is that of the program.
     pub(crate) library_folder: Option<PathBuf>,
     size_mm: [f64; 2],

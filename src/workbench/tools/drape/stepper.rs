@@ -13,11 +13,9 @@ use eframe::egui;
 use crate::tools::drape::hung::{
     Answer, Ask, Base, ClothChoice, ClothFacts, ClothFrame, Facts, Frame, Lead, Sample, Wanted,
 };
-use selvedge_drape::{Drape, DrapeError, DrapeScene, Hand, HandPath};
+use selvedge_drape::{Drape, DrapeError, DrapeScene, Felt, Hand, HandPath};
 use selvedge_foundation::numerics::{to_single, to_whole};
 use selvedge_foundation::quantity::with_unit;
-use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
-use selvedge_render::scene::TICKS_PER_S;
 
 /// What of a step counts as one that is still to be taken.
 const SLACK: f64 = 1e-6;
@@ -89,8 +87,7 @@ struct Rig {
     /// As it came to rest; `None` once its laws are others.
     rest: Option<Drape>,
     drape: Drape,
-    renderer: Option<ArrayRenderer>,
-    n_ticks: u64,
+    felt: Option<Felt>,
     amplitudes_um: Vec<[Option<[f64; 2]>; 24]>,
 }
 
@@ -264,9 +261,9 @@ impl Rig {
         };
         let scene = unchanged.with_figures(&choice.changes)?;
         let drape = Drape::new(&scene, None, None)?;
-        let (renderer, silent) = match renderer(&scene) {
-            Ok(renderer) => (Some(renderer), None),
-            Err(why) => (None, Some(why)),
+        let (felt, silent) = match Felt::new(&scene) {
+            Ok(felt) => (Some(felt), None),
+            Err(why) => (None, Some(why.to_string())),
         };
         let title = choice.textile.as_ref().map(|other| other.name.clone());
         let key = choice.textile.as_ref().map(|other| other.key.clone());
@@ -284,8 +281,7 @@ impl Rig {
             facts,
             rest: Some(drape.clone()),
             drape,
-            renderer,
-            n_ticks: 0,
+            felt,
             amplitudes_um: vec![[None; 24]; n_fingers],
         })
     }
@@ -308,7 +304,7 @@ impl Rig {
             self.drape = rest.clone();
         }
         self.rest = rest;
-        self.n_ticks = 0;
+        self.felt.iter_mut().for_each(Felt::restart);
         self.amplitudes_um.fill([None; 24]);
         self.drape.place(hands);
     }
@@ -329,26 +325,18 @@ impl Rig {
         Ok(())
     }
 
-    /// Renders the tick of the displays that a step has come to, if it has.
+    /// What contactors are given once a step has come to the next tick of their displays.
     fn tick(&mut self) {
-        let next = (self.n_ticks + 1) as f64 / TICKS_PER_S;
-        let Some(renderer) = &mut self.renderer else {
+        let (Some(felt), all) = (&mut self.felt, &mut self.amplitudes_um) else {
             return;
         };
-        if self.drape.t_s() < next - SLACK {
-            return;
-        }
-        self.n_ticks += 1;
-        let mut contacts = [None; 24];
-        for (finger, amplitudes) in self.amplitudes_um.iter_mut().enumerate() {
-            self.drape.tick_contacts(finger, &mut contacts);
-            let frame = renderer.touch((finger, 0), &contacts);
-            let felt = frame.map_or(&[][..], |frame| frame.amplitudes_um());
-            amplitudes.fill(None);
-            for ((amplitude, contact), felt) in amplitudes.iter_mut().zip(&contacts).zip(felt) {
-                *amplitude = contact.is_some().then(|| felt.map(f64::from));
+        let Ok(()) = felt.take(&mut self.drape, |felt| {
+            let given = felt.contacts.iter().zip(felt.frame.amplitudes_um());
+            for (amplitude, (contact, given)) in all[felt.finger].iter_mut().zip(given) {
+                *amplitude = contact.is_some().then(|| given.map(f64::from));
             }
-        }
+            Ok::<(), std::convert::Infallible>(())
+        });
     }
 
     fn frame(&self) -> ClothFrame {
@@ -366,12 +354,6 @@ impl Rig {
             amplitudes_um: self.amplitudes_um.clone(),
         }
     }
-}
-
-fn renderer(scene: &DrapeScene) -> Result<ArrayRenderer, String> {
-    let flat = scene.render_scene().map_err(|error| error.to_string())?;
-    let prepared = ArrayRenderer::prepare(&flat, Method::Auto, &Accuracy::default());
-    prepared.map_err(|error| error.to_string())
 }
 
 fn stepping(drape: &Drape) -> String {
