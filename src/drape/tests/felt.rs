@@ -1,6 +1,6 @@
 //! What a display is given on a cloth that hangs, against the same cloth lying flat.
 
-use crate::{Drape, DrapeScene, Hand};
+use crate::{Drape, DrapeError, DrapeScene, Felt, FeltTick, Hand};
 use selvedge_foundation::geometry::{Point, Velocity};
 use selvedge_render::MaterialContact;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
@@ -49,6 +49,18 @@ fn a_finger_behind_feels_the_textile_of_the_back() {
     assert_eq!(scene.render_scene().unwrap().textiles.len(), 2);
     let mut drape = Drape::new(&scene, None, None).unwrap();
     assert_eq!([0, 1].map(|finger| drape.surface(finger)), [0, 1]);
+    let (mut felt, mut touched) = (Felt::new(&scene).unwrap(), Vec::new());
+    let mut before = drape.clone();
+    let hands = before.start_hands();
+    while before.t_s() < 0.03 {
+        before.step(&hands).unwrap();
+        let tell = |tick: FeltTick<'_>| {
+            touched.push((tick.tick, tick.finger, tick.surface));
+            Ok::<(), DrapeError>(())
+        };
+        felt.take(&mut before, tell).unwrap();
+    }
+    assert_eq!(touched[..2], [(1, 0, 0), (1, 1, 1)], "{touched:?}");
     // Past the edge to the other side, the first one comes from behind.
     for (x_mm, z_mm, expected) in [(-60.0, 10.0, 0), (-60.0, -10.0, 0), (30.0, -10.0, 1)] {
         let hand = Hand {

@@ -139,18 +139,13 @@ impl Motion {
 
     /// Moves a cloth to the end; how long that took.
     fn run(&self, drape: &mut Drape, n_steps: usize) -> Result<Timing, ReportError> {
-        let (start, start_s) = (Instant::now(), thread_cpu_seconds());
-        for _ in 0..n_steps {
-            let hands = Self::hands(drape.t_s() + drape.step_s());
-            drape.step(&hands[..self.sample.n_fingers])?;
-        }
-        let cpu_s = (thread_cpu_seconds() - start_s) / self.seconds;
-        Ok(Timing {
-            cpu_s,
-            cpu_quartiles_s: [cpu_s; 2],
-            wall_s: start.elapsed().as_secs_f64() / self.seconds,
-            n_repeats: 1,
-        })
+        let ((), timing) = timed_once(self.seconds, || {
+            (0..n_steps).try_for_each(|_| {
+                let hands = Self::hands(drape.t_s() + drape.step_s());
+                drape.step(&hands[..self.sample.n_fingers])
+            })
+        })?;
+        Ok(timing)
     }
 
     /// The cloth at the start, in so many steps to the end as come near to a step's length.
@@ -254,12 +249,7 @@ fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
     let finest: Vec<[f64; 3]> = hung(finest_n)?.places_mm().collect();
     let (mut rows, mut errors) = (Vec::new(), Vec::new());
     for n in &grids[..grids.len() - 1] {
-        let (start_s, start) = (thread_cpu_seconds(), Instant::now());
-        let drape = hung(*n)?;
-        let (cpu_s, wall_s) = (
-            thread_cpu_seconds() - start_s,
-            start.elapsed().as_secs_f64(),
-        );
+        let (drape, cost) = timed_once(1.0, || hung(*n))?;
         let every = (finest_n - 1) / (n - 1);
         let apart = drape.places_mm().enumerate().map(|(vertex, place)| {
             let [i, j] = [vertex % n, vertex / n].map(|at| at * every);
@@ -267,12 +257,6 @@ fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
         });
         let error = rms(&apart.collect::<Vec<f64>>());
         errors.push(error);
-        let cost = Timing {
-            cpu_s,
-            cpu_quartiles_s: [cpu_s; 2],
-            wall_s,
-            n_repeats: 1,
-        };
         let row = Row::of("rest", format!("{n}²"), "in an upright frame, K 1e1 N/m");
         rows.push(row.error(error).cost(cost).size((n * n) as f64));
     }
@@ -281,6 +265,20 @@ fn rest(effort: Effort) -> Result<(Vec<Row>, String), ReportError> {
         .windows(2)
         .map(|pair| number((pair[0] / pair[1]).log2()));
     Ok((rows, orders.collect::<Vec<String>>().join(" and ")))
+}
+
+/// What work comes to, and what it costs a unit: long work that is done once.
+fn timed_once<T, E>(n_units: f64, work: impl FnOnce() -> Result<T, E>) -> Result<(T, Timing), E> {
+    let (start_s, start) = (thread_cpu_seconds(), Instant::now());
+    let done = work()?;
+    let cpu_s = (thread_cpu_seconds() - start_s) / n_units;
+    let timing = Timing {
+        cpu_s,
+        cpu_quartiles_s: [cpu_s; 2],
+        wall_s: start.elapsed().as_secs_f64() / n_units,
+        n_repeats: 1,
+    };
+    Ok((done, timing))
 }
 
 /// What a second of a cloth at rest costs, awake and asleep.
@@ -297,18 +295,10 @@ fn sleep() -> Result<(Vec<Row>, String), ReportError> {
     for (method, skipped, n_steps) in [("awake", 0, 400), ("asleep", 400, 400)] {
         (0..skipped).try_for_each(|_| drape.step(&hands))?;
         let before = drape.counters().asleep;
-        let (start_s, start) = (thread_cpu_seconds(), Instant::now());
-        (0..n_steps).try_for_each(|_| drape.step(&hands))?;
         let seconds = f64::from(n_steps) * drape.step_s();
-        let cpu_s = (thread_cpu_seconds() - start_s) / seconds;
-        let wall_s = start.elapsed().as_secs_f64() / seconds;
-        costs.push(cpu_s);
-        let cost = Timing {
-            cpu_s,
-            cpu_quartiles_s: [cpu_s; 2],
-            wall_s,
-            n_repeats: 1,
-        };
+        let steps = || (0..n_steps).try_for_each(|_| drape.step(&hands));
+        let ((), cost) = timed_once(seconds, steps)?;
+        costs.push(cost.cpu_s);
         let row = Row::of(method, "bdf2, 1 ms", "rest, 26², shirting").cost(cost);
         rows.push(row.with("steps_asleep", drape.counters().asleep - before));
     }

@@ -145,18 +145,21 @@ impl Drawing {
     /// Its brightness on `n` × `n` pixels, each the mean of 3 × 3 places, about 0 and of spread 1.
     /// `moved` says which place of the cloth lies at a place of the picture.
     pub(super) fn drawn(&self, n: usize, moved: impl Fn(Place) -> Place) -> Grid<f64> {
-        let mut grid = Grid::filled(n, n, 0.0);
-        for row in 0..n {
-            for (column, value) in grid.row_mut(row).iter_mut().enumerate() {
-                for part in 0..9_u8 {
-                    let [i, j] = [part % 3, part / 3].map(|i| (f64::from(i) - 1.0) / 3.0);
-                    *value += self.at(moved([column as f64 + i, row as f64 + j]));
-                }
-            }
-        }
+        let mut grid = of_nine(n, |place| self.at(moved(place)));
         standardised(&mut grid);
         grid
     }
+}
+
+/// Sums of 3 × 3 places of each of `n` × `n` pixels.
+pub(super) fn of_nine(n: usize, at: impl Fn(Place) -> f64) -> Grid<f64> {
+    Grid::from_fn(n, n, |column, row| {
+        let parts = (0..9_u8).map(|part| {
+            let [i, j] = [part % 3, part / 3].map(|i| (f64::from(i) - 1.0) / 3.0);
+            at([column as f64 + i, row as f64 + j])
+        });
+        parts.sum()
+    })
 }
 
 /// Brings values to a mean of 0 and a standard deviation of 1.

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+use super::drawings::of_nine;
 use super::spoilt::{blurred, compressed, in_8_bits};
 use super::woven::{APERIODIC, Cloth, WEAVES, aperiodic};
 use super::{RIGHT, analysed, share_off};
@@ -70,15 +71,7 @@ impl Taken {
             let down = (turns * x + phases[1]).sin();
             [x + amplitude_px * across, y + amplitude_px * down]
         };
-        let mut sharp = Grid::filled(n, n, 0.0);
-        for row in 0..n {
-            for (column, value) in sharp.row_mut(row).iter_mut().enumerate() {
-                for part in 0..9_u8 {
-                    let [i, j] = [part % 3, part / 3].map(|i| (f64::from(i) - 1.0) / 3.0);
-                    *value += cloth.at(moved([column as f64 + i, row as f64 + j])) / 9.0;
-                }
-            }
-        }
+        let sharp = of_nine(n, |place| cloth.at(moved(place))).map(|sum| sum / 9.0);
         self.seen(&sharp, random)
     }
 

@@ -296,7 +296,8 @@ fn patches(n: usize, random: &mut Random) -> Grid<f64> {
     let patch = |random: &mut Random| [side, side, 1.0].map(|most| random.uniform_in(0.0, most));
     let n_patches = whole(random.uniform_in(200.0, 700.0));
     let patches: Vec<[f64; 3]> = (0..n_patches).map(|_| patch(random)).collect();
-    drawn(n, |[x, y]| {
+    Grid::from_fn(n, n, |column, row| {
+        let [x, y] = [column, row].map(|at| at as f64);
         let distance = |p: &&[f64; 3]| (p[0] - x).powi(2) + (p[1] - y).powi(2);
         let nearest = patches
             .iter()
@@ -319,23 +320,14 @@ fn random_threads(n: usize, random: &mut Random) -> Grid<f64> {
         let one = |[at, most]: &[f64; 2]| most * (-0.5 * ((x - at) / 1.6).powi(2)).exp();
         threads.iter().map(one).sum()
     };
-    drawn(n, |[x, y]| bright(&ends, x) + bright(&picks, y))
-}
-
-fn drawn(n: usize, value: impl Fn(Place) -> f64) -> Grid<f64> {
-    let mut picture = Grid::filled(n, n, 0.0);
-    for row in 0..n {
-        for (column, at) in picture.row_mut(row).iter_mut().enumerate() {
-            *at = value([column as f64, row as f64]);
-        }
-    }
-    picture
+    Grid::from_fn(n, n, |column, row| {
+        bright(&ends, column as f64) + bright(&picks, row as f64)
+    })
 }
 
 /// Noise of a scale, of spread 1.
 fn soft_noise(n: usize, size_px: f64, random: &mut Random) -> Grid<f64> {
-    let mut noise = Grid::filled(n, n, 0.0);
-    noise.values_mut().fill_with(|| random.normal());
+    let noise = Grid::from_fn(n, n, |_, _| random.normal());
     let mut soft = blurred(&noise, size_px);
     standardised(&mut soft);
     soft
