@@ -446,7 +446,15 @@ fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
         })
         .unwrap();
         match (analysis.found, expected) {
-            (Err(NoLattice::NotResolved { .. } | NoLattice::Weak { .. }), None) => {}
+            (
+                Err(
+                    NoLattice::NotResolved { .. }
+                    | NoLattice::Weak { .. }
+                    | NoLattice::NotPredicted { .. }
+                    | NoLattice::OneDirection,
+                ),
+                None,
+            ) => {}
             (Ok(found), Some([p1, p2])) => {
                 let off = found.lattice.basis().distance_to(&Basis::new(p1, p2));
                 assert!(off < 0.4, "{name}: {:?}, off {off}", found.lattice);
