@@ -80,6 +80,8 @@ struct StatsFile<'a> {
     scene: &'a Path,
     path: &'a Path,
     n_ticks: u64,
+    /// Textiles placed of which nothing is felt on this path: their surfaces were not read.
+    unread: &'a [String],
     /// The method that made the amplitudes written.
     method: Method,
     /// Every method on this very path, the one above first.
@@ -88,11 +90,12 @@ struct StatsFile<'a> {
 
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
+    let path = ExplorationPath::read(&args.path)?;
+    let cache = selvedge_workbench::build_cache();
+    let loaded = LoadedScene::read_along(&args.scene, cache.as_ref(), &path)?;
     if let Some(changed) = loaded.changed() {
         terminal::notice(&changed);
     }
-    let path = ExplorationPath::read(&args.path)?;
     let scene = RenderScene::of(&loaded);
     let stop = signals::stop_flag()?;
     let mut sinks = Sinks::open(args, &loaded, &scene)?;
@@ -104,7 +107,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     )?;
     sinks.finish(&stop)?;
     if let Some(place) = &args.stats {
-        write_stats(args, place, &scene, &path, &first, &stop)?;
+        write_stats(args, (place, &loaded), &scene, &path, &first, &stop)?;
     }
     Ok(())
 }
@@ -149,7 +152,7 @@ type Step = Result<(), CliError>;
 /// Runs the other methods too and writes the figures of all.
 fn write_stats(
     args: &RenderArgs,
-    place: &Path,
+    (place, loaded): (&Path, &LoadedScene),
     scene: &RenderScene,
     path: &ExplorationPath,
     first: &RunStats,
@@ -168,6 +171,7 @@ fn write_stats(
         scene: &args.scene,
         path: &args.path,
         n_ticks: path.n_ticks(),
+        unread: loaded.unread(),
         method: first.method_used,
         methods,
     };

@@ -10,7 +10,7 @@ use super::{
 use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::RenderScene;
-use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
+use selvedge_render::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
 use selvedge_render::scene::{Display, LoadedScene, Pose};
 
 /// A renderer with its tables, and room for everything a tick writes. Made off the engine's thread.
@@ -31,7 +31,7 @@ struct Output {
 }
 
 impl PreparedScene {
-    /// Prepares a loaded scene: tables may take a while. The pointer starts in its middle.
+    /// Prepares a loaded scene, which takes about a millisecond. The pointer starts in its middle.
     ///
     /// # Errors
     /// What [`ArrayRenderer::prepare`] refuses.
@@ -42,23 +42,6 @@ impl PreparedScene {
     ) -> Result<Self, EngineError> {
         let (profile, start) = place_of(loaded);
         Self::from_parts(&RenderScene::of(loaded), profile, start, (method, accuracy))
-    }
-
-    /// As [`prepare`](Self::prepare), but tables that the cache holds are taken from it, and those
-    /// that are computed are left in it: for a scene that is being edited.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn prepare_cached(
-        loaded: &LoadedScene,
-        method: Method,
-        accuracy: &Accuracy,
-        cache: &mut TableCache,
-    ) -> Result<Self, EngineError> {
-        let scene = RenderScene::of(loaded);
-        let renderer = ArrayRenderer::prepare_with_cache(&scene, method, accuracy, cache)?;
-        let (profile, start) = place_of(loaded);
-        Ok(Self::around(renderer, profile, start))
     }
 
     /// Prepares a scene given as rendering sees it, for a device of this profile, with the pointer

@@ -255,7 +255,7 @@ mod tests {
     use std::ops::ControlFlow;
 
     use super::*;
-    use crate::array::{Method, TableCache};
+    use crate::array::Method;
     use crate::scene::{LoadedScene, Pose, Stroke};
     use crate::{RenderScene, replay_pair};
     use selvedge_foundation::geometry::Point;
@@ -277,8 +277,7 @@ mod tests {
             meter.add(tick, 0, frames);
             ControlFlow::Continue(())
         };
-        let cache = &mut TableCache::default();
-        let end = replay_pair([a, b], (round(), None), cache, &mut sink).unwrap();
+        let end = replay_pair([a, b], (round(), None), &mut sink).unwrap();
         assert!(end.is_continue(), "nobody stopped it");
         meter.finish()
     }
@@ -385,7 +384,7 @@ mod tests {
             ControlFlow::Break(())
         };
         let pair = [(&scene, Method::Banded), (&scene, Method::Table)];
-        let end = replay_pair(pair, (round(), None), &mut TableCache::default(), &mut sink);
+        let end = replay_pair(pair, (round(), None), &mut sink);
         assert!(end.unwrap().is_break() && n_seen == 1);
     }
 }

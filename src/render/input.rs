@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::RenderError;
-use crate::scene::LoadedScene;
+use crate::scene::{Display, LoadedScene};
 use selvedge_foundation::geometry::{Displacement, Frame, Point};
 use selvedge_textile::surface::Surface;
 use selvedge_textile::tactile::{Band, Filters, Tuning};
@@ -105,13 +105,9 @@ impl RenderScene {
             level: PlacedLevel::of(*level_db),
             surface: Arc::clone(textile.surface()),
         });
-        let displays = scene.displays.iter().map(|display| ContactorArray {
-            offsets: display.geometry.contactors(),
-            rotation_deg: display.rotation_deg,
-        });
         Self {
             textiles: textiles.collect(),
-            displays: displays.collect(),
+            displays: scene.displays.iter().map(ContactorArray::of).collect(),
             filters: scene.filters,
             tuning: loaded.tuning(),
             library_reference_db: loaded.library_reference_db(),
@@ -164,6 +160,13 @@ impl PlacedSurface {
 }
 
 impl ContactorArray {
+    pub(crate) fn of(display: &Display) -> Self {
+        Self {
+            offsets: display.geometry.contactors(),
+            rotation_deg: display.rotation_deg,
+        }
+    }
+
     fn is_finite(&self) -> bool {
         let is_place = |by: &Displacement| by.x_mm.is_finite() && by.y_mm.is_finite();
         self.rotation_deg.is_finite() && self.offsets.iter().all(is_place)

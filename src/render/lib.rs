@@ -24,6 +24,7 @@ mod error;
 mod error_meter;
 mod gains;
 mod input;
+mod needed;
 mod plan;
 mod replay;
 pub mod scene;

@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method, TableCache};
+use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
 use super::error_meter::ErrorMeter;
 use super::stats::{Histogram, RunStats};
 use super::{RenderError, RenderScene};
@@ -41,7 +41,8 @@ pub fn replay(
     sink: &mut FrameSink<'_>,
 ) -> Result<RunStats, RenderError> {
     let started_ns = clock_ns();
-    let mut renderer = ArrayRenderer::prepare(what.scene, what.method, &what.accuracy)?;
+    let (method, accuracy) = (what.method, &what.accuracy);
+    let mut renderer = ArrayRenderer::prepare_along(what.scene, method, accuracy, path)?;
     let prepare_ns = clock_ns().saturating_sub(started_ns);
     let mut comparison = if what.measures_error {
         Some(Comparison::prepare(what.scene, path)?)
@@ -99,20 +100,18 @@ pub(crate) type PairSink<'a> = dyn FnMut(u64, [&[DisplayFrame]; 2]) -> ControlFl
 
 /// Replays the same ticks in two scenes, each by its method, side by side: for comparing them.
 ///
-/// Displays beside the first are where a `path` has them; without one they go with it. Both use
-/// the same `cache` of tables. Says whether every tick was replayed.
+/// Displays beside the first are where a `path` has them; without one they go with it. Says whether
+/// every tick was replayed.
 ///
 /// # Errors
 /// What [`ArrayRenderer::prepare`] refuses.
 pub fn replay_pair(
     [a, b]: [(&RenderScene, Method); 2],
     (ticks, path): (impl Iterator<Item = (u64, Pose)>, Option<&ExplorationPath>),
-    cache: &mut TableCache,
     sink: &mut PairSink<'_>,
 ) -> Result<ControlFlow<()>, RenderError> {
-    let mut prepare = |(scene, method): (&RenderScene, Method)| {
-        let accuracy = Accuracy::default();
-        let renderer = ArrayRenderer::prepare_with_cache(scene, method, &accuracy, cache)?;
+    let prepare = |(scene, method): (&RenderScene, Method)| {
+        let renderer = ArrayRenderer::prepare(scene, method, &Accuracy::default())?;
         Ok::<_, RenderError>((renderer, vec![Pose::default(); scene.displays.len()]))
     };
     let (mut a, mut b) = (prepare(a)?, prepare(b)?);

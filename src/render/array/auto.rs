@@ -1,69 +1,296 @@
-//! Which method is the cheapest within an error budget.
+//! Which method is the cheapest within an error budget, preparing included.
 //!
-//! Decided from bounds known before the first tick and from counts of operations, never from a
-//! clock: the choice, and so every result, depends on the scene and the budget alone.
+//! Decided from bounds known before the first tick and from counts of what ticks will evaluate,
+//! never from a clock: the choice, and so every result, depends on the scene, the budget and the
+//! path alone. Along a path its own ticks are counted, or so many of them that the rest is like
+//! them; live, a minute of a usual stroke is.
 
-use super::table::{Grid, MAX_TABLE_BYTES, table_bytes};
+use super::table::{Grid, MAX_TABLE_BYTES, RowTable, table_bytes};
 use super::{Accuracy, ErrorBound, Method};
 use crate::RenderScene;
-use crate::plan::ScenePlan;
-use selvedge_textile::surface::N_BINS;
+use crate::plan::{Axis, Contacts, Counters, DisplayPlan, Motion, ScenePlan, finite_pose};
+use crate::scene::{ExplorationPath, PathCursor, Pose, TICKS_PER_S};
+use selvedge_foundation::numerics::{to_index, to_whole};
+use selvedge_textile::tactile::{MIN_SPEED_MM_PER_S, n_audible_bins};
 
-/// Operations (multiplications and additions, or as long) for one bin of the reference: a
-/// logarithm and an exponential for each band.
-const REFERENCE_BIN: usize = 60;
-/// Operations for one bin of a sum with gains at hand.
-const BANDED_BIN: usize = 4;
-/// Operations for one look-up, the place in the table included.
-const TABLE_LOOK_UP: usize = 12;
-/// Operations to find a speed in a table.
-const TABLE_SPEED: usize = 40;
+/// What operations cost, ns: measured once with `cargo bench --bench render` on a machine of
+/// 2.5 GHz. Only their ratios matter.
+mod ns {
+    /// A bin of the reference: a logarithm and an exponential for each band.
+    pub(super) const REFERENCE_BIN: f64 = 40.0;
+    /// Gains of both bands at a bin.
+    pub(super) const GAIN: f64 = 3.0;
+    /// A bin of a sum with gains at hand.
+    pub(super) const SUM_BIN: f64 = 1.2;
+    /// A bin of a row of a table, where points are summed together.
+    pub(super) const ROW_BIN: f64 = 0.5;
+    /// A speed: its place in tables, or where its gains begin and end.
+    pub(super) const SPEED: f64 = 30.0;
+    /// A look-up in tables.
+    pub(super) const LOOK_UP: f64 = 4.0;
+    /// Preparing a table, whatever the scene, and for each set of spectra.
+    pub(super) const TABLE: f64 = 150e3;
+    pub(super) const TABLE_OF_SPECTRA: f64 = 1e3;
+}
 
-/// The method that `method` stands for; without a grid there are no tables.
+/// How long somebody who explores is assumed to go on, ticks: a minute.
+const LIVE_TICKS: f64 = 60.0 * TICKS_PER_S;
+/// How fast, along either axis, mm/s.
+const LIVE_SPEED_MM_PER_S: f64 = 100.0;
+/// Nodes of each direction that such an exploration needs.
+const LIVE_NODES: f64 = 200.0;
+/// Most ticks of a path that are counted.
+const MAX_COUNTED: u64 = 512;
+
+/// The method that `auto` stands for, and the nodes of its tables if it has any.
 pub(super) fn resolve(
     scene: &RenderScene,
     plan: &ScenePlan,
-    (method, accuracy): (Method, &Accuracy),
-    grid: Option<&Grid>,
-) -> Method {
-    if method != Method::Auto {
-        return method;
-    }
-    let costs = costs(scene, plan);
-    let fits = |method: &Method| match method {
-        Method::Table => grid.is_some_and(|grid| {
-            grid.density.level_db <= accuracy.budget_db
-                && table_bytes(plan, grid) <= MAX_TABLE_BYTES
-        }),
-        Method::Banded => {
-            ErrorBound::of_floor(accuracy.banded_floor).level_db <= accuracy.budget_db
-        }
-        Method::Reference | Method::Auto => true,
+    accuracy: &Accuracy,
+    path: Option<&ExplorationPath>,
+) -> (Method, Option<Grid>) {
+    let work = match path {
+        Some(path) => Work::along(scene, plan, path),
+        None => Work::live(scene, plan),
     };
-    let mut by_cost = costs;
-    by_cost.sort_by_key(|&(_, n_operations)| n_operations);
-    let cheapest = by_cost.into_iter().map(|(method, _)| method).find(fits);
-    cheapest.unwrap_or(Method::Reference)
+    let mut by_cost = work.costs_ns(plan);
+    by_cost.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+    for (method, _) in by_cost {
+        match method {
+            Method::Table => {
+                let grid = Grid::new(&scene.filters, accuracy.budget_db);
+                let is_within = grid.density.level_db <= accuracy.budget_db;
+                if is_within && table_bytes(plan, &grid) <= MAX_TABLE_BYTES {
+                    return (method, Some(grid));
+                }
+            }
+            Method::Banded => {
+                let bound = ErrorBound::of_floor(accuracy.banded_floor);
+                if bound.level_db <= accuracy.budget_db {
+                    return (method, None);
+                }
+            }
+            Method::Reference | Method::Auto => break,
+        }
+    }
+    (Method::Reference, None)
 }
 
-/// Operations a tick, at most, by method: all contactors on textiles, all bins below 1 kHz.
-fn costs(scene: &RenderScene, plan: &ScenePlan) -> [(Method, usize); 3] {
-    let n_directions: usize = 2 * scene
-        .displays
-        .iter()
-        .map(|d| d.offsets.len())
-        .sum::<usize>();
-    let n_points: usize = plan.pool.iter().map(|spectra| spectra.n_points()).sum();
-    let n_distinct = n_directions.min(n_points.max(1));
-    [
-        (
-            Method::Table,
-            n_directions * TABLE_LOOK_UP + 2 * TABLE_SPEED,
-        ),
-        (
-            Method::Banded,
-            (2 * REFERENCE_BIN + n_distinct * BANDED_BIN) * N_BINS,
-        ),
-        (Method::Reference, n_directions * REFERENCE_BIN * N_BINS),
-    ]
+/// What all ticks together evaluate.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Work {
+    /// Directions of contactors that are felt.
+    n_directions: f64,
+    /// Their bins.
+    n_bins: f64,
+    /// Speeds, each of a tick told apart.
+    n_speeds: f64,
+    /// Their bins.
+    n_speed_bins: f64,
+    /// Bins of directions that no other of their tick repeats.
+    n_point_bins: f64,
+    /// Bins of the gains that nodes of tables are made with, and of the powers there.
+    n_node_bins: [f64; 2],
+}
+
+impl Work {
+    /// What each method costs, the most exact first.
+    fn costs_ns(&self, plan: &ScenePlan) -> [(Method, f64); 3] {
+        let reference = self.n_bins * ns::REFERENCE_BIN;
+        let banded = self.n_speeds * ns::SPEED
+            + self.n_speed_bins * ns::GAIN
+            + self.n_point_bins * ns::SUM_BIN;
+        let [gains, powers] = self.n_node_bins;
+        let preparing = ns::TABLE + plan.pool.len() as f64 * ns::TABLE_OF_SPECTRA;
+        let table = preparing
+            + self.n_speeds * ns::SPEED
+            + self.n_directions * ns::LOOK_UP
+            + gains * ns::GAIN
+            + powers * ns::ROW_BIN;
+        [
+            (Method::Reference, reference),
+            (Method::Banded, banded),
+            (Method::Table, table),
+        ]
+    }
+
+    /// A minute of strokes on one textile after another.
+    fn live(scene: &RenderScene, plan: &ScenePlan) -> Self {
+        let n_contactors = scene.displays.iter().map(|d| d.offsets.len()).sum::<usize>() as f64;
+        let n_points = plan.pool.iter().map(|spectra| spectra.n_points());
+        let n_points = n_points.max().unwrap_or(0) as f64;
+        let n_bins = n_audible_bins(LIVE_SPEED_MM_PER_S) as f64;
+        let n_directions = 2.0 * n_contactors * LIVE_TICKS;
+        let n_speeds = 2.0 * scene.displays.len() as f64 * LIVE_TICKS;
+        Self {
+            n_directions,
+            n_bins: n_directions * n_bins,
+            n_speeds,
+            n_speed_bins: n_speeds * n_bins,
+            n_point_bins: n_speeds * n_bins * n_contactors.min(n_points),
+            n_node_bins: [1.0, plan.pool.len() as f64 * n_points.min(64.0)]
+                .map(|n| n * LIVE_NODES * n_bins),
+        }
+    }
+
+    /// The ticks of a path.
+    fn along(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> Self {
+        let n_ticks = path.n_ticks();
+        let n_counted = n_ticks.min(MAX_COUNTED);
+        let mut count = Count::of(scene);
+        for nth in 0..n_counted {
+            count.add(plan, path, nth_counted(nth, n_ticks));
+        }
+        count.scaled(plan, n_ticks as f64 / n_counted as f64)
+    }
+}
+
+/// The nth tick to be counted: all in their order, or spread evenly over more than can be, however
+/// many and whatever repeats.
+fn nth_counted(nth: u64, n_ticks: u64) -> u64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    if n_ticks <= MAX_COUNTED {
+        return nth;
+    }
+    to_whole((nth as f64 * GOLDEN).fract() * n_ticks as f64)
+}
+
+/// A pair of neighbouring nodes that a table would need: of which spectra, of which point where each
+/// has nodes of its own, how many bins sound there, and which part of an octave it is.
+type NodePair = (usize, usize, usize, usize);
+
+/// Counting what ticks evaluate, without evaluating it.
+struct Count {
+    displays: Vec<DisplayPlan>,
+    poses: Vec<Pose>,
+    work: Work,
+    /// One for each tick and direction that needs it.
+    pairs: Vec<NodePair>,
+}
+
+impl Count {
+    /// Parts of an octave that share a pair of nodes.
+    const PARTS_PER_OCTAVE: f64 = 48.0;
+    /// Nodes to be made for a pair: its neighbours have made one of them as often as not.
+    const NODES_A_PAIR: f64 = 1.5;
+
+    fn of(scene: &RenderScene) -> Self {
+        Self {
+            displays: scene.displays.iter().map(DisplayPlan::new).collect(),
+            poses: vec![Pose::default(); scene.displays.len()],
+            work: Work::default(),
+            pairs: Vec::new(),
+        }
+    }
+
+    /// Counts a tick of a path.
+    fn add(&mut self, plan: &ScenePlan, path: &ExplorationPath, tick: u64) {
+        let Some((_, pose)) = PathCursor::at(path, tick).step(path) else {
+            return;
+        };
+        path.poses_into(&pose, &mut self.poses);
+        let counters = &mut Counters::default();
+        for (display, pose) in self.displays.iter_mut().zip(&self.poses) {
+            let Some(pose) = finite_pose(pose, counters) else {
+                continue;
+            };
+            display.begin(pose.angle_deg, counters);
+            let (work, pairs) = (&mut self.work, &mut self.pairs);
+            plan.for_each_touched(display, &pose, counters, |contacts, _| {
+                for axis in Axis::BOTH {
+                    work.add(plan, (contacts, axis), pairs);
+                }
+            });
+        }
+    }
+
+    /// The work of `factor` times as many ticks.
+    fn scaled(mut self, plan: &ScenePlan, factor: f64) -> Work {
+        let of_gains = self.pairs.iter().map(|(_, _, n_bins, part)| (0, 0, *n_bins, *part));
+        let mut of_gains: Vec<NodePair> = of_gains.collect();
+        let n_points = |(spectra, _, _, _): &NodePair| {
+            let spectra = &plan.pool[*spectra];
+            if RowTable::suits(spectra) {
+                spectra.n_points() as f64
+            } else {
+                1.0
+            }
+        };
+        let work = &self.work;
+        Work {
+            n_directions: factor * work.n_directions,
+            n_bins: factor * work.n_bins,
+            n_speeds: factor * work.n_speeds,
+            n_speed_bins: factor * work.n_speed_bins,
+            n_point_bins: factor * work.n_point_bins,
+            n_node_bins: [
+                node_bins(&mut of_gains, factor, |_| 1.0),
+                node_bins(&mut self.pairs, factor, n_points),
+            ],
+        }
+    }
+}
+
+impl Work {
+    /// Adds what contactors on a textile feel along an axis in a tick, and the nodes of tables that
+    /// it takes.
+    fn add(
+        &mut self,
+        plan: &ScenePlan,
+        (contacts, axis): (&Contacts<'_>, Axis),
+        pairs: &mut Vec<NodePair>,
+    ) {
+        let textile = &plan.textiles[contacts.textile];
+        let is_together = matches!(contacts.motion, Motion::Together(_));
+        let (mut n_speeds, mut seen) = (0.0, [0_u64; 4]);
+        for contactor in (0..contacts.owners.len()).filter(|&nth| contacts.owns(nth)) {
+            let feel = contacts.feel(textile, axis, contactor, &mut Counters::default());
+            let Some(feel) = feel else {
+                continue;
+            };
+            let n_bins = n_audible_bins(feel.speed_mm_per_s);
+            self.n_directions += 1.0;
+            self.n_bins += n_bins as f64;
+            if !is_together || n_speeds == 0.0 {
+                n_speeds += 1.0;
+                self.n_speed_bins += n_bins as f64;
+            }
+            // A display is smaller than 256 mm: no two of its points share a bit.
+            let (word, bit) = (feel.point / 64 % seen.len(), 1 << (feel.point % 64));
+            if !is_together || seen[word] & bit == 0 {
+                self.n_point_bins += n_bins as f64;
+            }
+            seen[word] |= bit;
+            let octaves = feel.speed_mm_per_s.log2() - MIN_SPEED_MM_PER_S.log2();
+            let part = to_index(octaves * Count::PARTS_PER_OCTAVE);
+            let by_row = RowTable::suits(&plan.pool[feel.spectra]);
+            let pair = (feel.spectra, if by_row { 0 } else { feel.point }, n_bins, part);
+            if pairs.last() != Some(&pair) {
+                pairs.push(pair);
+            }
+        }
+        self.n_speeds += n_speeds;
+    }
+}
+
+/// Bins of all nodes of some pairs, weighted, had there been `factor` times as many ticks: those
+/// that were seen, and as many more as Chao's (1984) estimate of unseen species has it,
+/// `f₁ (f₁ − 1)/(2 (f₂ + 1))` of those seen once and twice.
+fn node_bins(pairs: &mut [NodePair], factor: f64, weight: impl Fn(&NodePair) -> f64) -> f64 {
+    pairs.sort_unstable();
+    let (mut seen, mut once, mut n_once, mut n_twice) = (0.0, 0.0, 0.0, 0.0);
+    for alike in pairs.chunk_by(|a, b| a == b) {
+        let n_bins = alike[0].2 as f64 * weight(&alike[0]);
+        seen += n_bins;
+        match alike.len() {
+            1 => {
+                once += n_bins;
+                n_once += 1.0;
+            }
+            2 => n_twice += 1.0,
+            _ => {}
+        }
+    }
+    let more: f64 = (n_once - 1.0) / (2.0 * (n_twice + 1.0));
+    Count::NODES_A_PAIR * (seen + once * more.clamp(0.0, factor - 1.0))
 }

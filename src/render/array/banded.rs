@@ -8,7 +8,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::reference::{amplitudes_of, bin_frequency_hz, evaluate_each};
+use super::bin_gains::{self, BinGains};
+use super::reference::{amplitudes_of, evaluate_each};
 use crate::plan::{Axis, Contacts, Counters, Feel, Motion, ScenePlan};
 use selvedge_foundation::numerics::to_index;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, LocalSpectra, N_BINS};
@@ -17,7 +18,7 @@ use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, n_audible_bins}
 /// Sums the bins that matter, once for each point and speed.
 #[derive(Debug, Clone)]
 pub(super) struct BandedEvaluator {
-    filters: Filters,
+    making: BinGains,
     pool: Vec<SpectraMemo>,
     rows: [GainRow; 2],
     tick: u64,
@@ -44,7 +45,8 @@ struct GainRow {
     n_audible: usize,
     /// Slots of the bins that each band hears.
     heard: [Range<usize>; 2],
-    gains: [Vec<f64>; 2],
+    /// By slot; 0 for a band that does not hear the bin.
+    gains: Vec<[f64; 2]>,
     /// The frequencies that each band hears, Hz.
     heard_hz: [[f64; 2]; 2],
 }
@@ -60,11 +62,17 @@ impl BandedEvaluator {
             speed_mm_per_s: 0.0,
             n_audible: 0,
             heard: [0..0, 0..0],
-            gains: [vec![0.0; N_BINS], vec![0.0; N_BINS]],
+            gains: vec![[0.0; 2]; N_BINS],
             heard_hz,
         };
+        // Without a floor nothing is left out and nothing approximated: the reference to the bit.
+        let making = if floor > 0.0 {
+            BinGains::new(filters)
+        } else {
+            BinGains::exact(filters)
+        };
         Self {
-            filters: *filters,
+            making,
             pool: plan.pool.iter().map(memo).collect(),
             rows: [row(), row()],
             tick: 0,
@@ -95,7 +103,7 @@ impl BandedEvaluator {
         }
         let sums_of = |axis, feel: Feel, counters: &mut Counters| {
             let row = &mut self.rows[axis as usize];
-            row.move_to(feel.speed_mm_per_s, &self.filters, counters);
+            row.move_to(feel.speed_mm_per_s, &mut self.making, counters);
             self.pool[feel.spectra].sums(feel.point, (self.tick, row), counters)
         };
         evaluate_each((plan, contacts), factors, amplitudes_um, counters, sums_of);
@@ -120,7 +128,7 @@ impl BandedEvaluator {
                 continue;
             };
             let row = &mut self.rows[axis as usize];
-            row.move_to(speed_mm_per_s, &self.filters, counters);
+            row.move_to(speed_mm_per_s, &mut self.making, counters);
             counters.speeds_repeated += n_contactors - 1;
             let (grid, memo) = (textile.points[d], &mut self.pool[textile.spectra[d]]);
             let (tick, row) = (self.tick, &*row);
@@ -189,7 +197,7 @@ impl SpectraMemo {
         let heard = row.heard.clone();
         let heard = heard.map(|slots| slots.start.min(n_bins)..slots.end.min(n_bins));
         let n_heard = heard[0].len() + heard[1].len();
-        let sums = row.sums(powers_um2, heard);
+        let sums = row.sums(powers_um2);
         counters.directions_evaluated += 1;
         counters.bins_evaluated += n_heard as u64;
         counters.bins_below_floor += (2 * n_audible - n_heard) as u64;
@@ -201,16 +209,16 @@ impl SpectraMemo {
 impl GainRow {
     /// Computes the gains at a speed, unless they are those at hand.
     #[inline]
-    fn move_to(&mut self, speed_mm_per_s: f64, filters: &Filters, counters: &mut Counters) {
+    fn move_to(&mut self, speed_mm_per_s: f64, making: &mut BinGains, counters: &mut Counters) {
         if self.speed_mm_per_s.to_bits() == speed_mm_per_s.to_bits() {
             counters.speeds_repeated += 1;
         } else {
-            self.compute(speed_mm_per_s, filters);
+            self.compute(speed_mm_per_s, making);
         }
     }
 
     #[inline(never)]
-    fn compute(&mut self, speed_mm_per_s: f64, filters: &Filters) {
+    fn compute(&mut self, speed_mm_per_s: f64, making: &mut BinGains) {
         self.speed_mm_per_s = speed_mm_per_s;
         self.n_audible = n_audible_bins(speed_mm_per_s);
         let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
@@ -220,24 +228,27 @@ impl GainRow {
             let first = n_bins_below(low_hz / spacing_hz).min(self.n_audible);
             let end = n_bins_below(high_hz / spacing_hz + 1.0).clamp(first, self.n_audible);
             self.heard[b] = first..end;
-            for slot in first..end {
-                let frequency_hz = bin_frequency_hz(speed_mm_per_s, slot + 1);
-                self.gains[b][slot] = filters.power_gain(band, frequency_hz);
-            }
+        }
+        let slots = self.slots();
+        making.fill(speed_mm_per_s, slots.start, &mut self.gains[..slots.end]);
+        for (b, heard) in self.heard.iter().enumerate() {
+            let unheard = (slots.start..heard.start).chain(heard.end..slots.end);
+            unheard.for_each(|slot| self.gains[slot][b] = 0.0);
         }
     }
 
-    /// `Σ_k P_k H_b(f_k)²` over some slots for each band.
-    fn sums(&self, powers_um2: &[f64], slots: [Range<usize>; 2]) -> [f64; 2] {
-        let [low, high] = slots;
-        [(0, low), (1, high)].map(|(b, slots)| {
-            let gains = &self.gains[b][slots.clone()];
-            powers_um2[slots]
-                .iter()
-                .zip(gains)
-                .map(|(power, gain)| power * gain)
-                .sum()
-        })
+    /// The slots of the bins that a band hears.
+    fn slots(&self) -> Range<usize> {
+        let [low, high] = &self.heard;
+        low.start.min(high.start)..low.end.max(high.end)
+    }
+
+    /// `Σ_k P_k H_b(f_k)²` for each band over the bins that it hears.
+    fn sums(&self, powers_um2: &[f64]) -> [f64; 2] {
+        let slots = self.slots();
+        let first = slots.start.min(powers_um2.len());
+        let [sums] = bin_gains::sums([&powers_um2[first..]], &self.gains[slots]);
+        sums
     }
 }
 

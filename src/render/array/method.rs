@@ -16,21 +16,14 @@ named! {
         Reference = "reference",
         /// f64, only the bins that a filter can hear at this speed, nothing twice in a tick.
         Banded = "banded",
-        /// Powers tabulated over log speed when preparing, interpolated in f32.
+        /// Powers tabulated over log speed as they are needed, interpolated in f32.
         Table = "table",
-        /// The cheapest of these within the error budget.
+        /// The cheapest of these within the error budget, preparing included.
         #[default]
         Auto = "auto",
     }
     /// Its name on the command line and in files.
     pub fn name;
-}
-
-impl Method {
-    /// Whether it tabulates, or may choose to.
-    pub(super) fn may_tabulate(self) -> bool {
-        matches!(self, Self::Table | Self::Auto)
-    }
 }
 
 /// No method has this name.

@@ -10,6 +10,7 @@
 
 mod auto;
 mod banded;
+mod bin_gains;
 mod drive;
 mod frame;
 mod method;
@@ -25,19 +26,18 @@ pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use selvedge_foundation::numerics::to_single as single;
-pub use table::TableCache;
 pub use trace::{BinTrace, ContactInspector, ContactTrace, DirectionTrace, Touch, VibrationBin};
 
 use banded::BandedEvaluator;
 use reference::ReferenceEvaluator;
-use table::TableEvaluator;
+use table::{Grid, TableEvaluator};
 
 use std::sync::Arc;
 
 use super::gains::Gains;
 use super::plan::{Contacts, Counters, DisplayPlan, MaterialContact, ScenePlan, finite_pose};
 use super::{PlacedLevel, RenderError, RenderScene};
-use crate::scene::Pose;
+use crate::scene::{ExplorationPath, Pose};
 use selvedge_foundation::geometry::Point;
 use selvedge_textile::surface::Surface;
 use selvedge_textile::tactile::Tuning;
@@ -47,7 +47,7 @@ use selvedge_textile::tactile::Tuning;
 enum Evaluator {
     Reference(ReferenceEvaluator),
     Banded(Box<BandedEvaluator>),
-    Table(TableEvaluator),
+    Table(Box<TableEvaluator>),
 }
 
 /// Renders the amplitudes of every display of a scene, tick by tick.
@@ -64,9 +64,9 @@ pub struct ArrayRenderer {
 }
 
 impl ArrayRenderer {
-    /// A renderer of a scene by a method; `auto` is resolved here, from error bounds known before
-    /// the first tick and from counts of operations. Allocates; tables of four textiles with 16
-    /// points take well below 0.25 s.
+    /// A renderer of a scene by a method, to be moved live: `auto` is resolved here, from error
+    /// bounds known before the first tick and from counts of operations over a minute. Allocates;
+    /// takes well below a millisecond for four textiles.
     ///
     /// # Errors
     /// What [`RenderScene::check`] refuses; an accuracy that is no number; tables that would not
@@ -76,31 +76,39 @@ impl ArrayRenderer {
         method: Method,
         accuracy: &Accuracy,
     ) -> Result<Self, RenderError> {
-        Self::prepare_with_cache(scene, method, accuracy, &mut TableCache::default())
+        Self::prepare_for(scene, (method, accuracy), None)
     }
 
-    /// As [`prepare`](Self::prepare), but tables that the cache holds are taken from it, and those
-    /// that are computed are left in it. The result is the same.
+    /// The same for the ticks of a path and no others: `auto` is the cheapest for these.
     ///
     /// # Errors
     /// As there.
-    pub fn prepare_with_cache(
+    pub fn prepare_along(
         scene: &RenderScene,
         method: Method,
         accuracy: &Accuracy,
-        cache: &mut TableCache,
+        path: &ExplorationPath,
+    ) -> Result<Self, RenderError> {
+        Self::prepare_for(scene, (method, accuracy), Some(path))
+    }
+
+    fn prepare_for(
+        scene: &RenderScene,
+        (method, accuracy): (Method, &Accuracy),
+        path: Option<&ExplorationPath>,
     ) -> Result<Self, RenderError> {
         scene.check()?;
         accuracy.check()?;
         let plan = ScenePlan::of(scene);
-        let grid = method
-            .may_tabulate()
-            .then(|| cache.grid(&scene.filters, accuracy.budget_db));
-        let method = auto::resolve(scene, &plan, (method, accuracy), grid.as_ref());
+        let (method, grid) = match method {
+            Method::Auto => auto::resolve(scene, &plan, accuracy, path),
+            Method::Table => (method, Some(Grid::new(&scene.filters, accuracy.budget_db))),
+            Method::Reference | Method::Banded => (method, None),
+        };
         let (evaluator, bound) = match (method, &grid) {
             (Method::Table, Some(grid)) => {
-                let (table, bound) = TableEvaluator::prepare(scene, &plan, grid, cache)?;
-                (Evaluator::Table(table), bound)
+                let (table, bound) = TableEvaluator::prepare(&scene.filters, &plan, grid)?;
+                (Evaluator::Table(Box::new(table)), bound)
             }
             (Method::Banded, _) => {
                 let banded = BandedEvaluator::prepare(&plan, &scene.filters, accuracy.banded_floor);
@@ -252,8 +260,8 @@ impl ArrayRenderer {
     pub fn place_on_textile(&self, at: Point) -> Option<(usize, [f64; 2])> {
         let mut textiles = self.plan.textiles.iter().enumerate().rev();
         textiles.find_map(|(textile, plan)| {
-            let place = plan.place_of(at);
-            let is_on = at.is_finite() && plan.contains(place.x_mm, place.y_mm);
+            let place = plan.ground.place_of(at);
+            let is_on = at.is_finite() && plan.ground.contains(place.x_mm, place.y_mm);
             is_on.then_some((textile, [place.x_mm, place.y_mm]))
         })
     }

@@ -106,7 +106,7 @@ impl ContactInspector {
                 .spectra
                 .map(|place| Arc::clone(&self.plan.pool[place])),
             points: placed.points,
-            textile_from_workspace: placed.textile_from_workspace,
+            textile_from_workspace: placed.ground.textile_from_workspace,
             filters: self.filters,
             factors: self.gains.factors(textile),
         })

@@ -7,19 +7,25 @@ use super::motion::{Axis, Component};
 use super::point::PointGrid;
 use crate::PlacedSurface;
 use crate::scene::{EDGE_MM, is_on};
-use selvedge_foundation::geometry::{Displacement, Point, Rotation, Velocity};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_textile::surface::Surface;
 
 /// No textile: the contactor lies outside.
 pub(crate) const OUTSIDE: u16 = u16::MAX;
 
-/// A placed textile, ready to be asked for contacts.
-#[derive(Debug, Clone)]
-pub(crate) struct TextilePlan {
+/// Where a placed textile lies, whatever it is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ground {
     origin: Point,
     pub(crate) textile_from_workspace: Rotation,
     size_mm: [f64; 2],
     within_mm: Option<[Point; 2]>,
+}
+
+/// A placed textile, ready to be asked for contacts.
+#[derive(Debug, Clone)]
+pub(crate) struct TextilePlan {
+    pub(crate) ground: Ground,
     pub(crate) surface: Arc<Surface>,
     /// The spectra of each direction in the pool.
     pub spectra: [usize; 4],
@@ -171,14 +177,27 @@ impl TextilePlan {
     pub(super) fn new(placed: &PlacedSurface, spectra: [usize; 4]) -> Self {
         let points = selvedge_textile::surface::Direction::ALL
             .map(|direction| PointGrid::new(placed.surface.spectra(direction).shape()));
+        let frame = placed.workspace_from_textile;
         Self {
-            origin: placed.workspace_from_textile.origin,
-            textile_from_workspace: placed.workspace_from_textile.rotation.inverse(),
-            size_mm: placed.size_mm,
-            within_mm: placed.within_mm,
+            ground: Ground::new(frame, placed.size_mm, placed.within_mm),
             surface: Arc::clone(&placed.surface),
             spectra,
             points,
+        }
+    }
+}
+
+impl Ground {
+    pub(crate) fn new(
+        workspace_from_textile: Frame,
+        size_mm: [f64; 2],
+        within_mm: Option<[Point; 2]>,
+    ) -> Self {
+        Self {
+            origin: workspace_from_textile.origin,
+            textile_from_workspace: workspace_from_textile.rotation.inverse(),
+            size_mm,
+            within_mm,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::contact::{Contacts, Motion, OUTSIDE, TextilePlan};
+use super::contact::{Contacts, Ground, Motion, OUTSIDE};
 use super::counters::Counters;
 use crate::ContactorArray;
 use crate::scene::Pose;
@@ -44,7 +44,7 @@ pub(crate) struct Placing {
     centre: Point,
     textile_from_display: Rotation,
     /// Every contactor lies on the textile.
-    is_covered: bool,
+    pub(crate) is_covered: bool,
 }
 
 impl DisplayPlan {
@@ -138,12 +138,12 @@ impl DisplayPlan {
     }
 
     /// How the display lies in a textile's frame; `None` when none of its contactors can lie on it.
-    pub(crate) fn placing(&self, textile: &TextilePlan, at: Point) -> Option<Placing> {
-        let centre = textile.place_of(at);
-        textile.is_reached(centre, self.radius_mm).then(|| Placing {
+    pub(crate) fn placing(&self, ground: &Ground, at: Point) -> Option<Placing> {
+        let centre = ground.place_of(at);
+        ground.is_reached(centre, self.radius_mm).then(|| Placing {
             centre,
-            textile_from_display: textile.textile_from_workspace.after(self.turned.1),
-            is_covered: textile.covers(centre, self.radius_mm),
+            textile_from_display: ground.textile_from_workspace.after(self.turned.1),
+            is_covered: ground.covers(centre, self.radius_mm),
         })
     }
 
@@ -151,7 +151,7 @@ impl DisplayPlan {
     /// there are none.
     pub(crate) fn claim(
         &mut self,
-        (textile, number): (&TextilePlan, usize),
+        (ground, number): (&Ground, usize),
         placing: &Placing,
         pose: &Pose,
         counters: &mut Counters,
@@ -164,13 +164,13 @@ impl DisplayPlan {
             self.n_owned = self.owners.len();
             counters.touches_covered += self.n_owned as u64;
         } else {
-            self.claim_each(textile, owner);
+            self.claim_each(ground, owner);
         }
         let n_contactors = self.n_owned - n_before;
         counters.touches_beneath += n_before as u64;
         counters.touches_outside += (self.owners.len() - self.n_owned) as u64;
         (n_contactors > 0).then(|| {
-            let motion = self.set_in_motion(textile, placing, pose);
+            let motion = self.set_in_motion(ground, placing, pose);
             let each = Motion::Turning(&self.velocity_u, &self.velocity_w);
             Contacts {
                 textile: number,
@@ -216,11 +216,11 @@ impl DisplayPlan {
     /// each, `None`.
     fn set_in_motion(
         &mut self,
-        textile: &TextilePlan,
+        ground: &Ground,
         placing: &Placing,
         pose: &Pose,
     ) -> Option<Velocity> {
-        let velocity = textile.textile_from_workspace.turn_velocity(pose.velocity);
+        let velocity = ground.textile_from_workspace.turn_velocity(pose.velocity);
         let is_turning = pose.angular_rad_per_s != 0.0;
         if is_turning {
             self.move_each(placing, velocity, pose.angular_rad_per_s);
@@ -228,10 +228,10 @@ impl DisplayPlan {
         (!is_turning).then_some(velocity)
     }
 
-    fn claim_each(&mut self, textile: &TextilePlan, owner: u16) {
+    fn claim_each(&mut self, ground: &Ground, owner: u16) {
         let places = self.u_mm.iter().zip(&self.w_mm);
         for (taken, (&u_mm, &w_mm)) in self.owners.iter_mut().zip(places) {
-            if *taken == OUTSIDE && textile.contains(u_mm, w_mm) {
+            if *taken == OUTSIDE && ground.contains(u_mm, w_mm) {
                 *taken = owner;
                 self.n_owned += 1;
             }
@@ -271,7 +271,7 @@ fn owner_of(textile: usize) -> u16 {
 
 /// Whether no contactor of a display can feel anything: it does not turn, and whichever way a
 /// textile lies, both components stay below the speed of rest.
-fn is_at_rest(pose: &Pose) -> bool {
+pub(crate) fn is_at_rest(pose: &Pose) -> bool {
     const LIMIT: f64 = MIN_SPEED_MM_PER_S * (1.0 - 1e-9);
     let [x, y] = [pose.velocity.x_mm_per_s, pose.velocity.y_mm_per_s];
     pose.angular_rad_per_s == 0.0 && x * x + y * y < LIMIT * LIMIT

@@ -12,10 +12,10 @@ mod display;
 mod motion;
 mod point;
 
-pub(super) use contact::{Contacts, Feel, Motion, OUTSIDE, TextilePlan};
+pub(super) use contact::{Contacts, Feel, Ground, Motion, OUTSIDE, TextilePlan};
 pub use counters::{Counters, Rule};
 pub use display::MaterialContact;
-pub(super) use display::{DisplayPlan, finite_pose};
+pub(super) use display::{DisplayPlan, finite_pose, is_at_rest};
 pub(super) use motion::{Axis, Component};
 pub(super) use point::{PointGrid, PointIndex, nearest_mm, whole_part};
 
@@ -65,11 +65,11 @@ impl ScenePlan {
         let lowest = felt.start;
         for number in felt.rev() {
             let textile = &self.textiles[number];
-            let Some(placing) = display.placing(textile, pose.position) else {
+            let Some(placing) = display.placing(&textile.ground, pose.position) else {
                 counters.textiles_out_of_reach += 1;
                 continue;
             };
-            if let Some(contacts) = display.claim((textile, number), &placing, pose, counters) {
+            if let Some(contacts) = display.claim((&textile.ground, number), &placing, pose, counters) {
                 act(&contacts, counters);
             }
             if display.is_taken() {

@@ -27,7 +27,13 @@ pub struct LoadedScene {
     levels_db: Vec<Option<f64>>,
     /// Ids whose textiles are loaded although they are there.
     fresh: Vec<String>,
+    /// Ids of textiles that are placed and were not read, because nothing is felt of them.
+    unread: Vec<String>,
 }
+
+/// Says which textiles placed are to be read, given the tuning with its reference and the gains of
+/// their manifests, dB.
+type Needed<'a> = dyn Fn(&Scene, &Tuning, &[f64]) -> Vec<bool> + 'a;
 
 impl LoadedScene {
     /// The scene of four textiles that is part of the program.
@@ -53,6 +59,18 @@ impl LoadedScene {
         path: &Path,
         cache: Option<&BuildCache>,
     ) -> Result<Self, SceneError> {
+        let all = |scene: &Scene, _: &Tuning, _: &[f64]| vec![true; scene.textiles.len()];
+        Self::from_text_with(text, path, cache, &all)
+    }
+
+    /// The same; of the textiles that it places those that are needed are loaded, of the others the
+    /// manifests are read.
+    pub(crate) fn from_text_with(
+        text: &str,
+        path: &Path,
+        cache: Option<&BuildCache>,
+        needed: &Needed<'_>,
+    ) -> Result<Self, SceneError> {
         let scene = Scene::from_toml(text, path)?;
         let wrong = |(table, nth, key), what: String, mend: &str| {
             let line = files::line_of_key(text, table, nth, key);
@@ -66,41 +84,69 @@ impl LoadedScene {
             }
             Some(folder) => Library::named(&folder, cache)?,
         };
-        let unknown = scene.textiles.iter().enumerate().find_map(|(nth, placed)| {
-            let error = library.manifest(&placed.id).err()?;
-            let is_elsewhere = elsewhere(&placed.id).is_some();
+        let mut manifests_db = Vec::with_capacity(scene.textiles.len());
+        for (nth, placed) in scene.textiles.iter().enumerate() {
+            let error = match library.manifest(&placed.id) {
+                Ok(manifest) => {
+                    manifests_db.push(manifest.gain_db);
+                    continue;
+                }
+                Err(error) => error,
+            };
             let is_unknown = matches!(error, TextileError::Unknown { .. });
-            (is_unknown || is_elsewhere).then_some((nth, error))
-        });
-        if let Some((nth, error)) = unknown {
-            let mend = "place a textile that is there";
-            return Err(wrong(("textile", nth, "id"), error.to_string(), mend));
+            if is_unknown || elsewhere(&placed.id).is_some() {
+                let mend = "place a textile that is there";
+                return Err(wrong(("textile", nth, "id"), error.to_string(), mend));
+            }
+            return Err(error.into());
         }
-        Self::load(scene, Arc::new(library))
+        let nothing = Self::nothing_of(Arc::new(library));
+        let mut tuning = nothing.tuning_of(&scene);
+        let stated = tuning.compression_reference_db;
+        tuning.compression_reference_db = stated.or(nothing.library_reference_db());
+        let is_needed = needed(&scene, &tuning, &manifests_db);
+        nothing.with_needed(scene, &is_needed)
     }
 
     /// Loads what a scene places from this library, whatever library the scene itself names.
     pub fn load(scene: Scene, library: Arc<Library>) -> Result<Self, SceneError> {
-        let nothing = Self {
+        Self::nothing_of(library).with_scene(scene)
+    }
+
+    fn nothing_of(library: Arc<Library>) -> Self {
+        Self {
             scene: Scene::default(),
             library,
             textiles: Vec::new(),
             levels_db: Vec::new(),
             fresh: Vec::new(),
-        };
-        nothing.with_scene(scene)
+            unread: Vec::new(),
+        }
     }
 
     /// Another scene over the same library: textiles that are loaded already are kept.
     pub fn with_scene(&self, scene: Scene) -> Result<Self, SceneError> {
+        let all = vec![true; scene.textiles.len()];
+        self.with_needed(scene, &all)
+    }
+
+    /// The same; of textiles that are not needed at any of their places only the manifest is read.
+    fn with_needed(&self, scene: Scene, is_needed: &[bool]) -> Result<Self, SceneError> {
         scene.check()?;
-        let mut fresh: Vec<String> = Vec::new();
-        for PlacedTextile { id, .. } in &scene.textiles {
-            if !self.knows(id) && !fresh.contains(id) {
-                fresh.push(id.clone());
+        let (mut fresh, mut unread): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        // Those that are needed somewhere first.
+        for wanted in [true, false] {
+            let placed = scene.textiles.iter().zip(is_needed);
+            for (PlacedTextile { id, .. }, _) in placed.filter(|(_, is)| **is == wanted) {
+                if !self.knows(id) && !fresh.contains(id) && !unread.contains(id) {
+                    if wanted { &mut fresh } else { &mut unread }.push(id.clone());
+                }
             }
         }
-        let fresh = Progress::unheard(|progress| self.library.load_all(&fresh, progress))?;
+        let mut fresh = Progress::unheard(|progress| self.library.load_all(&fresh, progress))?;
+        for id in &unread {
+            fresh.push(self.library.unread(id)?);
+        }
         let find = |placed: &PlacedTextile| {
             let mut known = fresh.iter().chain(&self.textiles);
             known
@@ -115,13 +161,21 @@ impl LoadedScene {
             textiles,
             levels_db,
             fresh: Vec::new(),
+            unread,
         })
     }
 
     /// Whether a scene that places this textile finds it loaded.
     pub fn knows(&self, id: &str) -> bool {
+        let is_in = |ids: &[String]| ids.iter().any(|other| other == id);
         let is_there = self.textiles.iter().any(|textile| textile.id() == id);
-        is_there && !self.fresh.iter().any(|fresh| fresh == id)
+        is_there && !is_in(&self.fresh) && !is_in(&self.unread)
+    }
+
+    /// Ids of textiles that are placed and were not read, because nothing is felt of them: they have
+    /// no surface.
+    pub fn unread(&self) -> &[String] {
+        &self.unread
     }
 
     /// Takes textiles that are placed from now on from another library, which must have those that
@@ -142,13 +196,15 @@ impl LoadedScene {
     }
 
     /// What its textiles are: the SHA-256 of their content by their ids. One whose files have
-    /// vanished since they were loaded is left out.
+    /// vanished since they were loaded is left out, and so is one that was not read.
     pub fn contents(&self) -> BTreeMap<String, String> {
         let content = |textile: &Arc<Textile>| {
             let hash = textile.content_hash().ok()?;
             Some((textile.id().to_owned(), hash))
         };
-        self.textiles.iter().filter_map(content).collect()
+        let is_read = |textile: &&Arc<Textile>| !self.unread.iter().any(|id| id == textile.id());
+        let read = self.textiles.iter().filter(is_read);
+        read.filter_map(content).collect()
     }
 
     /// A sentence on the textiles that are not what they were when the scene was saved; `None` if
@@ -197,7 +253,11 @@ impl LoadedScene {
 
     /// The tuning to begin with: the scene's own, else the library's default.
     pub fn tuning(&self) -> Tuning {
-        self.scene
+        self.tuning_of(&self.scene)
+    }
+
+    fn tuning_of(&self, scene: &Scene) -> Tuning {
+        scene
             .tuning
             .unwrap_or_else(|| self.library.default_tuning())
     }

@@ -241,6 +241,15 @@ impl Library {
         Ok(Arc::new(textile))
     }
 
+    /// A textile of whose files the manifest alone is read, for places where nothing is felt of it:
+    /// its surface is flat, and nothing is built.
+    ///
+    /// # Errors
+    /// An unknown id, a manifest that is missing or wrong.
+    pub fn unread(&self, id: &str) -> Result<Arc<Textile>, TextileError> {
+        Ok(Arc::new(Textile::unread(id, self.manifest(id)?)))
+    }
+
     /// Several textiles, in the order of their ids: on as many threads as the machine has, which
     /// changes nothing but the time that it takes.
     pub fn load_all(

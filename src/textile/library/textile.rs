@@ -1,5 +1,6 @@
 //! A textile that is loaded: its manifest and its surface; its picture on demand.
 
+use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 use super::store::Store;
@@ -62,6 +63,18 @@ impl Textile {
             store: store.clone(),
             friction: OnceLock::new(),
         })
+    }
+
+    /// A textile without a surface: a flat one stands in, and none of its files can be asked for.
+    pub(crate) fn unread(id: &str, manifest: Manifest) -> Self {
+        Self {
+            id: id.to_owned(),
+            known_as: None,
+            manifest,
+            surface: Arc::new(Surface::flat()),
+            store: Store::Built(Arc::default(), PathBuf::from("a textile that was not read")),
+            friction: OnceLock::new(),
+        }
     }
 
     /// The same under the id by which a scene finds it in another library than its own.

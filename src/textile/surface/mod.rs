@@ -81,6 +81,17 @@ impl Surface {
         })
     }
 
+    /// A surface without a height: one silent point in every direction.
+    pub(crate) fn flat() -> Self {
+        let spectra = Arc::new(LocalSpectra::over_area(vec![0.0], 1, 1));
+        Self {
+            profiles: ProfileSet::default(),
+            spectra: std::array::from_fn(|_| Arc::clone(&spectra)),
+            taken_from: [Direction::WarpForward; 4],
+            representation: Representation::Economical,
+        }
+    }
+
     /// How its spectra are laid out.
     pub fn representation(&self) -> Representation {
         self.representation

@@ -108,6 +108,8 @@ pub struct LocalSpectra {
     n_bins: usize,
     /// Points along the direction; across it there are as many as fill the rest.
     n_along: usize,
+    /// The largest power of any point.
+    largest_um2: f64,
 }
 
 impl LocalSpectra {
@@ -135,17 +137,14 @@ impl LocalSpectra {
                 powers[N_BINS - 1] *= 0.5;
             }
         }
-        Ok(Self {
-            n_bins: N_BINS,
-            n_along: starts.len(),
-            powers_um2,
-        })
+        Ok(Self::over_area(powers_um2, starts.len(), N_BINS))
     }
 
     /// Spectra over an area: profile by profile a row of `n_along` points, at each point the
     /// powers of its first `n_bins` bins, µm²; bins beyond are 0.
     pub(super) fn over_area(powers_um2: Vec<f64>, n_along: usize, n_bins: usize) -> Self {
         Self {
+            largest_um2: largest_um2(&powers_um2, n_bins),
             powers_um2,
             n_bins,
             n_along,
@@ -160,6 +159,7 @@ impl LocalSpectra {
             for power in &mut self.powers_um2 {
                 *power = (*power - floor).max(0.0);
             }
+            self.largest_um2 = largest_um2(&self.powers_um2, self.n_bins);
         }
         self
     }
@@ -185,6 +185,11 @@ impl LocalSpectra {
         self.n_bins
     }
 
+    /// The largest power `Σ_k P_k` of any point, µm².
+    pub fn largest_um2(&self) -> f64 {
+        self.largest_um2
+    }
+
     /// Memory that the powers take, bytes.
     pub fn n_bytes(&self) -> usize {
         size_of_val(&self.powers_um2[..])
@@ -197,6 +202,12 @@ impl LocalSpectra {
     pub fn powers_um2(&self, point: usize) -> &[f64] {
         &self.powers_um2[point * self.n_bins..(point + 1) * self.n_bins]
     }
+}
+
+/// The largest sum of the powers of a point.
+fn largest_um2(powers_um2: &[f64], n_bins: usize) -> f64 {
+    let points = powers_um2.chunks_exact(n_bins);
+    points.map(|bins| bins.iter().sum()).fold(0.0, f64::max)
 }
 
 /// The first sample of every point's window: points 1 mm apart, as many as fit into `slack`

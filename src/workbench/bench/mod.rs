@@ -207,7 +207,7 @@ impl Bench {
                 loaded,
                 serial: scene_serial,
                 rendering: opened.rendering,
-                preparing: Preparing::new(opened.cache, opened.rendering),
+                preparing: Preparing::default(),
                 applied_gains: AppliedGains::default(),
             },
             library: LibraryState {
@@ -285,7 +285,7 @@ impl Bench {
         self.document = document_of(&opened.loaded, opened.path.as_deref());
         self.library.view =
             LibraryView::new(Arc::clone(opened.loaded.library()), opened.library_view);
-        self.engine_scene.preparing = Preparing::new(opened.cache, opened.rendering);
+        self.engine_scene.preparing = Preparing::default();
         self.engine_scene.loaded = opened.loaded;
         self.selection.mute_solo = MuteSolo::default();
         self.choose_display(0);

@@ -10,7 +10,6 @@ use crate::bench::rendering::Rendering;
 use crate::bench::settings::build_cache;
 use crate::bench::view::LibraryEntry;
 use selvedge_engine::PreparedScene;
-use selvedge_render::array::TableCache;
 use selvedge_render::scene::LoadedScene;
 
 /// A scene without textiles over the shipped library.
@@ -41,8 +40,6 @@ pub(crate) struct Opened {
     pub prepared: PreparedScene,
     /// How it was prepared.
     pub rendering: Rendering,
-    /// The tables that were made for it.
-    pub cache: TableCache,
     /// That textiles are not what they were when it was saved.
     pub(crate) changed: Option<String>,
     /// The textiles of its library.
@@ -62,9 +59,8 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
             LoadedScene::from_text(text, path, build_cache().as_ref())?
         }
     };
-    let mut cache = TableCache::default();
     let accuracy = rendering.accuracy();
-    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
+    let prepared = PreparedScene::prepare(&loaded, rendering.method, &accuracy)?;
     Ok(Opened {
         path: match origin {
             Origin::File(path) => Some(path),
@@ -73,7 +69,6 @@ pub(crate) fn open(origin: Origin, rendering: Rendering) -> Result<Opened, AppEr
         },
         prepared,
         rendering,
-        cache,
         changed: loaded.changed(),
         library_view: crate::bench::library_shelf::items_of(loaded.library(), None),
         loaded,

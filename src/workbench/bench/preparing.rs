@@ -1,13 +1,12 @@
 //! An edited scene on its way to the engine.
 //!
-//! Moving a textile takes the engine's tables as they are and costs little; a new textile, or other
-//! filters, take longer and are prepared on a thread of their own. Edits that come meanwhile wait,
-//! and only the last of them is prepared. So it is with another error budget.
+//! Tables are made as they are touched, so that moving a textile, other filters or another error
+//! budget cost little; a new textile is read, which takes longer, on a thread of its own. Edits that
+//! come meanwhile wait, and only the last of them is prepared.
 
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::rendering::Rendering;
 use selvedge_engine::PreparedScene;
-use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, PlacedTextile, Scene};
 
 /// A scene that is ready for the engine.
@@ -21,32 +20,14 @@ pub(crate) struct Ready {
     pub rendering: Rendering,
 }
 
-/// What a thread brings back.
-struct Done {
-    cache: TableCache,
-    outcome: Result<Ready, String>,
-}
-
 /// Prepares edited scenes, one at a time.
 #[derive(Default)]
 pub(crate) struct Preparing {
-    cache: TableCache,
-    /// What the tables in the cache were made for last.
-    rendering: Rendering,
-    task: Option<Task<Done>>,
+    task: Option<Task<Ready>>,
     next: Option<Scene>,
 }
 
 impl Preparing {
-    /// With the tables that the first scene was prepared with, and how it was.
-    pub(crate) fn new(cache: TableCache, rendering: Rendering) -> Self {
-        Self {
-            cache,
-            rendering,
-            ..Self::default()
-        }
-    }
-
     /// Whether a thread is at work.
     pub(crate) fn is_busy(&self) -> bool {
         self.task.is_some()
@@ -64,45 +45,28 @@ impl Preparing {
             self.next = Some(scene);
             return None;
         }
-        let is_loaded = scene.textiles.iter().all(|cloth| loaded.knows(&cloth.id));
-        let is_quick = is_loaded
-            && scene.filters == loaded.scene().filters
-            && rendering == std::mem::replace(&mut self.rendering, rendering);
-        if is_quick {
-            return Some(prepare(loaded, (scene, rendering), &mut self.cache));
+        if scene.textiles.iter().all(|cloth| loaded.knows(&cloth.id)) {
+            return Some(prepare(loaded, (scene, rendering)));
         }
-        let mut cache = std::mem::take(&mut self.cache);
         let loaded = loaded.clone();
-        self.task = Some(executor.start("selvedge-prepare", move |_| {
-            let outcome = prepare(&loaded, (scene, rendering), &mut cache);
-            Ok(Done { cache, outcome })
-        }));
+        let work = move |_: &mut _| prepare(&loaded, (scene, rendering));
+        self.task = Some(executor.start("selvedge-prepare", work));
         None
     }
 
     /// What was prepared, if it is done, and the scene that waited meanwhile.
     pub(crate) fn poll(&mut self) -> Option<(Result<Ready, String>, Option<Scene>)> {
-        let outcome = match finished(&mut self.task)? {
-            Ok(done) => {
-                self.cache = done.cache;
-                done.outcome
-            }
-            Err(line) => Err(line),
-        };
+        let outcome = finished(&mut self.task)?;
         Some((outcome, self.next.take()))
     }
 }
 
-fn prepare(
-    loaded: &LoadedScene,
-    (scene, rendering): (Scene, Rendering),
-    cache: &mut TableCache,
-) -> Result<Ready, String> {
+fn prepare(loaded: &LoadedScene, (scene, rendering): (Scene, Rendering)) -> Result<Ready, String> {
     let loaded = loaded
         .with_scene(scene)
         .map_err(|error| error.to_string())?;
     let accuracy = rendering.accuracy();
-    let prepared = PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, cache);
+    let prepared = PreparedScene::prepare(&loaded, rendering.method, &accuracy);
     Ok(Ready {
         prepared: Box::new(prepared.map_err(|error| error.to_string())?),
         loaded,

@@ -6,9 +6,11 @@
 //! of interpolating `H²` itself over log frequency. That depends on the filter and on the distance
 //! of the nodes only, and is known before any spectrum is.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::segments::Segments;
+use selvedge_foundation::numerics::{extent, to_index};
 use selvedge_textile::surface::BIN_SPACING_PER_MM;
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
 
@@ -30,11 +32,11 @@ pub(crate) struct Density {
 
 impl Density {
     /// The fewest nodes an octave that keep within a budget, else the most there can be.
-    pub(crate) fn within(filters: &Filters, budget_db: f64) -> Self {
-        let samples = Band::ALL.map(|band| sampled(filters, band));
+    fn within(filters: &Filters, budget_db: f64) -> Self {
+        let bands = Band::ALL.map(|band| Samples::new(filters, band));
         let at = |per_octave: u32| {
-            let of_band = |gains: &Vec<f64>| error_db(gains, per_octave);
-            let level_db = samples.iter().map(of_band).fold(0.0, f64::max) + ROUNDING_DB;
+            let errors_db = bands.iter().map(|band| band.error_db(per_octave));
+            let level_db = errors_db.fold(0.0, f64::max) + ROUNDING_DB;
             Self {
                 per_octave,
                 level_db,
@@ -56,41 +58,119 @@ pub(crate) struct Grid {
     pub(super) segments: Arc<Segments>,
 }
 
-/// The filter's power gains over all frequencies at which a bin can sound, evenly over log₂ f.
-fn sampled(filters: &Filters, band: Band) -> Vec<f64> {
-    let lowest = (MIN_SPEED_MM_PER_S * BIN_SPACING_PER_MM).log2();
-    let per_octave = f64::from(SAMPLES_PER_OCTAVE);
-    let gain = |step: u32| {
-        let frequency_hz = (lowest + f64::from(step) / per_octave).exp2();
-        filters.power_gain(band, frequency_hz)
-    };
-    let octaves = MAX_FREQUENCY_HZ.log2() - lowest;
-    // One octave more: intervals may begin anywhere below 1 kHz.
-    let n_steps = (0..30 * SAMPLES_PER_OCTAVE)
-        .take_while(|&step| f64::from(step) < (octaves + 1.0) * per_octave)
-        .count();
-    (0..).map(gain).take(n_steps).collect()
-}
-
-/// The largest level error in dB of interpolating between samples 1/`per_octave` octave apart,
-/// wherever they lie.
-fn error_db(gains: &[f64], per_octave: u32) -> f64 {
-    let n_steps = (SAMPLES_PER_OCTAVE / per_octave) as usize;
-    let (mut max, mut min) = (1.0_f64, 1.0_f64);
-    for part in gains.windows(n_steps + 1) {
-        let (start, end) = (part[0], part[n_steps]);
-        if start.min(end) < MIN_POWER_GAIN {
-            continue;
-        }
-        for (step, &exact) in part.iter().enumerate().skip(1).take(n_steps - 1) {
-            let share = step as f64 / n_steps as f64;
-            let ratio = (start + (end - start) * share) / exact;
-            max = max.max(ratio);
-            min = min.min(ratio);
+impl Grid {
+    /// The nodes for these filters within this budget.
+    pub(crate) fn new(filters: &Filters, budget_db: f64) -> Self {
+        let density = Density::within(filters, budget_db);
+        Self {
+            segments: Arc::new(Segments::new(density.per_octave)),
+            density,
         }
     }
-    // Between samples the error may be a little larger than at them.
-    1.02 * 10.0 * max.log10().max(-min.log10())
+}
+
+/// log₂ of the lowest frequency at which a bin can sound.
+fn lowest_log2() -> f64 {
+    (MIN_SPEED_MM_PER_S * BIN_SPACING_PER_MM).log2()
+}
+
+/// Samples of a filter over all frequencies at which a bin can sound, evenly over log₂ f, and one
+/// octave more: intervals may begin anywhere below 1 kHz.
+fn n_samples() -> usize {
+    let octaves = MAX_FREQUENCY_HZ.log2() - lowest_log2() + 1.0;
+    to_index((octaves * f64::from(SAMPLES_PER_OCTAVE)).ceil())
+}
+
+/// A band's filter, sampled.
+struct Samples<'a> {
+    /// The power gain of a sample.
+    gain: Box<dyn Fn(usize) -> f64 + 'a>,
+    /// Top and half width between the power gains that are bounded, samples, of a bell.
+    bell: Option<[f64; 2]>,
+}
+
+impl<'a> Samples<'a> {
+    fn new(filters: &'a Filters, band: Band) -> Self {
+        let gain = move |sample: usize| {
+            let octaves = sample as f64 / f64::from(SAMPLES_PER_OCTAVE);
+            filters.power_gain(band, (lowest_log2() + octaves).exp2())
+        };
+        match filters {
+            Filters::LogGaussian { octaves } => {
+                let top = band.carrier_hz().log2() - lowest_log2();
+                let reach = 0.5 * octaves * (-MIN_POWER_GAIN.log2()).sqrt();
+                Self {
+                    gain: Box::new(gain),
+                    bell: Some([top, reach].map(|x| x * f64::from(SAMPLES_PER_OCTAVE))),
+                }
+            }
+            Filters::Receptor => {
+                let gains: Vec<f64> = (0..n_samples()).map(gain).collect();
+                Self {
+                    gain: Box::new(move |sample| gains[sample]),
+                    bell: None,
+                }
+            }
+        }
+    }
+
+    /// The largest level error in dB of interpolating between samples 1/`per_octave` octave apart,
+    /// wherever they lie.
+    fn error_db(&self, per_octave: u32) -> f64 {
+        let n_steps = (SAMPLES_PER_OCTAVE / per_octave) as usize;
+        self.largest_error_db(n_steps, self.worst_starts(n_steps))
+    }
+
+    /// Where intervals of so many samples begin at which interpolation is farthest off.
+    ///
+    /// Over log₂ f a log-Gaussian filter's `H²` is a bell: what a straight line lies above it, as a
+    /// share, grows with the distance from its top, and it lies below only around the top. Those of
+    /// the receptors are straight over two logarithms between kinks: what is worst is worst in the
+    /// middle of its interval, but for a few parts in a hundred.
+    fn worst_starts(&self, n_steps: usize) -> Vec<usize> {
+        let (last, length) = (n_samples() - 1 - n_steps, n_steps as f64);
+        if let Some([top, reach]) = self.bell {
+            let worst = [top - reach, top + reach - length, top - 0.5 * length];
+            // Rounding: the ones on either side too.
+            let around = |start: f64| [-1.0, 0.0, 1.0, 2.0].map(|by| to_index(start + by).min(last));
+            return worst.into_iter().flat_map(around).collect();
+        }
+        let middle = |&start: &usize| {
+            let ratio = self.ratios(start, n_steps, n_steps / 2..n_steps / 2 + 1).next();
+            ratio.map_or(0.0, f64::ln)
+        };
+        let [below, above] = extent((0..=last).map(|start| middle(&start)));
+        let is_worst = |start: &usize| {
+            let off = middle(start);
+            off >= 0.8 * above || off <= 0.8 * below
+        };
+        (0..=last).filter(is_worst).collect()
+    }
+
+    /// The largest of those intervals of so many samples that begin there.
+    fn largest_error_db(&self, n_steps: usize, starts: impl IntoIterator<Item = usize>) -> f64 {
+        let starts = starts.into_iter();
+        let ratios = starts.flat_map(|start| self.ratios(start, n_steps, 1..n_steps));
+        let [min, max] = extent(ratios.chain([1.0]));
+        // Between samples the error may be a little larger than at them.
+        1.02 * 10.0 * max.log10().max(-min.log10())
+    }
+
+    /// What a straight line over so many samples gives at some of them, as multiples of what is
+    /// there; nothing where its ends are not bounded.
+    fn ratios(
+        &self,
+        start: usize,
+        n_steps: usize,
+        steps: Range<usize>,
+    ) -> impl Iterator<Item = f64> {
+        let [low, high] = [start, start + n_steps].map(&self.gain);
+        let is_bounded = low.min(high) >= MIN_POWER_GAIN;
+        steps.filter(move |_| is_bounded).map(move |step| {
+            let share = step as f64 / n_steps as f64;
+            (low + (high - low) * share) / (self.gain)(start + step)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -139,5 +219,21 @@ mod tests {
     fn a_filter_too_narrow_to_tabulate_says_so() {
         let density = Density::within(&Filters::LogGaussian { octaves: 0.01 }, 0.05);
         assert!(density.level_db > 0.05, "{density:?}");
+    }
+
+    #[test]
+    fn the_worst_places_tell_the_error_of_all() {
+        let bells = [0.3, 1.0, 2.0, 4.0].map(|octaves| Filters::LogGaussian { octaves });
+        for filters in bells.into_iter().chain([Filters::Receptor]) {
+            for (band, n_steps) in [(Band::Low, 32), (Band::High, 12), (Band::High, 4)] {
+                let samples = Samples::new(&filters, band);
+                let every = 0..n_samples() - n_steps;
+                let expected_db = samples.largest_error_db(n_steps, every.clone());
+                let starts = samples.worst_starts(n_steps);
+                assert!(2 * starts.len() < every.len() && expected_db > 0.0);
+                let found_db = samples.largest_error_db(n_steps, starts);
+                assert_eq!(found_db, expected_db, "{filters:?}, {band:?}, {n_steps}");
+            }
+        }
     }
 }

@@ -1,28 +1,32 @@
-//! Table: powers tabulated over log speed when a scene is prepared, interpolated in every tick.
+//! Table: powers tabulated over log speed, interpolated in every tick.
+//!
+//! Preparing sets memory aside and computes no power: nodes are made when a tick first needs them,
+//! at most two for each contactor, axis and tick, and stay.
 //!
 //! A power of a point, a direction and a band is smooth between the speeds at which a bin crosses
 //! 1 kHz and jumps there; tables are cut at those speeds and keep both values. Inside, linear
 //! interpolation over log speed keeps within an error known from the filter alone.
 
-mod build;
-mod cache;
 mod grid;
+mod nodes;
+mod rows;
 mod segments;
-mod stored;
 mod touched;
 
-pub use cache::TableCache;
 pub(super) use grid::Grid;
+pub(super) use rows::RowTable;
 pub(super) use touched::{MAX_TABLE_BYTES, table_bytes};
 
 use std::sync::Arc;
 
 use super::ErrorBound;
 use crate::plan::{Axis, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan};
-use crate::{RenderError, RenderScene, single};
+use crate::{RenderError, single};
 use grid::MIN_POWER_GAIN;
+use nodes::NodeGains;
 use segments::{Segments, Spot};
-use stored::Table;
+use selvedge_textile::surface::{Direction, LocalSpectra};
+use selvedge_textile::tactile::Filters;
 use touched::{Heard, TouchedTables};
 
 /// Points of a direction up to this many times the contactors are interpolated all at once.
@@ -32,40 +36,44 @@ const BLEND_ALL: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct TableEvaluator {
     segments: Arc<Segments>,
-    tables: Vec<Arc<Table>>,
+    gains: NodeGains,
+    /// By place in the pool; `None` for spectra with many points.
+    tables: Vec<Option<RowTable>>,
     /// What each textile's powers are stored as a share of, as an amplitude, µm.
     unit_um: Vec<f64>,
     /// Both directions' powers of every point at the speed at hand.
     blended: [Vec<[f32; 2]>; 2],
-    /// In place of the tables of areal spectra.
+    /// In place of the tables of spectra with many points.
     touched: Option<Box<TouchedTables>>,
 }
 
 impl TableEvaluator {
     pub(super) fn prepare(
-        scene: &RenderScene,
+        filters: &Filters,
         plan: &ScenePlan,
         grid: &Grid,
-        cache: &mut TableCache,
     ) -> Result<(Self, ErrorBound), RenderError> {
         let n_bytes = table_bytes(plan, grid);
         if n_bytes > MAX_TABLE_BYTES {
             let megabytes = n_bytes / 1_000_000;
             return Err(RenderError::TableTooLarge { megabytes });
         }
-        let (tables, units_um2) = cache.tables(plan, &scene.filters, grid);
-        let is_areal = plan.pool.iter().any(|spectra| spectra.is_areal());
-        let touched = is_areal.then(|| {
-            let prepared: usize = tables.iter().map(|table| table.n_bytes()).sum();
-            let gains = cache.node_gains(&scene.filters, grid);
-            let n_bytes = n_bytes.saturating_sub(prepared);
-            Box::new(TouchedTables::new(plan, &units_um2, gains, n_bytes))
+        let (units_um2, n_nodes) = (units_um2(plan), grid.segments.nodes().len());
+        let table = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
+            RowTable::suits(spectra).then(|| RowTable::new(spectra, *unit_um2, n_nodes))
+        };
+        let tables: Vec<_> = plan.pool.iter().zip(&units_um2).map(table).collect();
+        let of_few: usize = tables.iter().flatten().map(RowTable::n_bytes).sum();
+        let touched = tables.iter().any(Option::is_none).then(|| {
+            let n_bytes = n_bytes.saturating_sub(of_few);
+            Box::new(TouchedTables::new(plan, &units_um2, n_nodes, n_bytes))
         });
-        let longest = tables.iter().map(|table| table.n_points.max(1)).max();
+        let longest = tables.iter().flatten().map(|table| table.n_points).max();
         let longest = longest.unwrap_or(1);
         let unit_um = |textile: &TextilePlan| units_um2[textile.spectra[0]].sqrt();
         let evaluator = Self {
             segments: Arc::clone(&grid.segments),
+            gains: NodeGains::new(&grid.segments, filters),
             unit_um: plan.textiles.iter().map(unit_um).collect(),
             blended: [vec![[0.0; 2]; longest], vec![[0.0; 2]; longest]],
             tables,
@@ -78,11 +86,11 @@ impl TableEvaluator {
         Ok((evaluator, bound))
     }
 
-    /// Bytes of its tables.
+    /// Bytes set aside.
     pub(super) fn n_bytes(&self) -> usize {
-        let prepared: usize = self.tables.iter().map(|table| table.n_bytes()).sum();
+        let of_few: usize = self.tables.iter().flatten().map(RowTable::n_bytes).sum();
         let touched = self.touched.as_ref().map_or(0, |touched| touched.n_bytes());
-        prepared + touched
+        of_few + touched + self.gains.n_bytes()
     }
 
     /// Amplitudes of the contactors on one textile, µm.
@@ -127,18 +135,21 @@ impl TableEvaluator {
             };
             let spot = self.segments.find(speed_mm_per_s);
             counters.speeds_repeated += n as u64 - 1;
-            heard[axis as usize] = self.heard_areally(textile, d, spot);
+            heard[axis as usize] = self.heard_by_point(textile, d, spot);
             if heard[axis as usize].is_some() {
                 counters.directions_evaluated += n as u64;
                 continue;
             }
-            let table = &self.tables[textile.spectra[d]];
-            let rows = table.rows(spot);
-            if table.n_points <= BLEND_ALL * n {
+            let Some(table) = &mut self.tables[textile.spectra[d]] else {
+                continue;
+            };
+            let n_points = table.n_points;
+            let rows = table.rows(spot, &mut self.gains, counters);
+            if n_points <= BLEND_ALL * n {
                 rows.blend(&mut self.blended[axis as usize]);
                 points[axis as usize] = textile.points[d].along;
-                counters.directions_evaluated += table.n_points.min(n) as u64;
-                counters.directions_repeated += n.saturating_sub(table.n_points) as u64;
+                counters.directions_evaluated += n_points.min(n) as u64;
+                counters.directions_repeated += n.saturating_sub(n_points) as u64;
             } else {
                 let places_mm = contacts.places_mm[axis as usize];
                 let points = textile.points[d].along;
@@ -149,7 +160,7 @@ impl TableEvaluator {
             }
         }
         if let Some(touched) = &mut self.touched {
-            touched.add_all(heard, contacts, powers, counters);
+            touched.add_all(heard, contacts, powers, (&mut self.gains, counters));
             if heard.iter().all(Option::is_some) {
                 return;
             }
@@ -161,12 +172,11 @@ impl TableEvaluator {
         });
     }
 
-    /// What is heard of an areal surface in a direction; `None` of any other.
+    /// What is heard in a direction of a surface with many points; `None` of any other.
     #[inline]
-    fn heard_areally(&self, textile: &TextilePlan, d: usize, spot: Spot) -> Option<Heard> {
+    fn heard_by_point(&self, textile: &TextilePlan, d: usize, spot: Spot) -> Option<Heard> {
         let (spectra, points) = (textile.spectra[d], textile.points[d]);
-        let is_areal = self.touched.as_ref().is_some_and(|t| t.has(spectra));
-        is_areal.then_some(Heard {
+        self.tables[spectra].is_none().then_some(Heard {
             spectra,
             points,
             spot,
@@ -176,11 +186,13 @@ impl TableEvaluator {
     #[inline]
     fn look_up(&mut self, feel: Feel, counters: &mut Counters) -> [f32; 2] {
         let spot = self.segments.find(feel.speed_mm_per_s);
-        match &mut self.touched {
-            Some(touched) if touched.has(feel.spectra) => {
-                touched.at((feel.spectra, feel.point), spot, counters)
+        match (&mut self.tables[feel.spectra], &mut self.touched) {
+            (Some(table), _) => table.rows(spot, &mut self.gains, counters).at(feel.point),
+            (None, Some(touched)) => {
+                let making = (&mut self.gains, counters);
+                touched.at((feel.spectra, feel.point), spot, making)
             }
-            _ => self.tables[feel.spectra].rows(spot).at(feel.point),
+            (None, None) => [0.0; 2],
         }
     }
 
@@ -202,6 +214,23 @@ impl TableEvaluator {
             }
         });
     }
+}
+
+/// What the powers of each set of spectra are stored as a share of, µm²: the largest power of any
+/// point of the surfaces that use it, so that very low and very high surfaces keep all digits.
+/// 0 for flat ones.
+fn units_um2(plan: &ScenePlan) -> Vec<f64> {
+    let own = |spectra: &Arc<LocalSpectra>| spectra.largest_um2();
+    let own: Vec<f64> = plan.pool.iter().map(own).collect();
+    let mut units = own.clone();
+    // A surface's four directions share a unit, because their powers are added.
+    for textile in &plan.textiles {
+        let unit = textile.spectra.iter().map(|&s| own[s]).fold(0.0, f64::max);
+        for d in Direction::ALL {
+            units[textile.spectra[d.index()]] = unit;
+        }
+    }
+    units
 }
 
 #[inline]

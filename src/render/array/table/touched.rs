@@ -1,18 +1,19 @@
-//! Tables of areal spectra: too many points to tabulate when a scene is prepared, so that a node
-//! of a point is made when a tick first needs it.
+//! Tables of spectra with many points, over an area or along a long profile: a node of a point is
+//! made when a tick first needs it of that very point.
 //!
 //! Memory is set aside when preparing: a row of nodes for every point, or for as many as fit. A
 //! row's nodes stand in lines of the processor's cache, and lines of the same nodes stand together
 //! row after row: a display reads points that lie near each other at one speed, so what it reads is
 //! near each other too. When all rows are taken, the row that was taken first is given to the point
-//! that needs one. A node made is the number that preparing would have stored, whenever it is made,
-//! so amplitudes depend on nothing but scene and pose; what a first touch costs is bounded by the
-//! two nodes that a look-up reads, and is counted.
+//! that needs one. A node made is the same number whenever it is made, so amplitudes depend on
+//! nothing but scene and pose; what a first touch costs is bounded by the two nodes that a look-up
+//! reads, and is counted.
 
 use std::sync::Arc;
 
-use super::build::{NodeGains, normal};
 use super::grid::Grid;
+use super::nodes::NodeGains;
+use super::rows::RowTable;
 use super::segments::Spot;
 use crate::plan::{Contacts, Counters, PointGrid, ScenePlan};
 use selvedge_textile::surface::LocalSpectra;
@@ -58,7 +59,10 @@ fn between([before, after]: [Kept; 2], share: f32) -> Kept {
     [0, 1].map(|band: usize| before[band] + (after[band] - before[band]) * share)
 }
 
-/// What contactors that share a speed along an axis of an areal surface hear.
+/// What a node is made with, and who counts it.
+pub(super) type Making<'a> = (&'a mut NodeGains, &'a mut Counters);
+
+/// What contactors that share a speed along an axis of such a surface hear.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Heard {
     /// Which spectra of the pool.
@@ -67,11 +71,10 @@ pub(super) struct Heard {
     pub(super) spot: Spot,
 }
 
-/// Powers of areal spectra at the nodes that were touched.
+/// Powers of spectra with many points at the nodes that were touched.
 #[derive(Debug, Clone)]
 pub(super) struct TouchedTables {
-    gains: Arc<NodeGains>,
-    /// By place in the pool; `None` for spectra along one profile.
+    /// By place in the pool; `None` for spectra with few points.
     areas: Vec<Option<Area>>,
     /// By place in the pool, the first of an area's points among those of all areas.
     firsts: Vec<usize>,
@@ -89,37 +92,36 @@ pub(super) struct TouchedTables {
     next: usize,
 }
 
-/// The spectra of one direction over an area.
+/// The spectra of one direction.
 #[derive(Debug, Clone)]
 struct Area {
     spectra: Arc<LocalSpectra>,
-    /// One over the unit of its powers, 1/µm²; 0 if all are silent.
-    per_unit: f64,
+    unit_um2: f64,
 }
 
-/// Roughly how many bytes the tables of a scene take: those that are made when preparing, and
-/// those that areal spectra are given to grow in, as much of their own size as there is room for.
+/// Roughly how many bytes are set aside for the tables of a scene: all of those of spectra with few
+/// points, and of the others as much of their own size as there is room for.
 pub(crate) fn table_bytes(plan: &ScenePlan, grid: &Grid) -> usize {
     let n_nodes = grid.segments.nodes().len();
-    let profiles = plan.pool.iter().filter(|spectra| !spectra.is_areal());
-    let n_points: usize = profiles.map(|spectra| spectra.n_points()).sum();
-    let prepared = n_points
+    let few = n_points(plan, RowTable::suits);
+    let of_few = few
         .saturating_mul(n_nodes)
         .saturating_mul(size_of::<[f32; 2]>());
-    let room = MAX_TABLE_BYTES.saturating_sub(prepared);
+    let room = MAX_TABLE_BYTES.saturating_sub(of_few);
     let touched = touched_bytes(plan, grid, room).unwrap_or(MAX_TABLE_BYTES);
-    prepared.saturating_add(touched)
+    of_few.saturating_add(touched)
 }
 
-/// How many points of a plan are areal.
-fn n_areal_points(plan: &ScenePlan) -> usize {
-    let areal = plan.pool.iter().filter(|spectra| spectra.is_areal());
-    areal.map(|spectra| spectra.n_points()).sum()
+/// Points of all spectra of a plan of one kind.
+fn n_points(plan: &ScenePlan, is_of_kind: impl Fn(&LocalSpectra) -> bool) -> usize {
+    let spectra = plan.pool.iter().filter(|spectra| is_of_kind(spectra));
+    spectra.map(|spectra| spectra.n_points()).sum()
 }
 
-/// Bytes that the rows of a plan's areal points take, within `room`; `None` if too few fit.
+/// Bytes that the rows of a plan's points take where there are many, within `room`; `None` if too
+/// few fit.
 pub(super) fn touched_bytes(plan: &ScenePlan, grid: &Grid, room: usize) -> Option<usize> {
-    let n_points = n_areal_points(plan);
+    let n_points = n_points(plan, |spectra| !RowTable::suits(spectra));
     let row = row_bytes(grid.segments.nodes().len());
     let n_rows = n_points.min(room / row);
     (n_rows >= n_points.min(MIN_ROWS)).then(|| n_rows * row)
@@ -147,16 +149,15 @@ impl TouchedTables {
     pub(super) fn new(
         plan: &ScenePlan,
         units_um2: &[f64],
-        gains: Arc<NodeGains>,
+        n_nodes: usize,
         n_bytes: usize,
     ) -> Self {
-        let n_nodes = gains.n_nodes();
         let n_rows = n_bytes / row_bytes(n_nodes);
         let n_lines = n_lines(n_nodes);
         let area = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
-            spectra.is_areal().then(|| Area {
+            (!RowTable::suits(spectra)).then(|| Area {
                 spectra: Arc::clone(spectra),
-                per_unit: if *unit_um2 > 0.0 { 1.0 / unit_um2 } else { 0.0 },
+                unit_um2: *unit_um2,
             })
         };
         let mut n_points = 0;
@@ -170,7 +171,6 @@ impl TouchedTables {
         let is_whole = n_rows >= n_points;
         let [n_places, n_owners] = if is_whole { [0, 0] } else { [n_points, n_rows] };
         Self {
-            gains,
             areas,
             firsts,
             n_rows,
@@ -183,16 +183,10 @@ impl TouchedTables {
         }
     }
 
-    /// Whether spectra of the pool are areal.
-    #[inline]
-    pub(super) fn has(&self, spectra: usize) -> bool {
-        self.areas[spectra].is_some()
-    }
-
     /// Bytes set aside.
     pub(super) fn n_bytes(&self) -> usize {
         let n_places = self.row_of.len() + self.point_of.len();
-        size_of_val(&self.kept[..]) + n_places * size_of::<u32>() + self.gains.n_bytes()
+        size_of_val(&self.kept[..]) + n_places * size_of::<u32>()
     }
 
     /// Adds to every contactor on a textile its powers along the axes that are heard; contactors
@@ -202,7 +196,7 @@ impl TouchedTables {
         heard: [Option<Heard>; 2],
         contacts: &Contacts<'_>,
         powers: &mut [[f32; 2]],
-        counters: &mut Counters,
+        (gains, counters): Making<'_>,
     ) {
         // A local of its own, so that the loops need not ask anew where it lies.
         let mut memory = std::mem::take(&mut self.kept);
@@ -235,8 +229,8 @@ impl TouchedTables {
                             [between(a, warp.spot.share), between(b, weft.spot.share)]
                         }
                         _ => [
-                            self.at_in(kept, (warp.spectra, points[0]), warp.spot, counters),
-                            self.at_in(kept, (weft.spectra, points[1]), weft.spot, counters),
+                            self.at_in(kept, (warp.spectra, points[0]), warp.spot, (gains, counters)),
+                            self.at_in(kept, (weft.spectra, points[1]), weft.spot, (gains, counters)),
                         ],
                     };
                     (0..2).for_each(|band| power[band] -= a[band] + b[band]);
@@ -244,12 +238,12 @@ impl TouchedTables {
             }
             [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (warp.spectra, warp.points.nearest(u_mm, w_mm));
-                let own = self.at_in(kept, point, warp.spot, counters);
+                let own = self.at_in(kept, point, warp.spot, (gains, counters));
                 (0..2).for_each(|band| power[band] -= own[band]);
             }),
             [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
                 let point = (weft.spectra, weft.points.nearest(w_mm, u_mm));
-                let own = self.at_in(kept, point, weft.spot, counters);
+                let own = self.at_in(kept, point, weft.spot, (gains, counters));
                 (0..2).for_each(|band| power[band] -= own[band]);
             }),
             [None, None] => {}
@@ -270,10 +264,10 @@ impl TouchedTables {
         &mut self,
         point: (usize, usize),
         spot: Spot,
-        counters: &mut Counters,
+        making: Making<'_>,
     ) -> [f32; 2] {
         let mut memory = std::mem::take(&mut self.kept);
-        let kept = self.at_in(lines_of(&mut memory), point, spot, counters);
+        let kept = self.at_in(lines_of(&mut memory), point, spot, making);
         self.kept = memory;
         kept.map(|power| -power)
     }
@@ -285,7 +279,7 @@ impl TouchedTables {
         kept: &mut [[Kept; LINE]],
         point: (usize, usize),
         spot: Spot,
-        counters: &mut Counters,
+        making: Making<'_>,
     ) -> Kept {
         let place = self.firsts[point.0] + point.1;
         let row = if self.is_whole {
@@ -295,7 +289,7 @@ impl TouchedTables {
         };
         let nodes = match made_at(kept, self.line(row, spot.node), spot.node % STEPS) {
             Some(nodes) => nodes,
-            None => self.made(kept, point, spot.node, counters),
+            None => self.made(kept, point, spot.node, making),
         };
         between(nodes, spot.share)
     }
@@ -308,7 +302,7 @@ impl TouchedTables {
         all: &mut [[Kept; LINE]],
         (spectra, point): (usize, usize),
         node: usize,
-        counters: &mut Counters,
+        (gains, counters): Making<'_>,
     ) -> [Kept; 2] {
         let Some(area) = self.areas[spectra].clone() else {
             return [[-0.0; 2]; 2];
@@ -324,8 +318,8 @@ impl TouchedTables {
         [0, 1].map(|step| {
             let (node, kept) = (node + step, &mut line[node % STEPS + step]);
             if !is_made(*kept) {
-                let (sums, n_bins) = self.gains.sums(node, powers_um2);
-                *kept = sums.map(|sum| -normal(2.0 * sum * area.per_unit));
+                let ([powers], n_bins) = gains.powers(node, [powers_um2], area.unit_um2);
+                *kept = powers.map(|power| -power);
                 counters.nodes_made += 1;
                 counters.bins_evaluated += 2 * n_bins as u64;
             }
@@ -360,15 +354,14 @@ fn number(index: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::array::TableCache;
     use crate::{PlacedLevel, PlacedSurface, RenderScene};
     use selvedge_foundation::geometry::Frame;
     use selvedge_foundation::numerics::{Grid as Heights, Random};
     use selvedge_textile::surface::{HeightMap, Surface};
     use selvedge_textile::tactile::Filters;
 
-    /// An areal scene, and what its tables are made with.
-    fn prepared() -> (ScenePlan, Vec<f64>, Arc<NodeGains>, Grid) {
+    /// An areal scene, the units of its tables and their nodes.
+    fn prepared() -> (ScenePlan, Vec<f64>, Grid) {
         let mut random = Random::new(8);
         let heights = (0..160 * 140).map(|_| random.normal()).collect();
         let map = HeightMap::new(Heights::from_rows(160, heights).unwrap(), [0.05; 2]).unwrap();
@@ -386,67 +379,48 @@ mod tests {
             textiles: vec![placed],
             ..RenderScene::default()
         };
-        let (plan, mut cache) = (ScenePlan::of(&scene), TableCache::default());
-        let grid = cache.grid(&Filters::default(), 0.05);
-        let gains = cache.node_gains(&Filters::default(), &grid);
-        let (_, units_um2) = cache.tables(&plan, &Filters::default(), &grid);
-        (plan, units_um2, gains, grid)
+        let plan = ScenePlan::of(&scene);
+        let units_um2 = super::super::units_um2(&plan);
+        (plan, units_um2, Grid::new(&Filters::default(), 0.05))
     }
 
     #[test]
     fn powers_are_the_same_bits_whether_made_now_before_or_again() {
-        let (plan, units_um2, gains, grid) = prepared();
+        let (plan, units_um2, grid) = prepared();
         let all = touched_bytes(&plan, &grid, usize::MAX).unwrap();
-        let row = row_bytes(grid.segments.nodes().len());
+        let n_nodes = grid.segments.nodes().len();
+        let row = row_bytes(n_nodes);
         assert_eq!(all, 2 * 4 * 3 * row, "8 × 7 mm less a window, both axes");
-        let new = |n_bytes| TouchedTables::new(&plan, &units_um2, Arc::clone(&gains), n_bytes);
-        let (mut whole, mut small) = (new(all), new(3 * row));
+        let gains = || NodeGains::new(&grid.segments, &Filters::default());
+        let new = |n_bytes| TouchedTables::new(&plan, &units_um2, n_nodes, n_bytes);
+        let (mut whole, mut small) = ((new(all), gains()), (new(3 * row), gains()));
         let mut random = Random::new(9);
         let mut counters = Counters::default();
+        let at = |tables: &mut (TouchedTables, NodeGains), (s, point, spot), counters: &mut _| {
+            let found = tables.0.at((s, point), spot, (&mut tables.1, counters));
+            found.map(f32::to_bits)
+        };
         let mut look_ups = Vec::new();
         for _ in 0..2000 {
             let speed = 0.01 * 2.0_f64.powf(random.uniform_in(0.0, 18.0));
-            let at = (random.index(2), random.index(12), grid.segments.find(speed));
-            look_ups.push((at, whole.at((at.0, at.1), at.2, &mut counters)));
+            let place = (random.index(2), random.index(12), grid.segments.find(speed));
+            look_ups.push((place, at(&mut whole, place, &mut counters)));
         }
         let n_made = counters.nodes_made;
-        for ((spectra, point, spot), expected) in &look_ups {
-            let again = whole.at((*spectra, *point), *spot, &mut counters);
-            assert_eq!(again.map(f32::to_bits), expected.map(f32::to_bits));
+        for (place, expected) in &look_ups {
+            assert_eq!(at(&mut whole, *place, &mut counters), *expected);
         }
         assert_eq!(counters.nodes_made, n_made, "what is made stays");
-        for ((spectra, point, spot), expected) in look_ups.iter().rev() {
-            let found = small.at((*spectra, *point), *spot, &mut counters);
-            assert_eq!(found.map(f32::to_bits), expected.map(f32::to_bits));
+        for (place, expected) in look_ups.iter().rev() {
+            assert_eq!(at(&mut small, *place, &mut counters), *expected);
         }
         assert!(counters.nodes_made > 3 * n_made / 2, "rows were given away");
-        assert!(look_ups.iter().any(|(_, [low, _])| *low > 0.0));
-    }
-
-    #[test]
-    fn a_node_is_what_preparing_would_have_stored() {
-        let (plan, units_um2, gains, grid) = prepared();
-        let n_bytes = touched_bytes(&plan, &grid, usize::MAX).unwrap();
-        let mut touched = TouchedTables::new(&plan, &units_um2, gains, n_bytes);
-        let given = [(&*plan.pool[0], units_um2[0])];
-        let tables =
-            super::super::build::tables_of(grid.segments.nodes(), &given, &Filters::default());
-        let n_points = plan.pool[0].n_points();
-        for node in (0..grid.segments.nodes().len() - 1).step_by(7) {
-            let spot = Spot { node, share: 0.0 };
-            for point in 0..n_points {
-                let found = touched.at((0, point), spot, &mut Counters::default());
-                let stored = tables[0][node * n_points + point];
-                for (a, b) in found.into_iter().zip(stored) {
-                    assert!((a - b).abs() <= 1.2e-7 * b, "{a} for {b} at node {node}");
-                }
-            }
-        }
+        assert!(look_ups.iter().any(|(_, [low, _])| *low > 0));
     }
 
     #[test]
     fn tables_of_any_area_fit_into_their_room_or_are_refused() {
-        let (plan, _, _, grid) = prepared();
+        let (plan, _, grid) = prepared();
         let row = row_bytes(grid.segments.nodes().len());
         assert_eq!(touched_bytes(&plan, &grid, 23 * row), None);
         assert_eq!(touched_bytes(&plan, &grid, 24 * row), Some(24 * row));

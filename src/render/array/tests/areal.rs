@@ -143,24 +143,6 @@ fn cloth_total(surface: &Surface) -> f64 {
 }
 
 #[test]
-fn an_edited_scene_is_ready_at_once_and_feels_the_same() {
-    let mut cache = TableCache::default();
-    let (mut scene, accuracy) = (under_exeter(&cloth::areal(8)), Accuracy::default());
-    assert!(!cache.has_all(&scene, Method::Table, &accuracy));
-    let mut first =
-        ArrayRenderer::prepare_with_cache(&scene, Method::Table, &accuracy, &mut cache).unwrap();
-    assert!(cache.has_all(&scene, Method::Table, &accuracy));
-    let at = |du: f64| pose([50.0 + du, 50.0], [60.0, 60.0]);
-    let before = amplitudes(&mut first, &at(0.0));
-    scene.textiles[0].workspace_from_textile.origin = Point::new(3.0, 0.0);
-    assert!(cache.has_all(&scene, Method::Table, &accuracy));
-    let mut moved =
-        ArrayRenderer::prepare_with_cache(&scene, Method::Table, &accuracy, &mut cache).unwrap();
-    assert_eq!(amplitudes(&mut moved, &at(3.0)), before);
-    assert!(moved.n_bytes() <= 256_000_000);
-}
-
-#[test]
 fn a_trace_explains_what_an_areal_surface_is_felt_as() {
     let scene = under_exeter(&cloth::areal(9));
     let mut reference = renderer(&scene, Method::Reference);

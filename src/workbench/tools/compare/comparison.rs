@@ -14,7 +14,6 @@ use crate::bench::recording::Recording;
 use crate::tools::compare::choice::{Choice, Inputs, Route, Side, What};
 use selvedge_chart::Chart;
 use selvedge_foundation::progress::Progress;
-use selvedge_render::array::TableCache;
 use selvedge_render::scene::{LoadedScene, Scene};
 use selvedge_render::{DifferenceMeter, LevelDifference, RenderScene, replay_pair};
 
@@ -26,12 +25,8 @@ const N_TICKS_A_STEP: u64 = 256;
 /// How often progress is shown.
 const PROGRESS: Duration = Duration::from_millis(100);
 
-/// What a thread brings back.
-struct Brought {
-    cache: TableCache,
-    /// `None` when it was cancelled.
-    found: Result<Option<LevelDifference>, String>,
-}
+/// What a thread brings back; `None` when it was cancelled.
+type Brought = Option<LevelDifference>;
 
 /// A comparison under way.
 struct Running {
@@ -55,7 +50,6 @@ pub(crate) struct Compare {
     pub(super) recorded: Option<Arc<[Recording; 2]>>,
     ended: Option<(Inputs, End)>,
     running: Option<Running>,
-    cache: TableCache,
     chart: Option<Chart>,
     n_begun: u64,
 }
@@ -135,12 +129,9 @@ impl Compare {
     fn begin(&mut self, inputs: Inputs, loaded: &LoadedScene, executor: &Executor) {
         self.cancel();
         self.n_begun += 1;
-        let mut cache = std::mem::take(&mut self.cache);
         let (loaded, asked) = (loaded.clone(), inputs.clone());
         let task = executor.start("selvedge-compare", move |progress| {
-            let found = compare(&asked, &loaded, &mut cache, progress);
-            let found = found.map_err(|error| error.to_string());
-            Ok(Brought { cache, found })
+            compare(&asked, &loaded, progress).map_err(|error| error.to_string())
         });
         self.running = Some(Running { inputs, task });
         self.poll();
@@ -169,15 +160,13 @@ impl Compare {
         };
         match running.task.poll() {
             None => self.running = Some(running),
-            Some(Ok(brought)) => self.take(running.inputs, brought),
-            Some(Err(words)) => self.ended = Some((running.inputs, End::Failed(words))),
+            Some(brought) => self.take(running.inputs, brought),
         }
     }
 
-    fn take(&mut self, inputs: Inputs, brought: Brought) {
-        self.cache = brought.cache;
+    fn take(&mut self, inputs: Inputs, brought: Result<Brought, String>) {
         self.chart = None;
-        let end = match brought.found {
+        let end = match brought {
             Ok(Some(found)) => End::Found(found),
             Ok(None) => End::Cancelled,
             Err(words) => End::Failed(words),
@@ -255,7 +244,6 @@ fn compare_recorded(two: &[Recording; 2], (scene, display): (&Scene, usize)) -> 
 fn compare(
     inputs: &Inputs,
     loaded: &LoadedScene,
-    cache: &mut TableCache,
     progress: &mut Progress<'_>,
 ) -> Result<Option<LevelDifference>, AppError> {
     if let Route::Recorded(two) = &inputs.route {
@@ -271,7 +259,7 @@ fn compare(
     let pair = [0, 1].map(|index| (&scenes[index], inputs.sides[index].method));
     let mut n_done = 0_u64;
     let route = (inputs.route.ticks(), inputs.route.path());
-    let end = replay_pair(pair, route, cache, &mut |tick, frames| {
+    let end = replay_pair(pair, route, &mut |tick, frames| {
         meter.add(tick, inputs.display, frames);
         n_done += 1;
         let is_due = n_done.is_multiple_of(N_TICKS_A_STEP) || n_done == 1;

@@ -15,7 +15,6 @@ use selvedge_experiment::design::{Design, Source};
 use selvedge_experiment::layout::Layout;
 use selvedge_foundation::files::sha256_hex;
 use selvedge_render::RenderError;
-use selvedge_render::array::TableCache;
 use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
 use selvedge_render::stylus::{StylusDrive, StylusSettings};
@@ -27,7 +26,6 @@ use selvedge_textile::tactile::Tuning;
 pub(crate) struct Materials {
     /// Every textile of the design, loaded.
     loaded: LoadedScene,
-    cache: TableCache,
     rendering: Rendering,
     display: Display,
     tuning: Tuning,
@@ -40,7 +38,7 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
-    /// Loads the textiles of a design whose file is `path`, and makes their tables: takes a while.
+    /// Loads the textiles of a design whose file is `path`: takes a while.
     pub(crate) fn gather(
         design: &Design,
         path: &Path,
@@ -53,9 +51,8 @@ impl Materials {
         let items = crate::bench::library_shelf::items_of(&library, None);
         let library_view = LibraryView::new(Arc::clone(&library), items);
         let loaded = LoadedScene::load(scene, library)?;
-        let mut cache = TableCache::default();
         let accuracy = rendering.accuracy();
-        PreparedScene::prepare_cached(&loaded, rendering.method, &accuracy, &mut cache)?;
+        PreparedScene::prepare(&loaded, rendering.method, &accuracy)?;
         let hashes = hashes_of(&loaded)?;
         let stylus = design.composition.presentation.stylus;
         let tips =
@@ -63,7 +60,6 @@ impl Materials {
         let materials = Self {
             tuning: tuning(design, &loaded),
             loaded,
-            cache,
             rendering,
             display,
             hashes,
@@ -90,7 +86,7 @@ impl Materials {
 
     /// What lies in a layout, ready for the engine, and the stylus that feels it, if one does.
     pub(crate) fn prepare(
-        &mut self,
+        &self,
         design: &Design,
         layout: &Layout,
         tuning: Tuning,
@@ -103,7 +99,7 @@ impl Materials {
         let scene = layout.scene(design, (&self.display, tuning), level_db);
         let loaded = self.loaded.with_scene(scene)?;
         let (method, accuracy) = (self.rendering.method, self.rendering.accuracy());
-        let prepared = PreparedScene::prepare_cached(&loaded, method, &accuracy, &mut self.cache)?;
+        let prepared = PreparedScene::prepare(&loaded, method, &accuracy)?;
         Ok((prepared, self.stylus(design, layout, &loaded)?))
     }
 

@@ -16,7 +16,7 @@ use crate::tools::timeline::columns::{
 };
 use crate::tools::timeline::job::{Job, MakeColumns};
 use selvedge_device::{ArrayProfile, Coder, LinkScale};
-use selvedge_render::array::{ArrayRenderer, TableCache};
+use selvedge_render::array::ArrayRenderer;
 use selvedge_render::scene::{ExplorationPath, Pose};
 
 /// What decides how strong a recording is on every contactor of the display that is shown.
@@ -109,7 +109,6 @@ impl<K: PartialEq> Layer<K> {
 pub(crate) struct RecordedTiles {
     felt: Layer<FeltKey>,
     spectrum: Layer<SpectrumKey>,
-    cache: Arc<Mutex<TableCache>>,
 }
 
 impl RecordedTiles {
@@ -154,11 +153,11 @@ impl RecordedTiles {
         if key.is_as_recorded {
             shown.end = shown.end.min(recording.n_contactors());
         }
-        let (n_rows, cache) = (n_felt_rows(shown.len()), &self.cache);
+        let n_rows = n_felt_rows(shown.len());
         let felt = self
             .felt
             .follow(bench, (path, focus), (key, n_rows), |key| {
-                felt_columns(bench, recording, (key, shown), cache)
+                felt_columns(bench, recording, (key, shown))
             });
         let key = (scenes, [display, contactor]);
         let spectrum = self
@@ -174,18 +173,16 @@ fn felt_columns(
     bench: &Bench,
     recording: &Recording,
     (key, shown): (&FeltKey, Range<usize>),
-    cache: &Arc<Mutex<TableCache>>,
 ) -> MakeColumns {
     let (key, recording) = (key.clone(), recording.clone());
-    let (scene, cache) = (bench.inspection.scene.clone(), Arc::clone(cache));
+    let scene = bench.inspection.scene.clone();
     let n_contactors = shown.len();
     Box::new(move || {
         let amplitudes = if key.is_as_recorded {
             Amplitudes::Recorded(recording.clone(), shown)
         } else {
             let (method, accuracy) = (key.rendering.method, key.rendering.accuracy());
-            let mut cache = cache.lock().unwrap_or_else(PoisonError::into_inner);
-            let renderer = ArrayRenderer::prepare_with_cache(&scene, method, &accuracy, &mut cache);
+            let renderer = ArrayRenderer::prepare(&scene, method, &accuracy);
             Amplitudes::Rendered(Box::new(Rendered {
                 renderer: renderer.map_err(|error| error.to_string())?,
                 mask: key.gains.contactor_mask().to_vec(),

@@ -1,0 +1,132 @@
+//! Tables of spectra along a profile of usual length: a node of all points is made when a tick
+//! first needs it of one.
+//!
+//! Contactors that share a velocity read many points at one speed, so that the points of a node
+//! stand beside each other and are made together: of at most [`MAX_POINTS`] points, which bounds
+//! what a first touch costs.
+
+use std::sync::Arc;
+
+use super::nodes::NodeGains;
+use super::segments::Spot;
+use crate::plan::Counters;
+use selvedge_textile::surface::LocalSpectra;
+
+/// Most points of a profile whose nodes are made for all of them: 64 mm.
+const MAX_POINTS: usize = 64;
+/// Points that are summed together.
+const POINTS: usize = 4;
+
+/// One set of spectra over all nodes.
+#[derive(Debug, Clone)]
+pub(super) struct RowTable {
+    spectra: Arc<LocalSpectra>,
+    unit_um2: f64,
+    pub(super) n_points: usize,
+    /// Bins beyond this are 0 at every point.
+    n_bins: usize,
+    /// Node by node a row of points; a power is `[40 Hz, 320 Hz]` in units of the textile's. Zeros
+    /// as the system hands them out where a node is not made.
+    powers: Vec<[f32; 2]>,
+    is_made: Vec<bool>,
+}
+
+/// A direction at one speed: the rows before and after, and the share of the way between.
+#[derive(Clone, Copy)]
+pub(super) struct Rows<'a> {
+    before: &'a [[f32; 2]],
+    after: &'a [[f32; 2]],
+    share: f32,
+}
+
+impl RowTable {
+    /// Whether spectra are tabulated this way.
+    pub(super) fn suits(spectra: &LocalSpectra) -> bool {
+        !spectra.is_areal() && spectra.n_points() <= MAX_POINTS
+    }
+
+    /// Nothing made yet, with room for all.
+    pub(super) fn new(spectra: &Arc<LocalSpectra>, unit_um2: f64, n_nodes: usize) -> Self {
+        let n_points = spectra.n_points();
+        let n_heard = |point: usize| {
+            let powers_um2 = spectra.powers_um2(point);
+            let last = powers_um2.iter().rposition(|power| *power != 0.0);
+            last.map_or(0, |last| last + 1)
+        };
+        Self {
+            spectra: Arc::clone(spectra),
+            unit_um2,
+            n_points,
+            n_bins: (0..n_points).map(n_heard).max().unwrap_or(0),
+            powers: vec![[0.0; 2]; n_points * n_nodes],
+            is_made: vec![false; n_nodes],
+        }
+    }
+
+    /// Bytes set aside.
+    pub(super) fn n_bytes(&self) -> usize {
+        size_of_val(&self.powers[..])
+    }
+
+    /// The rows around a speed; those that are missing are made, and counted.
+    #[inline]
+    pub(super) fn rows(
+        &mut self,
+        spot: Spot,
+        gains: &mut NodeGains,
+        counters: &mut Counters,
+    ) -> Rows<'_> {
+        if !(self.is_made[spot.node] & self.is_made[spot.node + 1]) {
+            self.make(spot.node, gains, counters);
+        }
+        let rows = &self.powers[spot.node * self.n_points..][..2 * self.n_points];
+        let (before, after) = rows.split_at(self.n_points);
+        Rows {
+            before,
+            after,
+            share: spot.share,
+        }
+    }
+
+    /// Makes a node and the next, as far as they are missing.
+    #[cold]
+    #[inline(never)]
+    fn make(&mut self, first: usize, gains: &mut NodeGains, counters: &mut Counters) {
+        for node in first..first + 2 {
+            if std::mem::replace(&mut self.is_made[node], true) {
+                continue;
+            }
+            let row = &mut self.powers[node * self.n_points..][..self.n_points];
+            let of_point = |point: usize| &self.spectra.powers_um2(point)[..self.n_bins];
+            let (together, alone) = row.as_chunks_mut::<POINTS>();
+            let n_together = together.len() * POINTS;
+            for (first, slots) in (0..).step_by(POINTS).zip(together) {
+                let points = std::array::from_fn(|i| of_point(first + i));
+                let (powers, n_bins) = gains.powers(node, points, self.unit_um2);
+                *slots = powers;
+                counters.bins_evaluated += (2 * POINTS * n_bins) as u64;
+            }
+            for (point, slot) in (n_together..).zip(alone) {
+                let ([power], n_bins) = gains.powers(node, [of_point(point)], self.unit_um2);
+                *slot = power;
+                counters.bins_evaluated += 2 * n_bins as u64;
+            }
+            counters.nodes_made += self.n_points as u64;
+        }
+    }
+}
+
+impl Rows<'_> {
+    #[inline]
+    pub(super) fn at(self, point: usize) -> [f32; 2] {
+        let ([a, b], [c, d]) = (self.before[point], self.after[point]);
+        [a + (c - a) * self.share, b + (d - b) * self.share]
+    }
+
+    pub(super) fn blend(self, out: &mut [[f32; 2]]) {
+        for (out, (before, after)) in out.iter_mut().zip(self.before.iter().zip(self.after)) {
+            out[0] = before[0] + (after[0] - before[0]) * self.share;
+            out[1] = before[1] + (after[1] - before[1]) * self.share;
+        }
+    }
+}
