@@ -23,6 +23,7 @@ mod bridge_show;
 mod certify;
 mod doctor;
 mod drape;
+mod examples;
 mod experiment;
 mod failure;
 mod figure;
@@ -31,10 +32,12 @@ mod friction;
 mod help;
 mod identify;
 mod input;
+mod manual;
 mod mds;
 mod mds_json;
 mod method;
 mod output;
+mod paths;
 mod picture;
 mod picture_relief;
 mod play;
@@ -66,10 +69,11 @@ mod workbench;
 
 pub(crate) use failure::CliError;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use selvedge_foundation::signals;
 
 /// Virtual textiles, felt through a fingertip array of vibrating contactors.
@@ -140,17 +144,34 @@ enum Command {
     Stage(stage::StageCommand),
     /// The workbench as a picture, no display needed
     Screenshot(screenshot::ScreenshotArgs),
-    /// The guide, page by page
+    /// The guide, page by page, and what each command takes
     Help(help::HelpArgs),
+    /// What a shell completes commands by, printed: bash, zsh, fish and others
+    Completions(manual::CompletionsArgs),
+    /// A manual page for every command
+    Man(manual::ManArgs),
+}
+
+/// The command line as it is declared, with examples.
+fn command() -> clap::Command {
+    examples::added(Cli::command())
 }
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
+    let args: Vec<OsString> = std::env::args_os().collect();
+    let command = command();
+    if let Some(line) = usage::unknown_command(args.get(1..).unwrap_or_default(), &command) {
+        terminal::line(&line);
+        return ExitCode::from(2);
+    }
+    let parsed = command.clone().try_get_matches_from(&args);
+    let parsed = parsed.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
+    let (cli, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return usage::answer(&error),
     };
-    let ended = run(cli);
+    let ended = paths::check(&command, &matches).and_then(|()| run(cli));
     terminal::end();
     match ended {
         Ok(()) | Err(CliError::OutputClosed) => ExitCode::SUCCESS,
@@ -187,6 +208,8 @@ fn run(cli: Cli) -> Result<(), CliError> {
         Some(Command::Stage(command)) => stage::run(&command),
         Some(Command::Screenshot(args)) => screenshot::run(&args),
         Some(Command::Help(args)) => help::run(&args),
+        Some(Command::Completions(args)) => manual::print_completions(&args),
+        Some(Command::Man(args)) => manual::write_pages(&args),
     }
 }
 

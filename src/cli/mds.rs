@@ -23,7 +23,8 @@ const STARTS_OF_CHANCE: usize = 100;
 /// A table of dissimilarities, and how it is mapped.
 #[derive(Debug, Args)]
 pub(super) struct MdsArgs {
-    /// Square table or a triangle of it, with or without names; an empty cell is missing
+    /// Square table or a triangle of it, with or without names; an empty cell is missing; `-` is
+    /// standard input
     dissimilarities: PathBuf,
     /// Numbers of dimensions: 2, or 1-5
     #[arg(long, value_name = "K-K", value_parser = dimensions, default_value = "1-5")]
@@ -117,8 +118,8 @@ impl MdsArgs {
 
 /// Makes the maps, and writes them.
 pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
-    let path = &args.dissimilarities;
-    let table = SquareTable::read(&files::read_text(path)?, path)?;
+    let (text, path) = output::read_text(&args.dissimilarities)?;
+    let table = SquareTable::read(&text, path)?;
     let data = checked(&table, path, args.average)?;
     let mds = args.mds();
     let (maps, chance) = with_meter("mds", |progress| -> Result<_, CliError> {

@@ -1,14 +1,17 @@
-//! Where results go: standard output, or a file that appears only when it is whole.
+//! Where results go: standard output, or a file that appears only when it is whole; and text that
+//! comes from a file or from standard input.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::CliError;
-use selvedge_foundation::files::{FileError, Staged, TableWriter};
+use selvedge_foundation::files::{self, FileError, Staged, TableWriter};
 
 /// What standard output is called in errors.
 const STDOUT: &str = "standard output";
+/// Where systems other than Windows have standard input among their files.
+const STDIN: &str = "/dev/stdin";
 
 /// Creates what a staged file is written to.
 ///
@@ -89,7 +92,15 @@ impl TableOut {
     }
 }
 
-/// A file named on the command line; `-` is standard output.
+/// The text of a file, or of standard input when `-` is named, and what messages call it.
+pub(super) fn read_text(path: &Path) -> Result<(String, &Path), CliError> {
+    match named_file(Some(path)) {
+        Some(path) => Ok((files::read_text(path)?, path)),
+        None => Ok((files::read_text(Path::new(STDIN))?, Path::new(STDIN))),
+    }
+}
+
+/// A file named on the command line; `-` is standard output, or standard input.
 pub(super) fn named_file(path: Option<&Path>) -> Option<&Path> {
     path.filter(|path| *path != Path::new("-"))
 }

@@ -8,7 +8,7 @@ use clap::Args;
 use super::output::TableOut;
 use super::probe_surface::{FeltArgs, felt, tip};
 use super::terminal::{self, Meter};
-use super::{CliError, signals};
+use super::{CliError, output, signals};
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
@@ -47,7 +47,7 @@ pub(super) struct ProbeArgs {
 /// Where the stylus goes.
 #[derive(Debug, Args)]
 struct WayArgs {
-    /// Exploration in the textile's own frame: a path file, as of render
+    /// Exploration in the textile's own frame: a path file, as of render; `-` is standard input
     #[arg(long, value_name = "PATH.csv", conflicts_with = "stroke")]
     path: Option<PathBuf>,
     /// A line there and back: X,Y:X,Y in mm
@@ -227,7 +227,8 @@ impl Way {
     fn of(args: &WayArgs) -> Result<Self, CliError> {
         let (kind, own_seconds) = match (&args.path, args.stroke) {
             (Some(path), _) => {
-                let path = ExplorationPath::read(path)?;
+                let (text, path) = output::read_text(path)?;
+                let path = ExplorationPath::from_csv(&text, path)?;
                 let seconds = path.duration_s();
                 (WayKind::Path(path), seconds)
             }

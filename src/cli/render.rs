@@ -22,7 +22,8 @@ use selvedge_render::scene::{ExplorationPath, LoadedScene};
 use selvedge_render::{RenderScene, Replay, RunStats, replay};
 
 const PATH_HELP: &str =
-    "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s";
+    "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s; - is \
+     standard input";
 
 /// What to replay, and what to write.
 #[derive(Debug, Args)]
@@ -43,7 +44,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_enum, default_value_t = WavKind::Float, requires = "wav")]
     wav_format: WavKind,
     /// Another sample rate of the waveform, Hz
-    #[arg(long, value_name = "HZ", requires = "wav")]
+    #[arg(long, value_name = "HZ", requires = "wav", value_parser = wav_rate)]
     wav_rate: Option<u32>,
     /// MPEG haptics: a channel a contactor, a keyframe a tick in each band
     #[arg(long, value_name = "H.hjif")]
@@ -54,6 +55,15 @@ pub(super) struct RenderArgs {
     /// Cost, work left out and level error of every method on this path, as JSON
     #[arg(long, value_name = "S.json")]
     stats: Option<PathBuf>,
+}
+
+/// A sample rate as it is typed, Hz: two samples a period of the higher carrier at least.
+fn wav_rate(text: &str) -> Result<u32, String> {
+    let rate_hz = text.parse().map_err(|_whatever| "give a whole number of Hz".to_owned())?;
+    if rate_hz < 2 * 320 {
+        return Err("320 Hz takes two samples a period: give 640 Hz or above".to_owned());
+    }
+    Ok(rate_hz)
 }
 
 impl RenderArgs {
@@ -90,7 +100,8 @@ struct StatsFile<'a> {
 
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let path = ExplorationPath::read(&args.path)?;
+    let (text, named) = output::read_text(&args.path)?;
+    let path = ExplorationPath::from_csv(&text, named)?;
     let cache = selvedge_workbench::build_cache();
     let loaded = LoadedScene::read_along(&args.scene, cache.as_ref(), &path)?;
     if let Some(changed) = loaded.changed() {

@@ -39,6 +39,11 @@ pub(super) struct ScreenshotArgs {
 
 /// Draws and writes the picture.
 pub(super) fn run(args: &ScreenshotArgs) -> Result<(), CliError> {
+    let extension = args.out.extension();
+    if extension.is_some_and(|extension| !extension.eq_ignore_ascii_case("png")) {
+        let what = format!("{} is to be a PNG; call it .png", args.out.display());
+        return Err(CliError::Input(what));
+    }
     let picture = screenshot(&Screenshot {
         scene: args.scene.clone(),
         width: args.width,

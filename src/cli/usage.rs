@@ -1,8 +1,11 @@
 //! What is answered when the command line cannot be parsed: help, the version, or one line that
 //! says what is wrong.
 
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
+use clap::Command;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 
@@ -39,6 +42,54 @@ pub(super) fn answer(error: &clap::Error) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// The line about a first word that is neither a command nor a file, where it is much like a command
+/// or more follows: clap takes it for a scene.
+pub(super) fn unknown_command(args: &[OsString], command: &Command) -> Option<String> {
+    let [word, more @ ..] = args else {
+        return None;
+    };
+    let word = word.to_str().filter(|word| !word.starts_with('-'))?;
+    let is_file = Path::new(word).exists() || word.contains(['/', '\\', '.']);
+    if is_file || command.find_subcommand(word).is_some() {
+        return None;
+    }
+    let known = command.get_subcommands().map(Command::get_name);
+    let meant = match like(word, known) {
+        Some(like) => format!("did you mean {like}?"),
+        None if more.is_empty() => return None,
+        None => "see \"selvedge --help\"".to_owned(),
+    };
+    Some(format!("{word} is neither a command nor a scene file; {meant}"))
+}
+
+/// The name that a word is most like, if it is but for a letter in three.
+pub(super) fn like<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let apart = names.map(|name| (n_edits(word, name), name));
+    let (n_edits, name) = apart.min_by_key(|(n_edits, _)| *n_edits)?;
+    (3 * n_edits <= word.len().max(name.len())).then_some(name)
+}
+
+/// Letters to be left out, put in or exchanged to make one word of another (Levenshtein 1966), two
+/// neighbours that changed places counting once (Damerau 1964).
+fn n_edits(a: &str, b: &str) -> usize {
+    let [a, b] = [a, b].map(|word| word.chars().collect::<Vec<char>>());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let before = &rows[i - 1];
+            let exchanged = before[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut n = exchanged.min(before[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                n = n.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(n);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
 }
 
 /// The complaint without its heading, the usage and the hints, on one line.
@@ -86,5 +137,37 @@ mod tests {
         );
         assert_eq!(help_of(TEXT), "\"selvedge render --help\"");
         assert_eq!(help_of("Usage: selvedge [SCENE]"), "\"selvedge --help\"");
+    }
+
+    #[test]
+    fn a_word_is_like_the_name_that_few_letters_part_it_from() {
+        let names = ["render", "report", "bridge", "mds"];
+        for (word, expected) in [
+            ("rendr", Some("render")),
+            ("redner", Some("render")),
+            ("brigde", Some("bridge")),
+            ("mdss", Some("mds")),
+            ("replay", None),
+            ("", None),
+        ] {
+            assert_eq!(like(word, names.into_iter()), expected, "{word}");
+        }
+        assert_eq!(n_edits("abc", "abc"), 0);
+        assert_eq!(n_edits("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn a_misspelt_command_is_told_as_one_and_a_scene_is_not() {
+        let command = crate::command();
+        let told = |words: &[&str]| {
+            let words: Vec<OsString> = words.iter().map(OsString::from).collect();
+            unknown_command(&words, &command)
+        };
+        let line = told(&["rendr", "a.toml", "--path", "b.csv"]).unwrap();
+        assert!(line.ends_with("did you mean render?"), "{line}");
+        assert!(told(&["rendr"]).is_some() && told(&["silk", "x"]).is_some());
+        for scene in [&["silk"][..], &["a.scene.toml", "x"], &["--stage"], &["render"], &[]] {
+            assert_eq!(told(scene), None, "{scene:?}");
+        }
     }
 }

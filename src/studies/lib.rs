@@ -61,6 +61,7 @@ pub use study::{Findings, Row, Study};
 pub fn studies() -> Vec<Study> {
     vec![
         rendering::STUDY,
+        rendering::TOTAL,
         spectral_model::STUDY,
         areal::STUDY,
         drive_updates::STUDY,

@@ -98,6 +98,8 @@ const HOMES: &[(&str, &str)] = &[
     ("burn", "src/friction/network/"),
     ("clap", "src/cli/"),
     ("clap", "src/workbench/"),
+    ("clap_complete", "src/cli/manual.rs"),
+    ("clap_mangen", "src/cli/manual.rs"),
     ("cpal", "src/engine/audio/device.rs"),
     ("cpal", "src/engine/sound/system.rs"),
     ("crc32fast", "src/device/"),

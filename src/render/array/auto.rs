@@ -294,3 +294,107 @@ fn node_bins(pairs: &mut [NodePair], factor: f64, weight: impl Fn(&NodePair) -> 
     let more: f64 = (n_once - 1.0) / (2.0 * (n_twice + 1.0));
     Count::NODES_A_PAIR * (seen + once * more.clamp(0.0, factor - 1.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::array::ArrayRenderer;
+    use crate::scene::{LoadedScene, PathRow};
+    use selvedge_foundation::geometry::Point;
+
+    fn four() -> RenderScene {
+        RenderScene::of(&LoadedScene::shipped().unwrap())
+    }
+
+    /// To and fro over all four textiles, turning or not.
+    fn path(n_ticks: u32, turn_deg: f64) -> ExplorationPath {
+        let row = |tick: u32| {
+            let t_s = f64::from(tick) / TICKS_PER_S;
+            let [x_mm, y_mm] = [1.3, 1.9].map(|rate: f64| 130.0 + 110.0 * (rate * t_s).sin());
+            PathRow {
+                t_s,
+                position: Point::new(x_mm, y_mm),
+                angle_deg: turn_deg * t_s,
+                velocity: None,
+            }
+        };
+        ExplorationPath::new((0..n_ticks).map(row).collect()).unwrap()
+    }
+
+    fn chosen(scene: &RenderScene, path: &ExplorationPath, budget_db: f64) -> Method {
+        let accuracy = Accuracy::within_db(budget_db);
+        let renderer = ArrayRenderer::prepare_along(scene, Method::Auto, &accuracy, path);
+        renderer.unwrap().method()
+    }
+
+    #[test]
+    fn what_is_counted_is_what_the_methods_do() {
+        let scene = four();
+        let plan = ScenePlan::of(&scene);
+        for path in [path(300, 0.0), path(300, 40.0)] {
+            let work = Work::along(&scene, &plan, &path);
+            let accuracy = Accuracy {
+                banded_floor: 0.0,
+                ..Accuracy::default()
+            };
+            let counters = [Method::Reference, Method::Banded, Method::Table].map(|method| {
+                let mut renderer = ArrayRenderer::prepare(&scene, method, &accuracy).unwrap();
+                for (_, pose) in path.ticks() {
+                    renderer.tick(&[pose]);
+                }
+                *renderer.counters()
+            });
+            let [reference, banded, table] = counters;
+            let is = |found: f64, bins: u64| (2.0 * found - bins as f64).abs() < 0.5;
+            assert!(is(work.n_bins, reference.bins_evaluated), "{work:?}");
+            assert!(is(work.n_point_bins, banded.bins_evaluated), "{work:?}");
+            let directions = reference.directions_evaluated as f64;
+            assert!((work.n_directions - directions).abs() < 0.5, "{work:?}");
+            let made = 0.5 * table.bins_evaluated as f64;
+            let ratio = work.n_node_bins[1] / made;
+            assert!((0.5..2.0).contains(&ratio), "{ratio}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_the_ticks_tells_of_all() {
+        let scene = four();
+        let plan = ScenePlan::of(&scene);
+        let long = path(8000, 0.0);
+        let work = Work::along(&scene, &plan, &long);
+        let mut count = Count::of(&scene);
+        for tick in 0..8000 {
+            count.add(&plan, &long, tick);
+        }
+        let whole = count.scaled(&plan, 1.0);
+        let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
+        assert!(near(work.n_bins, whole.n_bins, 0.1), "{work:?} for {whole:?}");
+        assert!(near(work.n_point_bins, whole.n_point_bins, 0.1), "{work:?} for {whole:?}");
+        let nodes = [0, 1].map(|kind: usize| (work.n_node_bins[kind], whole.n_node_bins[kind]));
+        assert!(nodes.iter().all(|(a, b)| near(*a, *b, 0.5)), "{nodes:?}");
+    }
+
+    #[test]
+    fn preparing_is_weighed_against_the_ticks_that_follow() {
+        let scene = four();
+        assert_eq!(chosen(&scene, &path(1, 0.0), 0.05), Method::Reference, "it rests");
+        assert_eq!(chosen(&scene, &path(4, 0.0), 0.05), Method::Banded);
+        assert_eq!(chosen(&scene, &path(2400, 0.0), 0.05), Method::Table);
+        assert_eq!(chosen(&scene, &path(2400, 40.0), 0.05), Method::Table);
+        assert_eq!(chosen(&scene, &path(144_000, 0.0), 0.05), Method::Table);
+        assert_eq!(chosen(&scene, &path(2400, 0.0), 1e-5), Method::Banded);
+        assert_eq!(chosen(&scene, &path(2400, 0.0), 0.0), Method::Reference);
+        let beside = ExplorationPath::new(vec![
+            PathRow {
+                position: Point::new(-500.0, 0.0),
+                ..PathRow::default()
+            },
+            PathRow {
+                t_s: 3600.0,
+                position: Point::new(-900.0, 0.0),
+                ..PathRow::default()
+            },
+        ]);
+        assert_eq!(chosen(&scene, &beside.unwrap(), 0.05), Method::Reference);
+    }
+}

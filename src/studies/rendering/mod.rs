@@ -5,10 +5,12 @@
 
 mod study_table;
 mod this_scene;
+mod total;
 
 pub use this_scene::{Running, ThisSceneStudy};
 
 use study_table::table_rows;
+pub(crate) use total::STUDY as TOTAL;
 
 use super::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_foundation::numerics::Random;

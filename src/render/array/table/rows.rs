@@ -130,3 +130,74 @@ impl Rows<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::array::bin_gains::BinGains;
+    use crate::array::table::Grid;
+    use selvedge_foundation::numerics::Random;
+    use selvedge_textile::surface::{Direction, Profile, ProfileSet, Surface};
+    use selvedge_textile::tactile::Filters;
+
+    /// Spectra of a rough profile with so many points.
+    fn spectra(n_points: usize) -> Arc<LocalSpectra> {
+        let mut random = Random::new(4);
+        let heights = (0..1000 + 230 * (n_points - 1)).map(|_| random.normal());
+        let mut profiles = ProfileSet::default();
+        profiles[0] = Some(Profile::new(1.0 / 230.0, heights.collect()).unwrap());
+        let surface = Surface::from_profiles(profiles, 0.0).unwrap();
+        Arc::clone(surface.spectra(Direction::WarpForward))
+    }
+
+    #[test]
+    fn nodes_are_the_bits_of_a_table_made_at_once_in_whatever_order_they_are_touched() {
+        let spectra = spectra(18);
+        assert_eq!(spectra.n_points(), 18, "four groups, and two alone");
+        let unit_um2 = spectra.largest_um2();
+        for filters in [Filters::default(), Filters::Receptor] {
+            let grid = Grid::new(&filters, 0.05);
+            let nodes = grid.segments.nodes();
+            let (mut table, mut gains) = (
+                RowTable::new(&spectra, unit_um2, nodes.len()),
+                NodeGains::new(&grid.segments, &filters),
+            );
+            let (mut random, mut counters) = (Random::new(5), Counters::default());
+            for _ in 0..60 {
+                let node = random.index(nodes.len() - 1);
+                let spot = Spot { node, share: 0.0 };
+                let rows = table.rows(spot, &mut gains, &mut counters);
+                let found = [rows.before, rows.after].concat();
+                // Every power by itself, from gains of its own.
+                let expected = [node, node + 1].into_iter().flat_map(|node| {
+                    let mut own = vec![[0.0; 2]; nodes[node].n_bins];
+                    BinGains::new(&filters).fill(nodes[node].speed_mm_per_s, 0, &mut own);
+                    let spectra = &spectra;
+                    (0..18).map(move |point| {
+                        let mut sums = [0.0; 2];
+                        for (power, gain) in spectra.powers_um2(point).iter().zip(&own) {
+                            (0..2).for_each(|band| sums[band] += power * gain[band]);
+                        }
+                        sums.map(|sum| {
+                            let share = 2.0 * sum / unit_um2;
+                            let is_told = share >= f64::from(f32::MIN_POSITIVE);
+                            if is_told { crate::single(share) } else { 0.0 }
+                        })
+                    })
+                });
+                let bits = |power: [f32; 2]| power.map(f32::to_bits);
+                assert!(found.into_iter().map(bits).eq(expected.map(bits)), "{node}");
+            }
+            let n_made = counters.nodes_made;
+            assert!(n_made > 18 * 60 && n_made <= 18 * 120, "{n_made}");
+            let nothing = table.is_made.iter().filter(|is_made| !**is_made).count();
+            assert!(nothing > nodes.len() - 121, "what nobody touched is not made");
+        }
+    }
+
+    #[test]
+    fn profiles_of_usual_length_have_rows_and_longer_ones_do_not() {
+        assert!(RowTable::suits(&spectra(1)) && RowTable::suits(&spectra(MAX_POINTS)));
+        assert!(!RowTable::suits(&spectra(MAX_POINTS + 1)));
+    }
+}
