@@ -15,7 +15,7 @@ use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
 
 use selvedge_engine::ClipKind;
-use selvedge_foundation::files::to_json_string;
+use selvedge_foundation::files::{read_text, to_json_string};
 use selvedge_foundation::progress::Cancelled;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, LoadedScene};
@@ -103,7 +103,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let (text, named) = output::read_text(&args.path)?;
     let path = ExplorationPath::from_csv(&text, named)?;
     let cache = selvedge_workbench::build_cache();
-    let loaded = LoadedScene::read_along(&args.scene, cache.as_ref(), &path)?;
+    let text = (&*read_text(&args.scene)?, &*args.scene);
+    let loaded = LoadedScene::from_text_along(text, cache.as_ref(), &path)?;
     if let Some(changed) = loaded.changed() {
         terminal::notice(&changed);
     }

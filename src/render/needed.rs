@@ -9,27 +9,25 @@ use std::path::Path;
 use crate::plan::{Counters, DisplayPlan, Ground, finite_pose, is_at_rest};
 use crate::scene::{ExplorationPath, LoadedScene, PlacedTextile, Scene, SceneError};
 use crate::{ContactorArray, GainTerms};
-use selvedge_foundation::files;
 use selvedge_textile::BuildCache;
 use selvedge_textile::tactile::{Band, Tuning};
 
 impl LoadedScene {
-    /// Reads a scene file and, of the textiles that it places, those that are felt along a path:
-    /// the others have their manifests and no surface. Compression to the mean level of all takes
-    /// all.
+    /// Reads the text of a scene file and, of the textiles that it places, those that are felt along
+    /// a path: the others have their manifests and no surface. Compression to the mean level of all
+    /// takes all.
     ///
     /// # Errors
-    /// As [`LoadedScene::read`].
-    pub fn read_along(
-        scene: &Path,
+    /// As [`LoadedScene::from_text`].
+    pub fn from_text_along(
+        (text, scene): (&str, &Path),
         cache: Option<&BuildCache>,
         path: &ExplorationPath,
     ) -> Result<Self, SceneError> {
-        let text = files::read_text(scene)?;
         let felt = |scene: &Scene, tuning: &Tuning, manifest_db: &[f64]| {
             needed(scene, tuning, manifest_db, path)
         };
-        Self::from_text_with(&text, scene, cache, &felt)
+        Self::from_text_with(text, scene, cache, &felt)
     }
 }
 

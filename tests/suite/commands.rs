@@ -67,8 +67,15 @@ fn every_method_writes_the_same_amplitudes_within_its_error() {
 #[test]
 fn the_error_budget_decides_what_auto_renders_by() {
     let lab = Lab::with_scene();
-    let with = |budget_db: &str| {
+    let swing = |s: u32| format!("{s},{},40\n", 20 + 40 * (s % 2));
+    let minute: String = (0..=60).map(swing).collect();
+    lab.write("minute.csv", format!("t_s,x_mm,y_mm\n{minute}"));
+    let with = |path: &str, budget_db: &str| {
         let args = [
+            "render",
+            "a.scene.toml",
+            "--path",
+            path,
             "--budget-db",
             budget_db,
             "--stats",
@@ -76,7 +83,7 @@ fn the_error_budget_decides_what_auto_renders_by() {
             "--out",
             "a40.csv",
         ];
-        lab.print(&[&RENDER[..], &args].concat());
+        lab.print(&args);
         let stats = lab.read("s.json");
         let used = stats.split_once("\"method\": \"").unwrap().1;
         (
@@ -85,11 +92,36 @@ fn the_error_budget_decides_what_auto_renders_by() {
         )
     };
     let reference = lab.print(&[&RENDER[..], &["--method", "reference"]].concat());
-    assert_eq!(with("0"), ("reference".to_owned(), reference));
-    assert_eq!(with("0.0001").0, "banded");
-    let (method, amplitudes) = with("0.05");
-    assert_eq!(method, "table");
+    assert_eq!(with("a.csv", "0"), ("reference".to_owned(), reference));
+    assert_eq!(with("minute.csv", "0.0001").0, "banded");
+    assert_eq!(with("minute.csv", "0.05").0, "table");
+    let (method, amplitudes) = with("a.csv", "0.05");
+    assert_eq!(method, "banded", "half a second is worth no table");
     assert_eq!(lab.print(&RENDER), amplitudes, "that is what it is without");
+}
+
+#[test]
+fn of_a_textile_that_a_path_does_not_feel_nothing_but_the_manifest_is_read() {
+    let lab = Lab::with_scene();
+    lab.write("left.csv", "t_s,x_mm,y_mm\n0,20,40\n0.5,40,40\n");
+    lab.write("right.csv", "t_s,x_mm,y_mm\n0,90,40\n0.5,95,40\n");
+    let render = |path| ["render", "a.scene.toml", "--path", path, "--stats", "s.json"];
+    let amplitudes = |path| lab.print(&["render", "a.scene.toml", "--path", path]);
+    let expected = amplitudes("left.csv");
+    std::fs::remove_file(lab.path("textiles/flat/warp.csv")).unwrap();
+    assert_eq!(amplitudes("left.csv"), expected);
+    lab.print(&render("left.csv"));
+    let unread = |stats: String| stats.split_whitespace().collect::<String>();
+    let stats = unread(lab.read("s.json"));
+    assert!(stats.contains("\"unread\":[\"flat\"]"), "{stats}");
+    let line = lab.refuse(&render("right.csv"));
+    assert!(line.contains("warp.csv"), "{line}");
+    let muted = lab.read("a.scene.toml").replacen("id = \"flat\"", "id = \"flat\"\ngain_db = -inf", 1);
+    lab.write("a.scene.toml", muted);
+    assert!(amplitudes("right.csv").contains(",flat,0,0\n"), "it is there and silent");
+    lab.write("textiles/flat/textile.toml", "nonsense");
+    let line = lab.refuse(&render("left.csv"));
+    assert!(line.contains("textile.toml"), "manifests are read: {line}");
 }
 
 #[test]

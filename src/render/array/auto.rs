@@ -17,20 +17,22 @@ use selvedge_textile::tactile::{MIN_SPEED_MM_PER_S, n_audible_bins};
 /// 2.5 GHz. Only their ratios matter.
 mod ns {
     /// A bin of the reference: a logarithm and an exponential for each band.
-    pub(super) const REFERENCE_BIN: f64 = 40.0;
+    pub(super) const REFERENCE_BIN: f64 = 21.0;
     /// Gains of both bands at a bin.
-    pub(super) const GAIN: f64 = 3.0;
+    pub(super) const GAIN: f64 = 1.4;
     /// A bin of a sum with gains at hand.
-    pub(super) const SUM_BIN: f64 = 1.2;
+    pub(super) const SUM_BIN: f64 = 1.1;
     /// A bin of a row of a table, where points are summed together.
-    pub(super) const ROW_BIN: f64 = 0.5;
+    pub(super) const ROW_BIN: f64 = 0.3;
     /// A speed: its place in tables, or where its gains begin and end.
-    pub(super) const SPEED: f64 = 30.0;
+    pub(super) const SPEED: f64 = 25.0;
     /// A look-up in tables.
-    pub(super) const LOOK_UP: f64 = 4.0;
+    pub(super) const LOOK_UP: f64 = 2.4;
+    /// Preparing `banded`.
+    pub(super) const BANDED: f64 = 20e3;
     /// Preparing a table, whatever the scene, and for each set of spectra.
-    pub(super) const TABLE: f64 = 150e3;
-    pub(super) const TABLE_OF_SPECTRA: f64 = 1e3;
+    pub(super) const TABLE: f64 = 130e3;
+    pub(super) const TABLE_OF_SPECTRA: f64 = 2.5e3;
 }
 
 /// How long somebody who explores is assumed to go on, ticks: a minute.
@@ -97,7 +99,8 @@ impl Work {
     /// What each method costs, the most exact first.
     fn costs_ns(&self, plan: &ScenePlan) -> [(Method, f64); 3] {
         let reference = self.n_bins * ns::REFERENCE_BIN;
-        let banded = self.n_speeds * ns::SPEED
+        let banded = ns::BANDED
+            + self.n_speeds * ns::SPEED
             + self.n_speed_bins * ns::GAIN
             + self.n_point_bins * ns::SUM_BIN;
         let [gains, powers] = self.n_node_bins;
@@ -139,6 +142,9 @@ impl Work {
         let n_counted = n_ticks.min(MAX_COUNTED);
         let mut count = Count::of(scene);
         for nth in 0..n_counted {
+            if nth == n_counted / 2 {
+                count.n_first_pairs = count.pairs.len();
+            }
             count.add(plan, path, nth_counted(nth, n_ticks));
         }
         count.scaled(plan, n_ticks as f64 / n_counted as f64)
@@ -166,6 +172,8 @@ struct Count {
     work: Work,
     /// One for each tick and direction that needs it.
     pairs: Vec<NodePair>,
+    /// How many of them came from the first half of the ticks.
+    n_first_pairs: usize,
 }
 
 impl Count {
@@ -180,6 +188,7 @@ impl Count {
             poses: vec![Pose::default(); scene.displays.len()],
             work: Work::default(),
             pairs: Vec::new(),
+            n_first_pairs: 0,
         }
     }
 
@@ -208,7 +217,7 @@ impl Count {
     fn scaled(mut self, plan: &ScenePlan, factor: f64) -> Work {
         let of_gains = self.pairs.iter().map(|(_, _, n_bins, part)| (0, 0, *n_bins, *part));
         let mut of_gains: Vec<NodePair> = of_gains.collect();
-        let n_points = |(spectra, _, _, _): &NodePair| {
+        let n_points = |(spectra, ..): &NodePair| {
             let spectra = &plan.pool[*spectra];
             if RowTable::suits(spectra) {
                 spectra.n_points() as f64
@@ -216,6 +225,13 @@ impl Count {
                 1.0
             }
         };
+        let most = most_node_bins(&self.pairs);
+        let mut touched: Vec<usize> = self.pairs.iter().map(|(spectra, ..)| *spectra).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        let touched = touched.into_iter().map(|spectra| plan.pool[spectra].n_points());
+        let n_touched = touched.sum::<usize>() as f64;
+        let n_first = self.n_first_pairs;
         let work = &self.work;
         Work {
             n_directions: factor * work.n_directions,
@@ -224,8 +240,8 @@ impl Count {
             n_speed_bins: factor * work.n_speed_bins,
             n_point_bins: factor * work.n_point_bins,
             n_node_bins: [
-                node_bins(&mut of_gains, factor, |_| 1.0),
-                node_bins(&mut self.pairs, factor, n_points),
+                node_bins(&mut of_gains, (n_first, factor), |_| 1.0).min(most),
+                node_bins(&mut self.pairs, (n_first, factor), n_points).min(most * n_touched),
             ],
         }
     }
@@ -273,31 +289,44 @@ impl Work {
     }
 }
 
-/// Bins of all nodes of some pairs, weighted, had there been `factor` times as many ticks: those
-/// that were seen, and as many more as Chao's (1984) estimate of unseen species has it,
-/// `f₁ (f₁ − 1)/(2 (f₂ + 1))` of those seen once and twice.
-fn node_bins(pairs: &mut [NodePair], factor: f64, weight: impl Fn(&NodePair) -> f64) -> f64 {
-    pairs.sort_unstable();
-    let (mut seen, mut once, mut n_once, mut n_twice) = (0.0, 0.0, 0.0, 0.0);
-    for alike in pairs.chunk_by(|a, b| a == b) {
-        let n_bins = alike[0].2 as f64 * weight(&alike[0]);
-        seen += n_bins;
-        match alike.len() {
-            1 => {
-                once += n_bins;
-                n_once += 1.0;
-            }
-            2 => n_twice += 1.0,
-            _ => {}
-        }
-    }
-    let more: f64 = (n_once - 1.0) / (2.0 * (n_twice + 1.0));
-    Count::NODES_A_PAIR * (seen + once * more.clamp(0.0, factor - 1.0))
+/// Bins of all nodes of some pairs, weighted, had there been `factor` times as many ticks: new ones
+/// come as they came from the first half of the ticks to all, by a power law, as new words do in a
+/// text (Heaps 1978).
+fn node_bins(
+    pairs: &mut [NodePair],
+    (n_first, factor): (usize, f64),
+    weight: impl Fn(&NodePair) -> f64,
+) -> f64 {
+    let distinct = |pairs: &mut [NodePair]| -> f64 {
+        pairs.sort_unstable();
+        let alike = pairs.chunk_by(|a, b| a == b);
+        alike.map(|alike| alike[0].2 as f64 * weight(&alike[0])).sum()
+    };
+    let first = distinct(&mut pairs[..n_first]);
+    let all = distinct(pairs);
+    let exponent = (all / first).log2().clamp(0.0, 1.0);
+    let growth = if exponent.is_finite() { factor.powf(exponent) } else { 1.0 };
+    Count::NODES_A_PAIR * all * growth
+}
+
+/// Bins of all nodes between the slowest and the fastest of some pairs.
+fn most_node_bins(pairs: &[NodePair]) -> f64 {
+    let parts = pairs.iter().map(|(_, _, _, part)| *part);
+    let (Some(slowest), Some(fastest)) = (parts.clone().min(), parts.max()) else {
+        return 0.0;
+    };
+    let bins = pairs.iter().map(|(_, _, n_bins, _)| *n_bins);
+    let (fewest, most) = (bins.clone().min().unwrap_or(1), bins.max().unwrap_or(1));
+    // Every segment has its own two ends, and so many parts between.
+    let ends: f64 = (fewest..=most).map(|k| 2.0 * k as f64).sum();
+    ends + (fastest - slowest + 1) as f64 * most as f64
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+    pub(crate) fn work(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> impl std::fmt::Debug { Work::along(scene, plan, path) }
+    pub(crate) fn costs(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> impl std::fmt::Debug { Work::along(scene, plan, path).costs_ns(plan) }
     use crate::array::ArrayRenderer;
     use crate::scene::{LoadedScene, PathRow};
     use selvedge_foundation::geometry::Point;
@@ -378,10 +407,9 @@ mod tests {
     fn preparing_is_weighed_against_the_ticks_that_follow() {
         let scene = four();
         assert_eq!(chosen(&scene, &path(1, 0.0), 0.05), Method::Reference, "it rests");
-        assert_eq!(chosen(&scene, &path(4, 0.0), 0.05), Method::Banded);
-        assert_eq!(chosen(&scene, &path(2400, 0.0), 0.05), Method::Table);
-        assert_eq!(chosen(&scene, &path(2400, 40.0), 0.05), Method::Table);
+        assert_eq!(chosen(&scene, &path(40, 0.0), 0.05), Method::Banded);
         assert_eq!(chosen(&scene, &path(144_000, 0.0), 0.05), Method::Table);
+        assert_eq!(chosen(&scene, &path(24_000, 40.0), 0.05), Method::Table);
         assert_eq!(chosen(&scene, &path(2400, 0.0), 1e-5), Method::Banded);
         assert_eq!(chosen(&scene, &path(2400, 0.0), 0.0), Method::Reference);
         let beside = ExplorationPath::new(vec![

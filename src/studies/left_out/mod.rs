@@ -9,10 +9,13 @@ mod sinks;
 
 use scenes::Case;
 
+use std::path::Path;
+
 use super::readable::largest;
 use super::{Bench, Findings, ReportError, Row, Study, textiles};
+use selvedge_foundation::geometry::Displacement;
 use selvedge_render::array::{ArrayRenderer, Method};
-use selvedge_render::scene::{LoadedScene, Pose};
+use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow, Pose};
 use selvedge_render::{RenderScene, Rule};
 
 /// Methods that savings are tried with: what leaves out bins, and what looks powers up.
@@ -49,6 +52,12 @@ const NEVER_PLACED: Saving = Saving {
     what: "A textile that the scene does not place is never read.",
     unit: "textiles",
 };
+const NEVER_FELT: Saving = Saving {
+    floor: "scene",
+    name: "never felt",
+    what: "A textile of which an exploration feels nothing is not read.",
+    unit: "textiles",
+};
 const UNASKED_TICK_SAMPLES: Saving = Saving {
     floor: "engine",
     name: "unasked tick samples",
@@ -82,10 +91,11 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         }
     }
     rows.extend(library_rows(bench)?);
+    rows.extend(unread_rows(bench)?);
     rows.extend(sinks::rows(bench)?);
     let of_rendering = Rule::ALL.map(|rule| format!("render, {}: {}", rule.name(), rule.what()));
     let note = |saving: Saving| format!("{}, {}: {}", saving.floor, saving.name, saving.what);
-    let beside = [NEVER_PLACED, UNASKED_TICK_SAMPLES, UNHEARD_FRAMES].map(note);
+    let beside = [NEVER_PLACED, NEVER_FELT, UNASKED_TICK_SAMPLES, UNHEARD_FRAMES].map(note);
     let notes = of_rendering.into_iter().chain(beside);
     Ok(Findings::new(rows, Vec::new(), notes))
 }
@@ -177,6 +187,28 @@ fn library_rows(bench: &mut Bench<'_>) -> Result<[Row; 2], ReportError> {
         ..row.clone()
     };
     Ok([row.cost(as_it_is), whole.cost(with_rest)])
+}
+
+/// What it costs to read a scene for a stroke over one of its textiles, and for any.
+fn unread_rows(bench: &mut Bench<'_>) -> Result<[Row; 2], ReportError> {
+    let text = (scenes::ALL_SIXTEEN, Path::new("all-sixteen.scene.toml"));
+    let read_all = || LoadedScene::from_toml(text.0, text.1);
+    let all = read_all()?;
+    let row_at = |(n, x_mm): (u32, f64)| PathRow {
+        t_s: f64::from(n) / 40.0,
+        position: all.scene().textiles[0].origin_mm + Displacement::new(x_mm, 25.0),
+        ..PathRow::default()
+    };
+    let path = ExplorationPath::new((0..).zip([20.0, 25.0, 30.0]).map(row_at).collect())?;
+    let read_felt = || LoadedScene::from_text_along(text, None, &path);
+    let n_unread = read_felt()?.unread().len() as u64;
+    let row = NEVER_FELT.row(n_unread, "a stroke over one of sixteen");
+    let whole = Row {
+        setting: NONE.to_owned(),
+        ..row.clone()
+    };
+    let (felt, all) = (bench.time(1, read_felt), bench.time(1, read_all));
+    Ok([row.cost(felt), whole.cost(all)])
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use selvedge_render::{PlacedSurface, RenderScene};
 use selvedge_textile::tactile::Tuning;
 
 /// The scene of all textiles of the library.
-const ALL_SIXTEEN: &str = include_str!("../../../assets/scenes/all-sixteen.scene.toml");
+pub(super) const ALL_SIXTEEN: &str = include_str!("../../../assets/scenes/all-sixteen.scene.toml");
 
 /// How long every stroke takes, s.
 const SECONDS: f64 = 2.0;

@@ -39,10 +39,6 @@ impl NodeGains {
         }
     }
 
-    pub(super) fn n_nodes(&self) -> usize {
-        self.is_made.len()
-    }
-
     /// Bytes set aside.
     pub(super) fn n_bytes(&self) -> usize {
         size_of_val(&self.gains[..]) + size_of_val(&self.first[..])

@@ -19,7 +19,7 @@ const POINTS: usize = 4;
 
 /// One set of spectra over all nodes.
 #[derive(Debug, Clone)]
-pub(super) struct RowTable {
+pub(crate) struct RowTable {
     spectra: Arc<LocalSpectra>,
     unit_um2: f64,
     pub(super) n_points: usize,
@@ -41,7 +41,7 @@ pub(super) struct Rows<'a> {
 
 impl RowTable {
     /// Whether spectra are tabulated this way.
-    pub(super) fn suits(spectra: &LocalSpectra) -> bool {
+    pub(crate) fn suits(spectra: &LocalSpectra) -> bool {
         !spectra.is_areal() && spectra.n_points() <= MAX_POINTS
     }
 

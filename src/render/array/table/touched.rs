@@ -15,7 +15,7 @@ use super::grid::Grid;
 use super::nodes::NodeGains;
 use super::rows::RowTable;
 use super::segments::Spot;
-use crate::plan::{Contacts, Counters, PointGrid, ScenePlan};
+use crate::plan::{Axis, Contacts, Counters, PointGrid, ScenePlan};
 use selvedge_textile::surface::LocalSpectra;
 
 /// Most bytes that the tables of a scene may take.
@@ -69,6 +69,15 @@ pub(super) struct Heard {
     pub(super) spectra: usize,
     pub(super) points: PointGrid,
     pub(super) spot: Spot,
+}
+
+impl Heard {
+    /// Whether the other is of the same area along its other side: a point's indices are the other's
+    /// in turn.
+    fn is_across(&self, other: &Self) -> bool {
+        let [n_along, n_across] = self.points.n_points();
+        n_across > 1 && other.points.n_points() == [n_across, n_along]
+    }
 }
 
 /// Powers of spectra with many points at the nodes that were touched.
@@ -202,7 +211,7 @@ impl TouchedTables {
         let mut memory = std::mem::take(&mut self.kept);
         let kept = lines_of(&mut memory);
         match heard {
-            [Some(warp), Some(weft)] => {
+            [Some(warp), Some(weft)] if warp.is_across(&weft) => {
                 let starts = [warp, weft].map(|heard| {
                     let first = self.firsts[heard.spectra];
                     let line = self.line(0, heard.spot.node);
@@ -236,17 +245,20 @@ impl TouchedTables {
                     (0..2).for_each(|band| power[band] -= a[band] + b[band]);
                 });
             }
-            [Some(warp), None] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
-                let point = (warp.spectra, warp.points.nearest(u_mm, w_mm));
-                let own = self.at_in(kept, point, warp.spot, (gains, counters));
-                (0..2).for_each(|band| power[band] -= own[band]);
-            }),
-            [None, Some(weft)] => contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
-                let point = (weft.spectra, weft.points.nearest(w_mm, u_mm));
-                let own = self.at_in(kept, point, weft.spot, (gains, counters));
-                (0..2).for_each(|band| power[band] -= own[band]);
-            }),
-            [None, None] => {}
+            alone => {
+                for (axis, heard) in Axis::BOTH.into_iter().zip(alone) {
+                    let Some(heard) = heard else { continue };
+                    contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+                        let point = match axis {
+                            Axis::Warp => heard.points.nearest(u_mm, w_mm),
+                            Axis::Weft => heard.points.nearest(w_mm, u_mm),
+                        };
+                        let making = (&mut *gains, &mut *counters);
+                        let own = self.at_in(kept, (heard.spectra, point), heard.spot, making);
+                        (0..2).for_each(|band| power[band] -= own[band]);
+                    });
+                }
+            }
         }
         self.kept = memory;
     }

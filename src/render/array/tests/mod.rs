@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod areal;
+mod calibrate;
 mod closed_forms;
 mod cloth;
 mod extremes;
