@@ -49,8 +49,9 @@ impl Preparing {
             return Some(prepare(loaded, (scene, rendering)));
         }
         let loaded = loaded.clone();
-        let work = move |_: &mut _| prepare(&loaded, (scene, rendering));
-        self.task = Some(executor.start("selvedge-prepare", work));
+        self.task = Some(executor.start("selvedge-prepare", move |_| {
+            prepare(&loaded, (scene, rendering))
+        }));
         None
     }
 

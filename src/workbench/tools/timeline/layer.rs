@@ -2,7 +2,7 @@
 //! changed. The old ones stay until the new are there.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use crate::bench::Bench;
 use crate::bench::applied_gains::AppliedGains;
