@@ -52,7 +52,10 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         "picture",
         &["selvedge picture cloth.jpg --out cloth --px-per-mm 24"],
     ),
-    ("mds", &["selvedge mds dissimilarities.csv --dims 1-5 --json maps.json"]),
+    (
+        "mds",
+        &["selvedge mds dissimilarities.csv --dims 1-5 --json maps.json"],
+    ),
     (
         "experiment",
         &[
@@ -80,7 +83,10 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         "screenshot",
         &["selvedge screenshot my.scene.toml --out bench.png --width 1920 --height 1080"],
     ),
-    ("help", &["selvedge help scenes", "selvedge help bridge test"]),
+    (
+        "help",
+        &["selvedge help scenes", "selvedge help bridge test"],
+    ),
     (
         "completions",
         &["selvedge completions bash > ~/.local/share/bash-completion/completions/selvedge"],
@@ -109,9 +115,15 @@ mod tests {
     fn every_example_is_a_command_line_that_parses() {
         for (name, lines) in EXAMPLES {
             for line in *lines {
-                let typed = line.split([' ']).take_while(|word| !["<", ">", "|"].contains(word));
+                let typed = line
+                    .split([' '])
+                    .take_while(|word| !["<", ">", "|"].contains(word));
                 let parsed = crate::command().try_get_matches_from(typed);
-                assert!(parsed.is_ok(), "{line}: {:?}", parsed.err().map(|e| e.to_string()));
+                assert!(
+                    parsed.is_ok(),
+                    "{line}: {:?}",
+                    parsed.err().map(|e| e.to_string())
+                );
                 let words: Vec<&str> = line.split(' ').collect();
                 let is_of = name.is_empty() || words.get(1) == Some(name);
                 assert!(is_of, "{line} under {name}");

@@ -38,7 +38,10 @@ pub(super) fn run(args: &HelpArgs) -> Result<(), CliError> {
     let mut found = &mut whole;
     for word in &args.words {
         let above = found.get_bin_name().unwrap_or("selvedge").to_owned();
-        let names: Vec<String> = found.get_subcommands().map(|c| c.get_name().to_owned()).collect();
+        let names: Vec<String> = found
+            .get_subcommands()
+            .map(|c| c.get_name().to_owned())
+            .collect();
         found = found.find_subcommand_mut(word).ok_or_else(|| {
             let pages = pages.iter().map(|page| page.name).filter(|_| word == first);
             let known = names.iter().map(String::as_str).chain(pages);

@@ -42,7 +42,9 @@ pub(super) fn write_pages(args: &ManArgs) -> Result<(), CliError> {
         output::write_bytes(&args.out.join(name), page)?;
     }
     let (n_pages, out) = (pages.len(), args.out.display());
-    terminal::notice(&format!("{n_pages} pages are in {out}; read one by man -l {out}/selvedge.1"));
+    terminal::notice(&format!(
+        "{n_pages} pages are in {out}; read one by man -l {out}/selvedge.1"
+    ));
     Ok(())
 }
 
@@ -52,6 +54,8 @@ fn render(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<(), C
     let mut page = Vec::new();
     man.render(&mut page)?;
     pages.push((man.get_filename(), page));
-    let inner = command.get_subcommands().filter(|inner| !inner.is_hide_set());
+    let inner = command
+        .get_subcommands()
+        .filter(|inner| !inner.is_hide_set());
     inner.into_iter().try_for_each(|inner| render(inner, pages))
 }

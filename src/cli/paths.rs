@@ -42,12 +42,15 @@ pub(super) fn check(command: &Command, matches: &ArgMatches) -> Result<(), CliEr
         let Ok(Some(paths)) = matches.try_get_many::<PathBuf>(id) else {
             continue;
         };
-        let called = arg.get_long().map_or_else(
-            || id.to_uppercase(),
-            |long| format!("--{long}"),
-        );
+        let called = arg
+            .get_long()
+            .map_or_else(|| id.to_uppercase(), |long| format!("--{long}"));
         let is_result = !arg.is_positional() && RESULTS.contains(&id);
-        let named = if is_result { &mut results } else { &mut sources };
+        let named = if is_result {
+            &mut results
+        } else {
+            &mut sources
+        };
         named.extend(paths.map(|path| (called.clone(), path.clone())));
     }
     twice(&results, &sources).map_or(Ok(()), |line| Err(CliError::Input(line)))
@@ -59,7 +62,9 @@ fn twice(results: &[Named], sources: &[Named]) -> Option<String> {
         let is_same = |(_, other): &&Named| is_one_file(path, other);
         if let Some((other, _)) = results[..nth].iter().find(is_same) {
             let what = place(path, "standard output");
-            return Some(format!("{other} and {called} are both {what}; name two files"));
+            return Some(format!(
+                "{other} and {called} are both {what}; name two files"
+            ));
         }
         let is_source = |named: &&Named| path.is_file() && is_same(named);
         if let Some((other, _)) = sources.iter().find(is_source) {
@@ -69,9 +74,13 @@ fn twice(results: &[Named], sources: &[Named]) -> Option<String> {
             ));
         }
     }
-    let mut streams = sources.iter().filter(|(_, path)| named_file(Some(path)).is_none());
+    let mut streams = sources
+        .iter()
+        .filter(|(_, path)| named_file(Some(path)).is_none());
     let ((first, _), (second, _)) = (streams.next()?, streams.next()?);
-    Some(format!("{first} and {second} are both standard input; name a file for one"))
+    Some(format!(
+        "{first} and {second} are both standard input; name a file for one"
+    ))
 }
 
 /// How messages call a path, where `-` is a stream.
@@ -89,7 +98,9 @@ fn is_one_file(a: &Path, b: &Path) -> bool {
 /// A path without links and detours, as far as it is there.
 fn real(path: &Path) -> PathBuf {
     let beside = || {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
         let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
         Some(folder.join(path.file_name()?))
     };
@@ -111,23 +122,46 @@ mod tests {
         let folder = ScratchFolder::made("twice");
         fs::write(folder.join("a.csv"), "t_s").unwrap();
         let [there, dotted] = ["a.csv", "./a.csv"].map(|name| folder.join(name));
-        let (new, detour) = (folder.join("new"), folder.join("../").join(folder.file_name().unwrap()));
-        let said = |results: &[Named], sources: &[Named]| twice(results, sources).unwrap_or_default();
-        let line = said(&[named("--out", &new), named("--wav", detour.join("new"))], &[]);
+        let (new, detour) = (
+            folder.join("new"),
+            folder.join("../").join(folder.file_name().unwrap()),
+        );
+        let said =
+            |results: &[Named], sources: &[Named]| twice(results, sources).unwrap_or_default();
+        let line = said(
+            &[named("--out", &new), named("--wav", detour.join("new"))],
+            &[],
+        );
         assert!(line.starts_with("--out and --wav are both "), "{line}");
         let line = said(&[named("--out", dotted)], &[named("--path", &there)]);
-        assert!(line.contains("would overwrite") && line.contains("--path"), "{line}");
-        assert_eq!(said(&[named("--out", &new)], &[named("--path", &there)]), "");
-        assert_eq!(said(&[named("--out", &*folder)], &[named("LOGS", &*folder)]), "");
+        assert!(
+            line.contains("would overwrite") && line.contains("--path"),
+            "{line}"
+        );
+        assert_eq!(
+            said(&[named("--out", &new)], &[named("--path", &there)]),
+            ""
+        );
+        assert_eq!(
+            said(&[named("--out", &*folder)], &[named("LOGS", &*folder)]),
+            ""
+        );
     }
 
     #[test]
     fn a_stream_serves_one() {
-        let said = |results: &[Named], sources: &[Named]| twice(results, sources).unwrap_or_default();
+        let said =
+            |results: &[Named], sources: &[Named]| twice(results, sources).unwrap_or_default();
         let line = said(&[named("--out", "-"), named("--stats", "-")], &[]);
-        assert_eq!(line, "--out and --stats are both standard output; name two files");
+        assert_eq!(
+            line,
+            "--out and --stats are both standard output; name two files"
+        );
         let line = said(&[], &[named("SCENE", "-"), named("--path", "-")]);
-        assert_eq!(line, "SCENE and --path are both standard input; name a file for one");
+        assert_eq!(
+            line,
+            "SCENE and --path are both standard input; name a file for one"
+        );
         assert_eq!(said(&[named("--out", "-")], &[named("--path", "-")]), "");
         if cfg!(unix) {
             let null = "/dev/null";

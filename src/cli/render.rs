@@ -21,8 +21,7 @@ use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, LoadedScene};
 use selvedge_render::{RenderScene, Replay, RunStats, replay};
 
-const PATH_HELP: &str =
-    "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s; - is \
+const PATH_HELP: &str = "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s; - is \
      standard input";
 
 /// What to replay, and what to write.
@@ -59,7 +58,9 @@ pub(super) struct RenderArgs {
 
 /// A sample rate as it is typed, Hz: two samples a period of the higher carrier at least.
 fn wav_rate(text: &str) -> Result<u32, String> {
-    let rate_hz = text.parse().map_err(|_whatever| "give a whole number of Hz".to_owned())?;
+    let rate_hz = text
+        .parse()
+        .map_err(|_whatever| "give a whole number of Hz".to_owned())?;
     if rate_hz < 2 * 320 {
         return Err("320 Hz takes two samples a period: give 640 Hz or above".to_owned());
     }

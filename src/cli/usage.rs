@@ -61,7 +61,9 @@ pub(super) fn unknown_command(args: &[OsString], command: &Command) -> Option<St
         None if more.is_empty() => return None,
         None => "see \"selvedge --help\"".to_owned(),
     };
-    Some(format!("{word} is neither a command nor a scene file; {meant}"))
+    Some(format!(
+        "{word} is neither a command nor a scene file; {meant}"
+    ))
 }
 
 /// The name that a word is most like, if it is but for a letter in three.
@@ -166,7 +168,13 @@ mod tests {
         let line = told(&["rendr", "a.toml", "--path", "b.csv"]).unwrap();
         assert!(line.ends_with("did you mean render?"), "{line}");
         assert!(told(&["rendr"]).is_some() && told(&["silk", "x"]).is_some());
-        for scene in [&["silk"][..], &["a.scene.toml", "x"], &["--stage"], &["render"], &[]] {
+        for scene in [
+            &["silk"][..],
+            &["a.scene.toml", "x"],
+            &["--stage"],
+            &["render"],
+            &[],
+        ] {
             assert_eq!(told(scene), None, "{scene:?}");
         }
     }

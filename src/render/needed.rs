@@ -138,7 +138,12 @@ mod tests {
     #[test]
     fn what_no_gain_lets_through_is_not_needed() {
         let need = |scene: &Scene, tuning: &Tuning, manifest_db: f64| {
-            needed(scene, tuning, &[0.0, 0.0, 0.0, manifest_db], &along(&[20.0, 25.0]))[3]
+            needed(
+                scene,
+                tuning,
+                &[0.0, 0.0, 0.0, manifest_db],
+                &along(&[20.0, 25.0]),
+            )[3]
         };
         let (silent, none) = (f64::NEG_INFINITY, Tuning::default());
         assert!(need(&scene(), &none, -60.0) && !need(&scene(), &none, silent));

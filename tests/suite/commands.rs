@@ -105,7 +105,16 @@ fn of_a_textile_that_a_path_does_not_feel_nothing_but_the_manifest_is_read() {
     let lab = Lab::with_scene();
     lab.write("left.csv", "t_s,x_mm,y_mm\n0,20,40\n0.5,40,40\n");
     lab.write("right.csv", "t_s,x_mm,y_mm\n0,90,40\n0.5,95,40\n");
-    let render = |path| ["render", "a.scene.toml", "--path", path, "--stats", "s.json"];
+    let render = |path| {
+        [
+            "render",
+            "a.scene.toml",
+            "--path",
+            path,
+            "--stats",
+            "s.json",
+        ]
+    };
     let amplitudes = |path| lab.print(&["render", "a.scene.toml", "--path", path]);
     let expected = amplitudes("left.csv");
     std::fs::remove_file(lab.path("textiles/flat/warp.csv")).unwrap();
@@ -116,9 +125,14 @@ fn of_a_textile_that_a_path_does_not_feel_nothing_but_the_manifest_is_read() {
     assert!(stats.contains("\"unread\":[\"flat\"]"), "{stats}");
     let line = lab.refuse(&render("right.csv"));
     assert!(line.contains("warp.csv"), "{line}");
-    let muted = lab.read("a.scene.toml").replacen("id = \"flat\"", "id = \"flat\"\ngain_db = -inf", 1);
+    let muted =
+        lab.read("a.scene.toml")
+            .replacen("id = \"flat\"", "id = \"flat\"\ngain_db = -inf", 1);
     lab.write("a.scene.toml", muted);
-    assert!(amplitudes("right.csv").contains(",flat,0,0\n"), "it is there and silent");
+    assert!(
+        amplitudes("right.csv").contains(",flat,0,0\n"),
+        "it is there and silent"
+    );
     lab.write("textiles/flat/textile.toml", "nonsense");
     let line = lab.refuse(&render("left.csv"));
     assert!(line.contains("textile.toml"), "manifests are read: {line}");

@@ -23,7 +23,7 @@ mod ns {
     /// A bin of a sum with gains at hand.
     pub(super) const SUM_BIN: f64 = 1.1;
     /// A bin of a row of a table, where points are summed together.
-    pub(super) const ROW_BIN: f64 = 0.3;
+    pub(super) const ROW_BIN: f64 = 0.28;
     /// A speed: its place in tables, or where its gains begin and end.
     pub(super) const SPEED: f64 = 25.0;
     /// A look-up in tables.
@@ -119,7 +119,11 @@ impl Work {
 
     /// A minute of strokes on one textile after another.
     fn live(scene: &RenderScene, plan: &ScenePlan) -> Self {
-        let n_contactors = scene.displays.iter().map(|d| d.offsets.len()).sum::<usize>() as f64;
+        let n_contactors = scene
+            .displays
+            .iter()
+            .map(|d| d.offsets.len())
+            .sum::<usize>() as f64;
         let n_points = plan.pool.iter().map(|spectra| spectra.n_points());
         let n_points = n_points.max().unwrap_or(0) as f64;
         let n_bins = n_audible_bins(LIVE_SPEED_MM_PER_S) as f64;
@@ -215,7 +219,10 @@ impl Count {
 
     /// The work of `factor` times as many ticks.
     fn scaled(mut self, plan: &ScenePlan, factor: f64) -> Work {
-        let of_gains = self.pairs.iter().map(|(_, _, n_bins, part)| (0, 0, *n_bins, *part));
+        let of_gains = self
+            .pairs
+            .iter()
+            .map(|(_, _, n_bins, part)| (0, 0, *n_bins, *part));
         let mut of_gains: Vec<NodePair> = of_gains.collect();
         let n_points = |(spectra, ..): &NodePair| {
             let spectra = &plan.pool[*spectra];
@@ -229,7 +236,9 @@ impl Count {
         let mut touched: Vec<usize> = self.pairs.iter().map(|(spectra, ..)| *spectra).collect();
         touched.sort_unstable();
         touched.dedup();
-        let touched = touched.into_iter().map(|spectra| plan.pool[spectra].n_points());
+        let touched = touched
+            .into_iter()
+            .map(|spectra| plan.pool[spectra].n_points());
         let n_touched = touched.sum::<usize>() as f64;
         let n_first = self.n_first_pairs;
         let work = &self.work;
@@ -280,7 +289,12 @@ impl Work {
             let octaves = feel.speed_mm_per_s.log2() - MIN_SPEED_MM_PER_S.log2();
             let part = to_index(octaves * Count::PARTS_PER_OCTAVE);
             let by_row = RowTable::suits(&plan.pool[feel.spectra]);
-            let pair = (feel.spectra, if by_row { 0 } else { feel.point }, n_bins, part);
+            let pair = (
+                feel.spectra,
+                if by_row { 0 } else { feel.point },
+                n_bins,
+                part,
+            );
             if pairs.last() != Some(&pair) {
                 pairs.push(pair);
             }
@@ -300,12 +314,18 @@ fn node_bins(
     let distinct = |pairs: &mut [NodePair]| -> f64 {
         pairs.sort_unstable();
         let alike = pairs.chunk_by(|a, b| a == b);
-        alike.map(|alike| alike[0].2 as f64 * weight(&alike[0])).sum()
+        alike
+            .map(|alike| alike[0].2 as f64 * weight(&alike[0]))
+            .sum()
     };
     let first = distinct(&mut pairs[..n_first]);
     let all = distinct(pairs);
     let exponent = (all / first).log2().clamp(0.0, 1.0);
-    let growth = if exponent.is_finite() { factor.powf(exponent) } else { 1.0 };
+    let growth = if exponent.is_finite() {
+        factor.powf(exponent)
+    } else {
+        1.0
+    };
     Count::NODES_A_PAIR * all * growth
 }
 
@@ -323,10 +343,8 @@ fn most_node_bins(pairs: &[NodePair]) -> f64 {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    pub(crate) fn work(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> impl std::fmt::Debug { Work::along(scene, plan, path) }
-    pub(crate) fn costs(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> impl std::fmt::Debug { Work::along(scene, plan, path).costs_ns(plan) }
     use crate::array::ArrayRenderer;
     use crate::scene::{LoadedScene, PathRow};
     use selvedge_foundation::geometry::Point;
@@ -397,8 +415,14 @@ pub(super) mod tests {
         }
         let whole = count.scaled(&plan, 1.0);
         let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
-        assert!(near(work.n_bins, whole.n_bins, 0.1), "{work:?} for {whole:?}");
-        assert!(near(work.n_point_bins, whole.n_point_bins, 0.1), "{work:?} for {whole:?}");
+        assert!(
+            near(work.n_bins, whole.n_bins, 0.1),
+            "{work:?} for {whole:?}"
+        );
+        assert!(
+            near(work.n_point_bins, whole.n_point_bins, 0.1),
+            "{work:?} for {whole:?}"
+        );
         let nodes = [0, 1].map(|kind: usize| (work.n_node_bins[kind], whole.n_node_bins[kind]));
         assert!(nodes.iter().all(|(a, b)| near(*a, *b, 0.5)), "{nodes:?}");
     }
@@ -406,7 +430,11 @@ pub(super) mod tests {
     #[test]
     fn preparing_is_weighed_against_the_ticks_that_follow() {
         let scene = four();
-        assert_eq!(chosen(&scene, &path(1, 0.0), 0.05), Method::Reference, "it rests");
+        assert_eq!(
+            chosen(&scene, &path(1, 0.0), 0.05),
+            Method::Reference,
+            "it rests"
+        );
         assert_eq!(chosen(&scene, &path(40, 0.0), 0.05), Method::Banded);
         assert_eq!(chosen(&scene, &path(144_000, 0.0), 0.05), Method::Table);
         assert_eq!(chosen(&scene, &path(24_000, 40.0), 0.05), Method::Table);

@@ -125,10 +125,7 @@ impl Products {
 /// `Σ_k P_k H_b(f_k)²` of some points over the bins that have gains, and powers: bin after bin, so
 /// that a sum is the same bits beside whatever others it is taken.
 #[inline]
-pub(super) fn sums<const N: usize>(
-    powers_um2: [&[f64]; N],
-    gains: &[[f64; 2]],
-) -> [[f64; 2]; N] {
+pub(super) fn sums<const N: usize>(powers_um2: [&[f64]; N], gains: &[[f64; 2]]) -> [[f64; 2]; N] {
     let shortest = powers_um2.iter().map(|powers| powers.len()).min();
     let gains = &gains[..gains.len().min(shortest.unwrap_or(0))];
     let powers_um2 = powers_um2.map(|powers| &powers[..gains.len()]);

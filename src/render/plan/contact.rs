@@ -155,6 +155,33 @@ impl Contacts<'_> {
         }
     }
 
+    /// The same with the place along an axis, mm, and the velocity along it, mm/s.
+    #[inline]
+    pub(crate) fn for_each_moving<T>(
+        &self,
+        axis: Axis,
+        outputs: &mut [T],
+        mut act: impl FnMut(f64, f64, &mut T),
+    ) {
+        let along = axis as usize;
+        let Motion::Turning(warp, weft) = self.motion else {
+            let own = self.velocity_mm_per_s(0)[along];
+            return self.for_each_placed(outputs, |places_mm, output| {
+                act(places_mm[along], own, output);
+            });
+        };
+        let moving = self.places_mm[along].iter().zip([warp, weft][along]);
+        let moving = outputs.iter_mut().zip(moving);
+        if self.n_contactors == self.owners.len() {
+            moving.for_each(|(output, (&place, &own))| act(place, own, output));
+        } else {
+            let owned = moving.zip(self.owners);
+            owned
+                .filter(|&(_, &owner)| usize::from(owner) == self.textile)
+                .for_each(|((output, (&place, &own)), _)| act(place, own, output));
+        }
+    }
+
     /// A contactor's velocity component along an axis.
     #[inline]
     pub(crate) fn component(&self, axis: Axis, contactor: usize) -> Component {

@@ -69,7 +69,9 @@ impl ScenePlan {
                 counters.textiles_out_of_reach += 1;
                 continue;
             };
-            if let Some(contacts) = display.claim((&textile.ground, number), &placing, pose, counters) {
+            if let Some(contacts) =
+                display.claim((&textile.ground, number), &placing, pose, counters)
+            {
                 act(&contacts, counters);
             }
             if display.is_taken() {

@@ -95,7 +95,13 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     rows.extend(sinks::rows(bench)?);
     let of_rendering = Rule::ALL.map(|rule| format!("render, {}: {}", rule.name(), rule.what()));
     let note = |saving: Saving| format!("{}, {}: {}", saving.floor, saving.name, saving.what);
-    let beside = [NEVER_PLACED, NEVER_FELT, UNASKED_TICK_SAMPLES, UNHEARD_FRAMES].map(note);
+    let beside = [
+        NEVER_PLACED,
+        NEVER_FELT,
+        UNASKED_TICK_SAMPLES,
+        UNHEARD_FRAMES,
+    ]
+    .map(note);
     let notes = of_rendering.into_iter().chain(beside);
     Ok(Findings::new(rows, Vec::new(), notes))
 }

@@ -29,7 +29,10 @@ fn every_saving_is_counted_on_six_scenes_and_changes_nothing() {
         assert!(is_fast || findings.rows.iter().any(is_counted), "{rule:?}");
     }
     assert_eq!(findings.notes.len(), Rule::ALL.len() + 4);
-    let unread = findings.rows.iter().find(|row| row.case == "a stroke over one of sixteen");
+    let unread = findings
+        .rows
+        .iter()
+        .find(|row| row.case == "a stroke over one of sixteen");
     assert_eq!(unread.unwrap().further("left_out_a_tick_of_all"), "15");
     let engine = findings.rows.iter().filter(|row| row.method == "engine");
     let left_out: Vec<(&str, Option<&str>)> = engine

@@ -37,7 +37,12 @@ const SCENES: [(&str, &str); 4] = [
     ),
 ];
 /// How long explorations are, and how many ticks those are.
-const LENGTHS: [(&str, u32); 4] = [("1 tick", 1), ("1 s", 40), ("1 min", 2400), ("1 h", 144_000)];
+const LENGTHS: [(&str, u32); 4] = [
+    ("1 tick", 1),
+    ("1 s", 40),
+    ("1 min", 2400),
+    ("1 h", 144_000),
+];
 
 /// What `auto` costs in all, beside the cheapest.
 pub(crate) const STUDY: Study = Study {
@@ -94,7 +99,9 @@ impl<'a> Exploration<'a> {
         let far = |of: fn(&Point) -> f64| {
             let corners = scene.textiles.iter().map(|placed| {
                 let [width_mm, height_mm] = placed.size_mm;
-                of(&placed.workspace_from_textile.point(Point::new(width_mm, height_mm)))
+                of(&placed
+                    .workspace_from_textile
+                    .point(Point::new(width_mm, height_mm)))
             });
             corners.fold(1.0, f64::max)
         };
@@ -121,7 +128,12 @@ impl<'a> Exploration<'a> {
         bench: &mut Bench<'_>,
         (setting, case): (&str, &str),
     ) -> Result<Vec<Row>, ReportError> {
-        let methods = [Method::Auto, Method::Reference, Method::Banded, Method::Table];
+        let methods = [
+            Method::Auto,
+            Method::Reference,
+            Method::Banded,
+            Method::Table,
+        ];
         let n_step = self.poses.len().div_ceil(MOST_OF_REFERENCE).max(1);
         let few: Vec<Pose> = self.poses.iter().copied().step_by(n_step).collect();
         let used = self.prepared(Method::Auto)?.method();
@@ -145,13 +157,19 @@ impl<'a> Exploration<'a> {
             work
         });
         let timed = bench.time_in_turn(1, works.into());
-        let timed = timed.into_iter().zip(methods).map(|((timing, multiple), method)| {
-            let factor = share_of(method).1;
-            (method, timing.times(factor), multiple * factor)
-        });
+        let timed = timed
+            .into_iter()
+            .zip(methods)
+            .map(|((timing, multiple), method)| {
+                let factor = share_of(method).1;
+                (method, timing.times(factor), multiple * factor)
+            });
         let timed: Vec<(Method, Timing, f64)> = timed.collect();
         let is_fixed = |(method, ..): &&(Method, Timing, f64)| *method != Method::Auto;
-        let cheapest = timed.iter().filter(is_fixed).min_by(|a, b| a.2.total_cmp(&b.2));
+        let cheapest = timed
+            .iter()
+            .filter(is_fixed)
+            .min_by(|a, b| a.2.total_cmp(&b.2));
         let own = timed.first().map_or(1.0, |(.., multiple)| *multiple);
         let rows = timed.iter().map(|(method, timing, multiple)| {
             let row = Row::of(method.name(), setting, case).cost(*timing);
@@ -209,12 +227,17 @@ fn turning(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
     }
     let timed = bench.time_in_turn(motions[0].1.len(), works);
     let multiples: Vec<f64> = timed.iter().map(|(_, multiple)| *multiple).collect();
-    let rows = timed.iter().zip(&named).enumerate().map(|(nth, ((timing, own), (method, setting)))| {
-        let row = Row::of(method.name(), *setting, "one textile").cost(*timing);
-        let first_of_motion = nth - nth % methods.len();
-        row.number("times_straight", 2, own / multiples[nth % methods.len()])
-            .number("times_reference", 3, own / multiples[first_of_motion])
-    });
+    let rows =
+        timed
+            .iter()
+            .zip(&named)
+            .enumerate()
+            .map(|(nth, ((timing, own), (method, setting)))| {
+                let row = Row::of(method.name(), *setting, "one textile").cost(*timing);
+                let first_of_motion = nth - nth % methods.len();
+                row.number("times_straight", 2, own / multiples[nth % methods.len()])
+                    .number("times_reference", 3, own / multiples[first_of_motion])
+            });
     Ok(rows.collect())
 }
 

@@ -132,11 +132,14 @@ impl<'a> Samples<'a> {
         if let Some([top, reach]) = self.bell {
             let worst = [top - reach, top + reach - length, top - 0.5 * length];
             // Rounding: the ones on either side too.
-            let around = |start: f64| [-1.0, 0.0, 1.0, 2.0].map(|by| to_index(start + by).min(last));
+            let around =
+                |start: f64| [-1.0, 0.0, 1.0, 2.0].map(|by| to_index(start + by).min(last));
             return worst.into_iter().flat_map(around).collect();
         }
         let middle = |&start: &usize| {
-            let ratio = self.ratios(start, n_steps, n_steps / 2..n_steps / 2 + 1).next();
+            let ratio = self
+                .ratios(start, n_steps, n_steps / 2..n_steps / 2 + 1)
+                .next();
             ratio.map_or(0.0, f64::ln)
         };
         let [below, above] = extent((0..=last).map(|start| middle(&start)));

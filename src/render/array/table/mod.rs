@@ -20,7 +20,9 @@ pub(super) use touched::{MAX_TABLE_BYTES, table_bytes};
 use std::sync::Arc;
 
 use super::ErrorBound;
-use crate::plan::{Axis, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan};
+use crate::plan::{
+    Axis, Component, Contacts, Counters, Feel, Motion, PointIndex, ScenePlan, TextilePlan,
+};
 use crate::{RenderError, single};
 use grid::MIN_POWER_GAIN;
 use nodes::NodeGains;
@@ -144,7 +146,7 @@ impl TableEvaluator {
                 continue;
             };
             let n_points = table.n_points;
-            let rows = table.rows(spot, &mut self.gains, counters);
+            let rows = table.rows(spot, (&mut self.gains, counters));
             if n_points <= BLEND_ALL * n {
                 rows.blend(&mut self.blended[axis as usize]);
                 points[axis as usize] = textile.points[d].along;
@@ -183,19 +185,6 @@ impl TableEvaluator {
         })
     }
 
-    #[inline]
-    fn look_up(&mut self, feel: Feel, counters: &mut Counters) -> [f32; 2] {
-        let spot = self.segments.find(feel.speed_mm_per_s);
-        match (&mut self.tables[feel.spectra], &mut self.touched) {
-            (Some(table), _) => table.rows(spot, &mut self.gains, counters).at(feel.point),
-            (None, Some(touched)) => {
-                let making = (&mut self.gains, counters);
-                touched.at((feel.spectra, feel.point), spot, making)
-            }
-            (None, None) => [0.0; 2],
-        }
-    }
-
     /// Powers of contactors that each move their own way.
     fn turning(
         &mut self,
@@ -204,15 +193,68 @@ impl TableEvaluator {
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
-        contacts.for_each_owned(powers, |contactor, power| {
-            for axis in Axis::BOTH {
-                let Some(feel) = contacts.feel(textile, axis, contactor, counters) else {
-                    continue;
-                };
-                add(power, self.look_up(feel, counters));
-                counters.directions_evaluated += 1;
+        for axis in Axis::BOTH {
+            let directions = [false, true].map(|is_reverse| axis.direction(is_reverse).index());
+            if directions
+                .iter()
+                .all(|d| self.tables[textile.spectra[*d]].is_some())
+            {
+                self.turning_over_rows(textile, (contacts, axis), powers, counters);
+                continue;
             }
+            contacts.for_each_owned(powers, |contactor, power| {
+                if let Some(feel) = contacts.feel(textile, axis, contactor, counters) {
+                    add(power, self.look_up(feel, counters));
+                    counters.directions_evaluated += 1;
+                }
+            });
+        }
+    }
+
+    fn look_up(&mut self, feel: Feel, counters: &mut Counters) -> [f32; 2] {
+        let spot = self.segments.find(feel.speed_mm_per_s);
+        let making = (&mut self.gains, counters);
+        match (&mut self.tables[feel.spectra], &mut self.touched) {
+            (Some(table), _) => table.at(feel.point, spot, making),
+            (None, Some(touched)) => touched.at((feel.spectra, feel.point), spot, making),
+            (None, None) => [0.0; 2],
+        }
+    }
+
+    /// The powers along an axis where both its directions have tables of rows: a loop over numbers
+    /// that lie beside each other, with nothing to be asked that all contactors share.
+    fn turning_over_rows(
+        &mut self,
+        textile: &TextilePlan,
+        (contacts, axis): (&Contacts<'_>, Axis),
+        powers: &mut [[f32; 2]],
+        counters: &mut Counters,
+    ) {
+        let directions = [false, true].map(|is_reverse| {
+            let d = axis.direction(is_reverse).index();
+            (textile.spectra[d], textile.points[d].along)
         });
+        let (mut n_felt, mut n_at_rest, mut n_too_fast) = (0, 0, 0);
+        contacts.for_each_moving(axis, powers, |place_mm, component_mm_per_s, power| {
+            let (speed_mm_per_s, is_reverse) = match Component::of(component_mm_per_s) {
+                Component::Felt {
+                    speed_mm_per_s,
+                    is_reverse,
+                } => (speed_mm_per_s, is_reverse),
+                Component::AtRest => return n_at_rest += 1,
+                Component::TooFast => return n_too_fast += 1,
+            };
+            let (spectra, points) = directions[usize::from(is_reverse)];
+            if let Some(table) = &mut self.tables[spectra] {
+                let spot = self.segments.find(speed_mm_per_s);
+                let making = (&mut self.gains, &mut *counters);
+                add(power, table.at(points.nearest(place_mm), spot, making));
+            }
+            n_felt += 1;
+        });
+        counters.directions_evaluated += n_felt;
+        counters.directions_at_rest += n_at_rest;
+        counters.directions_over_speed += n_too_fast;
     }
 }
 

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::segments::Segments;
 use crate::array::bin_gains::{self, BinGains};
+use crate::plan::Counters;
 use crate::single;
 use selvedge_textile::tactile::Filters;
 
@@ -23,6 +24,9 @@ pub(super) struct NodeGains {
     gains: Vec<[f64; 2]>,
     is_made: Vec<bool>,
 }
+
+/// What a node is made with, and who counts it.
+pub(super) type Making<'a> = (&'a mut NodeGains, &'a mut Counters);
 
 impl NodeGains {
     pub(super) fn new(segments: &Arc<Segments>, filters: &Filters) -> Self {

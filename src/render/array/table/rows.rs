@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use super::nodes::NodeGains;
+use super::nodes::Making;
 use super::segments::Spot;
 use crate::plan::Counters;
 use selvedge_textile::surface::LocalSpectra;
@@ -29,6 +29,8 @@ pub(crate) struct RowTable {
     /// as the system hands them out where a node is not made.
     powers: Vec<[f32; 2]>,
     is_made: Vec<bool>,
+    /// Whether a node and the next are made.
+    has_both: Vec<bool>,
 }
 
 /// A direction at one speed: the rows before and after, and the share of the way between.
@@ -60,6 +62,7 @@ impl RowTable {
             n_bins: (0..n_points).map(n_heard).max().unwrap_or(0),
             powers: vec![[0.0; 2]; n_points * n_nodes],
             is_made: vec![false; n_nodes],
+            has_both: vec![false; n_nodes],
         }
     }
 
@@ -70,14 +73,9 @@ impl RowTable {
 
     /// The rows around a speed; those that are missing are made, and counted.
     #[inline]
-    pub(super) fn rows(
-        &mut self,
-        spot: Spot,
-        gains: &mut NodeGains,
-        counters: &mut Counters,
-    ) -> Rows<'_> {
-        if !(self.is_made[spot.node] & self.is_made[spot.node + 1]) {
-            self.make(spot.node, gains, counters);
+    pub(super) fn rows(&mut self, spot: Spot, making: Making<'_>) -> Rows<'_> {
+        if !self.has_both[spot.node] {
+            self.make(spot.node, making);
         }
         let rows = &self.powers[spot.node * self.n_points..][..2 * self.n_points];
         let (before, after) = rows.split_at(self.n_points);
@@ -88,10 +86,23 @@ impl RowTable {
         }
     }
 
+    /// The powers of a point at a speed; nodes that are missing are made, and counted.
+    #[inline]
+    pub(super) fn at(&mut self, point: usize, spot: Spot, making: Making<'_>) -> [f32; 2] {
+        if !self.has_both[spot.node] {
+            self.make(spot.node, making);
+        }
+        let first = spot.node * self.n_points + point;
+        let nodes = &self.powers[first..=first + self.n_points];
+        let ([a, b], [c, d]) = (nodes[0], nodes[self.n_points]);
+        [a + (c - a) * spot.share, b + (d - b) * spot.share]
+    }
+
     /// Makes a node and the next, as far as they are missing.
     #[cold]
     #[inline(never)]
-    fn make(&mut self, first: usize, gains: &mut NodeGains, counters: &mut Counters) {
+    fn make(&mut self, first: usize, (gains, counters): Making<'_>) {
+        self.has_both[first] = true;
         for node in first..first + 2 {
             if std::mem::replace(&mut self.is_made[node], true) {
                 continue;
@@ -136,6 +147,7 @@ mod tests {
     use super::*;
     use crate::array::bin_gains::BinGains;
     use crate::array::table::Grid;
+    use crate::array::table::nodes::NodeGains;
     use selvedge_foundation::numerics::Random;
     use selvedge_textile::surface::{Direction, Profile, ProfileSet, Surface};
     use selvedge_textile::tactile::Filters;
@@ -166,7 +178,7 @@ mod tests {
             for _ in 0..60 {
                 let node = random.index(nodes.len() - 1);
                 let spot = Spot { node, share: 0.0 };
-                let rows = table.rows(spot, &mut gains, &mut counters);
+                let rows = table.rows(spot, (&mut gains, &mut counters));
                 let found = [rows.before, rows.after].concat();
                 // Every power by itself, from gains of its own.
                 let expected = [node, node + 1].into_iter().flat_map(|node| {
@@ -191,7 +203,10 @@ mod tests {
             let n_made = counters.nodes_made;
             assert!(n_made > 18 * 60 && n_made <= 18 * 120, "{n_made}");
             let nothing = table.is_made.iter().filter(|is_made| !**is_made).count();
-            assert!(nothing > nodes.len() - 121, "what nobody touched is not made");
+            assert!(
+                nothing > nodes.len() - 121,
+                "what nobody touched is not made"
+            );
         }
     }
 

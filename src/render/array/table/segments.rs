@@ -40,7 +40,7 @@ pub(super) struct Spot {
 /// All segments, by the number of bins that sound; slot 0 is not used.
 #[derive(Debug, Clone)]
 pub(super) struct Segments {
-    segments: Vec<Segment>,
+    segments: Box<[Segment; N_BINS + 1]>,
     nodes: Vec<Node>,
 }
 
@@ -48,7 +48,7 @@ impl Segments {
     /// Segments with parts of at most 1/`per_octave` octave. Nodes are listed with rising speed,
     /// each segment's first and last included.
     pub(super) fn new(per_octave: u32) -> Self {
-        let mut segments = vec![Segment::default(); N_BINS + 1];
+        let mut segments = Box::new([Segment::default(); N_BINS + 1]);
         let mut nodes = Vec::new();
         for n_bins in (1..=N_BINS).rev() {
             let ends = [lowest_speed(n_bins), speed_at_1_khz(n_bins)];

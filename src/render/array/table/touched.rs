@@ -12,7 +12,7 @@
 use std::sync::Arc;
 
 use super::grid::Grid;
-use super::nodes::NodeGains;
+use super::nodes::Making;
 use super::rows::RowTable;
 use super::segments::Spot;
 use crate::plan::{Axis, Contacts, Counters, PointGrid, ScenePlan};
@@ -58,9 +58,6 @@ fn made_at(lines: &[[Kept; LINE]], line: usize, step: usize) -> Option<[Kept; 2]
 fn between([before, after]: [Kept; 2], share: f32) -> Kept {
     [0, 1].map(|band: usize| before[band] + (after[band] - before[band]) * share)
 }
-
-/// What a node is made with, and who counts it.
-pub(super) type Making<'a> = (&'a mut NodeGains, &'a mut Counters);
 
 /// What contactors that share a speed along an axis of such a surface hear.
 #[derive(Debug, Clone, Copy)]
@@ -155,12 +152,7 @@ fn lines_of(memory: &mut [Kept]) -> &mut [[Kept; LINE]] {
 impl TouchedTables {
     /// Nothing made yet, in `n_bytes` of memory. `units_um2` holds the unit of each of the pool's
     /// spectra.
-    pub(super) fn new(
-        plan: &ScenePlan,
-        units_um2: &[f64],
-        n_nodes: usize,
-        n_bytes: usize,
-    ) -> Self {
+    pub(super) fn new(plan: &ScenePlan, units_um2: &[f64], n_nodes: usize, n_bytes: usize) -> Self {
         let n_rows = n_bytes / row_bytes(n_nodes);
         let n_lines = n_lines(n_nodes);
         let area = |(spectra, unit_um2): (&Arc<LocalSpectra>, &f64)| {
@@ -238,8 +230,18 @@ impl TouchedTables {
                             [between(a, warp.spot.share), between(b, weft.spot.share)]
                         }
                         _ => [
-                            self.at_in(kept, (warp.spectra, points[0]), warp.spot, (gains, counters)),
-                            self.at_in(kept, (weft.spectra, points[1]), weft.spot, (gains, counters)),
+                            self.at_in(
+                                kept,
+                                (warp.spectra, points[0]),
+                                warp.spot,
+                                (gains, counters),
+                            ),
+                            self.at_in(
+                                kept,
+                                (weft.spectra, points[1]),
+                                weft.spot,
+                                (gains, counters),
+                            ),
                         ],
                     };
                     (0..2).for_each(|band| power[band] -= a[band] + b[band]);
@@ -272,12 +274,7 @@ impl TouchedTables {
     /// The powers of a point of some spectra at a speed; nodes that are missing are made, and
     /// counted.
     #[inline]
-    pub(super) fn at(
-        &mut self,
-        point: (usize, usize),
-        spot: Spot,
-        making: Making<'_>,
-    ) -> [f32; 2] {
+    pub(super) fn at(&mut self, point: (usize, usize), spot: Spot, making: Making<'_>) -> [f32; 2] {
         let mut memory = std::mem::take(&mut self.kept);
         let kept = self.at_in(lines_of(&mut memory), point, spot, making);
         self.kept = memory;
@@ -366,6 +363,7 @@ fn number(index: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::array::table::nodes::NodeGains;
     use crate::{PlacedLevel, PlacedSurface, RenderScene};
     use selvedge_foundation::geometry::Frame;
     use selvedge_foundation::numerics::{Grid as Heights, Random};

@@ -211,7 +211,11 @@ fn a_profile_of_metres_is_tabulated_where_it_is_touched() {
     assert!(table.n_bytes() < 270_000_000, "{}", table.n_bytes());
     let at = pose([70.0, 40.0], [90.0, 60.0]);
     let found = amplitudes(&mut table, &at);
-    for (a, b) in found.iter().flatten().zip(amplitudes(&mut exact, &at).iter().flatten()) {
+    for (a, b) in found
+        .iter()
+        .flatten()
+        .zip(amplitudes(&mut exact, &at).iter().flatten())
+    {
         assert!((a / b - 1.0).abs() < 0.005, "{a} for {b}");
     }
 }
@@ -283,7 +287,11 @@ fn a_replay_counts_times_and_measures_errors() {
             "{error:?}"
         );
         // A second is worth no table.
-        let expected = if method == Method::Auto { Method::Banded } else { method };
+        let expected = if method == Method::Auto {
+            Method::Banded
+        } else {
+            method
+        };
         assert_eq!(stats.method_used, expected);
     }
 }

@@ -3,7 +3,6 @@
 
 mod accuracy;
 mod areal;
-mod calibrate;
 mod closed_forms;
 mod cloth;
 mod extremes;
