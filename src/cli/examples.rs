@@ -60,7 +60,7 @@ const EXAMPLES: &[(&str, &[&str])] = &[
         "experiment",
         &[
             "selvedge experiment designs",
-            "selvedge experiment simulate study.toml --out simulated",
+            "selvedge experiment simulate study.toml --observers 20 --out simulated",
         ],
     ),
     (

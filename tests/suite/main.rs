@@ -16,6 +16,7 @@ mod bridge_end_to_end;
 mod bridge_ends;
 mod bridge_faults;
 mod certify;
+mod command_line;
 mod commands;
 mod doctor;
 mod evidence;

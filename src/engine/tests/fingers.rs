@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 fn with_displays(n_displays: usize) -> (Engine, PointerSender, Instant) {
     let mut scene = render_scene(exeter());
     scene.displays = vec![scene.displays[0].clone(); n_displays];
-    let how = (Method::Auto, &Accuracy::default());
+    let how = (Method::Table, &Accuracy::default());
     let start_at = Point::new(30.0, 60.0);
     let profile = ArrayProfile::default();
     let scene = PreparedScene::from_parts(&scene, profile, start_at, how).unwrap();
@@ -324,7 +324,7 @@ fn a_recording_of_two_fingers_replays_bit_for_bit_from_its_file_in_the_engine_an
     scene.displays = vec![scene.displays[0].clone(); 2];
     let what = Replay {
         scene: &scene,
-        method: Method::Auto,
+        method: Method::Table,
         accuracy: Accuracy::default(),
         measures_error: false,
     };

@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use super::nodes::Making;
 use super::segments::Spot;
-use crate::plan::Counters;
 use selvedge_textile::surface::LocalSpectra;
 
 /// Most points of a profile whose nodes are made for all of them: 64 mm.
@@ -148,6 +147,7 @@ mod tests {
     use crate::array::bin_gains::BinGains;
     use crate::array::table::Grid;
     use crate::array::table::nodes::NodeGains;
+    use crate::plan::Counters;
     use selvedge_foundation::numerics::Random;
     use selvedge_textile::surface::{Direction, Profile, ProfileSet, Surface};
     use selvedge_textile::tactile::Filters;

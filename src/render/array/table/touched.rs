@@ -15,7 +15,7 @@ use super::grid::Grid;
 use super::nodes::Making;
 use super::rows::RowTable;
 use super::segments::Spot;
-use crate::plan::{Axis, Contacts, Counters, PointGrid, ScenePlan};
+use crate::plan::{Axis, Contacts, PointGrid, ScenePlan};
 use selvedge_textile::surface::LocalSpectra;
 
 /// Most bytes that the tables of a scene may take.
@@ -364,6 +364,7 @@ fn number(index: usize) -> u32 {
 mod tests {
     use super::*;
     use crate::array::table::nodes::NodeGains;
+    use crate::plan::Counters;
     use crate::{PlacedLevel, PlacedSurface, RenderScene};
     use selvedge_foundation::geometry::Frame;
     use selvedge_foundation::numerics::{Grid as Heights, Random};

@@ -121,7 +121,20 @@ fn two_displays_are_drawn_and_the_one_under_whose_contactor_it_looks_is_told_of(
         );
         format!("{:?}", drawn.sheet)
     });
-    assert_eq!(sheets[0], sheets[1]);
+    // Live the method is chosen for a minute, here for a second: both keep their budget.
+    let cells = |sheet: &str| -> Vec<f64> {
+        let cells = sheet.split([',', '[', ']', '(', ')', ' ']);
+        cells.filter_map(|cell| cell.parse().ok()).collect()
+    };
+    let [felt, rendered] = [0, 1].map(|nth: usize| cells(&sheets[nth]));
+    assert!(
+        felt.len() == rendered.len() && felt.len() > 150,
+        "{}",
+        felt.len()
+    );
+    for (a, b) in felt.iter().zip(rendered) {
+        assert!((a - b).abs() <= 0.006 * b.abs(), "{a} for {b}");
+    }
     assert!(
         sheets[0].contains("120.0"),
         "as fast as the second: {}",
