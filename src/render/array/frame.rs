@@ -101,6 +101,15 @@ impl DisplayFrame {
         self.exact_um.fill(amplitude_um.map(f64::from));
     }
 
+    /// Gives contactors amplitudes of their own, µm; those beyond the end of the list are silent.
+    pub(super) fn give(&mut self, amplitudes_um: impl Iterator<Item = [f64; 2]>) {
+        let given = amplitudes_um.chain(std::iter::repeat([0.0; 2]));
+        for (exact, given) in self.exact_um.iter_mut().zip(given) {
+            *exact = given;
+        }
+        self.round();
+    }
+
     /// Rounds the exact amplitudes into the stream.
     pub(super) fn round(&mut self) {
         for (rounded, exact) in self.amplitudes_um.iter_mut().zip(&self.exact_um) {
