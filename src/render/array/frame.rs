@@ -103,11 +103,13 @@ impl DisplayFrame {
 
     /// Gives contactors amplitudes of their own, µm; those beyond the end of the list are silent.
     pub(super) fn give(&mut self, amplitudes_um: impl Iterator<Item = [f64; 2]>) {
-        let given = amplitudes_um.chain(std::iter::repeat([0.0; 2]));
-        for (exact, given) in self.exact_um.iter_mut().zip(given) {
-            *exact = given;
+        self.begin();
+        for (contactor, given) in amplitudes_um.take(self.n_contactors()).enumerate() {
+            self.amplitudes_um[contactor] = given.map(crate::single);
+            if let Some(exact) = self.exact_um.get_mut(contactor) {
+                *exact = given;
+            }
         }
-        self.round();
     }
 
     /// Rounds the exact amplitudes into the stream.
