@@ -14,6 +14,12 @@ pub type ClothTick = [[[f64; 2]; 24]; 2];
 /// The end of whoever steps the cloth.
 pub struct ClothFeed(Input<ClothTick>);
 
+impl std::fmt::Debug for ClothFeed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ClothFeed").finish_non_exhaustive()
+    }
+}
+
 impl ClothFeed {
     /// Gives the amplitudes of now. Never waits. What is not finite or negative counts as silence.
     pub fn give(&mut self, tick: &ClothTick) {
@@ -49,7 +55,7 @@ impl ClothDrive {
     /// What is felt, by display.
     pub(super) fn felt(&self) -> ClothTick {
         if self.age < STALE_TICKS {
-            *self.ticks.peek_output_buffer()
+            *self.ticks.output_buffer()
         } else {
             ClothTick::default()
         }

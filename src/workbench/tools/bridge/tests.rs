@@ -135,7 +135,7 @@ fn array(wish: &Command) -> Option<&ArrayCommand> {
 
 #[test]
 fn a_second_display_has_a_device_of_its_own() {
-    let mut harness = window(Stage::new(BridgePhase::Ready));
+    let harness = window(Stage::new(BridgePhase::Ready));
     assert!(harness.query_by_label_contains("Second display").is_none());
     let stage = Stage {
         second: Some(None),
