@@ -3,7 +3,7 @@
 
 use super::pareto::error_and_cost;
 use super::readable;
-use super::{Findings, Row, Study, pareto};
+use super::{Findings, Front, Row, Study, pareto};
 use selvedge_chart::{Axis, Chart, Series, Style};
 
 /// More promises than this are not drawn.
@@ -63,7 +63,7 @@ pub(super) fn error_against_time(study: &Study, findings: &Findings) -> Option<C
         ends_s = [ends_s[0].min(cost_s), ends_s[1].max(cost_s)];
         let index = place(&mut series, &row.method, Style::default());
         let series = &mut series[index];
-        if is_on_front == Some(true) {
+        if is_on_front == Some(Front::On) {
             series.marked.push(series.points.len());
         }
         series.points.push([cost_s, error]);
