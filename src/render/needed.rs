@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use crate::plan::{Counters, DisplayPlan, Ground, finite_pose, is_at_rest};
-use crate::scene::{ExplorationPath, LoadedScene, PlacedTextile, Scene, SceneError};
+use crate::scene::{ExplorationPath, LoadedScene, PlacedTextile, Pose, Scene, SceneError};
 use crate::{ContactorArray, GainTerms};
 use selvedge_textile::BuildCache;
 use selvedge_textile::tactile::{Band, Tuning};
@@ -69,7 +69,7 @@ fn touched(scene: &Scene, path: &ExplorationPath) -> Vec<bool> {
     let grounds: Vec<Ground> = scene.textiles.iter().map(ground).collect();
     let displays = scene.displays.iter().map(ContactorArray::of);
     let mut displays: Vec<DisplayPlan> = displays.map(|array| DisplayPlan::new(&array)).collect();
-    let mut poses = vec![Default::default(); displays.len()];
+    let mut poses = vec![Pose::default(); displays.len()];
     let (mut is_touched, counters) = (vec![false; grounds.len()], &mut Counters::default());
     for (_, pose) in path.ticks() {
         if is_touched.iter().all(|is_touched| *is_touched) {

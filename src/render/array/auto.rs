@@ -82,32 +82,32 @@ pub(super) fn resolve(
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Work {
     /// Directions of contactors that are felt.
-    n_directions: f64,
+    directions: f64,
     /// Their bins.
-    n_bins: f64,
+    bins: f64,
     /// Speeds, each of a tick told apart.
-    n_speeds: f64,
+    speeds: f64,
     /// Their bins.
-    n_speed_bins: f64,
+    speed_bins: f64,
     /// Bins of directions that no other of their tick repeats.
-    n_point_bins: f64,
+    point_bins: f64,
     /// Bins of the gains that nodes of tables are made with, and of the powers there.
-    n_node_bins: [f64; 2],
+    node_bins_made: [f64; 2],
 }
 
 impl Work {
     /// What each method costs, the most exact first.
     fn costs_ns(&self, plan: &ScenePlan) -> [(Method, f64); 3] {
-        let reference = self.n_bins * ns::REFERENCE_BIN;
+        let reference = self.bins * ns::REFERENCE_BIN;
         let banded = ns::BANDED
-            + self.n_speeds * ns::SPEED
-            + self.n_speed_bins * ns::GAIN
-            + self.n_point_bins * ns::SUM_BIN;
-        let [gains, powers] = self.n_node_bins;
+            + self.speeds * ns::SPEED
+            + self.speed_bins * ns::GAIN
+            + self.point_bins * ns::SUM_BIN;
+        let [gains, powers] = self.node_bins_made;
         let preparing = ns::TABLE + plan.pool.len() as f64 * ns::TABLE_OF_SPECTRA;
         let table = preparing
-            + self.n_speeds * ns::SPEED
-            + self.n_directions * ns::LOOK_UP
+            + self.speeds * ns::SPEED
+            + self.directions * ns::LOOK_UP
             + gains * ns::GAIN
             + powers * ns::ROW_BIN;
         [
@@ -130,12 +130,12 @@ impl Work {
         let n_directions = 2.0 * n_contactors * LIVE_TICKS;
         let n_speeds = 2.0 * scene.displays.len() as f64 * LIVE_TICKS;
         Self {
-            n_directions,
-            n_bins: n_directions * n_bins,
-            n_speeds,
-            n_speed_bins: n_speeds * n_bins,
-            n_point_bins: n_speeds * n_bins * n_contactors.min(n_points),
-            n_node_bins: [1.0, plan.pool.len() as f64 * n_points.min(64.0)]
+            directions: n_directions,
+            bins: n_directions * n_bins,
+            speeds: n_speeds,
+            speed_bins: n_speeds * n_bins,
+            point_bins: n_speeds * n_bins * n_contactors.min(n_points),
+            node_bins_made: [1.0, plan.pool.len() as f64 * n_points.min(64.0)]
                 .map(|n| n * LIVE_NODES * n_bins),
         }
     }
@@ -243,12 +243,12 @@ impl Count {
         let n_first = self.n_first_pairs;
         let work = &self.work;
         Work {
-            n_directions: factor * work.n_directions,
-            n_bins: factor * work.n_bins,
-            n_speeds: factor * work.n_speeds,
-            n_speed_bins: factor * work.n_speed_bins,
-            n_point_bins: factor * work.n_point_bins,
-            n_node_bins: [
+            directions: factor * work.directions,
+            bins: factor * work.bins,
+            speeds: factor * work.speeds,
+            speed_bins: factor * work.speed_bins,
+            point_bins: factor * work.point_bins,
+            node_bins_made: [
                 node_bins(&mut of_gains, (n_first, factor), |_| 1.0).min(most),
                 node_bins(&mut self.pairs, (n_first, factor), n_points).min(most * n_touched),
             ],
@@ -274,16 +274,16 @@ impl Work {
                 continue;
             };
             let n_bins = n_audible_bins(feel.speed_mm_per_s);
-            self.n_directions += 1.0;
-            self.n_bins += n_bins as f64;
+            self.directions += 1.0;
+            self.bins += n_bins as f64;
             if !is_together || n_speeds == 0.0 {
                 n_speeds += 1.0;
-                self.n_speed_bins += n_bins as f64;
+                self.speed_bins += n_bins as f64;
             }
             // A display is smaller than 256 mm: no two of its points share a bit.
             let (word, bit) = (feel.point / 64 % seen.len(), 1 << (feel.point % 64));
             if !is_together || seen[word] & bit == 0 {
-                self.n_point_bins += n_bins as f64;
+                self.point_bins += n_bins as f64;
             }
             seen[word] |= bit;
             let octaves = feel.speed_mm_per_s.log2() - MIN_SPEED_MM_PER_S.log2();
@@ -299,7 +299,7 @@ impl Work {
                 pairs.push(pair);
             }
         }
-        self.n_speeds += n_speeds;
+        self.speeds += n_speeds;
     }
 }
 
@@ -393,12 +393,12 @@ mod tests {
             });
             let [reference, banded, table] = counters;
             let is = |found: f64, bins: u64| (2.0 * found - bins as f64).abs() < 0.5;
-            assert!(is(work.n_bins, reference.bins_evaluated), "{work:?}");
-            assert!(is(work.n_point_bins, banded.bins_evaluated), "{work:?}");
+            assert!(is(work.bins, reference.bins_evaluated), "{work:?}");
+            assert!(is(work.point_bins, banded.bins_evaluated), "{work:?}");
             let directions = reference.directions_evaluated as f64;
-            assert!((work.n_directions - directions).abs() < 0.5, "{work:?}");
+            assert!((work.directions - directions).abs() < 0.5, "{work:?}");
             let made = 0.5 * table.bins_evaluated as f64;
-            let ratio = work.n_node_bins[1] / made;
+            let ratio = work.node_bins_made[1] / made;
             assert!((0.5..2.0).contains(&ratio), "{ratio}");
         }
     }
@@ -415,15 +415,13 @@ mod tests {
         }
         let whole = count.scaled(&plan, 1.0);
         let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
+        assert!(near(work.bins, whole.bins, 0.1), "{work:?} for {whole:?}");
         assert!(
-            near(work.n_bins, whole.n_bins, 0.1),
+            near(work.point_bins, whole.point_bins, 0.1),
             "{work:?} for {whole:?}"
         );
-        assert!(
-            near(work.n_point_bins, whole.n_point_bins, 0.1),
-            "{work:?} for {whole:?}"
-        );
-        let nodes = [0, 1].map(|kind: usize| (work.n_node_bins[kind], whole.n_node_bins[kind]));
+        let nodes =
+            [0, 1].map(|kind: usize| (work.node_bins_made[kind], whole.node_bins_made[kind]));
         assert!(nodes.iter().all(|(a, b)| near(*a, *b, 0.5)), "{nodes:?}");
     }
 

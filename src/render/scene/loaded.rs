@@ -103,7 +103,8 @@ impl LoadedScene {
         let nothing = Self::nothing_of(Arc::new(library));
         let mut tuning = nothing.tuning_of(&scene);
         let stated = tuning.compression_reference_db;
-        tuning.compression_reference_db = stated.or(nothing.library_reference_db());
+        let reference_db = stated.or_else(|| nothing.library_reference_db());
+        tuning.compression_reference_db = reference_db;
         let is_needed = needed(&scene, &tuning, &manifests_db);
         nothing.with_needed(scene, &is_needed)
     }

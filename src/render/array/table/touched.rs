@@ -249,20 +249,33 @@ impl TouchedTables {
             }
             alone => {
                 for (axis, heard) in Axis::BOTH.into_iter().zip(alone) {
-                    let Some(heard) = heard else { continue };
-                    contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
-                        let point = match axis {
-                            Axis::Warp => heard.points.nearest(u_mm, w_mm),
-                            Axis::Weft => heard.points.nearest(w_mm, u_mm),
-                        };
+                    if let Some(heard) = heard {
                         let making = (&mut *gains, &mut *counters);
-                        let own = self.at_in(kept, (heard.spectra, point), heard.spot, making);
-                        (0..2).for_each(|band| power[band] -= own[band]);
-                    });
+                        self.add_alone(kept, (axis, heard), (contacts, powers), making);
+                    }
                 }
             }
         }
         self.kept = memory;
+    }
+
+    /// The same along one axis.
+    fn add_alone(
+        &mut self,
+        kept: &mut [[Kept; LINE]],
+        (axis, heard): (Axis, Heard),
+        (contacts, powers): (&Contacts<'_>, &mut [[f32; 2]]),
+        (gains, counters): Making<'_>,
+    ) {
+        contacts.for_each_placed(powers, |[u_mm, w_mm], power| {
+            let point = match axis {
+                Axis::Warp => heard.points.nearest(u_mm, w_mm),
+                Axis::Weft => heard.points.nearest(w_mm, u_mm),
+            };
+            let making = (&mut *gains, &mut *counters);
+            let own = self.at_in(kept, (heard.spectra, point), heard.spot, making);
+            (0..2).for_each(|band| power[band] -= own[band]);
+        });
     }
 
     /// The line in which a node of a row and the next stand. Those of other rows stand around it.
