@@ -125,7 +125,7 @@ impl<'a> Exploration<'a> {
     /// A row a method.
     fn rows(
         &self,
-        bench: &mut Bench<'_>,
+        bench: &Bench<'_>,
         (setting, case): (&str, &str),
     ) -> Result<Vec<Row>, ReportError> {
         let methods = [
@@ -195,7 +195,7 @@ impl<'a> Exploration<'a> {
 }
 
 /// What a tick costs where a display turns, beside one that does not, once tables are made.
-fn turning(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
+fn turning(bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> {
     let scene = scene_of(vec![placed(&shipped("denim")?, Point::default())], exeter());
     let poses = |angular_rad_per_s: f64| -> Vec<Pose> {
         let pose = |n: u32| {

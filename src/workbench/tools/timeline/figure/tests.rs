@@ -75,6 +75,20 @@ fn a_recording_alone_is_drawn_in_the_scene_that_it_was_made_in() {
     );
 }
 
+/// Numbers of two sheets: live the method is chosen for a minute, of a path for its own ticks, and
+/// both keep their budget.
+fn assert_alike(a: &str, b: &str) {
+    let cells = |sheet: &str| -> Vec<f64> {
+        let cells = sheet.split([',', '[', ']', '(', ')', ' ']);
+        cells.filter_map(|cell| cell.parse().ok()).collect()
+    };
+    let (a, b) = (cells(a), cells(b));
+    assert!(a.len() == b.len() && a.len() > 150, "{} numbers", a.len());
+    for (a, b) in a.iter().zip(b) {
+        assert!((a - b).abs() <= 0.006 * b.abs(), "{a} for {b}");
+    }
+}
+
 #[test]
 fn two_displays_are_drawn_and_the_one_under_whose_contactor_it_looks_is_told_of() {
     let folder = selvedge_scratch::ScratchFolder::made("figure-two");
@@ -121,20 +135,7 @@ fn two_displays_are_drawn_and_the_one_under_whose_contactor_it_looks_is_told_of(
         );
         format!("{:?}", drawn.sheet)
     });
-    // Live the method is chosen for a minute, here for a second: both keep their budget.
-    let cells = |sheet: &str| -> Vec<f64> {
-        let cells = sheet.split([',', '[', ']', '(', ')', ' ']);
-        cells.filter_map(|cell| cell.parse().ok()).collect()
-    };
-    let [felt, rendered] = [0, 1].map(|nth: usize| cells(&sheets[nth]));
-    assert!(
-        felt.len() == rendered.len() && felt.len() > 150,
-        "{}",
-        felt.len()
-    );
-    for (a, b) in felt.iter().zip(rendered) {
-        assert!((a - b).abs() <= 0.006 * b.abs(), "{a} for {b}");
-    }
+    assert_alike(&sheets[0], &sheets[1]);
     assert!(
         sheets[0].contains("120.0"),
         "as fast as the second: {}",
