@@ -1,7 +1,7 @@
 //! `selvedge help`: the guide, page by page, and what each command takes.
 
 use super::{CliError, command, output, usage};
-use clap::Args;
+use clap::{Args, Command};
 use selvedge_workbench::guide_pages;
 
 /// What is printed.
@@ -33,30 +33,34 @@ pub(super) fn run(args: &HelpArgs) -> Result<(), CliError> {
     {
         return output::print(page.text);
     }
-    let mut whole = command();
-    whole.build();
-    let mut found = &mut whole;
+    let whole = command();
+    let mut found = &whole;
     for word in &args.words {
-        let above = found.get_bin_name().unwrap_or("selvedge").to_owned();
-        let names: Vec<String> = found
-            .get_subcommands()
-            .map(|c| c.get_name().to_owned())
-            .collect();
-        found = found.find_subcommand_mut(word).ok_or_else(|| {
-            let pages = pages.iter().map(|page| page.name).filter(|_| word == first);
-            let known = names.iter().map(String::as_str).chain(pages);
-            let like = usage::like(word, known);
-            let meant = like.map_or_else(
-                || "selvedge help lists the pages".to_owned(),
-                |like| format!("did you mean {like}?"),
-            );
-            let what = if word == first {
-                "is neither a page of the guide nor a command"
-            } else {
-                "is no command"
-            };
-            CliError::Input(format!("{word:?} {what} of {above}; {meant}"))
-        })?;
+        let inner = found.find_subcommand(word);
+        let pages = pages.iter().map(|page| page.name).filter(|_| word == first);
+        found = inner.ok_or_else(|| unknown(word, found, pages))?;
     }
-    output::print(&found.render_long_help().to_string())
+    // The very text of the option, which is long or short as the command has it.
+    let words = ["selvedge"]
+        .into_iter()
+        .chain(args.words.iter().map(String::as_str));
+    let parsed = whole.clone().try_get_matches_from(words.chain(["--help"]));
+    output::print(&parsed.map_or_else(|help| help.render().to_string(), |_| String::new()))
+}
+
+/// What to say of a word that is no command of this one, nor one of these pages.
+fn unknown<'a>(word: &str, of: &Command, pages: impl Iterator<Item = &'a str>) -> CliError {
+    let pages: Vec<&str> = pages.collect();
+    let names = of.get_subcommands().map(Command::get_name);
+    let like = usage::like(word, names.chain(pages.iter().copied()));
+    let meant = like.map_or_else(
+        || "selvedge help lists the pages, selvedge --help the commands".to_owned(),
+        |like| format!("did you mean {like}?"),
+    );
+    let what = if pages.is_empty() {
+        format!("no command of {}", of.get_name())
+    } else {
+        "neither a page of the guide nor a command".to_owned()
+    };
+    CliError::Input(format!("{word:?} is {what}; {meant}"))
 }

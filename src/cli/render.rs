@@ -21,8 +21,8 @@ use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, LoadedScene};
 use selvedge_render::{RenderScene, Replay, RunStats, replay};
 
-const PATH_HELP: &str = "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and vx_mm_per_s,vy_mm_per_s; - is \
-     standard input";
+const PATH_HELP: &str = "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and \
+                         vx_mm_per_s,vy_mm_per_s; `-` is standard input";
 
 /// What to replay, and what to write.
 #[derive(Debug, Args)]

@@ -44,8 +44,8 @@ pub(super) fn answer(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// The line about a first word that is neither a command nor a file, where it is much like a command
-/// or more follows: clap takes it for a scene.
+/// The line about a first word that is neither a command nor a file, where it is much like a
+/// command or more follows: clap takes it for a scene.
 pub(super) fn unknown_command(args: &[OsString], command: &Command) -> Option<String> {
     let [word, more @ ..] = args else {
         return None;

@@ -13,9 +13,9 @@ use selvedge_textile::BuildCache;
 use selvedge_textile::tactile::{Band, Tuning};
 
 impl LoadedScene {
-    /// Reads the text of a scene file and, of the textiles that it places, those that are felt along
-    /// a path: the others have their manifests and no surface. Compression to the mean level of all
-    /// takes all.
+    /// Reads the text of a scene file and, of the textiles that it places, those that are felt
+    /// along a path: the others have their manifests and no surface. Compression to the mean level
+    /// of all takes all.
     ///
     /// # Errors
     /// As [`LoadedScene::from_text`].

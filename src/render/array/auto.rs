@@ -13,8 +13,9 @@ use crate::scene::{ExplorationPath, PathCursor, Pose, TICKS_PER_S};
 use selvedge_foundation::numerics::{to_index, to_whole};
 use selvedge_textile::tactile::{MIN_SPEED_MM_PER_S, n_audible_bins};
 
-/// What operations cost, ns: measured once with `cargo bench --bench render` on a machine of
-/// 2.5 GHz. Only their ratios matter.
+/// What operations cost, ns: fitted once to the times of explorations of 40 to 24,000 ticks,
+/// straight and turning, on a machine of 2.5 GHz. Only their ratios matter; the study `total-cost`
+/// of the report shows whether they still hold.
 mod ns {
     /// A bin of the reference: a logarithm and an exponential for each band.
     pub(super) const REFERENCE_BIN: f64 = 21.0;
@@ -165,8 +166,8 @@ fn nth_counted(nth: u64, n_ticks: u64) -> u64 {
     to_whole((nth as f64 * GOLDEN).fract() * n_ticks as f64)
 }
 
-/// A pair of neighbouring nodes that a table would need: of which spectra, of which point where each
-/// has nodes of its own, how many bins sound there, and which part of an octave it is.
+/// A pair of neighbouring nodes that a table would need: of which spectra, of which point where
+/// each has nodes of its own, how many bins sound there, and which part of an octave it is.
 type NodePair = (usize, usize, usize, usize);
 
 /// Counting what ticks evaluate, without evaluating it.

@@ -21,7 +21,7 @@ pub struct Counters {
     pub directions_over_speed: u64,
     /// Bins summed, both bands counted.
     pub bins_evaluated: u64,
-    /// Nodes of an areal textile's tables that were made because a tick first needed them.
+    /// Nodes of tables, point by point, that were made because a tick first needed them.
     pub nodes_made: u64,
     /// Bins left out because they sound at or above 1 kHz, both bands counted.
     pub(crate) bins_above_1_khz: u64,

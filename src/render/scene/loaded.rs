@@ -173,8 +173,8 @@ impl LoadedScene {
         is_there && !is_in(&self.fresh) && !is_in(&self.unread)
     }
 
-    /// Ids of textiles that are placed and were not read, because nothing is felt of them: they have
-    /// no surface.
+    /// Ids of textiles that are placed and were not read, because nothing is felt of them: they
+    /// have no surface.
     pub fn unread(&self) -> &[String] {
         &self.unread
     }

@@ -69,8 +69,8 @@ pub(super) struct Heard {
 }
 
 impl Heard {
-    /// Whether the other is of the same area along its other side: a point's indices are the other's
-    /// in turn.
+    /// Whether the other is of the same area along its other side: a point's indices are the
+    /// other's in turn.
     fn is_across(&self, other: &Self) -> bool {
         let [n_along, n_across] = self.points.n_points();
         n_across > 1 && other.points.n_points() == [n_across, n_along]
