@@ -156,6 +156,7 @@ mod tests {
         let folder = ScratchFolder::made("machine");
         let program = folder.join("target/release/selvedge");
         assert_eq!(commit_around(&folder.join("elsewhere")), None);
+        fs::create_dir_all(folder.join(".git/refs/heads")).unwrap();
         folder.write(".git/HEAD", "ref: refs/heads/main\n");
         folder.write(".git/packed-refs", "abc123 refs/heads/main\n");
         assert_eq!(commit_around(&program).as_deref(), Some("abc123"));

@@ -178,7 +178,10 @@ fn the_table_holds_what_the_plot_shows() {
         .filter(|series| !series.name.starts_with("promised"))
     {
         let of_method = rows.clone().filter(|(method, ..)| *method == series.name);
-        let (points, marks): (Vec<_>, Vec<_>) = of_method.map(|(_, at, front)| (at, front)).unzip();
+        let mut of_method: Vec<_> = of_method.map(|(_, at, front)| (at, front)).collect();
+        // One case: its rows in the order of what they cost.
+        of_method.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        let (points, marks): (Vec<_>, Vec<_>) = of_method.into_iter().unzip();
         assert_eq!(series.points, points, "{}", series.name);
         let marked: Vec<usize> = (0..marks.len()).filter(|i| marks[*i]).collect();
         assert_eq!(series.marked, marked, "{}", series.name);
@@ -347,4 +350,23 @@ fn further_processes_are_asked_for_times_and_an_old_report_is_compared_with() {
     options.against = Some(folder.join("nowhere.json"));
     let refused = run(&studies, &options, &cancel, None, &mut |_| {});
     assert!(refused.unwrap_err().to_string().contains("nowhere.json"));
+}
+
+#[test]
+fn a_line_joins_the_settings_of_a_method_on_one_case_alone() {
+    let study = made_up("made-up", one_is_wrong);
+    let findings = Findings {
+        rows: vec![row("a", 0.1, 2.0), row("b", 0.3, 1.0), row("a", 0.2, 1.0)],
+        ..Findings::default()
+    };
+    let plot = chart::error_against_time(&study, &findings).unwrap();
+    let [series] = &plot.series[..] else {
+        panic!("{:?}", plot.series);
+    };
+    assert_eq!(series.points[..2], [[1.0, 0.2], [2.0, 0.1]]);
+    assert!(series.points[2][0].is_nan());
+    assert_eq!((series.points[3], series.points.len()), ([1.0, 0.3], 4));
+    assert_eq!(series.marked, [0, 1, 3]);
+    let svg = plot.to_svg();
+    assert!(!svg.contains("left out"), "a break is no point");
 }
