@@ -42,8 +42,9 @@ const LIVE_TICKS: f64 = 60.0 * TICKS_PER_S;
 const LIVE_SPEED_MM_PER_S: f64 = 100.0;
 /// Nodes of each direction that such an exploration needs.
 const LIVE_NODES: f64 = 200.0;
-/// Most ticks of a path that are counted.
-const MAX_COUNTED: u64 = 512;
+/// So many ticks of a path are counted at least, and at most; between, one in so many.
+const COUNTED: [u64; 2] = [1024, 4096];
+const COUNTED_OF: u64 = 32;
 
 /// The method that `auto` stands for, and the nodes of its tables if it has any.
 pub(super) fn resolve(
@@ -144,7 +145,7 @@ impl Work {
     /// The ticks of a path.
     fn along(scene: &RenderScene, plan: &ScenePlan, path: &ExplorationPath) -> Self {
         let n_ticks = path.n_ticks();
-        let n_counted = n_ticks.min(MAX_COUNTED);
+        let n_counted = n_counted(n_ticks);
         let mut count = Count::of(scene);
         for nth in 0..n_counted {
             if nth == n_counted / 2 {
@@ -156,11 +157,17 @@ impl Work {
     }
 }
 
+/// How many of so many ticks are counted.
+fn n_counted(n_ticks: u64) -> u64 {
+    let [least, most] = COUNTED;
+    n_ticks.min((n_ticks / COUNTED_OF).clamp(least, most))
+}
+
 /// The nth tick to be counted: all in their order, or spread evenly over more than can be, however
 /// many and whatever repeats.
 fn nth_counted(nth: u64, n_ticks: u64) -> u64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    if n_ticks <= MAX_COUNTED {
+    if n_counted(n_ticks) == n_ticks {
         return nth;
     }
     to_whole((nth as f64 * GOLDEN).fract() * n_ticks as f64)
