@@ -1,5 +1,5 @@
-//! The command line itself: what is almost a command, one file named twice, streams, completions and
-//! manual pages.
+//! The command line itself: what is almost a command, one file named twice, streams, completions
+//! and manual pages.
 
 use std::io::Write as _;
 use std::process::Stdio;

@@ -1,8 +1,8 @@
 //! An edited scene on its way to the engine.
 //!
 //! Tables are made as they are touched, so that moving a textile, other filters or another error
-//! budget cost little; a new textile is read, which takes longer, on a thread of its own. Edits that
-//! come meanwhile wait, and only the last of them is prepared.
+//! budget cost little; a new textile is read, which takes longer, on a thread of its own. Edits
+//! that come meanwhile wait, and only the last of them is prepared.
 
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::rendering::Rendering;
