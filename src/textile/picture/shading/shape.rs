@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::light::Light;
+use super::reflectance::picture_of;
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::Grid;
 
@@ -18,6 +19,8 @@ named! {
         /// Regularised least squares on the full reflectance.
         #[default]
         Variational = "variational", "variational",
+        /// No shading at all: height follows brightness.
+        DarkIsDeep = "dark-is-deep", "dark is deep",
     }
     /// The word that files and commands use.
     pub fn word;
@@ -30,10 +33,13 @@ impl Method {
     pub(crate) fn default_iterations(self) -> usize {
         match self {
             Self::TsaiShah => 50,
-            Self::Linear => 1,
+            Self::Linear | Self::DarkIsDeep => 1,
             Self::Variational => 16,
         }
     }
+
+    /// Those that take brightness for the slope towards a light, so that the light matters.
+    pub const OF_SHADING: [Self; 3] = [Self::TsaiShah, Self::Linear, Self::Variational];
 }
 
 /// How shape is found.
@@ -52,7 +58,8 @@ pub struct ShadingOptions {
     pub albedo: Option<f64>,
     /// What keeps the methods from amplifying what the light does not show. Linear: ε of
     /// `H* F / (|H|² + ε)` is the square of this share of |H| at one cycle a tile along the light
-    /// (0.1). Variational: the weight of squared curvature (0.001).
+    /// (0.1). Variational: the weight of squared curvature (0.001). Dark is deep: the power of
+    /// brightness that height follows (1).
     pub regulariser: Option<f64>,
 }
 
@@ -91,6 +98,21 @@ impl Shape {
     pub fn is_flat(&self) -> bool {
         let [low, high] = self.range_px();
         high - low <= 1e-12
+    }
+
+    /// The share of a picture's variance that it leaves when it is drawn again, self-shadow and
+    /// all, by shading; by dark is deep, nothing.
+    pub(crate) fn unexplained(&self, brightness: &Grid<f64>) -> f64 {
+        if !Method::OF_SHADING.contains(&self.method) {
+            return 0.0;
+        }
+        let level = mean(brightness);
+        let drawn = picture_of(&self.height_px, self.light);
+        let pairs = brightness.values().iter().zip(drawn.values());
+        let [left, all] = pairs.fold([0.0, 1e-12], |[left, all], (e, r)| {
+            [left + (e - self.albedo * r).powi(2), all + (e - level).powi(2)]
+        });
+        left / all
     }
 
     /// Lowest and highest height, px.

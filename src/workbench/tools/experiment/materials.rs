@@ -19,7 +19,7 @@ use selvedge_render::array::TableCache;
 use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
 use selvedge_render::stylus::{StylusDrive, StylusSettings};
-use selvedge_textile::Library;
+use selvedge_textile::{Library, Textile};
 use selvedge_textile::tactile::Tuning;
 
 /// What a session presents.
@@ -40,6 +40,11 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
+    /// The textiles that are presented.
+    pub(crate) fn textiles(&self) -> impl Iterator<Item = &Textile> {
+        self.loaded.textiles().iter().map(AsRef::as_ref)
+    }
+
     /// Loads the textiles of a design whose file is `path`, and makes their tables: takes a while.
     pub(crate) fn gather(
         design: &Design,
