@@ -36,7 +36,12 @@ pub(super) struct RenderArgs {
     out: Option<PathBuf>,
     /// Amplitudes at both ends of what textiles are known to (their `[uncertainty]`): textiles of
     /// pictures; others are written as they are
-    #[arg(long, value_name = "LOW.csv,HIGH.csv", value_delimiter = ',', num_args = 1)]
+    #[arg(
+        long,
+        value_name = "LOW.csv,HIGH.csv",
+        value_delimiter = ',',
+        num_args = 1
+    )]
     band: Vec<PathBuf>,
     #[command(flatten)]
     how: MethodArgs,
@@ -118,11 +123,7 @@ fn run_method(
     scene: &RenderScene,
     (method, args): (Method, &RenderArgs),
     path: &ExplorationPath,
-    sink: &mut dyn FnMut(
-        u64,
-        &Pose,
-        &[selvedge_render::array::DisplayFrame],
-    ) -> Step,
+    sink: &mut dyn FnMut(u64, &Pose, &[selvedge_render::array::DisplayFrame]) -> Step,
 ) -> Result<RunStats, CliError> {
     let what = Replay {
         scene,
@@ -201,7 +202,8 @@ impl<'a> Sinks<'a> {
             [] => None,
             [low, high] => Some(BandTables::new([low, high], loaded, scene)?),
             _ => {
-                let line = "--band takes two files; give the lower end and the upper: LOW.csv,HIGH.csv";
+                let line =
+                    "--band takes two files; give the lower end and the upper: LOW.csv,HIGH.csv";
                 return Err(CliError::Input(line.to_owned()));
             }
         };

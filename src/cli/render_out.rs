@@ -114,24 +114,40 @@ impl<'a> BandTables<'a> {
         scene: &RenderScene,
     ) -> Result<Self, CliError> {
         Ok(Self {
-            ends: [AmplitudeTable::new(Some(low), loaded)?, AmplitudeTable::new(Some(high), loaded)?],
+            ends: [
+                AmplitudeTable::new(Some(low), loaded)?,
+                AmplitudeTable::new(Some(high), loaded)?,
+            ],
             inspector: ContactInspector::new(scene),
             readings: Vec::new(),
         })
     }
 
     /// Writes the rows of a tick.
-    pub(super) fn take(&mut self, tick: u64, pose: &Pose, frames: &[DisplayFrame]) -> Result<(), CliError> {
+    pub(super) fn take(
+        &mut self,
+        tick: u64,
+        pose: &Pose,
+        frames: &[DisplayFrame],
+    ) -> Result<(), CliError> {
         let mut shifts_db = Vec::with_capacity(frames.len());
         for display in 0..frames.len() {
-            self.inspector.readings_into(display, pose, &mut self.readings);
+            self.inspector
+                .readings_into(display, pose, &mut self.readings);
             let loaded = self.ends[0].loaded;
-            let shift = |moving: &ContactorReading| moving.reading.map_or([[0.0; 2]; 2], |reading| shift_db(loaded, &reading));
+            let shift = |moving: &ContactorReading| {
+                moving
+                    .reading
+                    .map_or([[0.0; 2]; 2], |reading| shift_db(loaded, &reading))
+            };
             shifts_db.push(self.readings.iter().map(shift).collect::<Vec<_>>());
         }
         for (end, table) in self.ends.iter_mut().enumerate() {
             table.take_by(tick, pose.t_s, frames, |display, contactor| {
-                let shift = shifts_db[display].get(contactor).copied().unwrap_or_default();
+                let shift = shifts_db[display]
+                    .get(contactor)
+                    .copied()
+                    .unwrap_or_default();
                 [0, 1].map(|band| factor_of_gain(shift[band][end]))
             })?;
         }

@@ -6,9 +6,7 @@ use std::sync::Arc;
 use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::Library;
-use selvedge_textile::surface::{
-    Direction, HeightMap, Probe, Surface, SurfaceError,
-};
+use selvedge_textile::surface::{Direction, HeightMap, Probe, Surface, SurfaceError};
 
 /// The random relief's name.
 const RANDOM: &str = "random relief";

@@ -70,7 +70,8 @@ fn refused_with(found: Result<Shape, String>, word: &str) -> Verdict {
 }
 
 fn refused(tile: &Grid<f64>, slant_deg: f64, word: &str) -> Verdict {
-    let all = Method::OF_SHADING.map(|method| refused_with(found(tile, [slant_deg, 20.0], method), word));
+    let all =
+        Method::OF_SHADING.map(|method| refused_with(found(tile, [slant_deg, 20.0], method), word));
     let texts: Vec<String> = all.into_iter().collect::<Result<_, _>>()?;
     Ok(texts.into_iter().next().unwrap_or_default())
 }

@@ -137,11 +137,17 @@ fn amplitudes(textile: &Textile) -> Chart {
 
 /// From where to where the mean amplitude at 100 mm/s may lie, where it is not measured.
 fn whisker(textile: &Textile, band: Band, ink: Ink) -> Option<Series> {
-    let known = textile.manifest().uncertainty.as_ref().filter(|known| !known.levels.is_empty())?;
+    let known = textile
+        .manifest()
+        .uncertainty
+        .as_ref()
+        .filter(|known| !known.levels.is_empty())?;
     let mean_um = Levels::of(textile.surface(), &Filters::default()).mean_um[band.index()];
     // A little apart, so that both are seen where they overlap.
     let speed = LEVEL_SPEED_MM_PER_S * (1.0 + 0.04 * band.index() as f64);
-    let ends = known.mean_level_db(band).map(|db| [speed, mean_um * factor_of_gain(db)]);
+    let ends = known
+        .mean_level_db(band)
+        .map(|db| [speed, mean_um * factor_of_gain(db)]);
     Some(line(ends.to_vec(), ink, Weight::Bold))
 }
 

@@ -117,17 +117,30 @@ impl Ensemble {
         let mut tried: Vec<Tried> = members.iter().map(|_| None).collect();
         let n = members.len();
         let round = n_threads.max(1);
-        for (number, (some, members)) in tried.chunks_mut(round).zip(members.chunks(round)).enumerate() {
+        for (number, (some, members)) in tried
+            .chunks_mut(round)
+            .zip(members.chunks(round))
+            .enumerate()
+        {
             progress.step((number * round) as f64 / n as f64, "trying reliefs")?;
-            in_pieces(some, 1, n_threads, || (), |(), i, piece| {
-                piece[0] = Some(members[i].tried(brightness, about));
-            });
+            in_pieces(
+                some,
+                1,
+                n_threads,
+                || (),
+                |(), i, piece| {
+                    piece[0] = Some(members[i].tried(brightness, about));
+                },
+            );
         }
         weigh(&mut members, &tried, brightness);
         let (mut felt, mut failed) = (Vec::new(), None);
         for (member, tried) in members.into_iter().zip(tried) {
             match tried {
-                Some(Ok((levels_db, _))) => felt.push(Member { levels_db, ..member }),
+                Some(Ok((levels_db, _))) => felt.push(Member {
+                    levels_db,
+                    ..member
+                }),
                 Some(Err(error)) => failed = failed.or(Some(error)),
                 None => {}
             }
@@ -137,7 +150,11 @@ impl Ensemble {
             Some(error) if felt.is_empty() => return Err(error),
             _ => felt.iter_mut().for_each(|member| member.weight /= sum),
         }
-        let mut ensemble = Self { members: felt, kept: 0, lamp };
+        let mut ensemble = Self {
+            members: felt,
+            kept: 0,
+            lamp,
+        };
         ensemble.kept = ensemble.nearest_to_median();
         Ok(ensemble)
     }
@@ -146,7 +163,11 @@ impl Ensemble {
     ///
     /// # Errors
     /// Cancelled.
-    pub fn shape(&self, brightness: &Brightness, progress: &mut Progress<'_>) -> Result<Shape, TextileError> {
+    pub fn shape(
+        &self,
+        brightness: &Brightness,
+        progress: &mut Progress<'_>,
+    ) -> Result<Shape, TextileError> {
         self.members[self.kept].shape(brightness, progress)
     }
 
@@ -154,7 +175,11 @@ impl Ensemble {
     ///
     /// # Errors
     /// Cancelled.
-    pub fn keep(&self, relief: &mut Relief, progress: &mut Progress<'_>) -> Result<(), TextileError> {
+    pub fn keep(
+        &self,
+        relief: &mut Relief,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), TextileError> {
         relief.shape = self.shape(&relief.brightness, progress)?;
         relief.light = self.members[self.kept].light;
         if let Some(estimate) = &mut relief.estimate {
@@ -173,7 +198,11 @@ impl Ensemble {
     ///
     /// # Errors
     /// A shape that has no height.
-    pub fn levels_about(&self, shape: &Shape, about: &PictureTextile) -> Result<Vec<[f64; 4]>, TextileError> {
+    pub fn levels_about(
+        &self,
+        shape: &Shape,
+        about: &PictureTextile,
+    ) -> Result<Vec<[f64; 4]>, TextileError> {
         Ok(self.levels(about.levels_db(shape)?))
     }
 
@@ -207,7 +236,11 @@ impl Ensemble {
         } else {
             "the light leaves that much open on this picture".to_owned()
         };
-        let lamp = if self.lamp == Lamp::Unknown { "the light (--light), " } else { "" };
+        let lamp = if self.lamp == Lamp::Unknown {
+            "the light (--light), "
+        } else {
+            ""
+        };
         let smd = match scale {
             HeightScale::SmdUm(_) => "",
             _ => "the SMD (--smd-um), ",
@@ -238,11 +271,16 @@ impl Ensemble {
     fn nearest_to_median(&self) -> usize {
         let medians = [0, 1].map(|axis| [0, 1].map(|band| self.quantile_db(axis, band, 0.5)));
         let off = |member: &Member| -> f64 {
-            let pairs = member.levels_db.iter().flatten().zip(medians.iter().flatten());
+            let pairs = member
+                .levels_db
+                .iter()
+                .flatten()
+                .zip(medians.iter().flatten());
             pairs.map(|(db, median)| (db - median).powi(2)).sum()
         };
         let all = self.members.iter().enumerate();
-        all.min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(0, |(i, _)| i)
+        all.min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+            .map_or(0, |(i, _)| i)
     }
 
     /// What a manifest says: [Hz, degrees from the warp, low dB, high dB] from what is felt of a
@@ -264,14 +302,21 @@ impl Ensemble {
 
     /// The belief in shading; the rest is in dark is deep.
     pub fn belief_in_shading(&self) -> f64 {
-        let shaded = self.members.iter().filter(|member| member.method != Method::DarkIsDeep);
+        let shaded = self
+            .members
+            .iter()
+            .filter(|member| member.method != Method::DarkIsDeep);
         shaded.map(|member| member.weight).sum()
     }
 }
 
 /// Weighted mean and variance of a level, dB.
-fn mean_and_variance<'a>(members: impl Iterator<Item = &'a Member> + Clone, level: impl Fn(&Member) -> f64) -> [f64; 2] {
-    let sum = |of: &dyn Fn(&Member) -> f64| members.clone().map(|one| one.weight * of(one)).sum::<f64>();
+fn mean_and_variance<'a>(
+    members: impl Iterator<Item = &'a Member> + Clone,
+    level: impl Fn(&Member) -> f64,
+) -> [f64; 2] {
+    let sum =
+        |of: &dyn Fn(&Member) -> f64| members.clone().map(|one| one.weight * of(one)).sum::<f64>();
     let all = sum(&|_| 1.0).max(f64::MIN_POSITIVE);
     let mean = sum(&level) / all;
     [mean, sum(&|one| (level(one) - mean).powi(2)) / all]
@@ -292,17 +337,29 @@ fn drawn(lamp: Lamp) -> Vec<Member> {
     };
     let shaded = (0..N_SHADED).map(|i| {
         let [a, b, c] = place(i);
-        member(Method::Variational, lamp.at([a, b]), 10.0_f64.powf(along(LOG_SMOOTHNESS, c)))
+        member(
+            Method::Variational,
+            lamp.at([a, b]),
+            10.0_f64.powf(along(LOG_SMOOTHNESS, c)),
+        )
     });
     let deep = (0..N_DEEP).map(|i| {
         let share = (i as f64 + 0.5) / N_DEEP as f64;
-        member(Method::DarkIsDeep, lamp.at([0.5; 2]), 2.0_f64.powf(along(LOG_POWER, share)))
+        member(
+            Method::DarkIsDeep,
+            lamp.at([0.5; 2]),
+            2.0_f64.powf(along(LOG_POWER, share)),
+        )
     });
     shaded.chain(deep).collect()
 }
 
 impl Member {
-    fn shape(&self, brightness: &Brightness, progress: &mut Progress<'_>) -> Result<Shape, TextileError> {
+    fn shape(
+        &self,
+        brightness: &Brightness,
+        progress: &mut Progress<'_>,
+    ) -> Result<Shape, TextileError> {
         let options = ShadingOptions {
             method: self.method,
             regulariser: Some(self.regulariser),
@@ -311,9 +368,16 @@ impl Member {
         Ok(brightness.shape(self.light, &options, progress)?)
     }
 
-    fn tried(&self, brightness: &Brightness, about: &PictureTextile) -> Result<([[f64; 2]; 2], f64), TextileError> {
+    fn tried(
+        &self,
+        brightness: &Brightness,
+        about: &PictureTextile,
+    ) -> Result<([[f64; 2]; 2], f64), TextileError> {
         let shape = Progress::unheard(|progress| self.shape(brightness, progress))?;
-        Ok((about.levels_db(&shape)?, shape.unexplained(&brightness.values)))
+        Ok((
+            about.levels_db(&shape)?,
+            shape.unexplained(&brightness.values),
+        ))
     }
 }
 
@@ -325,7 +389,9 @@ fn weigh(members: &mut [Member], tried: &[Tried], brightness: &Brightness) {
         Some(Ok((_, share))) => Some(share + NOISE_SHARE),
         _ => None,
     };
-    let best = (0..N_SHADED).filter_map(unexplained).fold(f64::INFINITY, f64::min);
+    let best = (0..N_SHADED)
+        .filter_map(unexplained)
+        .fold(f64::INFINITY, f64::min);
     let logs: Vec<f64> = members
         .iter()
         .enumerate()
@@ -365,7 +431,8 @@ mod tests {
             let (up, wide) = (random.uniform_in(-0.6, 0.6), random.uniform_in(2.0, 6.0));
             for row in 0..n {
                 for (column, z) in heights.row_mut(row).iter_mut().enumerate() {
-                    let [dx, dy] = [column.abs_diff(x), row.abs_diff(y)].map(|d| d.min(n - d) as f64);
+                    let [dx, dy] =
+                        [column.abs_diff(x), row.abs_diff(y)].map(|d| d.min(n - d) as f64);
                     *z += up * (-(dx * dx + dy * dy) / (wide * wide)).exp();
                 }
             }
@@ -398,7 +465,8 @@ mod tests {
     }
 
     fn tried(brightness: &Brightness, lamp: Lamp, n_threads: usize) -> Ensemble {
-        Progress::unheard(|progress| Ensemble::of(brightness, &about(), lamp, n_threads, progress)).unwrap()
+        Progress::unheard(|progress| Ensemble::of(brightness, &about(), lamp, n_threads, progress))
+            .unwrap()
     }
 
     #[test]
@@ -419,7 +487,10 @@ mod tests {
         let [low, high] = selvedge_foundation::numerics::extent(heights.values().iter().copied());
         let deep = brightness(&heights.map(|z| 0.2 + 0.7 * (z - low) / (high - low)));
         let by_depth = tried(&deep, known(), 2).belief_in_shading();
-        assert!(by_light > 0.8 && by_depth < 0.2, "{by_light} and {by_depth}");
+        assert!(
+            by_light > 0.8 && by_depth < 0.2,
+            "{by_light} and {by_depth}"
+        );
     }
 
     #[test]
@@ -430,14 +501,23 @@ mod tests {
             levels.iter().map(|[.., low, high]| high - low).sum::<f64>()
         };
         let (sure, open) = (tried(&lit(), known(), 2), tried(&lit(), Lamp::Unknown, 2));
-        assert!(width(&open) > width(&sure), "{} {}", width(&open), width(&sure));
+        assert!(
+            width(&open) > width(&sure),
+            "{} {}",
+            width(&open),
+            width(&sure)
+        );
         let [low, middle, high] = [0.16, 0.5, 0.84].map(|share| open.quantile_db(0, 0, share));
         assert!(low < middle && middle < high, "{low} {middle} {high}");
     }
 
     #[test]
     fn lights_are_drawn_where_they_may_be_and_from_all_sides_if_that_is_not_known() {
-        let shaded = |lamp: Lamp| drawn(lamp).into_iter().filter(|one| one.method == Method::Variational);
+        let shaded = |lamp: Lamp| {
+            drawn(lamp)
+                .into_iter()
+                .filter(|one| one.method == Method::Variational)
+        };
         for Member { light, .. } in shaded(known()) {
             let off = [light.slant_deg - 45.0, light.tilt_deg - 30.0];
             assert!(off.into_iter().all(|deg| deg.abs() <= 5.0), "{light:?}");
@@ -456,7 +536,10 @@ mod tests {
         let mut nobody = |_: f64, _: &str| {};
         let mut progress = Progress::new(&mut nobody, flag);
         let stopped = Ensemble::of(&lit(), &about(), known(), 2, &mut progress);
-        assert!(matches!(stopped, Err(TextileError::Cancelled(_))), "{stopped:?}");
+        assert!(
+            matches!(stopped, Err(TextileError::Cancelled(_))),
+            "{stopped:?}"
+        );
         let flat = brightness(&Grid::filled(160, 160, 0.5));
         let none = Progress::unheard(|p| Ensemble::of(&flat, &about(), known(), 2, p)).unwrap_err();
         assert!(none.to_string().contains("relief"), "{none}");
@@ -476,10 +559,25 @@ mod scratch {
     fn truth(map: &HeightMap) -> [[f64; 2]; 2] {
         let mut out = [[0.0; 2]; 2];
         for place in [0.1, 0.3, 0.5, 0.7, 0.9] {
-            let p = map.strokes(&Probe::contactor(), map.size_mm().map(|mm| mm * place), &Random::new(0)).unwrap();
-            let l = Levels::of(&Surface::from_profiles(p, 0.0).unwrap(), &Filters::default()).direction_mean_um;
-            for (a, d) in [Direction::WarpForward, Direction::WeftForward].into_iter().enumerate() {
-                for b in 0..2 { out[a][b] += l[d.index()][b] / 5.0; }
+            let p = map
+                .strokes(
+                    &Probe::contactor(),
+                    map.size_mm().map(|mm| mm * place),
+                    &Random::new(0),
+                )
+                .unwrap();
+            let l = Levels::of(
+                &Surface::from_profiles(p, 0.0).unwrap(),
+                &Filters::default(),
+            )
+            .direction_mean_um;
+            for (a, d) in [Direction::WarpForward, Direction::WeftForward]
+                .into_iter()
+                .enumerate()
+            {
+                for b in 0..2 {
+                    out[a][b] += l[d.index()][b] / 5.0;
+                }
             }
         }
         out.map(|x| x.map(level_db))
@@ -488,41 +586,105 @@ mod scratch {
     #[test]
     #[ignore]
     fn show() {
-        let ids = std::env::var("IDS").unwrap_or("denim,polyamide-taffeta,wool-twill,silk-crepe,polyester-satin,polyamide-jersey".into());
-        let side: usize = std::env::var("SIDE").ok().and_then(|x| x.parse().ok()).unwrap_or(240);
+        let ids = std::env::var("IDS").unwrap_or(
+            "denim,polyamide-taffeta,wool-twill,silk-crepe,polyester-satin,polyamide-jersey".into(),
+        );
+        let side: usize = std::env::var("SIDE")
+            .ok()
+            .and_then(|x| x.parse().ok())
+            .unwrap_or(240);
         let unknown = std::env::var("UNKNOWN").is_ok();
         let deep = std::env::var("DEEP").is_ok();
         let noise = 0.01;
-        let light = Light { slant_deg: 45.0, tilt_deg: 30.0 };
+        let light = Light {
+            slant_deg: 45.0,
+            tilt_deg: 30.0,
+        };
         for id in ids.split(',') {
-            let map = Library::shipped().unwrap().manifest(id).unwrap().source.height_map().unwrap().unwrap();
+            let map = Library::shipped()
+                .unwrap()
+                .manifest(id)
+                .unwrap()
+                .source
+                .height_map()
+                .unwrap()
+                .unwrap();
             let um = map.step_mm()[0] * 1000.0;
             let fine = if deep {
-                let [lo, hi] = selvedge_foundation::numerics::extent(map.heights_um().values().iter().copied());
+                let [lo, hi] = selvedge_foundation::numerics::extent(
+                    map.heights_um().values().iter().copied(),
+                );
                 map.heights_um().map(|z| 0.2 + 0.8 * (z - lo) / (hi - lo))
-            } else { picture_of(&map.heights_um().map(|z| z / um), light) };
+            } else {
+                picture_of(&map.heights_um().map(|z| z / um), light)
+            };
             let ppp = 2;
             let sides = [fine.width(), fine.height()].map(|n| (n / ppp).min(side));
             let mut random = Random::new(3).branch(id);
             let lum = Grid::from_fn(sides[0], sides[1], |c, r| {
                 let mut s = 0.0;
-                for y in 0..ppp { for x in 0..ppp { s += fine.row(r * ppp + y)[c * ppp + x]; } }
+                for y in 0..ppp {
+                    for x in 0..ppp {
+                        s += fine.row(r * ppp + y)[c * ppp + x];
+                    }
+                }
                 (0.8 * s / (ppp * ppp) as f64 + noise * random.normal()).clamp(0.0, 1.0)
             });
-            let strokes = map.strokes(&Probe::default(), map.size_mm().map(|mm| mm * 0.5), &Random::new(1)).unwrap();
+            let strokes = map
+                .strokes(
+                    &Probe::default(),
+                    map.size_mm().map(|mm| mm * 0.5),
+                    &Random::new(1),
+                )
+                .unwrap();
             let smd = crate::smd_um(&strokes);
             let brightness = Brightness::of_picture(&lum.turned_over(), 0.0);
-            let about = PictureTextile { name: id.into(), px_per_mm: 1000.0 / um / ppp as f64, scale: HeightScale::SmdUm(smd), ..Default::default() };
-            let lamp = if unknown { Lamp::Unknown } else { Lamp::Known { light, within_deg: 5.0 } };
+            let about = PictureTextile {
+                name: id.into(),
+                px_per_mm: 1000.0 / um / ppp as f64,
+                scale: HeightScale::SmdUm(smd),
+                ..Default::default()
+            };
+            let lamp = if unknown {
+                Lamp::Unknown
+            } else {
+                Lamp::Known {
+                    light,
+                    within_deg: 5.0,
+                }
+            };
             let t0 = std::time::Instant::now();
             let e = Progress::unheard(|p| Ensemble::of(&brightness, &about, lamp, 2, p)).unwrap();
             let t = truth(&map);
-            println!("{id} step {um} um size {:?} smd {smd:.2} truth warp {:.1?} weft {:.1?}  {:.1} s", map.size_mm(), t[0], t[1], t0.elapsed().as_secs_f64());
+            println!(
+                "{id} step {um} um size {:?} smd {smd:.2} truth warp {:.1?} weft {:.1?}  {:.1} s",
+                map.size_mm(),
+                t[0],
+                t[1],
+                t0.elapsed().as_secs_f64()
+            );
             for m in &e.members {
-                println!("   {:12} slant {:5.1} tilt {:6.1} reg {:.5} w {:.4} off {:.1?}", m.method.word(), m.light.slant_deg, m.light.tilt_deg, m.regulariser, m.weight,
-                  [m.levels_db[0][0]-t[0][0], m.levels_db[0][1]-t[0][1], m.levels_db[1][0]-t[1][0], m.levels_db[1][1]-t[1][1]]);
+                println!(
+                    "   {:12} slant {:5.1} tilt {:6.1} reg {:.5} w {:.4} off {:.1?}",
+                    m.method.word(),
+                    m.light.slant_deg,
+                    m.light.tilt_deg,
+                    m.regulariser,
+                    m.weight,
+                    [
+                        m.levels_db[0][0] - t[0][0],
+                        m.levels_db[0][1] - t[0][1],
+                        m.levels_db[1][0] - t[1][0],
+                        m.levels_db[1][1] - t[1][1]
+                    ]
+                );
             }
-            println!("   shading {:.3} kept {} levels off truth {:?}", e.belief_in_shading(), e.kept, e.levels(t));
+            println!(
+                "   shading {:.3} kept {} levels off truth {:?}",
+                e.belief_in_shading(),
+                e.kept,
+                e.levels(t)
+            );
         }
     }
 }

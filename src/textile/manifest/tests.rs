@@ -132,7 +132,10 @@ fn values_that_make_no_sense_name_their_line() {
 fn a_band_goes_over_from_direction_to_direction_and_what_is_none_is_refused() {
     use crate::tactile::Band;
 
-    let known = read_text(&format!("{PROFILES}{KNOWN}")).unwrap().uncertainty.unwrap();
+    let known = read_text(&format!("{PROFILES}{KNOWN}"))
+        .unwrap()
+        .uncertainty
+        .unwrap();
     for (deg, band) in [
         (0.0, [-2.0, 3.0]),
         (45.0, [-3.0, 2.0]),
@@ -142,13 +145,27 @@ fn a_band_goes_over_from_direction_to_direction_and_what_is_none_is_refused() {
         (180.0, [-2.0, 3.0]),
     ] {
         let found = known.level_db(Band::Low, deg);
-        assert!((0..2).all(|end| (found[end] - band[end]).abs() < 1e-9), "{deg}°: {found:?}");
+        assert!(
+            (0..2).all(|end| (found[end] - band[end]).abs() < 1e-9),
+            "{deg}°: {found:?}"
+        );
     }
-    assert_eq!(known.level_db(Band::High, 90.0), [-1.0, 1.0], "one direction is all");
+    assert_eq!(
+        known.level_db(Band::High, 90.0),
+        [-1.0, 1.0],
+        "one direction is all"
+    );
     assert_eq!(Uncertainty::default().level_db(Band::Low, 10.0), [0.0; 2]);
     assert_eq!(known.too_wide(), None);
-    for wrong in ["[50.0, 0.0, -2.0, 3.0]", "[40.0, 180.0, -2.0, 3.0]", "[40.0, 0.0, 3.0, -2.0]"] {
-        let text = format!("{PROFILES}{}", KNOWN.replace("[40.0, 0.0, -2.0, 3.0]", wrong));
+    for wrong in [
+        "[50.0, 0.0, -2.0, 3.0]",
+        "[40.0, 180.0, -2.0, 3.0]",
+        "[40.0, 0.0, 3.0, -2.0]",
+    ] {
+        let text = format!(
+            "{PROFILES}{}",
+            KNOWN.replace("[40.0, 0.0, -2.0, 3.0]", wrong)
+        );
         refused(&text, "t.toml:9: [");
     }
 }

@@ -34,7 +34,12 @@ impl Uncertainty {
     /// alike. 0 to 0 where nothing is said.
     pub fn level_db(&self, band: Band, direction_deg: f64) -> [f64; 2] {
         let of_band = |&&[hz, ..]: &&[f64; 4]| (hz - band.carrier_hz()).abs() < 0.5;
-        let mut known: Vec<[f64; 3]> = self.levels.iter().filter(of_band).map(|&[_, at, low, high]| [at, low, high]).collect();
+        let mut known: Vec<[f64; 3]> = self
+            .levels
+            .iter()
+            .filter(of_band)
+            .map(|&[_, at, low, high]| [at, low, high])
+            .collect();
         known.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let (Some(first), Some(last)) = (known.first().copied(), known.last().copied()) else {
             return [0.0; 2];
@@ -45,11 +50,20 @@ impl Uncertainty {
         around.extend(known);
         around.push(turned(first, 180.0));
         let found = around.windows(2).find(|pair| at <= pair[1][0]);
-        let Some([[from, a_low, a_high], [to, b_low, b_high]]) = found.and_then(|pair| pair.first_chunk()) else {
+        let Some([[from, a_low, a_high], [to, b_low, b_high]]) =
+            found.and_then(|pair| pair.first_chunk())
+        else {
             return [first[1], first[2]];
         };
-        let share = if to > from { (at - from) / (to - from) } else { 0.0 };
-        [a_low + (b_low - a_low) * share, a_high + (b_high - a_high) * share]
+        let share = if to > from {
+            (at - from) / (to - from)
+        } else {
+            0.0
+        };
+        [
+            a_low + (b_low - a_low) * share,
+            a_high + (b_high - a_high) * share,
+        ]
     }
 
     /// The mean of warp and weft of that.
@@ -66,7 +80,10 @@ impl Uncertainty {
                 let [low, high] = self.level_db(band, deg);
                 format!("{low:+.1} to {high:+.1}")
             });
-            format!("A{} {warp} dB along the warp, {weft} along the weft", band.carrier_hz())
+            format!(
+                "A{} {warp} dB along the warp, {weft} along the weft",
+                band.carrier_hz()
+            )
         };
         (!self.levels.is_empty()).then(|| Band::ALL.map(of).join("; "))
     }
@@ -75,7 +92,11 @@ impl Uncertainty {
     /// measurement is worth more than what is known.
     pub fn too_wide(&self) -> Option<[f64; 4]> {
         let width = |&[.., low, high]: &[f64; 4]| high - low;
-        let widest = self.levels.iter().copied().max_by(|a, b| width(a).total_cmp(&width(b)));
+        let widest = self
+            .levels
+            .iter()
+            .copied()
+            .max_by(|a, b| width(a).total_cmp(&width(b)));
         widest.filter(|band| width(band) > WIDE_DB)
     }
 
@@ -95,9 +116,15 @@ impl Uncertainty {
             ));
         }
         let is_band = |[hz, deg, low, high]: &[f64; 4]| {
-            let is_carrier = Band::ALL.iter().any(|band| (band.carrier_hz() - hz).abs() < 0.5);
+            let is_carrier = Band::ALL
+                .iter()
+                .any(|band| (band.carrier_hz() - hz).abs() < 0.5);
             let range = -200.0..=200.0;
-            is_carrier && (0.0..180.0).contains(deg) && low <= high && range.contains(low) && range.contains(high)
+            is_carrier
+                && (0.0..180.0).contains(deg)
+                && low <= high
+                && range.contains(low)
+                && range.contains(high)
         };
         match self.levels.iter().find(|band| !is_band(band)) {
             None => Ok(()),

@@ -369,21 +369,30 @@ mod tests {
 
     #[test]
     fn a_picture_as_it_is_goes_on_at_its_other_side_and_turns_with_its_yarns() {
-        let value = |x: f64, y: f64| 0.5 + 0.2 * (0.31 * x).sin() + 0.1 * (0.17 * y + 0.02 * x).cos();
+        let value =
+            |x: f64, y: f64| 0.5 + 0.2 * (0.31 * x).sin() + 0.1 * (0.17 * y + 0.02 * x).cos();
         let picture = Grid::from_fn(200, 150, |x, y| value(x as f64, y as f64));
         let cut = Brightness::of_picture(&picture, 0.0);
         let (w, h) = (cut.values.width(), cut.values.height());
         assert_eq!([w as f64, h as f64], cut.size_px);
-        let largest = |pairs: &mut dyn Iterator<Item = (f64, f64)>| pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+        let largest = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
+            pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
+        };
         let row = |j: usize| cut.values.row(j);
-        let inside = largest(&mut (0..h).flat_map(|j| row(j).windows(2).map(|two| (two[0], two[1]))));
+        let inside =
+            largest(&mut (0..h).flat_map(|j| row(j).windows(2).map(|two| (two[0], two[1]))));
         let seam = largest(&mut (0..h).map(|j| (row(j)[w - 1], row(j)[0])));
         let upper = largest(&mut (0..w).map(|i| (row(h - 1)[i], row(0)[i])));
-        assert!(seam < 1.5 * inside && upper < 1.5 * inside, "{seam} {upper} {inside}");
+        assert!(
+            seam < 1.5 * inside && upper < 1.5 * inside,
+            "{seam} {upper} {inside}"
+        );
         // Stripes along the yarns are level in a picture that is turned with them.
         let angle_rad = 0.2_f64;
         let (s, c) = angle_rad.sin_cos();
-        let stripes = Grid::from_fn(200, 150, |x, y| 0.5 + 0.3 * (0.3 * (c * y as f64 - s * x as f64)).sin());
+        let stripes = Grid::from_fn(200, 150, |x, y| {
+            0.5 + 0.3 * (0.3 * (c * y as f64 - s * x as f64)).sin()
+        });
         let turned = Brightness::of_picture(&stripes, angle_rad).values;
         let row = turned.row(turned.height() / 2);
         let along = largest(&mut row.iter().map(|value| (*value, row[0])));

@@ -51,7 +51,13 @@ pub(crate) struct EngineScene {
 impl EngineScene {
     /// How far the levels of a placed textile may be off, where that is said.
     pub(crate) fn uncertainty(&self, index: usize) -> Option<&Uncertainty> {
-        let known = self.loaded.textiles().get(index)?.manifest().uncertainty.as_ref();
+        let known = self
+            .loaded
+            .textiles()
+            .get(index)?
+            .manifest()
+            .uncertainty
+            .as_ref();
         known.filter(|known| !known.levels.is_empty())
     }
 }

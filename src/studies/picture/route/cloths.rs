@@ -132,7 +132,13 @@ pub(super) struct Photograph {
 impl Cloth {
     /// Its picture under [`LIGHT`]: pixels are means of the relief's points.
     pub(super) fn photograph(&self, taking: &Taking, seed: u64) -> Photograph {
-        let Taking { side_px, points_a_px, noise, bits, .. } = *taking;
+        let Taking {
+            side_px,
+            points_a_px,
+            noise,
+            bits,
+            ..
+        } = *taking;
         let steps = 2.0_f64.powi(bits) - 1.0;
         let step_mm = self.map.step_mm();
         let fine = picture_of(&in_px(&self.map), LIGHT);

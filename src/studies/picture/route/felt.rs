@@ -36,7 +36,10 @@ impl Felt {
             }
             let along = [Direction::WarpForward, Direction::WeftForward];
             for (sums, direction) in axis_um.iter_mut().zip(along) {
-                for (sum, um) in sums.iter_mut().zip(levels.direction_mean_um[direction.index()]) {
+                for (sum, um) in sums
+                    .iter_mut()
+                    .zip(levels.direction_mean_um[direction.index()])
+                {
                     *sum += um / n;
                 }
             }

@@ -34,7 +34,11 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         let is_first = done == 0;
         let mut results = Vec::new();
         // Doubles are looked at once.
-        for (number, cloth) in all.iter().filter(|cloth| is_first || !cloth.is_double).enumerate() {
+        for (number, cloth) in all
+            .iter()
+            .filter(|cloth| is_first || !cloth.is_double)
+            .enumerate()
+        {
             let share = (done as f64 + number as f64 / all.len() as f64) / takings.len() as f64;
             bench.step(share, &format!("{}, {}", taking.name(), cloth.name))?;
             let subject = Subject::new(cloth.clone(), taking, bench.seed)?;
@@ -69,13 +73,34 @@ fn takings(effort: Effort) -> Vec<Taking> {
         within_deg: Lamp::WITHIN_DEG,
     };
     if effort == Effort::Quick {
-        let quick = Taking { side_px: 160, ..plain };
-        return vec![quick, Taking { lamp: Lamp::Unknown, ..quick }];
+        let quick = Taking {
+            side_px: 160,
+            ..plain
+        };
+        return vec![
+            quick,
+            Taking {
+                lamp: Lamp::Unknown,
+                ..quick
+            },
+        ];
     }
-    let mut all = vec![plain, Taking { points_a_px: 1, ..plain }];
+    let mut all = vec![
+        plain,
+        Taking {
+            points_a_px: 1,
+            ..plain
+        },
+    ];
     for lamp in [plain.lamp, off, Lamp::Unknown] {
         for (bits, noise) in [(16, 0.01), (8, 0.01), (16, 0.03)] {
-            let taking = Taking { side_px: 300, bits, noise, lamp, ..plain };
+            let taking = Taking {
+                side_px: 300,
+                bits,
+                noise,
+                lamp,
+                ..plain
+            };
             all.push(taking);
         }
     }

@@ -238,12 +238,15 @@ impl Summary {
         );
         let [doubles, truly] = [self.pair_db[1], self.pair_db[0]].map(|db| said(db, 1));
         if self.pair_db[1].is_finite() {
-            let words = format!("; the fine cloth is {doubles} dB from its doubles, in truth {truly} dB");
+            let words =
+                format!("; the fine cloth is {doubles} dB from its doubles, in truth {truly} dB");
             note.push_str(&words);
         }
         let [held, width] = [said(self.band[0], 0), said(self.band[1], 1)];
         if self.band[0].is_finite() {
-            let words = format!("; the band from 16 to 84 % is {width} dB wide and holds {held} % of truths");
+            let words = format!(
+                "; the band from 16 to 84 % is {width} dB wide and holds {held} % of truths"
+            );
             note.push_str(&words);
         }
         note + "."
@@ -255,7 +258,10 @@ impl Summary {
 fn band<'a>(cloths: impl Iterator<Item = &'a Tried>) -> [f64; 2] {
     let bands: Vec<[f64; 2]> = cloths.filter_map(|tried| tried.band_db).flatten().collect();
     let n = bands.len() as f64;
-    let n_held = bands.iter().filter(|[low, high]| *low <= 0.0 && *high >= 0.0).count();
+    let n_held = bands
+        .iter()
+        .filter(|[low, high]| *low <= 0.0 && *high >= 0.0)
+        .count();
     let width: f64 = bands.iter().map(|[low, high]| high - low).sum();
     [100.0 * n_held as f64 / n, width / n]
 }

@@ -10,7 +10,11 @@ use selvedge_foundation::numerics::Grid;
 pub(super) fn solve(brightness: &Grid<f64>, options: &ShadingOptions) -> Found {
     let level = mean(brightness);
     let power = options.regulariser.unwrap_or(1.0);
-    let contrast: f64 = brightness.values().iter().map(|e| (e / level - 1.0).abs()).sum();
+    let contrast: f64 = brightness
+        .values()
+        .iter()
+        .map(|e| (e / level - 1.0).abs())
+        .sum();
     Found {
         height_px: brightness.map(|e| (e / level).powf(power)),
         albedo: level,

@@ -53,7 +53,10 @@ impl Evidence {
             }
         }
         let mut log_power = vec![0.0; N_SECTORS];
-        for ring in sums.chunks(N_SECTORS).filter(|ring| ring.iter().all(|sum| sum[1] > 0.0)) {
+        for ring in sums
+            .chunks(N_SECTORS)
+            .filter(|ring| ring.iter().all(|sum| sum[1] > 0.0))
+        {
             let by_sector: Vec<f64> = ring.iter().map(|[sum, n]| sum / n).collect();
             let middle = by_sector.iter().sum::<f64>() / N_SECTORS as f64;
             for (sum, log) in log_power.iter_mut().zip(by_sector) {

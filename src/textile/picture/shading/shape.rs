@@ -110,7 +110,10 @@ impl Shape {
         let drawn = picture_of(&self.height_px, self.light);
         let pairs = brightness.values().iter().zip(drawn.values());
         let [left, all] = pairs.fold([0.0, 1e-12], |[left, all], (e, r)| {
-            [left + (e - self.albedo * r).powi(2), all + (e - level).powi(2)]
+            [
+                left + (e - self.albedo * r).powi(2),
+                all + (e - level).powi(2),
+            ]
         });
         left / all
     }

@@ -19,8 +19,8 @@ use selvedge_render::array::TableCache;
 use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
 use selvedge_render::stylus::{StylusDrive, StylusSettings};
-use selvedge_textile::{Library, Textile};
 use selvedge_textile::tactile::Tuning;
+use selvedge_textile::{Library, Textile};
 
 /// What a session presents.
 #[derive(Debug)]

@@ -125,7 +125,9 @@ fn columns(placed: &[Placed]) -> Columns {
     if placed.iter().all(|one| one.known_db.is_none()) {
         return columns;
     }
-    let known = |band: usize, end: usize| move |one: &Placed| one.known_db.map_or(f64::NAN, |db| db[band][end]);
+    let known = |band: usize, end: usize| {
+        move |one: &Placed| one.known_db.map_or(f64::NAN, |db| db[band][end])
+    };
     columns
         .with("low_40_db", numbers(&known(0, 0)))
         .with("high_40_db", numbers(&known(0, 1)))

@@ -129,7 +129,9 @@ fn stages(
                 Some(made) => made,
                 None => {
                     let relief = Relief::clone(&shaped);
-                    let made = |progress: &mut Progress<'_>| made(&inputs, &loaded, (tiled, relief), progress);
+                    let made = |progress: &mut Progress<'_>| {
+                        made(&inputs, &loaded, (tiled, relief), progress)
+                    };
                     Arc::new(progress.within([0.9, 1.0], made)?)
                 }
             },
@@ -315,7 +317,10 @@ fn made(
         relief: Relief3d::of(&map),
         relief_um,
         smd_um: smd_um(&strokes),
-        known: [manifest.uncertainty.as_ref().and_then(Uncertainty::words), advice],
+        known: [
+            manifest.uncertainty.as_ref().and_then(Uncertainty::words),
+            advice,
+        ],
         profiles,
         textile: Arc::new(vec![NewTextile {
             id: inputs.id(),

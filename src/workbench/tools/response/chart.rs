@@ -24,7 +24,12 @@ struct Asked {
 }
 
 impl Asked {
-    fn of(view: &ResponseView<'_>, over: &'static str, [direction_deg, speed_mm_per_s]: [f64; 2], given: &PointSpread) -> Self {
+    fn of(
+        view: &ResponseView<'_>,
+        over: &'static str,
+        [direction_deg, speed_mm_per_s]: [f64; 2],
+        given: &PointSpread,
+    ) -> Self {
         let known = |known: &Uncertainty| Band::ALL.map(|band| known.level_db(band, direction_deg));
         Self {
             over,
@@ -104,7 +109,9 @@ fn columns(asked: &[Asked]) -> Columns {
     let number = |of: &dyn Fn(&Asked) -> f64| -> Vec<f64> { asked.iter().map(of).collect() };
     let here = |band: usize| number(&|one| one.given.at_place_um.map_or(f64::NAN, |um| um[band]));
     let over: Vec<String> = asked.iter().map(|one| one.over.to_owned()).collect();
-    let known = |band: usize, end: usize| number(&move |one| one.known_db.map_or(f64::NAN, |db| db[band][end]));
+    let known = |band: usize, end: usize| {
+        number(&move |one| one.known_db.map_or(f64::NAN, |db| db[band][end]))
+    };
     let columns = Columns::default()
         .with("over", over)
         .with("direction_from_warp_deg", number(&|one| one.direction_deg))

@@ -213,7 +213,10 @@ impl Plot {
             let end = |end: usize| -> Vec<Pos2> {
                 let off = |k: usize| known.level_db(band, step_deg * k as f64)[end];
                 let row = levels.iter().enumerate();
-                row.map(|(k, [_, mean, ..])| self.at(self.rotation_deg + step_deg * k as f64, mean + off(k))).collect()
+                row.map(|(k, [_, mean, ..])| {
+                    self.at(self.rotation_deg + step_deg * k as f64, mean + off(k))
+                })
+                .collect()
             };
             fill_between(painter, &closed(end(0)), &closed(end(1)), ink);
         }

@@ -54,7 +54,11 @@ pub(crate) fn levels_db(spread: &PointSpread, factors: [f64; 2], band: Band) -> 
 }
 
 /// What a spread says, in words, and how far it may be off in a direction from the warp.
-pub(crate) fn words_of(view: &ResponseView<'_>, spread: &PointSpread, from_warp_deg: f64) -> String {
+pub(crate) fn words_of(
+    view: &ResponseView<'_>,
+    spread: &PointSpread,
+    from_warp_deg: f64,
+) -> String {
     let band_words = Band::ALL.map(|band| {
         let levels = levels_db(spread, view.factors, band);
         let [place, mean, least, most] = levels.map(|db| quantity::fixed(db, 1));
@@ -80,7 +84,10 @@ pub(crate) fn words_of(view: &ResponseView<'_>, spread: &PointSpread, from_warp_
             let [low, high] = known.level_db(band, from_warp_deg);
             format!("{low:+.1} to {high:+.1}")
         });
-        format!("\nHeights from a picture: all may lie {} dB from this", ends.join(" / "))
+        format!(
+            "\nHeights from a picture: all may lie {} dB from this",
+            ends.join(" / ")
+        )
     });
     format!(
         "{}\nLevel re 1 µm peak, after gains, before output limits; the mean is the root mean \

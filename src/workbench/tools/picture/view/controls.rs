@@ -21,8 +21,8 @@ use crate::tools::picture::view::hemisphere;
 #[cfg(feature = "friction")]
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{self, with_unit};
-use selvedge_textile::picture::{Directions, Relief};
 use selvedge_textile::picture::shading::Method;
+use selvedge_textile::picture::{Directions, Relief};
 
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
@@ -315,10 +315,20 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Relief>) {
 
 fn show_method(ui: &mut Ui, draft: &mut Draft) {
     let choices = [
-        (false, "picture", "Heights of the picture as it is, yarn by yarn"),
-        (true, "mean cell", "Heights of the cell that repeats: what varies from yarn to yarn is lost"),
+        (
+            false,
+            "picture",
+            "Heights of the picture as it is, yarn by yarn",
+        ),
+        (
+            true,
+            "mean cell",
+            "Heights of the cell that repeats: what varies from yarn to yarn is lost",
+        ),
     ];
-    row_of(ui, NAME, ("of the", ""), |ui, _| toggles(ui, &mut draft.is_cell, &choices));
+    row_of(ui, NAME, ("of the", ""), |ui, _| {
+        toggles(ui, &mut draft.is_cell, &choices)
+    });
     row_of(ui, NAME, ("method", ""), |ui, _| {
         let tip = "Of many reliefs, by shading and by dark is deep, the one that is nearest to what all \
                    feel like; until the height is typed, shading";
