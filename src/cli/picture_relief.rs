@@ -241,7 +241,7 @@ impl ReliefArgs {
         });
         let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads, progress)?;
         if self.shading.is_none() {
-            ensemble.keep(relief, progress)?;
+            ensemble.keep(relief, about, progress)?;
         }
         about.levels = ensemble.levels_about(&relief.shape, about)?;
         Ok(ensemble.advice(&about.levels, about.scale))

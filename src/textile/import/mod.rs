@@ -12,7 +12,7 @@ mod picture;
 mod profile_files;
 
 pub use description::Description;
-pub use ensemble::{Ensemble, Lamp, Member};
+pub use ensemble::{Ensemble, Lamp};
 pub use height_scale::{HeightScale, ScaledRelief};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};

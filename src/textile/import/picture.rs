@@ -55,7 +55,7 @@ pub struct PictureTextile {
 
 impl PictureTextile {
     /// The distance of a shape's samples, mm.
-    fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
+    pub(super) fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
         let n = n.map(|n| n as f64);
         let size_px = self.size_px.unwrap_or(n);
         [0, 1].map(|axis| size_px[axis] / n[axis] / self.px_per_mm)

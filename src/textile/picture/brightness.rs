@@ -72,7 +72,7 @@ impl Brightness {
 
 /// Samples a side of a picture that is felt as it is, at most; over this share of its size its
 /// edges go over into each other, so that it repeats.
-const MAX_WHOLE: f64 = 512.0;
+const MAX_WHOLE: f64 = 384.0;
 const FADE: f64 = 0.1;
 
 impl Brightness {

@@ -32,7 +32,7 @@ pub(super) struct Taking {
 impl Taking {
     /// Under a lamp that is told right, with little noise.
     pub(super) const PLAIN: Self = Self {
-        side_px: 500,
+        side_px: 300,
         points_a_px: 2,
         noise: 0.01,
         bits: 16,

@@ -348,7 +348,7 @@ fn believe(
     };
     let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads(), progress)?;
     if inputs.method.is_none() {
-        ensemble.keep(relief, progress)?;
+        ensemble.keep(relief, about, progress)?;
     }
     about.levels = ensemble.levels_about(&relief.shape, about)?;
     Ok(ensemble.advice(&about.levels, about.scale))

@@ -36,7 +36,7 @@ impl Asked {
             direction_deg,
             speed_mm_per_s,
             given: given.scaled(view.factors),
-            known_db: view.uncertainty.map(known),
+            known_db: view.uncertainty.as_ref().map(known),
         }
     }
 }

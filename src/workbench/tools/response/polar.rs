@@ -209,7 +209,7 @@ impl Plot {
             row
         };
         fill_between(painter, &closed(least), &closed(most), ink);
-        if let Some(known) = view.uncertainty {
+        if let Some(known) = &view.uncertainty {
             let end = |end: usize| -> Vec<Pos2> {
                 let off = |k: usize| known.level_db(band, step_deg * k as f64)[end];
                 let row = levels.iter().enumerate();

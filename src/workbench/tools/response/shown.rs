@@ -27,7 +27,7 @@ pub(crate) struct ResponseView<'a> {
     /// The amplitude factors of its gains, by band.
     pub factors: [f64; 2],
     /// How far its levels may be off, where that is said.
-    pub uncertainty: Option<&'a Uncertainty>,
+    pub uncertainty: Option<Uncertainty>,
     /// The chosen contactor and the points that it reads, one for each direction; `None` while it
     /// is not on the textile.
     pub place: Option<(usize, [usize; 4])>,
@@ -79,7 +79,7 @@ pub(crate) fn words_of(
              reverse"
         )
     });
-    let band = view.uncertainty.map_or_else(String::new, |known| {
+    let band = view.uncertainty.as_ref().map_or_else(String::new, |known| {
         let ends = Band::ALL.map(|band| {
             let [low, high] = known.level_db(band, from_warp_deg);
             format!("{low:+.1} to {high:+.1}")
