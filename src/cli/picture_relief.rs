@@ -193,7 +193,7 @@ impl ReliefArgs {
         let tile = &found.tile;
         let brightness = match self.relief_of {
             Ground::Cell => Brightness::of(tile, px_per_mm.unwrap_or(1.0), n_threads),
-            Ground::Picture => Brightness::of_picture(luminance, found.lattice.basis().angle_rad()),
+            Ground::Picture => Brightness::of_picture(luminance, found.turn_rad()),
         };
         let mut relief = match Relief::of(brightness, self.light, &self.options(), progress) {
             Ok(relief) => relief,

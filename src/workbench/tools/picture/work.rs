@@ -255,7 +255,7 @@ fn shaped(
         let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
         Brightness::of(&tiled.tile, px_per_mm, n_threads())
     } else {
-        Brightness::of_picture(luminance, tiled.lattice.basis().angle_rad())
+        Brightness::of_picture(luminance, tiled.turn_rad())
     };
     let light = (!inputs.is_light_estimated).then_some(inputs.light);
     let options = ShadingOptions {
