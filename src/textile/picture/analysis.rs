@@ -117,7 +117,10 @@ impl Found {
     /// How far the yarns that lie along the picture's rows are turned, radians clockwise: by the
     /// short vector of the threads, or of the lattice, that is nearest to x. 0 if none is near.
     pub fn turn_rad(&self) -> f64 {
-        let Basis { p1, p2 } = self.lattice.thread_grid.unwrap_or(self.lattice.basis());
+        let Basis { p1, p2 } = self
+            .lattice
+            .thread_grid
+            .unwrap_or_else(|| self.lattice.basis());
         let vectors = [p1, p2, mix(p1, 1.0, p2, 1.0), mix(p1, 1.0, p2, -1.0)];
         let turns = vectors.map(|[x, y]| (y * x.signum()).atan2(x.abs()));
         let nearest = turns.into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()));

@@ -87,10 +87,10 @@ fn takings(effort: Effort) -> Vec<Taking> {
     }
     let mut all = Vec::new();
     for lamp in [plain.lamp, off, Lamp::Unknown] {
-        for (bits, noise) in [(16, 0.01), (8, 0.01), (16, 0.03)] {
+        for (bits, noise) in [(16, 0.01), (8, 0.03)] {
             let taking = Taking {
-                bits,
                 noise,
+                bits,
                 lamp,
                 ..plain
             };

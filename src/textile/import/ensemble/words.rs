@@ -17,9 +17,9 @@ impl Ensemble {
         let b = usize::from(hz > 100.0);
         let level = |member: &Member| member.levels_db[usize::from(deg >= 45.0)][b];
         let is_deep = |member: &&Member| member.method == Method::DarkIsDeep;
-        let [deep, deep_spread] = mean_and_variance(self.members.iter().filter(is_deep), level);
-        let shaded = self.members.iter().filter(|member| !is_deep(member));
-        let [shade, spread] = mean_and_variance(shaded, level);
+        let (deep, shaded): (Vec<&Member>, Vec<&Member>) = self.members.iter().partition(is_deep);
+        let [deep, deep_spread] = mean_and_variance(&deep, level);
+        let [shade, spread] = mean_and_variance(&shaded, level);
         let p = self.belief_in_shading();
         let between = p * (1.0 - p) * (shade - deep).powi(2);
         let within = p * spread + (1.0 - p) * deep_spread;
@@ -53,12 +53,10 @@ impl Ensemble {
 }
 
 /// Weighted mean and variance of a level, dB.
-fn mean_and_variance<'a>(
-    members: impl Iterator<Item = &'a Member> + Clone,
-    level: impl Fn(&Member) -> f64,
-) -> [f64; 2] {
-    let sum =
-        |of: &dyn Fn(&Member) -> f64| members.clone().map(|one| one.weight * of(one)).sum::<f64>();
+fn mean_and_variance(members: &[&Member], level: impl Fn(&Member) -> f64) -> [f64; 2] {
+    let sum = |of: &dyn Fn(&Member) -> f64| -> f64 {
+        members.iter().map(|one| one.weight * of(one)).sum()
+    };
     let all = sum(&|_| 1.0).max(f64::MIN_POSITIVE);
     let mean = sum(&level) / all;
     [mean, sum(&|one| (level(one) - mean).powi(2)) / all]

@@ -124,18 +124,14 @@ fn stages(
     found.shaped = Some(Arc::clone(&shaped));
     progress.step(0.9, "drawing the tester over it")?;
     if inputs.missing().is_none() {
-        found.made = Some(
-            match known(prior, |of| of.has_same_textile(&inputs), |f| &f.made) {
-                Some(made) => made,
-                None => {
-                    let relief = Relief::clone(&shaped);
-                    let made = |progress: &mut Progress<'_>| {
-                        made(&inputs, &loaded, (tiled, relief), progress)
-                    };
-                    Arc::new(progress.within([0.9, 1.0], made)?)
-                }
-            },
-        );
+        let known = known(prior, |of| of.has_same_textile(&inputs), |f| &f.made);
+        found.made = Some(if let Some(made) = known {
+            made
+        } else {
+            let relief = Relief::clone(&shaped);
+            let make = |p: &mut Progress<'_>| made(&inputs, &loaded, (tiled, relief), p);
+            Arc::new(progress.within([0.9, 1.0], make)?)
+        });
     }
     progress.step(1.0, "done")?;
     Ok(())

@@ -327,7 +327,7 @@ fn show_method(ui: &mut Ui, draft: &mut Draft) {
         ),
     ];
     row_of(ui, NAME, ("of the", ""), |ui, _| {
-        toggles(ui, &mut draft.is_cell, &choices)
+        toggles(ui, &mut draft.is_cell, &choices);
     });
     row_of(ui, NAME, ("method", ""), |ui, _| {
         let tip = "Of many reliefs, by shading and by dark is deep, the one that is nearest to what all \
